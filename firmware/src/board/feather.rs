@@ -15,7 +15,7 @@ use crate::{
     led::Led,
     levels,
     limits::INFO,
-    link::{Uart, Usb, Wire, uart},
+    link::{PacketHandler, Uart, Usb, Wire, uart},
     pins::LinePin,
     scan::{Begun, DmaChain},
     store::Flash,
@@ -40,7 +40,7 @@ macro_rules! lines {
 bind_interrupts!(struct Interrupts {
     PIO0_IRQ_0 => Begun;
     UART0_IRQ => port::BufferedInterruptHandler<UART0>;
-    USBCTRL_IRQ => usb::InterruptHandler<USB>;
+    USBCTRL_IRQ => PacketHandler, usb::InterruptHandler<USB>;
 });
 
 /// Starts the clocks (125 MHz) and returns the board's parts. Must be called once.

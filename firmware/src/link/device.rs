@@ -1,13 +1,13 @@
 //! The board as a USB device: a serial port (CDC-ACM). Its tasks run in an interrupt of the lowest priority,
-//! so that they interrupt only perception.
+//! so that they interrupt only perception. What it sends, `packets.rs` sends.
 
-use super::rings::{OPENED, PACKETS, RECEIVED, SENT};
-use core::sync::atomic::Ordering;
+use super::packets::{self, PACKET};
+use super::rings::{OPENED, RECEIVED};
 use embassy_executor::{InterruptExecutor, SpawnError, SpawnToken, Spawner};
 use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};
 use embassy_rp::interrupt::{self, InterruptExt, Priority};
 use embassy_rp::{bind_interrupts, peripherals::USB, usb::Driver};
-use embassy_usb::class::cdc_acm::{CdcAcmClass, ControlChanged, Receiver, Sender, State};
+use embassy_usb::class::cdc_acm::{CdcAcmClass, ControlChanged, Receiver, State};
 use embassy_usb::{Builder, Config};
 use static_cell::{ConstStaticCell, StaticCell};
 
@@ -17,8 +17,6 @@ const ID: (u16, u16) = (0x1209, 0x0001);
 /// Name of the product.
 const PRODUCT: &str = "taxel";
 
-/// Number of bytes of a packet.
-const PACKET: usize = 64;
 /// Greatest current that the board draws from the bus, mA.
 const MILLIAMPERES: u16 = 250;
 
@@ -67,12 +65,12 @@ async fn attach(driver: Bus) {
         Builder::new(driver, config, DESCRIPTORS.take(), CAPABILITIES.take(), &mut [], CONTROL.take());
     builder.handler(SLEEP.init(Sleep));
     let port = CdcAcmClass::new(&mut builder, PORT.init(State::new()), PACKET as u16);
-    let (sender, receiver, control) = port.split_with_control();
+    packets::start();
+    let (_, receiver, control) = port.split_with_control();
     #[allow(unsafe_code)]
     // SAFETY: this future is a task of an executor of embassy.
     let spawner = unsafe { Spawner::for_current_executor() }.await;
     spawner.spawn(once(watch(control)));
-    spawner.spawn(once(send(sender)));
     spawner.spawn(once(receive(receiver)));
     builder.build().run().await;
 }
@@ -95,20 +93,6 @@ async fn watch(control: ControlChanged<'static>) {
     loop {
         control.control_changed().await;
         OPENED.set_ready(control.dtr());
-    }
-}
-
-#[embassy_executor::task]
-async fn send(mut port: Sender<'static, Bus>) {
-    let mut packet = [0; PACKET];
-    let mut full = false;
-    loop {
-        // A transfer ends with a packet that is not full: an empty one after a full one.
-        let count = if full { SENT.try_read(&mut packet).unwrap_or(0) } else { SENT.read(&mut packet).await };
-        let sent = port.write_packet(packet.get(..count).unwrap_or(&[])).await;
-        full = sent.is_ok() && count == PACKET;
-        // This task is its only writer.
-        PACKETS.store(PACKETS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
     }
 }
 

@@ -6,13 +6,16 @@
 //! | `uart.rs` | UART with two rings |
 //! | `usb.rs` | the USB port |
 //! | `rings.rs` | its rings |
-//! | `device.rs` | USB device, and the tasks that move bytes between its endpoints and the rings |
+//! | `packets.rs` | packets from a ring to the host |
+//! | `device.rs` | USB device, and the task that moves bytes from the host to a ring |
 
 mod device;
+mod packets;
 mod rings;
 pub mod uart;
 mod usb;
 
+pub use packets::PacketHandler;
 pub use uart::Uart;
 pub use usb::Usb;
 

@@ -41,5 +41,5 @@ impl Opened {
     }
 }
 
-/// Number of packets that the host has taken or refused.
+/// Number of packets that the host has taken.
 pub(super) static PACKETS: AtomicU32 = AtomicU32::new(0);

@@ -1,7 +1,7 @@
 //! The USB port as a link.
 
-use super::device;
 use super::rings::{OPENED, PACKETS, RECEIVED, SENT};
+use super::{device, packets};
 use core::sync::atomic::Ordering;
 use embassy_rp::{peripherals::USB, usb};
 use embassy_time::Instant;
@@ -62,6 +62,7 @@ impl Link for Usb {
                 _ => break,
             }
         }
+        packets::begin();
         given
     }
 }

@@ -1,0 +1,84 @@
+//! Packets to the host. The interrupt of the USB controller fills the endpoint from the ring: 350 cycles a
+//! packet, where a task of the device that is woken for each takes 1,200.
+
+use super::rings::{OPENED, PACKETS, SENT};
+use core::sync::atomic::{AtomicBool, Ordering};
+use embassy_rp::interrupt::typelevel::{Handler, USBCTRL_IRQ};
+use rp_pac::usb_dpram::vals::EpControlEndpointType;
+use rp_pac::{USB, USB_DPRAM};
+
+/// Endpoint of the port's data; the first is that of its notifications.
+const ENDPOINT: usize = 2;
+/// Number of bytes of a packet.
+pub(super) const PACKET: usize = 64;
+
+/// True if the last packet was full. A transfer ends with a packet that is not full: an empty one after a
+/// full one.
+static WAS_FULL: AtomicBool = AtomicBool::new(false);
+
+/// Handles the interrupt before the driver does, and leaves to it what is not of this endpoint.
+pub struct PacketHandler;
+
+impl Handler<USBCTRL_IRQ> for PacketHandler {
+    #[allow(unsafe_code)] // SAFETY: no unsafe code here; the trait requires that only the interrupt calls it
+    unsafe fn on_interrupt() {
+        let taken = USB.buff_status().read().ep_in(ENDPOINT);
+        if taken {
+            // A bit is cleared by writing 1.
+            USB.buff_status().write(|status| status.set_ep_in(ENDPOINT, true));
+            // This interrupt is its only writer.
+            PACKETS.store(PACKETS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
+        }
+        send_next();
+    }
+}
+
+/// Checks that the port was given the endpoint that is filled here. Must be called once, when it has been.
+pub(super) fn start() {
+    let endpoint = USB_DPRAM.ep_in_control(ENDPOINT - 1).read();
+    defmt::assert!(endpoint.endpoint_type() == EpControlEndpointType::BULK, "the port has another endpoint");
+}
+
+/// Begins to send what the ring holds; the interrupt goes on with it.
+pub(super) fn begin() {
+    cortex_m::interrupt::free(|_| send_next());
+}
+
+/// Gives the controller a packet, if it has none, the port is open, and there is something to send.
+fn send_next() {
+    let control = USB_DPRAM.ep_in_buffer_control(ENDPOINT);
+    let (last, endpoint) = (control.read(), USB_DPRAM.ep_in_control(ENDPOINT - 1).read());
+    if last.available(0) || !endpoint.enable() || !OPENED.get() {
+        return;
+    }
+    let mut packet = [0; PACKET];
+    let count = SENT.try_read(&mut packet).unwrap_or(0);
+    if count == 0 && !WAS_FULL.load(Ordering::Relaxed) {
+        return;
+    }
+    WAS_FULL.store(count == PACKET, Ordering::Relaxed);
+    fill(usize::from(endpoint.buffer_address()), &packet);
+    // The first packet after a connection is DATA0: the driver has left the other one there.
+    let mut next = last;
+    next.set_pid(0, !last.pid(0));
+    next.set_length(0, count as u16);
+    next.set_full(0, true);
+    control.write_value(next);
+    // The controller runs at 48 MHz, and must see the rest before it sees that the packet is available
+    // (RP2040 datasheet, 4.1.2.5.1).
+    cortex_m::asm::delay(12);
+    next.set_available(0, true);
+    control.write_value(next);
+}
+
+/// Copies a packet to the controller's memory.
+fn fill(offset: usize, packet: &[u8; PACKET]) {
+    #[allow(unsafe_code)]
+    // SAFETY: the driver has set aside 64 bytes of the controller's 4 KiB for this endpoint alone, and gives
+    // their offset, below 4 KiB by its 64 units of 64. The controller does not read them while no packet is
+    // available.
+    unsafe {
+        let memory = USB_DPRAM.as_ptr().cast::<u8>().add(offset);
+        memory.copy_from_nonoverlapping(packet.as_ptr(), PACKET);
+    }
+}
