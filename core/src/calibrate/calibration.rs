@@ -89,7 +89,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
     /// taxel.
     pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
-        let terms = LimitTerms { floor: level, falling };
+        let terms = LimitTerms::new(level, falling);
         let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
         calibration.map_or(terms.silent(), |(rest, gain)| {
             let margin = if *gain == UNITY { terms.margin_of_unity() } else { terms.margin(*gain) };

@@ -3,11 +3,29 @@
 /// Terms of the limits: the floor, and whether pressure lowers the code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LimitTerms {
-    pub floor: u16,
-    pub falling: bool,
+    floor: u16,
+    direction: Direction,
+}
+
+/// Direction in which pressure moves a code. None is 0, so that an empty `Option<LimitTerms>` is all zeros: an
+/// image does not hold a state of zeros, but clears the memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+enum Direction {
+    Rising = 1,
+    Falling = 2,
 }
 
 impl LimitTerms {
+    /// Terms of a floor, in counts.
+    pub fn new(floor: u16, falling: bool) -> LimitTerms {
+        LimitTerms { floor, direction: if falling { Direction::Falling } else { Direction::Rising } }
+    }
+
+    fn is_falling(&self) -> bool {
+        self.direction == Direction::Falling
+    }
+
     /// Largest difference with less pressure than the floor: `(d gain + 2048) >> 12 < floor`.
     pub fn margin(&self, gain: u16) -> u16 {
         let below = (u32::from(self.floor) << 12).saturating_sub(2049);
@@ -22,11 +40,11 @@ impl LimitTerms {
     /// Last inactive code. No code lies beyond 65535 or 0: a taxel whose margin reaches so far is never
     /// active.
     pub fn limit(&self, rest: u16, margin: u16) -> u16 {
-        if self.falling { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }
+        if self.is_falling() { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }
     }
 
     /// Limit that no code passes.
     pub fn silent(&self) -> u16 {
-        if self.falling { 0 } else { u16::MAX }
+        if self.is_falling() { 0 } else { u16::MAX }
     }
 }

@@ -51,7 +51,7 @@ impl Condition {
         if tracking.tare_frame(calibration, images, layout, codes, panels) {
             points.forget();
         } else {
-            let terms = LimitTerms { floor: self.config.floor, falling };
+            let terms = LimitTerms::new(self.config.floor, falling);
             calibration.set_limits(terms);
             self.perceive(calibration, images, points, layout, sampled);
             if self.config.track_baseline {
