@@ -73,8 +73,9 @@ fn streaming(scene: &Scene, codes: &[u16], options: &[&str]) -> (Emulated, u64) 
     let known = board.wait_for("usb");
     assert_eq!((&known["usb"]["id"], &known["usb"]["name"]), (&"1209:0001".into(), &"taxel".into()));
     board.receive();
-    let played = board.play().0;
+    // Before the frames begin: the scan stands still for a moment, and they would be late from then on.
     board.obey(&Request::SetScene(&postcard::to_allocvec(scene).unwrap()));
+    let played = board.play().0;
     board.obey(&Request::Tare { frames: 16 });
     board.obey(&Request::Budget { hz: u16::MAX });
     board.obey(&Request::Start);

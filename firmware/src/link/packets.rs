@@ -2,8 +2,10 @@
 //! packet, where a task of the device that is woken for each takes 1,200.
 
 use super::rings::{OPENED, PACKETS, SENT};
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::cell::RefCell;
+use core::sync::atomic::Ordering;
 use embassy_rp::interrupt::typelevel::{Handler, USBCTRL_IRQ};
+use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
 use rp_pac::usb_dpram::vals::EpControlEndpointType;
 use rp_pac::{USB, USB_DPRAM};
 
@@ -12,9 +14,16 @@ const ENDPOINT: usize = 2;
 /// Number of bytes of a packet.
 pub(super) const PACKET: usize = 64;
 
-/// True if the last packet was full. A transfer ends with a packet that is not full: an empty one after a
-/// full one.
-static WAS_FULL: AtomicBool = AtomicBool::new(false);
+/// The last packet.
+struct Last {
+    /// Kept, because one on the stack would be cleared each time.
+    bytes: [u8; PACKET],
+    /// True if it was full. A transfer ends with a packet that is not full: an empty one after a full one.
+    is_full: bool,
+}
+
+static LAST: Mutex<CriticalSectionRawMutex, RefCell<Last>> =
+    Mutex::new(RefCell::new(Last { bytes: [0; PACKET], is_full: false }));
 
 /// Handles the interrupt before the driver does, and leaves to it what is not of this endpoint.
 pub struct PacketHandler;
@@ -29,7 +38,7 @@ impl Handler<USBCTRL_IRQ> for PacketHandler {
             // This interrupt is its only writer.
             PACKETS.store(PACKETS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
         }
-        send_next();
+        begin();
     }
 }
 
@@ -39,28 +48,30 @@ pub(super) fn start() {
     defmt::assert!(endpoint.endpoint_type() == EpControlEndpointType::BULK, "the port has another endpoint");
 }
 
-/// Begins to send what the ring holds; the interrupt goes on with it.
+/// Begins to send what the ring holds, with interrupts off for 3 us; the interrupt goes on with it.
 pub(super) fn begin() {
-    cortex_m::interrupt::free(|_| send_next());
+    // While a packet waits for the host, the interrupt comes when it has been taken.
+    if !USB_DPRAM.ep_in_buffer_control(ENDPOINT).read().available(0) {
+        LAST.lock(|last| send_next(&mut last.borrow_mut()));
+    }
 }
 
-/// Gives the controller a packet, if it has none, the port is open, and there is something to send.
-fn send_next() {
-    let control = USB_DPRAM.ep_in_buffer_control(ENDPOINT);
-    let (last, endpoint) = (control.read(), USB_DPRAM.ep_in_control(ENDPOINT - 1).read());
-    if last.available(0) || !endpoint.enable() || !OPENED.get() {
+/// Gives the controller, which has no packet, the next one, if the port is open and there is one.
+fn send_next(last: &mut Last) {
+    let endpoint = USB_DPRAM.ep_in_control(ENDPOINT - 1).read();
+    if !endpoint.enable() || !OPENED.get() {
         return;
     }
-    let mut packet = [0; PACKET];
-    let count = SENT.try_read(&mut packet).unwrap_or(0);
-    if count == 0 && !WAS_FULL.load(Ordering::Relaxed) {
+    let count = SENT.try_read(&mut last.bytes).unwrap_or(0);
+    if count == 0 && !last.is_full {
         return;
     }
-    WAS_FULL.store(count == PACKET, Ordering::Relaxed);
-    fill(usize::from(endpoint.buffer_address()), &packet);
+    last.is_full = count == PACKET;
+    fill(usize::from(endpoint.buffer_address()), &last.bytes);
     // The first packet after a connection is DATA0: the driver has left the other one there.
-    let mut next = last;
-    next.set_pid(0, !last.pid(0));
+    let control = USB_DPRAM.ep_in_buffer_control(ENDPOINT);
+    let mut next = control.read();
+    next.set_pid(0, !next.pid(0));
     next.set_length(0, count as u16);
     next.set_full(0, true);
     control.write_value(next);
