@@ -108,6 +108,11 @@ pub fn python() -> Result<PathBuf, String> {
 
 /// Installs a program from crates.io in this version, in a folder of its own.
 pub fn cargo_tool(name: &str, version: &str) -> Result<PathBuf, String> {
+    cargo_tool_of(name, version, &[])
+}
+
+/// Installs a version of a program from cargo's registry with these options of `cargo install`.
+pub fn cargo_tool_of(name: &str, version: &str, options: &[&str]) -> Result<PathBuf, String> {
     let _alone = alone();
     let folder = crate::paths::target().join(format!("tools/{name}-{version}"));
     let program = folder.join("bin").join(name);
@@ -115,7 +120,11 @@ pub fn cargo_tool(name: &str, version: &str) -> Result<PathBuf, String> {
         return Ok(program);
     }
     let mut install = Command::new("cargo");
-    install.args(["install", name, "--version", version, "--locked", "--root"]).arg(&folder);
+    install
+        .args(["install", name, "--version", version, "--locked"])
+        .args(options)
+        .arg("--root")
+        .arg(&folder);
     eprintln!("xtask: {}", process::shown(&install));
     process::output(&mut install).map(|_| program).ok_or(format!("`{}` failed", process::shown(&install)))
 }

@@ -5,6 +5,7 @@ mod campaign;
 mod checks;
 mod counts;
 mod cross;
+mod docs;
 mod elf;
 mod excerpt;
 mod firmware;
@@ -48,6 +49,7 @@ usage: cargo xtask COMMAND
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
+  docs                  build the pages of docs/ as a book, target/docs/index.html
   test [--recorded] [--only NAME] [--may-miss NAME]
                         every check, two at a time; one that cannot run fails the run, unless it is named by --may-miss;
                         --recorded, or TAXEL_DATA set to folders of recordings: also those that need recordings
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
         Some("cycles") => targets::show_cycles(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
+        Some("docs") if rest.is_empty() => docs::run().map(|()| true),
         Some("campaign") => campaign::run(rest).map(|()| true),
         Some("fuzz") => fuzz::run(rest),
         Some("mutants") => mutants::run(rest).map(|()| true),

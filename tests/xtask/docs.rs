@@ -1,0 +1,116 @@
+//! `cargo xtask docs`: builds the pages of `docs/` as a book.
+
+use crate::{install, paths, process};
+use std::process::Command;
+
+/// Version of mdBook.
+const MDBOOK: &str = "0.5.4";
+/// Its parts: without those that serve a book while it is written.
+const PARTS: [&str; 3] = ["--no-default-features", "--features", "search"];
+
+/// Builds the book, and prints where it begins.
+pub fn run() -> Result<(), String> {
+    let tool = install::cargo_tool_of("mdbook", MDBOOK, &PARTS).map_err(|why| format!("not run: {why}"))?;
+    let (log, built) = (paths::log("docs")?, paths::target().join("docs"));
+    let mut command = Command::new(tool);
+    command.arg("build").arg(paths::root().join("docs")).arg("--dest-dir").arg(&built);
+    process::run_into(&mut command, &log)?;
+    println!("{}", built.join("index.html").display());
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::path::PathBuf;
+
+    /// The pages of the repository that people read, with their text.
+    fn pages() -> Vec<(PathBuf, String)> {
+        let docs = fs::read_dir(paths::root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+        let docs = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
+        let top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|page| paths::root().join(page));
+        docs.chain(top).map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
+    }
+
+    /// Lines of a page outside its blocks of code.
+    fn prose(page: &str) -> impl Iterator<Item = &str> {
+        page.split("\n```").step_by(2).flat_map(str::lines)
+    }
+
+    /// Targets of the links of a page that do not lead out of the repository.
+    fn links(page: &str) -> Vec<&str> {
+        let ends = prose(page).flat_map(|line| line.split("](").skip(1));
+        let links = ends.filter_map(|end| Some(end.split_once(')')?.0));
+        links.filter(|link| !link.contains("://")).collect()
+    }
+
+    /// The anchors of a page's headings, as GitHub and mdBook make them.
+    fn anchors(page: &str) -> Vec<String> {
+        let headings = prose(page).filter_map(|line| {
+            Some(line.trim_start_matches('#').strip_prefix(' ')?).filter(|_| line.starts_with('#'))
+        });
+        let sign = |sign: char| match sign {
+            ' ' => Some('-'),
+            '-' | '_' => Some(sign),
+            _ => sign.is_alphanumeric().then(|| sign.to_ascii_lowercase()),
+        };
+        headings.map(|heading| heading.chars().filter_map(sign).collect()).collect()
+    }
+
+    #[test]
+    fn every_link_leads_somewhere() {
+        let mut count = 0;
+        for (path, page) in pages() {
+            for link in links(&page) {
+                let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+                let target = if file.is_empty() { path.clone() } else { path.parent().unwrap().join(file) };
+                let shown = format!("{}: {link}", path.display());
+                assert!(target.exists(), "{shown}: there is no such file");
+                if !anchor.is_empty() {
+                    let page = fs::read_to_string(&target).unwrap();
+                    assert!(anchors(&page).iter().any(|known| known == anchor), "{shown}: no such heading");
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 60, "{count} links");
+    }
+
+    #[test]
+    fn the_book_holds_every_page() {
+        let summary = fs::read_to_string(paths::root().join("docs/SUMMARY.md")).unwrap();
+        let listed = links(&summary);
+        let is_page =
+            |path: &PathBuf| path.parent().unwrap().ends_with("docs") && !path.ends_with("SUMMARY.md");
+        let pages: Vec<PathBuf> = pages().into_iter().map(|(path, _)| path).filter(is_page).collect();
+        for page in &pages {
+            let name = page.file_name().unwrap().to_str().unwrap();
+            assert_eq!(listed.iter().filter(|link| **link == name).count(), 1, "{name} in docs/SUMMARY.md");
+        }
+        assert_eq!(pages.len(), listed.len());
+    }
+
+    /// The words behind each `cargo xtask`, in code or in prose.
+    #[test]
+    fn every_task_that_a_page_names_exists() {
+        let mut count = 0;
+        for (path, page) in pages() {
+            for end in page.split("cargo xtask ").skip(1) {
+                let word: String =
+                    end.chars().take_while(|sign| sign.is_alphanumeric() || *sign == '-').collect();
+                if word.is_empty() {
+                    continue;
+                }
+                let listed = crate::USAGE.lines().filter_map(|line| line.trim().split(' ').next());
+                assert!(
+                    listed.into_iter().any(|task| task == word),
+                    "{}: cargo xtask {word}",
+                    path.display()
+                );
+                count += 1;
+            }
+        }
+        assert!(count > 40, "{count} tasks");
+    }
+}
