@@ -57,6 +57,11 @@ pub fn read(name_or_path: &str) -> Result<Read> {
     Ok(Read { name, text, garment })
 }
 
+/// Loads a preset or a garment's TOML file, see [`read`].
+pub fn load(name_or_path: &str) -> Result<Garment> {
+    Ok(read(name_or_path)?.garment)
+}
+
 /// Presets with passive matrices: only the fabric joins rows and columns, which are read through a resistor,
 /// so that pressure elsewhere in a block leads current past the taxel that is read. The other presets have an
 /// amplifier that holds the read line at one voltage.

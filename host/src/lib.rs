@@ -79,6 +79,7 @@ pub mod report;
 pub mod reset_settings;
 pub mod save;
 pub mod scenes;
+pub mod scripts;
 pub mod serve;
 pub mod session;
 pub mod settle;

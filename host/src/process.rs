@@ -82,7 +82,7 @@ pub fn recordings(file: &Path, array: Option<&str>) -> Result<Vec<(String, Frame
 fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write) -> Result<()> {
     let top = frames.values.iter().copied().max().unwrap_or(0).max(args.full_scale);
     let garment = match &args.layout {
-        Some(layout) => crate::sim::garment(layout)?,
+        Some(layout) => crate::garments::load(layout)?,
         None => Garment::recorded(frames.rows, frames.columns),
     };
     let place = || format!("{}{}", args.file.display(), array_of(name));

@@ -10,7 +10,7 @@ use super::task::{Task, calibrate};
 use crate::fault::Fault;
 use crate::output::{Force, Output};
 use crate::raw::RawBoard;
-use crate::sim::{self, Sensor};
+use crate::sim::Sensor;
 use crate::source::{self, SourceSpec};
 use anyhow::{Result, bail, ensure};
 use clap::{Args, Subcommand};
@@ -92,7 +92,7 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
     let output = Output::stream(&args.output, args.force, inputs)?;
     let mut board = open(args, &weights)?;
     if let (Some(garment), None) = (&args.garment, args.simulate) {
-        board.wear(&sim::garment(garment)?)?;
+        board.wear(&crate::garments::load(garment)?)?;
     }
     let task = Task { over: args.over, weights, by: by(args), wait: args.wait, json: args.json };
     let made = calibrate(&mut board, &task)?;
@@ -131,7 +131,7 @@ fn weights(args: &CalibrateArgs) -> Result<Vec<f64>> {
 fn open(args: &CalibrateArgs, weights: &[f64]) -> Result<RawBoard> {
     let Some(seed) = args.simulate else { return RawBoard::open(&args.source) };
     let name = args.garment.as_deref().unwrap_or(SIMULATED);
-    let garment = sim::garment(name)?;
+    let garment = crate::garments::load(name)?;
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let plates = plates(&garment, &layout, args.over)?;
     let script = operator::script(name, &layout, &plates, weights, &SENSOR, seed)?;

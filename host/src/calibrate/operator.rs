@@ -1,6 +1,7 @@
 //! Simulates a user who puts weights on a garment.
 
 use super::plates::Plate;
+use crate::scripts;
 use crate::sim::{Script, Sensor};
 use anyhow::{Context, Result};
 use taxel_core::garment::Layout;
@@ -58,7 +59,7 @@ pub fn script(
     text.insert("seed".into(), toml::Value::Integer((seed & 0xffff_ffff) as i64));
     text.insert("sensor".into(), toml::Value::try_from(sensor).context("the sensor")?);
     text.insert("touch".into(), touches.into());
-    Script::parse(&text.to_string(), "calibration.toml")
+    scripts::parse(&text.to_string(), "calibration.toml")
 }
 
 fn pair(values: [f64; 2]) -> toml::Value {

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use crate::garments;
 use crate::output::{Force, Output};
 use crate::raw::RawBoard;
-use crate::sim::{self, FULL_SCALE};
+use crate::sim::FULL_SCALE;
 use crate::source::SourceSpec;
 use anyhow::{Result, bail};
 use clap::Args;
@@ -76,7 +76,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     }
     let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
     let output = args.output.as_ref().map(|name| Output::stream(name, args.force, inputs)).transpose()?;
-    let given = args.garment.as_deref().map(sim::garment).transpose()?;
+    let given = args.garment.as_deref().map(crate::garments::load).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
     let mut garment = given.unwrap_or_else(|| board.garment().clone());
     if !args.json {

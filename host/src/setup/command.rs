@@ -101,7 +101,7 @@ pub fn run(args: &SetupArgs) -> Result<()> {
 }
 
 fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {
-    let template = sim::garment(args.garment.as_deref().unwrap_or("reference"))?;
+    let template = crate::garments::load(args.garment.as_deref().unwrap_or("reference"))?;
     let mut solver = solver(&template)?;
     let mut rng = Rng::with_seed(seed);
     let wired = sim::rewire(&template, &mut rng);
@@ -110,7 +110,7 @@ fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {
 }
 
 fn on_a_board(args: &SetupArgs) -> Result<Found> {
-    let given = args.garment.as_deref().map(sim::garment).transpose()?;
+    let given = args.garment.as_deref().map(crate::garments::load).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
     let template = given.unwrap_or_else(|| board.garment().clone());
     let mut solver = solver(&template)?;

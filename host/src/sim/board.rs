@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_parts_share_lines_and_time() {
-        let script = Script::parse("duration_s = 1\n[idle]\nnoise_counts = 0", "a.toml").unwrap();
+        let script = "duration_s = 1\n[idle]\nnoise_counts = 0".parse::<Script>().unwrap();
         let garment = Garment::reference();
         let mut board = SimBoard::new(&garment, &script, 5).unwrap();
         let world = World::build(&Script { seed: 5, ..script }, &garment).unwrap();

@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn a_garment_without_blocks_is_refused() {
-        let script = Script::parse("duration_s = 1", "a.toml").unwrap();
+        let script = "duration_s = 1".parse::<Script>().unwrap();
         let error = Player::new(&script, &Garment::recorded(4, 4)).unwrap_err();
         assert_eq!(error.to_string(), "garment recorded: it has no blocks, so it cannot be scanned");
     }

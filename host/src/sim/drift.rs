@@ -146,10 +146,8 @@ mod tests {
     fn each_taxel_drifts_by_its_factor() {
         let garment = Garment::recorded(20, 27);
         let layout = Layout::build(&garment, 2048, FULL_SCALE).unwrap();
-        let script = Script::parse(
-            "duration_s = 1\n[idle]\nbase_code = 1000\nspread_counts = 0\nnoise_counts = 0",
-            "a",
-        );
+        let script =
+            "duration_s = 1\n[idle]\nbase_code = 1000\nspread_counts = 0\nnoise_counts = 0".parse::<Script>();
         let world = World::build(&script.unwrap(), &garment).unwrap();
         let drifting = Drifting::new(world, &layout, Course { rate: 10.0, way: 500.0 }, &[], 3);
         let mut codes = vec![0; layout.taxels()];

@@ -48,7 +48,7 @@ pub use hardware::{PINS, SimClock, SimDelay, SimPin, Timing};
 pub use pressure::Pressure;
 pub use rewire::rewire;
 pub use scan::SimScan;
-pub use scenes::{SceneInfo, garment, list, load};
+pub use scenes::{SceneInfo, list, names, shipped, text};
 pub use script::{Converter, Faults, Idle, Joint, Noisy, Script, Sensor, Stuck, WiringEffects};
 pub use signal::{COUNTS_PER_NEWTON, FULL_SCALE, World};
 pub use touch::{Shape, Size, Touch};

@@ -135,7 +135,7 @@ mod tests {
         let text = format!(
             "duration_s = 9\n[[touch]]\nstart_s = 0\nrise_s = 0\nhold_s = 4\nfall_s = 0\nforce_n = 10\n{touch}"
         );
-        Script::parse(&text, "test.toml").unwrap()
+        text.parse::<Script>().unwrap()
     }
 
     /// Force and centre by panel: `[N, x, y]`.

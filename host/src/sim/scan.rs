@@ -252,7 +252,7 @@ mod tests {
     }
 
     fn script(text: &str) -> Script {
-        Script::parse(&format!("duration_s = 9\n{text}"), "test.toml").unwrap()
+        format!("duration_s = 9\n{text}").parse::<Script>().unwrap()
     }
 
     /// Durations (us) and codes of some frames of a plan.

@@ -1,11 +1,6 @@
-//! Shipped scripts of touches, and scripts and garments from files.
+//! Shipped scripts of touches.
 
 use super::script::Script;
-use crate::fault::Fault;
-use crate::{garments, words};
-use anyhow::{Context, Result, anyhow, bail};
-use std::path::Path;
-use taxel_core::garment::Garment;
 
 /// Description of a script of touches.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,73 +36,53 @@ const SCENES: [(&str, &str); 13] = scenes![
     "idle",
 ];
 
+/// Names of all shipped scripts.
+pub fn names() -> impl Iterator<Item = &'static str> + Clone {
+    SCENES.into_iter().map(|(name, _)| name)
+}
+
+/// Text of a shipped script, with its comments.
+pub fn text(name: &str) -> Option<&'static str> {
+    SCENES.into_iter().find(|(known, _)| *known == name).map(|(_, text)| text)
+}
+
+/// A shipped script.
+pub fn shipped(name: &str) -> Option<Script> {
+    let script: Script = text(name)?.parse().ok()?;
+    Some(if script.name.is_empty() { Script { name: name.into(), ..script } } else { script })
+}
+
 /// All shipped scripts of touches.
 pub fn list() -> Vec<SceneInfo> {
-    let parse = |(name, text): &(&str, &str)| {
-        let script = Script::parse(text, &format!("{name}.toml")).ok()?;
-        Some(SceneInfo { name: script.name, title: script.title, duration: script.duration_s })
-    };
-    SCENES.iter().filter_map(parse).collect()
-}
-
-/// Loads a shipped script of touches, or a TOML file.
-pub fn load(name_or_path: &str) -> Result<Script> {
-    if let Some((name, text)) = SCENES.iter().find(|(name, _)| *name == name_or_path) {
-        return Script::parse(text, &format!("{name}.toml"));
-    }
-    if !is_file(name_or_path) {
-        let known = words::unknown("script of touches", name_or_path, SCENES.map(|(name, _)| name));
-        bail!(Fault::usage(format!("{known}, or give a .toml file")));
-    }
-    Script::parse(&read(name_or_path)?, name_or_path)
-}
-
-/// Loads a preset, or a garment's TOML file, see [`garments::read`].
-pub fn garment(name_or_path: &str) -> Result<Garment> {
-    Ok(garments::read(name_or_path)?.garment)
-}
-
-fn is_file(name: &str) -> bool {
-    name.ends_with(".toml") || Path::new(name).is_file()
-}
-
-fn read(path: &str) -> Result<String> {
-    crate::verbose::reads(path);
-    std::fs::read_to_string(path).with_context(|| format!("{path} cannot be read"))
-}
-
-impl Script {
-    /// Loads the garment that the script names.
-    pub fn load_garment(&self) -> Result<Garment> {
-        garment(&self.garment)
-            .with_context(|| format!("in script {}: `garment`", self.name))
-            .map_err(|e| anyhow!("{e:#}"))
-    }
+    let info =
+        |script: Script| SceneInfo { name: script.name, title: script.title, duration: script.duration_s };
+    names().filter_map(shipped).map(info).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{FRAME_PERIOD_US, World};
     use super::*;
+    use taxel_core::garment::Garment;
 
     #[test]
     fn every_scene_loads_and_plays_after_the_tare() {
         assert_eq!(list().len(), SCENES.len());
         for (scene, (name, _)) in list().iter().zip(SCENES) {
-            let script = load(name).unwrap();
+            let script = shipped(name).unwrap();
             assert_eq!(scene.name, name);
             assert!(!script.title.is_empty() && !script.description.is_empty(), "{name}");
             assert!(f64::from(script.tare_frames) * FRAME_PERIOD_US as f64 / 1e6 < 0.15);
             for touch in &script.touches {
                 assert!(touch.start_s >= 0.15 && touch.end_s() + 0.1 <= script.duration_s, "{name}");
             }
-            World::build(&script, &script.load_garment().unwrap()).unwrap();
+            World::build(&script, &Garment::preset(&script.garment).unwrap()).unwrap();
         }
     }
 
     /// Forces by panel at a time, N.
     fn forces(name: &str, seconds: f64) -> [f32; 4] {
-        let script = load(name).unwrap();
+        let script = shipped(name).unwrap();
         let world = World::build(&script, &Garment::reference()).unwrap();
         let t_ns = (seconds * 1e9) as u64;
         [0, 1, 2, 3].map(|panel| (0..512).map(|taxel| world.newtons(panel * 512 + taxel, t_ns)).sum())
@@ -141,26 +116,8 @@ mod tests {
         }
         let angles: Vec<_> = [0.2, 0.75, 1.3, 2.5]
             .iter()
-            .map(|t| load("elbow").unwrap().posture(*t).map(|(_, angle)| angle.round()).next().unwrap())
+            .map(|t| shipped("elbow").unwrap().posture(*t).map(|(_, angle)| angle.round()).next().unwrap())
             .collect();
         assert_eq!(angles, [0.0, 55.0, 110.0, 0.0]);
-    }
-
-    #[test]
-    fn names_that_do_not_exist_are_answered_with_those_that_do() {
-        let error = load("tickle").unwrap_err().to_string();
-        assert!(
-            error.starts_with("there is no script of touches \"tickle\"; known are pat, lash, "),
-            "{error}"
-        );
-        let error = format!("{:#}", load("no/such.toml").unwrap_err());
-        assert!(error.starts_with("no/such.toml cannot be read: "), "{error}");
-        let script = Script { garment: "shirt".into(), ..load("pat").unwrap() };
-        let error = script.load_garment().unwrap_err().to_string();
-        assert!(
-            error.starts_with(
-                "in script pat: `garment`: there is no garment \"shirt\"; known are reference, "
-            )
-        );
     }
 }

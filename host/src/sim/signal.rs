@@ -256,7 +256,7 @@ mod tests {
     use super::*;
 
     fn world(text: &str) -> World {
-        let script = Script::parse(&format!("duration_s = 9\n{text}"), "test.toml").unwrap();
+        let script = format!("duration_s = 9\n{text}").parse::<Script>().unwrap();
         World::build(&script, &Garment::reference()).unwrap()
     }
 
@@ -309,7 +309,7 @@ mod tests {
         assert_eq!(at(1_100_000_000), [100, 0, 4095, 7]);
         let some = world(&format!("{STILL}[faults]\ndead_count = 9\n"));
         assert_eq!(some.taxels.iter().filter(|t| t.fault == Fault::Dead).count(), 9);
-        let script = Script::parse("duration_s = 1\n[faults]\nopen = [2048]", "a.toml").unwrap();
+        let script = "duration_s = 1\n[faults]\nopen = [2048]".parse::<Script>().unwrap();
         let error = World::build(&script, &Garment::reference()).unwrap_err().to_string();
         assert_eq!(error, "in script a: `faults.open` names taxel 2048, the garment has 2048");
     }
@@ -322,8 +322,7 @@ mod tests {
         assert!(drifted.iter().all(|d| (39..=121).contains(d)));
         let mut garment = Garment::reference();
         garment.wiring.falling = true;
-        let script =
-            Script::parse(&format!("duration_s = 1\n{STILL}{BALL}force_n = 90\n"), "a.toml").unwrap();
+        let script = format!("duration_s = 1\n{STILL}{BALL}force_n = 90\n").parse::<Script>().unwrap();
         let falling = World::build(&script, &garment).unwrap();
         assert_eq!(falling.code(0, 0), 3995);
         assert!(falling.code(16 * 16 + 8, 1_000_000_000) < 3800);

@@ -9,15 +9,15 @@ use taxel_core::garment::{Area, Layout};
 
 /// A variant: each touch is moved to a random place of its panel at which it stays on the panel, all panels
 /// are exchanged by the same number of steps, all forces are scaled by one factor and all durations by
-/// another, both uniform in 0.5 ..= 1.5. The seed also becomes the seed of the noise. A script whose garment
-/// cannot be loaded keeps its places.
-pub fn vary(script: &Script, seed: u64) -> Script {
+/// another, both uniform in 0.5 ..= 1.5. The seed also becomes the seed of the noise. `layout` is that of the
+/// script's garment; without it the touches keep their places.
+pub fn vary(script: &Script, layout: Option<&Layout>, seed: u64) -> Script {
     let mut rng = Rng::with_seed(seed);
     let factor = |rng: &mut Rng| 0.5 + rng.f64();
     let mut variant = scale_force(script, factor(&mut rng));
     variant = scale_rate(&variant, 1.0 / factor(&mut rng));
     variant.seed = seed;
-    if let Some(layout) = layout_of(script) {
+    if let Some(layout) = layout {
         let step = rng.usize(..layout.areas().len().max(1));
         for touch in &mut variant.touches {
             let home = layout.areas().iter().position(|a| a.name == touch.panel.as_str()).unwrap_or(0);
@@ -66,11 +66,12 @@ pub fn scale_rate(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The script on another garment. Touches on a missing panel move to the largest panel, to the same relative
+/// The script, made for the garment `from`, on the garment `to`. Touches on a missing panel move to the largest panel, to the same relative
 /// place in width and height, with the same size and speed in mm.
-pub fn refit(script: &Script, layout: &Layout) -> Script {
+pub fn refit(script: &Script, from: &Layout, to: &Layout) -> Script {
     let mut fitted = script.clone();
-    let (Some(old), Some(to)) = (layout_of(script), largest(layout)) else { return fitted };
+    let (old, layout) = (from, to);
+    let Some(to) = largest(layout) else { return fitted };
     for touch in fitted.touches.iter_mut().filter(|touch| !has(layout, &touch.panel)) {
         let Some(from) = old.areas().iter().find(|area| area.name == touch.panel.as_str()) else { continue };
         let (old_mm, new_mm) = (pitch_mm(from), pitch_mm(to));
@@ -108,10 +109,6 @@ pub fn largest(layout: &Layout) -> Option<&Area> {
     layout.areas().iter().rev().max_by(|a, b| mm2(a).total_cmp(&mm2(b)))
 }
 
-fn layout_of(script: &Script) -> Option<Layout> {
-    Layout::build(&script.load_garment().ok()?, usize::from(u16::MAX), super::FULL_SCALE).ok()
-}
-
 /// Moves a touch to a place of the panel: `part` 0 ..= 1 of the room left by footprint and path, per axis.
 /// Without room it is centred.
 fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
@@ -134,20 +131,25 @@ fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{World, load};
+    use super::super::{World, shipped};
     use super::*;
     use taxel_core::garment::Garment;
+
+    fn reference() -> Layout {
+        Layout::build(&Garment::reference(), 2048, 4095).unwrap()
+    }
 
     #[test]
     fn variants_keep_their_force_on_the_panel() {
         let garment = Garment::reference();
+        let layout = reference();
         let mut panels = std::collections::BTreeSet::new();
         for name in ["pat", "lash", "stroke", "finger"] {
-            let script = load(name).unwrap();
+            let script = shipped(name).unwrap();
             for seed in 0..40 {
-                let variant = vary(&script, seed);
+                let variant = vary(&script, Some(&layout), seed);
                 variant.check().unwrap();
-                assert_eq!(variant, vary(&script, seed));
+                assert_eq!(variant, vary(&script, Some(&layout), seed));
                 let touch = &variant.touches[0];
                 assert!((0.5..=1.5).contains(&(touch.force_n / script.touches[0].force_n)));
                 assert!((0.5..=1.5).contains(&(touch.once_s() / script.touches[0].once_s())));
@@ -172,7 +174,7 @@ mod tests {
 
     #[test]
     fn controls_scale_one_thing() {
-        let pat = load("pat").unwrap();
+        let pat = shipped("pat").unwrap();
         assert!((scale_force(&pat, 0.05).touches[0].force_n - 0.4).abs() < 1e-12);
         let fast = scale_rate(&pat, 3.0);
         fast.check().unwrap();
@@ -181,7 +183,7 @@ mod tests {
         assert_eq!(fast.touches[0].force_n, 8.0);
         for factor in [0.1, 0.7, 1.3, 9.0] {
             for scene in super::super::list() {
-                scale_rate(&load(&scene.name).unwrap(), factor).check().unwrap();
+                scale_rate(&shipped(&scene.name).unwrap(), factor).check().unwrap();
             }
         }
     }
@@ -189,17 +191,14 @@ mod tests {
     #[test]
     fn a_script_moves_to_another_garment_in_mm() {
         let layout = Layout::build(&Garment::mat(), 2048, 4095).unwrap();
-        let hands = load("two-hands").unwrap();
-        let script = refit(&hands, &layout);
+        let hands = shipped("two-hands").unwrap();
+        let script = refit(&hands, &reference(), &layout);
         assert!(script.touches.iter().all(|t| t.panel == "mat"));
         assert_eq!((lacking(&hands, &layout).len(), lacking(&script, &layout).len()), (2, 0));
         World::build(&script, &Garment::mat()).unwrap();
         // The middle stays the middle, and the speed in mm stays the same.
-        let stroke = Script::parse(
-            "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [7.5, 15.5]\nvelocity = [5, 6]\nstart_s = 0.2",
-            "x.toml",
-        );
-        let touch = refit(&stroke.unwrap(), &layout).touches.remove(0);
+        let stroke = "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [7.5, 15.5]\nvelocity = [5, 6]\nstart_s = 0.2".parse::<Script>();
+        let touch = refit(&stroke.unwrap(), &reference(), &layout).touches.remove(0);
         assert_eq!((touch.at, touch.at_mm, touch.velocity), (None, Some([155.0, 315.0]), [6.0, 6.0]));
     }
 

@@ -2,6 +2,7 @@
 
 use super::tcp::{CONNECT, Tcp};
 use super::{Port, Source, SourceOptions};
+use crate::scripts;
 use crate::sim::{self, COUNTS_PER_NEWTON, FRAME_PERIOD_US, FULL_SCALE, frame_codes, wiring_json};
 use anyhow::{Context, Result, anyhow, bail};
 use serde_json::Value;
@@ -22,8 +23,8 @@ const IDLE: &str = "90";
 pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
     let harness = harness()?;
     let image = image(&harness)?;
-    let script = sim::load(scene)?;
-    let garment = script.load_garment()?;
+    let script = scripts::load(scene)?;
+    let garment = scripts::garment(&script)?;
     if garment != Garment::reference() {
         bail!(
             "emulator:{scene}: the image starts with the garment reference, the scene wants {}",

@@ -131,9 +131,10 @@ fn merge(base: &mut Value, over: Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scripts;
 
     fn of(scene: &str) -> Result<Scene> {
-        scene_of(&Script::parse(&format!("duration_s = 1\n[scene]\n{scene}"), "a.toml").unwrap())
+        scene_of(&scripts::parse(&format!("duration_s = 1\n[scene]\n{scene}"), "a.toml").unwrap())
     }
 
     #[test]

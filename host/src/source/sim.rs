@@ -3,6 +3,7 @@
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
 use crate::garments;
+use crate::scripts;
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use anyhow::{Context, Result, anyhow};
 use std::sync::mpsc;
@@ -40,7 +41,7 @@ struct Play {
 
 /// Opens a simulated board that plays a script of touches.
 pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
-    play(sim::load(scene)?, format!("sim:{scene}"), options)
+    play(scripts::load(scene)?, format!("sim:{scene}"), options)
 }
 
 /// Starts a simulated board that plays a script.
@@ -49,7 +50,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     let (script, garment) = match &options.garment {
         Some(asked) => fitted(script, &garments::read(asked)?, &mut board_scene, &label)?,
         None => {
-            let garment = script.load_garment()?;
+            let garment = scripts::garment(&script)?;
             (script, garment)
         }
     };
@@ -106,7 +107,10 @@ fn fitted(
             largest.name
         );
     }
-    let script = sim::refit(&script, &layout);
+    // A script whose garment cannot be loaded keeps its places.
+    let home = scripts::garment(&script).ok();
+    let home = home.and_then(|home| Layout::build(&home, usize::from(u16::MAX), FULL_SCALE).ok());
+    let script = home.map_or_else(|| script.clone(), |home| sim::refit(&script, &home, &layout));
     for row in &mut scene.react {
         if let Some(line) = row.output.filter(|line| circuit.lines().contains(&line.pin)) {
             eprintln!(

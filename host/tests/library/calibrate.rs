@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use taxel::calibrate::{Calibration, Forces, Over, Reason, Seen, Task, calibrate, judge, plates, script};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::raw::RawBoard;
+use taxel::scripts;
 use taxel::sim::{Script, Sensor};
 use taxel::source::{self, SourceOptions};
 use taxel_core::body::Placed;
@@ -55,7 +56,7 @@ fn touches(sensor: &Sensor, seed: u64) -> (Script, Vec<f64>) {
         );
         forces.push(force);
     }
-    (Script::parse(&text, "touches.toml").unwrap(), forces)
+    (scripts::parse(&text, "touches.toml").unwrap(), forces)
 }
 
 /// Scene for measurements, where every count matters: no filter, and a floor within the noise.

@@ -10,6 +10,7 @@ mod scripted;
 mod strangers;
 
 use std::collections::BTreeSet;
+use taxel::scripts;
 use taxel::sim::{self, FRAME_PERIOD_US, Player, Script};
 use taxel_core::capacity::TAXELS;
 use taxel_core::fold::{JointAngle, Posture};
@@ -32,7 +33,7 @@ struct Course {
 }
 
 fn perceive(script: &Script) -> Course {
-    let garment = script.load_garment().expect("a built-in scene has a garment");
+    let garment = scripts::garment(&script).expect("a built-in scene has a garment");
     let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
     let pipeline = Pipeline::build(&Scene::shipped(), &layout).expect("the shipped scene fits");
     let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
@@ -64,10 +65,12 @@ fn perceive(script: &Script) -> Course {
 
 /// Number of variants in which `wanted` leads, and nothing else.
 fn right(scene: &str, wanted: Leading) -> usize {
-    let script = sim::load(scene).expect("built in");
+    let script = scripts::load(scene).expect("built in");
+    let garment = scripts::garment(&script).expect("a built-in scene has a garment");
+    let layout = Layout::build(&garment, 2048, 4095).expect("it ships");
     let mut wrong = Vec::new();
     for seed in 0..VARIANTS {
-        let course = perceive(&sim::vary(&script, seed));
+        let course = perceive(&sim::vary(&script, Some(&layout), seed));
         let led: BTreeSet<_> = course.led.iter().map(|leading| leading.as_str()).collect();
         let fine = led.contains(wanted.as_str()) && led.iter().all(|l| *l == "none" || *l == wanted.as_str());
         if !fine {
@@ -91,10 +94,10 @@ fn a_lash_is_an_attack() {
 
 #[test]
 fn controls() {
-    let pat = sim::load("pat").expect("built in");
-    let lash = sim::load("lash").expect("built in");
-    let hold = sim::load("hold").expect("built in");
-    let idle = sim::load("idle").expect("built in");
+    let pat = scripts::load("pat").expect("built in");
+    let lash = scripts::load("lash").expect("built in");
+    let hold = scripts::load("hold").expect("built in");
+    let idle = scripts::load("idle").expect("built in");
     let force = |script: &Script| script.touches.iter().map(|t| t.force_n).fold(0.0, f64::max);
     let strong = sim::scale_force(&hold, force(&lash) / force(&hold));
     let cases = [
@@ -174,8 +177,8 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
 /// A bending arm folds its own garment, without a touch.
 #[test]
 fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
-    let script = sim::load("elbow").expect("built in");
-    let garment = script.load_garment().expect("it is a preset");
+    let script = scripts::load("elbow").expect("built in");
+    let garment = scripts::garment(&script).expect("it is a preset");
     let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
     let scene = Scene::shipped();
     let pipeline = Pipeline::build(&scene, &layout).expect("the shipped scene fits");

@@ -1,7 +1,8 @@
 //! Small hard objects in the shipped scene: the share of their force that is reported at any position, and
 //! the delay.
 
-use taxel::sim::{FRAME_PERIOD_US, Player, Script};
+use taxel::scripts;
+use taxel::sim::{FRAME_PERIOD_US, Player};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -22,7 +23,7 @@ fn told(size_mm: f64, force_n: f64, at: [f64; 2], rise_s: f64, frames: u64) -> V
          at = [{}, {}]\nforce_n = {force_n}\nstart_s = {start_s}\nrise_s = {rise_s}\nhold_s = 1\n",
         at[0], at[1]
     );
-    let (script, garment) = (Script::parse(&text, "point.toml").unwrap(), Garment::reference());
+    let (script, garment) = (scripts::parse(&text, "point.toml").unwrap(), Garment::reference());
     let layout = Layout::build(&garment, TAXELS, 4095).unwrap();
     let pipeline = Pipeline::build(&Scene::shipped(), &layout).unwrap();
     let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());

@@ -2,8 +2,9 @@
 
 use anyhow::Result;
 use taxel::bench::acquisition::LINE_PF;
+use taxel::scripts;
 use taxel::settle::{Scanner, settle};
-use taxel::sim::{PINS, Script, SimBoard, Timing};
+use taxel::sim::{PINS, SimBoard, Timing};
 use taxel_core::acquire::{Acquire, MuxScan, Plan};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::run::block_on;
@@ -48,7 +49,7 @@ impl Scanner for Lines {
         let mut garment = Garment::reference();
         garment.wiring.settle_ns = settle_ns;
         let wiring = format!("[wiring]\nsource_kohm = {}\nline_pf = {LINE_PF}\n", self.source_kohm);
-        let script = Script::parse(&(self.script.clone() + &wiring), "things.toml")?;
+        let script = scripts::parse(&(self.script.clone() + &wiring), "things.toml")?;
         let SimBoard { mut lines, delay, adc, clock } =
             SimBoard::with_timing(&garment, &script, script.seed, self.timing)?;
         clock.advance_to(self.now_us);

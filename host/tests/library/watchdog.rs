@@ -1,7 +1,8 @@
 //! Long scans and self-tests feed the watchdog in time.
 
 use std::cell::Cell;
-use taxel::sim::{PINS, Script, SimBoard, SimClock};
+use taxel::scripts;
+use taxel::sim::{PINS, SimBoard, SimClock};
 use taxel_core::acquire::{Acquire, Clock, Depth, LONGEST_MS, MuxScan, Plan, check_duration};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
@@ -50,7 +51,7 @@ fn the_longest_scans_and_self_tests_feed_the_watchdog_as_they_go() {
         let circuit = Circuit::build(&garment, &layout, Pins::FEATHER).unwrap();
         let plan = Plan { depth, ..Plan::default() };
         check_duration(&circuit, &plan).unwrap();
-        let script = Script::parse("duration_s = 1", "rest.toml").unwrap();
+        let script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
         let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
         let watch = Watched { clock, fed: Cell::new(Micros(0)), longest_us: Cell::new(0) };
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, &watch);

@@ -304,7 +304,7 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
 #[test]
 fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/garments/block-4x16.toml");
-    assert_eq!(taxel::sim::garment(shipped).unwrap(), taxel_core::garment::Garment::block());
+    assert_eq!(taxel::garments::load(shipped).unwrap(), taxel_core::garment::Garment::block());
     let refused = |edit: &dyn Fn(&mut LiveArgs)| {
         let mut args = args("sim:idle", Some(1));
         edit(&mut args);

@@ -1,6 +1,7 @@
 //! A drifting garment, and the board's perception of it.
 
-use taxel::sim::{Course, Drifting, Patch, Script, World};
+use taxel::scripts;
+use taxel::sim::{Course, Drifting, Patch, World};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -103,7 +104,7 @@ pub fn feel(trial: &Trial, seconds: f64) -> Felt {
         trial.seed,
         trial.touches
     );
-    let script = Script::parse(&text, "drift.toml").expect("a script");
+    let script = scripts::parse(&text, "drift.toml").expect("a script");
     let layout = Layout::build(&trial.garment, TAXELS, 4095).expect("it fits");
     let world = World::build(&script, &trial.garment).expect("its panels are there");
     let drifting = Drifting::new(world, &layout, trial.common, &trial.patches, trial.seed);

@@ -4,7 +4,8 @@ use super::is_campaign;
 use super::scripts::all_pressed;
 use super::worn::{FRAME_S, TARE, TAXELS, Worn};
 use std::collections::BTreeMap;
-use taxel::sim::{self, Noisy, Script, Stuck};
+use taxel::scripts;
+use taxel::sim::{Noisy, Script, Stuck};
 use taxel_core::acquire::Depth;
 use taxel_core::health::TaxelHealth;
 
@@ -61,7 +62,7 @@ fn fifty_dead_stuck_and_noisy_taxels_are_found_within_100_frames() {
 #[test]
 fn codes_of_8_bits_accuse_no_healthy_taxel_and_show_dead_and_noisy_ones() {
     assert_eq!(found(Depth::Eight, &[TaxelHealth::Dead, TaxelHealth::Noisy], 1), 0);
-    let found = Worn::at(Depth::Eight).play(&sim::load("five").unwrap(), 400);
+    let found = Worn::at(Depth::Eight).play(&scripts::load("five").unwrap(), 400);
     assert!(found.is_empty(), "{found:?}");
 }
 
@@ -86,7 +87,7 @@ fn a_needle_costs_no_taxel() {
     let text = "duration_s = 3\n[[touch]]\npanel = \"chest\"\nshape = \"finger\"\nsize_mm = 4\nat = [8, 15]\nforce_n = 8\n\
                 start_s = 0.3\nrise_s = 0.05\nhold_s = 1\nfall_s = 0.05\n";
     let mut worn = Worn::new();
-    let found = worn.play(&Script::parse(text, "needle.toml").unwrap(), 400);
+    let found = worn.play(&scripts::parse(text, "needle.toml").unwrap(), 400);
     let taxel = 15 * 16 + 8;
     let classes: Vec<_> = found.into_iter().map(|(taxel, (_, health))| (taxel, health)).collect();
     assert_eq!(classes, [(taxel, TaxelHealth::Shorted)]);

@@ -3,6 +3,7 @@
 use super::is_campaign;
 use super::scripts::varied;
 use super::worn::{FRAME_S, Worn};
+use taxel::scripts;
 use taxel::sim;
 use taxel_core::garment::Garment;
 
@@ -40,9 +41,9 @@ fn wide_codes_are_not_stuck() {
 #[test]
 fn no_healthy_taxel_is_accused() {
     for scene in sim::list() {
-        let script = sim::load(&scene.name).unwrap();
+        let script = scripts::load(&scene.name).unwrap();
         let ill = script.faults != Default::default();
-        if ill || script.load_garment().unwrap() != Garment::reference() {
+        if ill || scripts::garment(&script).unwrap() != Garment::reference() {
             continue;
         }
         let frames = (script.duration_s * 195.0) as u32;

@@ -3,7 +3,8 @@
 use super::scripts::all_pressed;
 use super::worn::Worn;
 use crate::faults::{examine, pin_faults};
-use taxel::sim::{Script, Stuck, rewire};
+use taxel::scripts;
+use taxel::sim::{Stuck, rewire};
 use taxel_core::board::{Input, Job};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
@@ -30,7 +31,7 @@ fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
 
 #[test]
 fn several_faults_are_told_side_by_side() {
-    let mut script = Script::parse("duration_s = 1", "rest.toml").unwrap();
+    let mut script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
     let faults = [
         (2, Fault::Bridged(12)),
         (3, Fault::StuckHigh),
@@ -81,7 +82,7 @@ fn a_garment_that_is_put_on_is_examined_and_told_of() {
         jobs.take(9).filter(|job| !matches!(job, Job::Drive(..))).collect()
     };
     assert_eq!(jobs(&mut worn)[0], Job::Examine);
-    let mut script = Script::parse("duration_s = 1", "rest.toml").unwrap();
+    let mut script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
     script.faults.pins = vec![PinFault { pin: 12, fault: Fault::StuckLow }];
     let findings = examine(&worn.garment, &script);
     assert_eq!(findings.faults[..], script.faults.pins[..]);

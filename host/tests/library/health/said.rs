@@ -2,6 +2,7 @@
 
 use super::worn::{FRAME_S, TARE, TAXELS, Worn};
 use std::collections::BTreeSet;
+use taxel::scripts;
 use taxel::sim::{Noisy, Script, Stuck};
 
 /// Frames of the tare and those in which every taxel is judged.
@@ -9,7 +10,7 @@ const FRAMES: u32 = TARE as u32 + 200;
 
 /// Intentions announced for an untouched garment in which this many taxels break at a time.
 fn said(count: u32, from_s: f64, seed: u64, fault: impl Fn(u16, &mut Script)) -> BTreeSet<&'static str> {
-    let mut script = Script::parse("duration_s = 2", "faults.toml").unwrap();
+    let mut script = scripts::parse("duration_s = 2", "faults.toml").unwrap();
     (script.seed, script.faults.from_s) = (seed, from_s);
     let mut rng = fastrand::Rng::with_seed(seed);
     (0..count).for_each(|_| fault(rng.u16(..TAXELS as u16), &mut script));

@@ -1,5 +1,6 @@
 //! Scripts of touches.
 
+use taxel::scripts;
 use taxel::sim::Script;
 use taxel_core::garment::{Garment, Panel};
 
@@ -32,7 +33,7 @@ pub fn varied(seconds: f64, seed: u64) -> Script {
         );
         start += within(0.05, 1.0);
     }
-    Script::parse(&text, "varied.toml").unwrap()
+    scripts::parse(&text, "varied.toml").unwrap()
 }
 
 /// A flat object presses every panel from this time on, with 1.2 N on each taxel.
@@ -51,5 +52,5 @@ pub fn all_pressed(start_s: f64) -> Script {
         )
     };
     let touches: String = Garment::reference().panels.iter().map(touch).collect();
-    Script::parse(&format!("duration_s = 9\nseed = 3\n{touches}"), "pressed.toml").unwrap()
+    scripts::parse(&format!("duration_s = 9\nseed = 3\n{touches}"), "pressed.toml").unwrap()
 }

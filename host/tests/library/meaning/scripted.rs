@@ -6,6 +6,7 @@
 
 use crate::meaning::family::{Act, Family, Wish};
 use fastrand::Rng;
+use taxel::scripts;
 use taxel::sim::{Player, Script, Shape, Size, Touch};
 use taxel_core::garment::Garment;
 
@@ -67,7 +68,7 @@ pub fn act(family: usize, number: u64) -> Act {
 /// A script on an imperfect garment.
 fn script(duration_s: f64, touches: Vec<Touch>, rng: &mut Rng) -> Script {
     let mut script =
-        Script::parse(&format!("duration_s = {duration_s}"), "families.toml").expect("it is short");
+        scripts::parse(&format!("duration_s = {duration_s}"), "families.toml").expect("it is short");
     script.seed = rng.u64(1..1 << 40);
     script.idle.noise_counts = between(rng, 2.0, 3.5);
     script.sensor.gain_spread = between(rng, 0.0, 0.12);

@@ -3,6 +3,7 @@
 
 use crate::people::kind::{Act, Kind, Session};
 use fastrand::Rng;
+use taxel::scripts;
 use taxel::sim::{Player, Script, Shape, Touch};
 use taxel_core::garment::Garment;
 
@@ -59,7 +60,7 @@ fn between(rng: &mut Rng, low: f64, high: f64) -> f64 {
 
 /// A script without touches.
 fn empty(duration_s: f64) -> Script {
-    Script::parse(&format!("duration_s = {duration_s}"), "people.toml").expect("it is short")
+    scripts::parse(&format!("duration_s = {duration_s}"), "people.toml").expect("it is short")
 }
 
 /// Parameters of a kind of touch: shape, newtons, size in mm, seconds of rise, hold and fall.

@@ -2,7 +2,7 @@
 
 use super::keys;
 use taxel::config::Kind;
-use taxel::sim::Script;
+use taxel::scripts;
 
 /// A script with every key.
 const BASE: &str = r#"
@@ -82,7 +82,7 @@ fall_s = 0.5
 
 #[test]
 fn the_schema_has_the_keys_of_a_script_and_no_others() {
-    keys::assert_all(&Script::parse(BASE, "all.toml").unwrap(), Kind::Touches.schema());
+    keys::assert_all(&scripts::parse(BASE, "all.toml").unwrap(), Kind::Touches.schema());
 }
 
 /// The document explains each key of the schema.
