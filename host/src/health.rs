@@ -1,15 +1,16 @@
 //! `taxel health`: the faulty taxels and where they are, and faulty lines and inputs.
 
 mod ghosts;
-pub(crate) mod pins;
 
+use crate::json::pins;
 pub use ghosts::candidates;
 
 use crate::client::{Client, Event};
 use crate::fault::{Blame, Fault};
-use crate::garments;
-use crate::live::{self, BoardArgs, LiveArgs, Show};
+use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::watch::{BoardArgs, LiveArgs};
+use crate::{garments, watch};
 use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
 use serde_json::{Value, json};
@@ -78,7 +79,7 @@ pub fn look(args: &HealthArgs) -> Result<Told> {
     let asked = BoardArgs { tare: args.tare, ..BoardArgs::of(args.source.clone()) };
     let live = LiveArgs { frames: Some(args.frames), ..LiveArgs::on(asked) };
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
-    live::watch(&live, source, &mut found)?;
+    watch::watch(&live, source, &mut found)?;
     if args.self_test && !found.answered {
         bail!(Fault::board("no self-test was received; try more --frames"));
     }

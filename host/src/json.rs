@@ -3,6 +3,11 @@
 //! Lengths are in taxels and, with `_mm`, in millimetres if the garment has a pitch; angles in radians, times
 //! in seconds, pressure in counts. Floats are finite or `null`.
 
+mod messages;
+pub mod pins;
+
+pub use messages::{Messages, message};
+
 use serde_json::{Map, Value, json};
 use taxel_core::body::Placed;
 use taxel_core::contact::{Contact, Phase};

@@ -17,7 +17,7 @@
 //! | [`client`], [`clock`] | the host's end of the wire: bytes in, events out, with host times |
 //! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
 //! | [`garments`], [`config`], [`scenes`] | garment and scene files, and scripts of touches |
-//! | [`live`], [`view`], [`report`] | display: in the terminal, in the browser, as a page |
+//! | [`watch`], [`terminal`], [`view`], [`report`] | a followed board; display: in the terminal, in the browser, as a page |
 //! | [`serve`], `foxglove` | the server behind the page and the one for Foxglove (feature `foxglove`) |
 //! | [`recording`] | recordings: MCAP files, read, written and repaired |
 //! | [`record`], [`replay`], [`info`], [`repair`], [`export`] | commands about recordings; their topics |
@@ -45,6 +45,7 @@ pub mod calibrate;
 pub mod cli;
 pub mod client;
 pub mod clock;
+pub mod commands;
 pub mod config;
 pub mod date;
 pub mod doctor;
@@ -64,7 +65,6 @@ pub mod info;
 pub mod intent;
 pub mod json;
 pub mod learn;
-pub mod live;
 pub mod output;
 mod passed;
 pub mod ports;
@@ -90,8 +90,10 @@ pub mod sim;
 pub mod source;
 mod starts;
 pub mod stop;
+pub mod terminal;
 pub mod toml_key;
 pub mod touches;
 pub mod verbose;
 pub mod view;
+pub mod watch;
 pub mod words;

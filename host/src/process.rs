@@ -1,12 +1,11 @@
 //! `taxel process`: runs the board's pipeline over recorded frames, one JSON object per frame.
 
 use crate::arrays::{self, Frames};
-use crate::doubts;
 use crate::fault::Fault;
 use crate::growths::Growths;
-use crate::json;
-use crate::live::forms;
 use crate::progress::{Progress, Unit};
+use crate::watch::forms;
+use crate::{doubts, json};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use serde_json::{Value, json};

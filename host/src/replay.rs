@@ -1,8 +1,9 @@
 //! `taxel replay`: plays a recording as if its board were connected; `--source replay:FILE` does so for every
 //! other command.
 
-use crate::live::{self, LiveArgs};
+use crate::commands::views::live;
 use crate::source::{SourceSpec, Speed};
+use crate::watch::LiveArgs;
 use anyhow::Result;
 use clap::Args;
 use std::io::{IsTerminal, stdout};

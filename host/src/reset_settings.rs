@@ -2,8 +2,10 @@
 
 use crate::client::{Client, Event};
 use crate::fault::Fault;
-use crate::live::{self, LiveArgs, Show};
+use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::watch;
+use crate::watch::LiveArgs;
 use anyhow::{Result, bail};
 use clap::Args;
 use std::time::{Duration, Instant};
@@ -30,7 +32,7 @@ pub fn run(args: &ResetSettingsArgs) -> Result<()> {
     let source = source::open(&args.source, &SourceOptions::default())?;
     let label = source.label.clone();
     let mut asking = Asking { undo: args.undo, begun: Instant::now(), asked: false, done: false };
-    live::watch(&LiveArgs::of(args.source.clone()), source, &mut asking)?;
+    watch::watch(&LiveArgs::of(args.source.clone()), source, &mut asking)?;
     if !asking.done {
         bail!(Fault::board(format!("{label} ended before the board had answered")));
     }

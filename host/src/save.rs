@@ -2,8 +2,10 @@
 
 use crate::client::{Client, Event};
 use crate::fault::Fault;
-use crate::live::{self, BoardArgs, LiveArgs, Show};
+use crate::session::Show;
 use crate::source::SourceOptions;
+use crate::watch;
+use crate::watch::{BoardArgs, LiveArgs};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
@@ -25,7 +27,7 @@ pub fn run(args: SaveArgs) -> Result<()> {
     let label = source.label.clone();
     let tare = args.board.tare.unwrap_or(source.tare);
     let mut saving = Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false };
-    live::watch(&LiveArgs::on(args.board), source, &mut saving)?;
+    watch::watch(&LiveArgs::on(args.board), source, &mut saving)?;
     if !saving.done {
         bail!(Fault::board(format!("{label} ended before the board had saved its settings")));
     }

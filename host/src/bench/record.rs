@@ -1,10 +1,11 @@
 //! Cost of recording compared with perception, and speed of replay.
 
 use crate::client::{Client, Event, ImageNews};
-use crate::live::{LiveArgs, Show, watch};
 use crate::record::{Origin, Plan, Recorder};
+use crate::session::Show;
 use crate::sim;
 use crate::source::{self, SourceOptions, SourceSpec, Speed};
+use crate::watch::{LiveArgs, watch};
 use anyhow::{Context, Result};
 use clap::Args;
 use serde_json::{Value, json};

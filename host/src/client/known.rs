@@ -131,6 +131,18 @@ impl Client {
         index.and_then(|index| self.shapes.get(index)).map_or("unknown", String::as_str).into()
     }
 
+    /// Name of a region of the board's garment.
+    pub fn region_name(&self, region: u8) -> &str {
+        let regions = self.layout().map_or(&[][..], |layout| layout.regions());
+        regions.get(usize::from(region)).map_or("?", Name::as_str)
+    }
+
+    /// Name of a panel of the board's garment.
+    pub fn panel_name(&self, panel: u8) -> &str {
+        let areas = self.layout().map_or(&[][..], |layout| layout.areas());
+        areas.get(usize::from(panel)).map_or("?", |area| &area.name)
+    }
+
     /// Latest counters of the board.
     pub fn health(&self) -> Option<&Health> {
         self.health.as_ref()

@@ -3,10 +3,10 @@
 use super::facts::Facts;
 use super::finding::{Finding, Grade};
 use super::judge::judge;
-use crate::date;
 use crate::fault::Fault;
-use crate::live::{self, LiveArgs};
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::watch::LiveArgs;
+use crate::{date, watch};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
@@ -34,7 +34,7 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
     let label = source.label.clone();
     let mut facts = Facts::of(&label);
     let live = LiveArgs { seconds: Some(args.seconds), ..LiveArgs::of(args.source.clone()) };
-    let heard = live::watch(&live, source, &mut facts);
+    let heard = watch::watch(&live, source, &mut facts);
     let found = judge(&facts, env!("CARGO_PKG_VERSION"), &date::today());
     let worst = found.iter().map(|finding| finding.grade).max().unwrap_or(Grade::Good);
     if args.json {

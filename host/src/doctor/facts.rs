@@ -1,7 +1,7 @@
 //! Observations of a board over some seconds.
 
 use crate::client::{Client, Event};
-use crate::live::Show;
+use crate::session::Show;
 use anyhow::Result;
 use taxel_core::boot::Boot;
 use taxel_core::garment::Garment;

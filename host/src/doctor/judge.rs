@@ -3,7 +3,7 @@
 use super::facts::Facts;
 use super::finding::Finding;
 use crate::date::days_between;
-use crate::health::pins;
+use crate::json::pins;
 use crate::starts;
 use taxel_core::boot::{Aside, Boot};
 use taxel_core::wire::Health;

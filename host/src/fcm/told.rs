@@ -5,8 +5,10 @@ use super::decimal::Decimal;
 use super::engine::Q15_CONCEPTS;
 use super::map::MapFile;
 use crate::client::{Client, Event};
-use crate::live::{self, BoardArgs, LiveArgs, Show};
+use crate::session::Show;
 use crate::source::{SourceOptions, SourceSpec};
+use crate::watch;
+use crate::watch::{BoardArgs, LiveArgs};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use taxel_core::format::Micros;
@@ -22,13 +24,13 @@ pub struct ToldArgs {
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
     pub source: Option<SourceSpec>,
     /// With --source: show the last state of the first S seconds, announced or not
-    #[arg(long, value_name = "S", value_parser = live::seconds, requires = "source")]
+    #[arg(long, value_name = "S", value_parser = watch::seconds, requires = "source")]
     pub at: Option<f64>,
     /// With --source: scene to send to the board, a TOML file
     #[arg(long, value_name = "FILE", requires = "source")]
     pub scene: Option<PathBuf>,
     /// With --source: set a concept, as in `taxel live`
-    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = live::feed, requires = "source")]
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = watch::feed, requires = "source")]
     pub feed: Vec<Feed>,
 }
 
@@ -93,7 +95,7 @@ pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
         eprintln!("{label}: waiting for {}.", if at.is_some() { "the time" } else { "an intention" });
     }
     let mut ear = Ear { at, began: None, now: Micros(0), leading: Leading::None, found: None, done: false };
-    live::watch(&LiveArgs::on(board), source, &mut ear)?;
+    watch::watch(&LiveArgs::on(board), source, &mut ear)?;
     match (ear.found, at) {
         (Some(told), _) => Ok(told),
         (None, None) => {

@@ -16,8 +16,9 @@ pub use protocol::channel;
 pub use publisher::Publisher;
 pub use server::serve;
 
-use crate::live::{self, BoardArgs, LiveArgs};
 use crate::source::SourceOptions;
+use crate::watch;
+use crate::watch::{BoardArgs, LiveArgs};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::net::{Ipv4Addr, TcpListener};
@@ -48,7 +49,7 @@ pub fn run(args: FoxgloveArgs) -> Result<()> {
     let hub = Arc::new(Hub::default());
     let port = serve(listener, hub.clone(), &source.label, &args.allow_origin)?;
     println!("{} at ws://127.0.0.1:{port} (Ctrl-C ends)", source.label);
-    live::watch(&LiveArgs::on(args.board), source, &mut Publisher::new(hub))?;
+    watch::watch(&LiveArgs::on(args.board), source, &mut Publisher::new(hub))?;
     println!("Stream ended; new clients get the last messages (Ctrl-C ends).");
     loop {
         std::thread::park();

@@ -4,8 +4,8 @@ use super::hub::Hub;
 use super::protocol;
 use super::subscriber::Told;
 use crate::client::{Client, Event};
-use crate::live::Show;
 use crate::record::{self, Stamps};
+use crate::session::Show;
 use anyhow::Result;
 use std::sync::Arc;
 

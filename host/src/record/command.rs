@@ -4,10 +4,10 @@ use super::limit::Rotate;
 use super::provenance::Origin;
 use super::recorder::{Plan, Recorder};
 use crate::fault::Fault;
-use crate::live::{self, BoardArgs, LiveArgs};
 use crate::output::Force;
 use crate::source::SourceOptions;
-use crate::stop;
+use crate::watch::{BoardArgs, LiveArgs};
+use crate::{stop, watch};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ pub struct RecordArgs {
     pub frames: Option<u64>,
     /// Stop after S seconds of the board's time [default: a simulated scene is played once; a board is
     /// recorded until Ctrl-C]
-    #[arg(long, value_name = "S", value_parser = live::seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Also write FILE.ros2.mcap with ROS 2 messages: images, point clouds, forces, diagnostics
     #[arg(long)]
@@ -76,7 +76,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
     let unlimited = args.frames.is_none() && args.seconds.is_none();
     recorder.expect(args.seconds.unwrap_or(0.0));
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
-    let done = live::watch(&watched, source, &mut recorder);
+    let done = watch::watch(&watched, source, &mut recorder);
     // The recording is completed even if the source fails.
     let ended = recorder.finish();
     eprintln!("{}", recorder.progress());

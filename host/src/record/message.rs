@@ -2,7 +2,7 @@
 
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
-use crate::live;
+use crate::json;
 use anyhow::Result;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// Encodes an event as JSON with its times.
 pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<u8>> {
     let Event::Frame { frame, alone, image, .. } = event else {
-        return with_times(live::message(client, event), stamp);
+        return with_times(json::message(client, event), stamp);
     };
     let decoded = *image == ImageNews::Whole;
     let panels = if decoded { panels(client) } else { Vec::new() };

@@ -3,12 +3,14 @@
 use super::{Seen, page};
 use crate::client::Event;
 use crate::fault::Fault;
-use crate::live::{self, LiveArgs, Show};
 use crate::output::{Force, Output};
 use crate::progress::{Progress, Unit};
 use crate::record::Play;
 use crate::recording::Overview;
+use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::watch;
+use crate::watch::LiveArgs;
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -31,7 +33,7 @@ pub struct ReportArgs {
     pub force: Force,
     /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
     /// once]
-    #[arg(long, value_name = "S", value_parser = live::seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }
 
@@ -88,6 +90,6 @@ fn watched(spec: SourceSpec, seconds: Option<f64>) -> Result<Seen> {
     let source = source::open(&spec, &options)?;
     let seconds = seconds.or(source.real_time.then_some(WATCHED));
     let mut seen = Seen::new(source.label.clone(), source.counts_per_newton);
-    live::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
+    watch::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
     Ok(seen)
 }

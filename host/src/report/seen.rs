@@ -3,9 +3,9 @@
 use super::scale::Scale;
 use super::series::Series;
 use crate::client::{Client, Counts, Event, ImageNews, Worn};
-use crate::live::Show;
-use crate::live::narrate::Narrator;
 use crate::recording::Skipped;
+use crate::session::Show;
+use crate::watch::narrate::Narrator;
 use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;

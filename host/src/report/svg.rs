@@ -1,6 +1,6 @@
 //! Shared by the drawings.
 
-use crate::live::ramp;
+use crate::terminal::ramp;
 
 /// Colour of a pressure.
 pub fn colour(value: f64, top: u16) -> String {

@@ -19,9 +19,13 @@
 //! |---|---|
 //! | `outgoing.rs` | requests on their way to a board that may not read |
 //! | `absence.rs` | a lost source, until it is back |
+//! | `show.rs` | [`Show`]: who is handed the stream |
 
 mod absence;
 mod outgoing;
+mod show;
+
+pub use show::Show;
 
 use crate::client::{Client, Event, Restored, request_name};
 use crate::clock::SteadyTime;

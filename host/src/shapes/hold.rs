@@ -2,7 +2,7 @@
 
 use super::cluster::centres;
 use crate::client::{Client, Event, ImageNews};
-use crate::live::Show;
+use crate::session::Show;
 use anyhow::Result;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactState};

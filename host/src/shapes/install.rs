@@ -4,8 +4,10 @@ use super::base::Base;
 use super::teach::teach;
 use crate::client::{Client, Event};
 use crate::fault::Fault;
-use crate::live::{self, LiveArgs, Show};
+use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::watch;
+use crate::watch::LiveArgs;
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -30,7 +32,7 @@ pub fn run(args: InstallArgs) -> Result<()> {
     let source = source::open(&args.source, &SourceOptions::default())?;
     let label = source.label.clone();
     let mut installing = Installing { base, opened: Instant::now(), begun: None, installed: None };
-    live::watch(&LiveArgs::of(args.source), source, &mut installing)?;
+    watch::watch(&LiveArgs::of(args.source), source, &mut installing)?;
     match installing.installed {
         Some((classes, prototypes)) => {
             println!("{label} knows {classes} classes by {prototypes} prototypes, until it restarts.");

@@ -5,11 +5,11 @@ use super::base::{Base, LEFT_OUT, Source};
 use super::extend::{check_name, extend};
 use super::hold::Hold;
 use super::view::ViewArgs;
-use crate::arrays;
 use crate::learn::fingerprint::Fingerprint;
-use crate::live::{self, BoardArgs, LiveArgs, seconds};
 use crate::output::{Force, Output, is_same};
 use crate::source::{SourceOptions, SourceSpec};
+use crate::watch::{BoardArgs, LiveArgs, seconds};
+use crate::{arrays, watch};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
 use taxel_core::shape::Point;
@@ -112,7 +112,7 @@ fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
     );
     let mut hold = Hold::new(&base.gallery.space, wanted);
     let watched = LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board.clone()) };
-    live::watch(&watched, source, &mut hold)?;
+    watch::watch(&watched, source, &mut hold)?;
     let points = hold.held;
     if (1..wanted).contains(&points.len()) {
         eprintln!("{label} ended after {} of {wanted} touches", points.len());

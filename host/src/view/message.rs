@@ -36,10 +36,8 @@
 use super::mailbox::Shot;
 use super::recorded::Order;
 use crate::client::{Client, Event};
-use crate::fcm;
-use crate::health::pins;
-use crate::json;
-use crate::live::message;
+use crate::json::{message, pins};
+use crate::{fcm, json};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::time::Duration;

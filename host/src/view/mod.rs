@@ -33,9 +33,10 @@ pub use tape::Tape;
 pub use viewer::Viewer;
 
 use crate::calibrate::Calibration;
-use crate::live::{self, BoardArgs, LiveArgs};
 use crate::record::Origin;
 use crate::source::{SourceOptions, SourceSpec, Speed};
+use crate::watch;
+use crate::watch::{BoardArgs, LiveArgs};
 use anyhow::{Context, Result};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
@@ -92,7 +93,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     announce(&source.label, listener, &hub, args.open)?;
     let mut viewer = Viewer::new(&source, hub);
-    live::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
+    watch::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
     println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
         std::thread::park();

@@ -1,8 +1,8 @@
 //! Events as lines of the log and marks on the timeline.
 
 use crate::client::{Client, Event};
-use crate::live::narrate::{Narrator, seconds};
 use crate::record::time_of;
+use crate::watch::narrate::{Narrator, seconds};
 use serde::Serialize;
 use serde_json::{Value, json};
 use taxel_core::contact::Phase;

@@ -7,9 +7,10 @@ use super::pace::Pace;
 use super::raw::RawCodes;
 use super::said::{Said, Teller};
 use crate::client::{Client, Event, ImageNews};
-use crate::live::rate::Rate;
-use crate::live::{self, Show};
+use crate::json;
+use crate::session::Show;
 use crate::source::Source;
+use crate::watch::rate::Rate;
 use anyhow::Result;
 use serde_json::json;
 use std::sync::Arc;
@@ -93,10 +94,10 @@ impl Show for Viewer {
             Event::Hello => self.hello(client),
             Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
-            Event::Health(_) => self.hub.state("health", &live::message(client, event)),
-            Event::HealthMap { .. } => self.hub.state("health_map", &live::message(client, event)),
+            Event::Health(_) => self.hub.state("health", &json::message(client, event)),
+            Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
             Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
-            Event::Budget(_) => self.hub.state("budget", &live::message(client, event)),
+            Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
             Event::Sync(report) if report.token == self.token => {
                 self.latency = Some(self.asked.elapsed() / 2)
             }

@@ -7,9 +7,12 @@ use ratatui::{Terminal, backend::TestBackend};
 use serde_json::Value;
 use std::path::PathBuf;
 use taxel::client::{Client, Event, ImageNews};
-use taxel::live::{GestureModel, Lines, LiveArgs, Messages, Show, TaxelLines, View, watch};
+use taxel::json::Messages;
+use taxel::session::Show;
 use taxel::shapes::{base::Base, teach::teach};
 use taxel::source::{self, Source, SourceOptions};
+use taxel::terminal::{Lines, TaxelLines, View};
+use taxel::watch::{GestureModel, LiveArgs, watch};
 use taxel_core::shape::{Patch, descriptor};
 
 fn args(source: &str, frames: Option<u64>) -> LiveArgs {

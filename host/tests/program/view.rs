@@ -9,9 +9,10 @@ use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews};
-use taxel::live::{LiveArgs, Show, watch};
+use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
 use taxel::view::{Hub, Said, Shot, Viewer, serve};
+use taxel::watch::{LiveArgs, watch};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 

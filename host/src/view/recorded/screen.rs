@@ -1,11 +1,11 @@
 //! Shows moments of a recording to the pages of a hub.
 
 use crate::client::{Client, Event, ImageNews};
-use crate::live;
-use crate::live::rate::Rate;
+use crate::json;
 use crate::view::hub::Hub;
 use crate::view::mailbox::Shot;
 use crate::view::message;
+use crate::watch::rate::Rate;
 use serde_json::json;
 use std::sync::Arc;
 use taxel_core::format::Micros;
@@ -79,10 +79,10 @@ impl Screen {
 
     fn state(&self, client: &Client, event: &Event) {
         match event {
-            Event::Health(_) => self.hub.state("health", &live::message(client, event)),
-            Event::HealthMap { .. } => self.hub.state("health_map", &live::message(client, event)),
+            Event::Health(_) => self.hub.state("health", &json::message(client, event)),
+            Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
             Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
-            Event::Budget(_) => self.hub.state("budget", &live::message(client, event)),
+            Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
             _ => {}
         }
     }

@@ -3,8 +3,10 @@
 use super::stage::{events, frame, hello};
 use crate::sink::Sink;
 use taxel::client::Client;
-use taxel::live::{Lines, Messages, Show};
+use taxel::json::Messages;
+use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
+use taxel::terminal::Lines;
 use taxel_core::format::{Micros, Name, name};
 use taxel_core::garment::Garment;
 use taxel_core::react::Reaction;

@@ -3,8 +3,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use taxel::client::Client;
-use taxel::live::View;
 use taxel::source::{self, SourceOptions};
+use taxel::terminal::View;
 
 #[test]
 fn a_picture_fits_a_terminal_of_no_rows_and_of_any_others() {

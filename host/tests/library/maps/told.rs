@@ -4,8 +4,10 @@ use std::path::PathBuf;
 use taxel::client::{Client, Event};
 use taxel::fcm::told::{Told, listen};
 use taxel::fcm::why::{explain, explain_told, report};
-use taxel::live::{self, BoardArgs, LiveArgs, Show};
+use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::watch;
+use taxel::watch::{BoardArgs, LiveArgs};
 use taxel_core::intent::Leading;
 
 fn spec(words: &str) -> SourceSpec {
@@ -78,7 +80,7 @@ fn what_the_host_feeds_counts_until_it_is_too_old() {
     std::fs::write(folder.join("warm map.toml"), WARM).unwrap();
     std::fs::write(&scene, "react = []\n[intent]\nmap = \"warm map.toml\"\n").unwrap();
     let fed = |words: &str| {
-        let feed = vec![live::feed(words).unwrap()];
+        let feed = vec![watch::feed(words).unwrap()];
         let board = BoardArgs { scene: Some(scene.clone()), feed, ..BoardArgs::of(spec("sim:lash")) };
         let told = listen(board, Some(0.4)).unwrap();
         let explained = explain_told(&told, Some("kindness")).unwrap();
@@ -105,7 +107,7 @@ fn a_recording_explains_the_same() {
     let _ = std::fs::remove_file(&path);
     let source = source::open(&spec("sim:lash"), &SourceOptions::default()).unwrap();
     let args = LiveArgs { save: Some(path.clone()), ..LiveArgs::of(spec("sim:lash")) };
-    live::watch(&args, source, &mut Silent).unwrap();
+    watch::watch(&args, source, &mut Silent).unwrap();
     let (live, kept) =
         (told("sim:lash", None).unwrap(), told(&format!("file:{}", path.display()), None).unwrap());
     assert_eq!((live.report, live.map, live.seconds), (kept.report, kept.map, kept.seconds));

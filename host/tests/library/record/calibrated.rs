@@ -5,11 +5,11 @@ use crate::mat::{box_for, knee};
 use std::path::Path;
 use taxel::calibrate::Calibration;
 use taxel::export::{ExportArgs, Form, run};
-use taxel::live::{BoardArgs, LiveArgs, watch};
 use taxel::output::Force;
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::recording::Overview;
 use taxel::source::{self, SourceOptions};
+use taxel::watch::{BoardArgs, LiveArgs, watch};
 
 /// Records the scene with the calibration and raw codes.
 fn recorded(name: &str, calibration: &Calibration) {

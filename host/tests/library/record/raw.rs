@@ -3,8 +3,8 @@
 use super::stage::{file, plan, record};
 use taxel::client::{Client, Event};
 use taxel::fault::status;
-use taxel::live::Show;
 use taxel::record::{Plan, Play, Recorder};
+use taxel::session::Show;
 
 /// A client after the `Hello` of a board that sends no raw codes.
 fn acquainted() -> Client {

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 use taxel::client::{Client, Event, ImageNews};
-use taxel::live::{LiveArgs, Show, watch};
 use taxel::record::{Origin, Plan, Recorder, Rotate};
+use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
+use taxel::watch::{LiveArgs, watch};
 
 /// Events of a board.
 #[derive(Debug, Default, Clone, PartialEq)]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews};
-use taxel::live;
+use taxel::json;
 use taxel::record::{Play, WIRE};
 use taxel::recording::Clips;
 use taxel::view::message;
@@ -65,7 +65,7 @@ pub fn moments(path: &Path) -> Vec<Moment> {
 fn told(client: &Client, event: &Event) -> Value {
     let line = match event {
         Event::Frame { .. } => message::frame(client, event),
-        event => live::message(client, event),
+        event => json::message(client, event),
     };
     serde_json::from_str(&line.to_string()).unwrap()
 }

@@ -5,9 +5,10 @@ use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
-use taxel::live::{LiveArgs, Show, watch};
+use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
 use taxel::view::{Hub, serve};
+use taxel::watch::{LiveArgs, watch};
 
 /// Keeps the bytes of a board for the pages.
 struct Keeper(Arc<Hub>);

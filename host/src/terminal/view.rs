@@ -1,12 +1,12 @@
 //! State of the display: draws what is known of a garment into a buffer of characters.
 
 use super::map::Grid;
-use super::narrate::{Narrator, region_name};
 use super::panes;
 use super::ramp::{GLYPHS, Paint, color, ramp};
-use super::rate::Rate;
 use crate::client::{Client, Event};
 use crate::source::Source;
+use crate::watch::narrate::Narrator;
+use crate::watch::rate::Rate;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -136,7 +136,7 @@ impl View {
             if below.is_empty() {
                 return;
             }
-            let touched: Vec<_> = client.contacts().iter().map(|p| region_name(client, p.region)).collect();
+            let touched: Vec<_> = client.contacts().iter().map(|p| client.region_name(p.region)).collect();
             let line = format!("{} {}", client.leading().as_str(), touched.join(", "));
             buffer.set_stringn(below.x, below.y, line, usize::from(below.width), Style::new());
         }

@@ -6,10 +6,10 @@
 //! the message in microseconds since 1970, and `host_time_uncertainty_us`, the bound of its error, once the
 //! board has answered a `Sync`. Nothing else in a line depends on the host's time.
 
-use super::Show;
 use crate::calibrate::{Calibration, Forces};
 use crate::client::{Client, Event, ImageNews, request_name};
 use crate::json;
+use crate::session::Show;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -212,7 +212,7 @@ fn gesture(client: &Client, report: &GestureReport) -> Value {
     let mut line = at("gesture", report.frame, report.time);
     let more = json!({
         "touch": report.touch,
-        "panel": super::narrate::panel_name(client, report.panel),
+        "panel": client.panel_name(report.panel),
         "class": report.name,
         "score": f64::from(report.score) / f64::from(1 << 18),
         "lead": f64::from(report.lead) / f64::from(1 << 18),
@@ -245,7 +245,7 @@ fn rename_time(line: &mut Value) {
 
 /// Replaces the numbers of region and shape by their names.
 fn named(client: &Client, mut value: Value, region: u8) -> Value {
-    value["region"] = json!(super::narrate::region_name(client, region));
+    value["region"] = json!(client.region_name(region));
     if let Some(class) = value.pointer_mut("/words/class") {
         let known = class.as_u64().and_then(|c| u8::try_from(c).ok()).unwrap_or(0);
         *class = json!(client.shape_name(Class(known)));

@@ -1,8 +1,9 @@
 //! Display in a terminal, and its keys.
 
 use super::ramp::Paint;
-use super::{Show, View, lines};
+use super::{View, lines};
 use crate::client::{Client, Event};
+use crate::session::Show;
 use anyhow::Result;
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, KeyCode, KeyEventKind, KeyModifiers};

@@ -1,8 +1,9 @@
 //! Writes the terminal's display as SVG, for documents.
 
-use super::{Show, View};
+use super::View;
 use crate::client::{Client, Event};
 use crate::output::Output;
+use crate::session::Show;
 use anyhow::Result;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;

@@ -1,13 +1,13 @@
 //! Reads a source until it ends, or until the requested amount has come.
 
 use super::asked::Asked;
-use super::{BoardArgs, LiveArgs, Show, outfit};
+use super::{BoardArgs, LiveArgs, outfit};
 use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews, request_name};
 use crate::fault::Fault;
 use crate::output::Output;
 use crate::passed::Passed;
-use crate::session::{Returns, Session, Turn};
+use crate::session::{Returns, Session, Show, Turn};
 use crate::shapes::base::Base;
 use crate::shapes::teach::teach;
 use crate::source::Source;

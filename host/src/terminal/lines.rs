@@ -1,9 +1,9 @@
 //! Plain text output: one line for each event, one summary per second of board time. No control codes.
 
-use super::Show;
-use super::narrate::{Narrator, seconds};
 use crate::client::{Client, Event};
+use crate::session::Show;
 use crate::source::Source;
+use crate::watch::narrate::{Narrator, seconds};
 use anyhow::Result;
 use std::io::Write;
 use taxel_core::format::Micros;

@@ -3,14 +3,15 @@
 use crate::client::{Client, Event, Worn, request_name};
 use crate::starts;
 use taxel_core::contact::{Hardness, Phase};
-use taxel_core::format::{Micros, Name};
+use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
 use taxel_core::symbol::{Extent, Strength, Symbol};
 use taxel_core::wire::GestureReport;
 
 /// Turns events into sentences.
 #[derive(Debug, Clone)]
-pub(crate) struct Narrator {
+pub struct Narrator {
+    /// Counts per newton, if known: forces are then told in newtons.
     pub counts_per_newton: Option<f32>,
     leading: Leading,
     /// Garbage was reported, and no other event has come since.
@@ -18,6 +19,7 @@ pub(crate) struct Narrator {
 }
 
 impl Narrator {
+    /// A narrator; with counts per newton, forces are told in newtons.
     pub fn new(counts_per_newton: Option<f32>) -> Narrator {
         Narrator { counts_per_newton, leading: Leading::None, garbage: false }
     }
@@ -39,7 +41,8 @@ impl Narrator {
     }
 }
 
-pub(crate) fn seconds(time: Micros) -> String {
+/// Formats a time of the board: `  12.345 s`.
+pub fn seconds(time: Micros) -> String {
     format!("{:8.3} s", time.0 as f64 / 1e6)
 }
 
@@ -97,7 +100,7 @@ fn hello(worn: &Worn) -> String {
 
 /// Describes the class of a touch.
 fn gesture(client: &Client, report: &GestureReport) -> String {
-    let (time, panel, name) = (seconds(report.time), panel_name(client, report.panel), &report.name);
+    let (time, panel, name) = (seconds(report.time), client.panel_name(report.panel), &report.name);
     let observed = f64::from(report.observed_ms) / 1e3;
     let verb = if report.ended { "was" } else { "looks like" };
     let sure = client.confidence(report).map(|share| format!("{:.0} % sure after ", 100.0 * share.to_f64()));
@@ -107,7 +110,7 @@ fn gesture(client: &Client, report: &GestureReport) -> String {
 
 /// Describes an onset or a release.
 fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> String {
-    let region = region_name(client, symbol.region);
+    let region = client.region_name(symbol.region);
     if symbol.phase != Phase::Released {
         return format!("contact {} on the {region} begins", symbol.contact);
     }
@@ -140,21 +143,11 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
 }
 
 /// Formats a total in newtons if the calibration is known, else in counts.
-pub(crate) fn force(total: u32, counts_per_newton: Option<f32>) -> String {
+pub fn force(total: u32, counts_per_newton: Option<f32>) -> String {
     match counts_per_newton {
         Some(counts) => format!("{:.1} N", total as f32 / counts),
         None => format!("{total} counts"),
     }
-}
-
-pub(crate) fn region_name(client: &Client, region: u8) -> &str {
-    let regions = client.layout().map_or(&[][..], |layout| layout.regions());
-    regions.get(usize::from(region)).map_or("?", Name::as_str)
-}
-
-pub(super) fn panel_name(client: &Client, panel: u8) -> &str {
-    let areas = client.layout().map_or(&[][..], |layout| layout.areas());
-    areas.get(usize::from(panel)).map_or("?", |area| &area.name)
 }
 
 #[cfg(test)]

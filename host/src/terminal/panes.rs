@@ -1,8 +1,8 @@
 //! Panes beside the maps: contacts and intention.
 
-use super::narrate::{force, region_name};
 use super::ramp::{Rgb, color};
 use crate::client::Client;
+use crate::watch::narrate::force;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
@@ -50,7 +50,7 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
     let contact = &placed.contact;
     let axis = contact.azimuth.map_or("   -".into(), |a| format!("{:3.0}°", a.to_radians().to_degrees()));
     let speed = client.layout().map_or(0, |layout| placed.speed(layout)) / 10;
-    let region = region_name(client, placed.region);
+    let region = client.region_name(placed.region);
     let shape = client.shape_name(placed.shape.class);
     let force = match counts_per_newton {
         Some(_) => force(contact.total, counts_per_newton),
@@ -120,8 +120,9 @@ fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
 mod tests {
     use super::*;
     use crate::client::Event;
-    use crate::live::{LiveArgs, Show, watch};
+    use crate::session::Show;
     use crate::source::{SourceOptions, open};
+    use crate::watch::{LiveArgs, watch};
 
     /// The bar, and the reported activation, of each announced intention.
     #[derive(Default)]

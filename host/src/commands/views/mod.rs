@@ -1,0 +1,3 @@
+//! Commands that show a stream.
+
+pub mod live;

@@ -1,0 +1,19 @@
+//! Watching a board: the options that set it, the loop that hands its stream to a
+//! [`Show`](crate::session::Show), and events as sentences.
+
+mod args;
+mod asked;
+mod feed;
+mod follow;
+mod forms;
+pub mod narrate;
+mod outfit;
+mod place;
+pub mod rate;
+
+pub use args::{BoardArgs, LiveArgs, seconds};
+pub use feed::feed;
+pub use follow::watch;
+pub use forms::forms;
+pub use outfit::GestureModel;
+pub use place::TaxelPlace;
