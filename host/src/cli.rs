@@ -5,33 +5,33 @@ mod examples;
 #[cfg(not(feature = "foxglove"))]
 mod not_built;
 
-use crate::bench::{self, BenchArgs};
-use crate::calibrate::{self, CalibrateArgs};
-use crate::commands::views::live;
-use crate::config::{self, ConfigArgs};
-use crate::doctor::{self, DoctorArgs};
-use crate::export::{self, ExportArgs};
-use crate::fcm::{self, FcmArgs};
-use crate::features::{self, FeaturesArgs};
-use crate::flash::{self, FlashArgs};
+use crate::commands::bench::{self, BenchArgs};
+use crate::commands::board::doctor::{self, DoctorArgs};
+use crate::commands::board::flash::{self, FlashArgs};
+use crate::commands::board::health::{self, HealthArgs};
+use crate::commands::board::ports::{self, PortsArgs};
+use crate::commands::board::reset_settings::{self, ResetSettingsArgs};
+use crate::commands::board::save::{self, SaveArgs};
+use crate::commands::frames::features::{self, FeaturesArgs};
+use crate::commands::frames::process::{self, ProcessArgs};
+use crate::commands::garment::calibrate::{self, CalibrateArgs};
+use crate::commands::garment::config::{self, ConfigArgs};
+use crate::commands::garment::scenes::{self, ScenesArgs};
+use crate::commands::garment::settle::{self, SettleArgs};
+use crate::commands::garment::setup::{self, SetupArgs};
+use crate::commands::maps::{self, FcmArgs};
+use crate::commands::recordings::export::{self, ExportArgs};
+use crate::commands::recordings::info::{self, InfoArgs};
+use crate::commands::recordings::record::{self, RecordArgs};
+use crate::commands::recordings::replay::{self, ReplayArgs};
+use crate::commands::recordings::report::{self, ReportArgs};
+use crate::commands::shapes::{self, ShapesArgs};
+use crate::commands::touches::gestures::{self, GesturesArgs};
+use crate::commands::touches::intent::{self, IntentArgs};
 #[cfg(feature = "foxglove")]
-use crate::foxglove::{self, FoxgloveArgs};
-use crate::gestures::{self, GesturesArgs};
-use crate::health::{self, HealthArgs};
-use crate::info::{self, InfoArgs};
-use crate::intent::{self, IntentArgs};
-use crate::ports::{self, PortsArgs};
-use crate::process::{self, ProcessArgs};
-use crate::record::{self, RecordArgs};
-use crate::replay::{self, ReplayArgs};
-use crate::report::{self, ReportArgs};
-use crate::reset_settings::{self, ResetSettingsArgs};
-use crate::save::{self, SaveArgs};
-use crate::scenes::{self, ScenesArgs};
-use crate::settle::{self, SettleArgs};
-use crate::setup::{self, SetupArgs};
-use crate::shapes::{self, ShapesArgs};
-use crate::view::{self, ViewArgs};
+use crate::commands::views::foxglove::{self, FoxgloveArgs};
+use crate::commands::views::live;
+use crate::commands::views::view::{self, ViewArgs};
 use crate::watch::LiveArgs;
 use crate::{verbose, words};
 use anyhow::Result;
@@ -162,7 +162,7 @@ impl Cli {
             Command::Report(args) => report::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
-            Command::Fcm(args) => fcm::run(args),
+            Command::Fcm(args) => maps::run(args),
             Command::Gestures(args) => gestures::run(args),
             Command::Intent(args) => intent::run(args),
             Command::Bench(args) => bench::run(args),

@@ -12,27 +12,22 @@
 //!
 //! | modules | hold |
 //! |---|---|
-//! | [`sim`] | the simulated board: scripts of touches on a simulated garment |
-//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, emulator, file, recording |
+//! | [`words`], [`fault`], [`verbose`], [`progress`] | errors in plain words, exit status, steps and progress of long work |
+//! | [`output`], [`arrays`] | safe output files; recorded frames |
+//! | [`garments`], [`sim`], [`scripts`] | garment files; the simulated garment, and its scripts of touches |
 //! | [`client`], [`clock`] | the host's end of the wire: bytes in, events out, with host times |
+//! | [`recording`] | MCAP files: read, written and repaired |
+//! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
+//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, emulator, file, recording |
 //! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
-//! | [`garments`], [`config`], [`scenes`] | garment and scene files, and scripts of touches |
+//! | [`calibrate`], [`json`], [`record`] | forces; a stream's JSON; its recorder and its topics |
+//! | [`shapes`], [`touches`], [`learn`], [`doubts`] | training of what a board recognises |
 //! | [`watch`], [`terminal`], [`view`], [`report`] | a followed board; display: in the terminal, in the browser, as a page |
 //! | [`serve`], `foxglove` | the server behind the page and the one for Foxglove (feature `foxglove`) |
-//! | [`recording`] | recordings: MCAP files, read, written and repaired |
-//! | [`record`], [`replay`], [`info`], [`repair`], [`export`] | commands about recordings; their topics |
-//! | [`setup`], [`settle`], [`calibrate`], [`raw`] | from raw codes: wiring, settling time, forces |
-//! | [`health`], [`doctor`] | faulty taxels, lines and boards |
-//! | [`flash`], [`ports`], [`save`], [`reset_settings`] | commands about a board itself |
-//! | [`arrays`], [`process`], [`features`], [`doubts`] | recorded frames, run through the board's pipeline |
-//! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
-//! | [`shapes`], [`touches`], [`gestures`], [`intent`], [`learn`] | training of what a board recognises |
 //! | [`mod@bench`] | tables and charts of cost and error |
-//! | [`output`], [`words`], [`fault`], [`progress`] | safe output files; errors in plain words; exit status |
-//! | [`cli`] | the command line |
+//! | [`commands`], [`cli`] | the commands and the command line |
 //!
-//! Each command is a module with its arguments and a function `run`. Errors are `anyhow` errors of one
-//! sentence; [`fault`] decides the exit status.
+//! Errors are `anyhow` errors of one sentence; [`fault`] decides the exit status.
 #![forbid(unsafe_code)]
 
 // First: the modules below use its macros.
@@ -46,50 +41,30 @@ pub mod cli;
 pub mod client;
 pub mod clock;
 pub mod commands;
-pub mod config;
 pub mod date;
-pub mod doctor;
 pub mod doubts;
-pub mod export;
 pub mod fault;
 pub mod fcm;
-pub mod features;
-pub mod flash;
 #[cfg(feature = "foxglove")]
 pub mod foxglove;
 pub mod garments;
-pub mod gestures;
 pub mod growths;
-pub mod health;
-pub mod info;
-pub mod intent;
 pub mod json;
 pub mod learn;
 pub mod output;
 mod passed;
-pub mod ports;
-pub mod process;
 pub mod progress;
-pub mod raw;
 pub mod record;
 pub mod recording;
-pub mod repair;
-pub mod replay;
 pub mod report;
-pub mod reset_settings;
-pub mod save;
-pub mod scenes;
 pub mod scripts;
 pub mod serve;
 pub mod session;
-pub mod settle;
-pub mod setup;
 pub mod shapes;
 mod shared;
 pub mod sim;
 pub mod source;
 mod starts;
-pub mod stop;
 pub mod terminal;
 pub mod toml_key;
 pub mod touches;

@@ -4,7 +4,7 @@ use super::curve::{Curve, PARTS};
 use super::plates::Plate;
 use super::reading::Reading;
 use super::residuals::{OfWeight, Residuals, felt, of_weights};
-use super::steady::mean;
+use crate::commands::garment::calibrate::steady::mean;
 use anyhow::{Context, Result, ensure};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;

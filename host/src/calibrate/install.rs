@@ -1,8 +1,6 @@
 //! Sends a calibration to a board.
 
 use super::file::Calibration;
-use crate::raw::RawBoard;
-use anyhow::Result;
 use taxel_core::wire::Request;
 
 /// Gains per request.
@@ -18,9 +16,4 @@ impl Calibration {
         let certificate = Request::SetCalibration(self.certificate());
         self.gains.chunks(CHUNK).enumerate().map(gains).chain([certificate])
     }
-}
-
-/// Sets gains and certificate. Error if the board refuses.
-pub fn install(board: &mut RawBoard, calibration: &Calibration) -> Result<()> {
-    calibration.requests().try_for_each(|request| board.ask(&request))
 }

@@ -6,31 +6,21 @@
 //! its calibration. The weight of a plate is spread evenly over the taxels that it covers. Loading and
 //! unloading are measured alike, and their mean is used.
 
-mod check;
-mod command;
-mod curve;
-mod dialogue;
+pub mod curve;
 mod drift;
 mod file;
 mod fit;
 mod force;
 mod install;
-mod operator;
 mod plates;
 mod reading;
 mod residuals;
-mod steady;
-mod task;
 
-pub use command::{CalibrateArgs, run};
 pub use curve::{Curve, Knot};
 pub use drift::{Reason, Seen, judge};
 pub use file::{Calibration, PanelCurve};
 pub use fit::{Fitted, fit};
 pub use force::Forces;
-pub use install::install;
-pub use operator::script;
 pub use plates::{Over, Plate, plates};
 pub use reading::{Reading, Rest};
 pub use residuals::{OfWeight, Residuals};
-pub use task::{Task, calibrate};

@@ -4,7 +4,7 @@ use anyhow::{Result, anyhow};
 use taxel_core::garment::{Garment, Layout, Place, Rect};
 
 /// Area covered by a plate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Over {
     /// all taxels of a panel
     Panel,

@@ -1,6 +1,6 @@
 //! Readings of taxels at rest and under a known force.
 
-use super::steady::mean;
+use crate::commands::garment::calibrate::steady::mean;
 
 /// The garment at rest.
 #[derive(Debug, Default, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use super::curve::{Curve, PARTS};
 use super::plates::Plate;
 use super::reading::Reading;
-use super::steady::mean;
+use crate::commands::garment::calibrate::steady::mean;
 use serde::{Deserialize, Serialize};
 use taxel_core::condition::UNITY;
 

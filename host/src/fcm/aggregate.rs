@@ -3,7 +3,7 @@
 use super::terms::Triangle;
 
 /// How memberships of several sets are aggregated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aggregation {
     /// Add memberships: repeated statements count.
     Sum,

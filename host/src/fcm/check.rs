@@ -1,26 +1,14 @@
-//! `taxel fcm check`: finds faults of a map, and what its author may not have intended.
+//! Finds faults of a map, and what its author may not have intended.
 
 use super::board::{BoardMap, STEPS};
 use super::decimal::Decimal;
-use super::load;
 use super::map::MapFile;
 use super::sweep::{Sweep, sweep};
-use super::wrong;
 use crate::client::scene_bytes;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use taxel_core::intent::{IntentConfig, Leading, MapConfig};
 use taxel_core::scene::Scene;
-
-/// Arguments of `taxel fcm check`.
-#[derive(Debug, Clone, clap::Args)]
-pub struct CheckArgs {
-    /// TOML file, or the name of a shipped map
-    pub map: String,
-    /// Print JSON instead of sentences
-    #[arg(long)]
-    pub json: bool,
-}
 
 /// Results of a check.
 #[derive(Debug, Clone)]
@@ -31,22 +19,6 @@ pub struct Findings {
     pub warnings: Vec<String>,
     /// Behaviour of the map.
     pub sweep: Sweep,
-}
-
-/// Runs the command.
-pub fn run(args: CheckArgs) -> Result<()> {
-    let text = load::text(&args.map)?;
-    let map = load::parse(&text, &args.map)?;
-    let found = check(&map).map_err(|error| wrong::located(error, &text, &args.map))?;
-    if args.json {
-        println!("{}", report(&map, &found));
-    } else {
-        print!("{}", in_words(&map, &found));
-    }
-    match found.faults.first() {
-        Some(fault) => bail!("{}: {fault}", args.map),
-        None => Ok(()),
-    }
 }
 
 /// Checks a map. Error if not even the host's engine accepts it.

@@ -1,37 +1,10 @@
-//! `taxel fcm draw`: draws the graph of a map as SVG. Width is strength; blue solid edges increase, vermilion
+//! Draws the graph of a map as SVG. Width is strength; blue solid edges increase, vermilion
 //! dashed ones decrease, so that either colour or dash suffices; the fill of a concept is its activation,
 //! which is also written.
 
-use super::board::BoardMap;
-use super::decimal::Decimal;
 use super::layers;
-use super::load;
 use super::map::{EdgeFile, MapFile};
-use super::told::ToldArgs;
-use crate::output::{Force, Output};
-use anyhow::Result;
 use std::fmt::Write as _;
-use std::path::PathBuf;
-
-/// Arguments of `taxel fcm draw`.
-#[derive(Debug, Clone, clap::Args)]
-pub struct DrawArgs {
-    /// TOML file, or the name of a shipped map
-    #[arg(required_unless_present = "source")]
-    pub map: Option<String>,
-    /// File to write (.svg)
-    #[arg(short, long)]
-    pub output: PathBuf,
-    /// Whether an existing output is replaced.
-    #[command(flatten)]
-    pub force: Force,
-    /// Activation of a concept at the start, as NAME=VALUE; with it, activations are drawn
-    #[arg(long, value_parser = load::assignment)]
-    pub input: Vec<(String, Decimal)>,
-    /// Alternatively a source, whose activations are drawn.
-    #[command(flatten)]
-    pub told: ToldArgs,
-}
 
 /// Distance between layers and between concepts of a layer, and size of a concept, pixels.
 const LAYER: f64 = 190.0;
@@ -42,31 +15,6 @@ const MARGIN: f64 = 30.0;
 /// Colours of Okabe and Ito, distinguishable with any colour vision.
 const MORE: &str = "#0072b2";
 const LESS: &str = "#d55e00";
-
-/// Runs the command.
-pub fn run(args: DrawArgs) -> Result<()> {
-    let inputs = args.map.iter().map(PathBuf::from).chain(args.told.files());
-    let output = Output::stream(&args.output, args.force, inputs)?;
-    let (map, activations) = match args.told.listen()? {
-        Some(told) => {
-            let activations = told.report.concepts.iter().map(|value| value.to_f64()).collect();
-            (told.map, Some(activations))
-        }
-        None => {
-            let map = load::map(args.map.as_deref().unwrap_or_default())?;
-            let activations = (!args.input.is_empty()).then(|| settled(&map, &args.input)).transpose()?;
-            (map, activations)
-        }
-    };
-    output.write(svg(&map, activations.as_deref()).as_bytes())
-}
-
-fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {
-    let board = BoardMap::build(map)?;
-    let start = inputs.iter().map(|(name, value)| Ok((map.index(name, "--input")?, *value)));
-    let run = board.infer(&board.state(start.collect::<Result<Vec<_>>>()?));
-    Ok(run.state.iter().take(map.concept.len()).map(|x| board.value(*x)).collect())
-}
 
 /// Draws the graph; `activations` are by concept number.
 pub fn svg(map: &MapFile, activations: Option<&[f64]>) -> String {

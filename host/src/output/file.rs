@@ -24,7 +24,7 @@ impl Output {
     /// A file, not the standard output. `inputs` are the files that the command reads.
     pub fn file<P: AsRef<Path>>(
         name: &Path,
-        force: Force,
+        force: impl Into<Force>,
         inputs: impl IntoIterator<Item = P>,
     ) -> Result<Output> {
         let output = Output::stream(name, force, inputs)?;
@@ -38,14 +38,14 @@ impl Output {
     /// A file, or the standard output for the name `-`. `inputs` are the files that the command reads.
     pub fn stream<P: AsRef<Path>>(
         name: &Path,
-        force: Force,
+        force: impl Into<Force>,
         inputs: impl IntoIterator<Item = P>,
     ) -> Result<Output> {
         let inputs = inputs.into_iter().map(|input| input.as_ref().to_path_buf()).collect();
-        let output = Output { name: name.into(), place: Place::of(name)?, inputs, force };
+        let output = Output { name: name.into(), place: Place::of(name)?, inputs, force: force.into() };
         output.is_no_input()?;
         match &output.place {
-            Place::File(_, true) if !force.force => Err(exists(name)),
+            Place::File(_, true) if !output.force.force => Err(exists(name)),
             _ => Ok(output),
         }
     }

@@ -30,7 +30,7 @@ impl Folder {
     /// command reads.
     pub fn begin<P: AsRef<Path>>(
         name: &Path,
-        force: Force,
+        force: impl Into<Force>,
         inputs: impl IntoIterator<Item = P>,
         ours: fn(&Path) -> bool,
     ) -> Result<Folder> {
@@ -47,7 +47,7 @@ impl Folder {
                 bail!("{shown} is the folder of {}, which this command reads: name another", input.display());
             }
         }
-        let mut folder = Folder { name: name.into(), path, part: PathBuf::new(), force, ours };
+        let mut folder = Folder { name: name.into(), path, part: PathBuf::new(), force: force.into(), ours };
         folder.may_be_replaced()?;
         folder.part = temporary(&folder.path).with_context(place)?;
         Ok(folder)

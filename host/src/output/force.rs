@@ -1,11 +1,8 @@
-//! The option `--force`.
-
-use clap::Args;
+//! Whether an output may replace another.
 
 /// Whether an existing output is replaced.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Force {
-    /// Replace the output if it exists
-    #[arg(long)]
+    /// Replace the output if it exists.
     pub force: bool,
 }

@@ -17,7 +17,7 @@
 //! | `scratch.rs` | [`Scratch`]: a temporary file for data that is needed later |
 //! | `part.rs` | names of temporary files, and flushing of names to the disk |
 //!
-//! A command flattens [`Force`] into its arguments and asks for the output first:
+//! A command asks for the output first:
 //!
 //! ```
 //! use std::io::Write;
@@ -28,7 +28,7 @@
 //! # std::fs::create_dir_all(&folder)?;
 //! # let (recording, table) = (folder.join("touch.mcap"), folder.join("touch.csv"));
 //! # std::fs::write(&recording, "recorded")?;
-//! let force = Force::default(); // In a command: #[command(flatten)] force: Force
+//! let force = Force::default();
 //! // What cannot be written is refused here, before the work. `stream`: `-` is the standard output.
 //! let output = Output::stream(&table, force, [&recording])?;
 //! output.write(b"time,pressure\n")?;

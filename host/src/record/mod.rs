@@ -1,4 +1,4 @@
-//! `taxel record`: records a board's stream to a file for Foxglove, Rerun, Python and ROS 2.
+//! Records a board's stream to a file for Foxglove, Rerun, Python and ROS 2.
 //!
 //! Log time is the host's time of a message's subject, publish time the board's; JSON messages hold both
 //! (`host_time_us`, `time_us`).
@@ -14,7 +14,6 @@
 //! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata
 //! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
 
-mod command;
 mod file;
 mod limit;
 mod message;
@@ -31,7 +30,6 @@ mod tally;
 mod topics;
 mod wire_reader;
 
-pub use command::{RecordArgs, run};
 pub use file::RecordingFile;
 pub use limit::Rotate;
 pub use message::json_message;

@@ -1,4 +1,4 @@
-//! `taxel report`: a recording or a board on one self-contained HTML page without scripts.
+//! A recording or a board on one self-contained HTML page without scripts.
 //!
 //! | section | what | file |
 //! |---|---|---|
@@ -8,7 +8,6 @@
 //! | over time | force by panel, activation of each concept | `strips.rs` |
 //! | contacts, events, health | | `tables.rs` |
 
-mod command;
 mod contour;
 mod page;
 mod plane;
@@ -21,6 +20,5 @@ mod surface;
 mod svg;
 mod tables;
 
-pub use command::{ReportArgs, run};
 pub use page::page;
 pub use seen::Seen;

@@ -21,7 +21,8 @@ const SENTENCES: usize = 500;
 /// Collected data.
 #[derive(Debug)]
 pub struct Seen {
-    pub(super) label: String,
+    /// Name of the recording or the board.
+    pub label: String,
     pub(super) counts_per_newton: Option<f32>,
     pub(super) worn: Option<Worn>,
     pub(super) counts: Counts,
@@ -46,7 +47,7 @@ pub struct Seen {
     pub(super) health: Option<Health>,
     pub(super) ill: BTreeMap<u16, TaxelHealth>,
     /// Damage of a recording.
-    pub(super) skipped: Skipped,
+    pub skipped: Skipped,
     narrator: Narrator,
 }
 

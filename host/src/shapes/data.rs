@@ -1,7 +1,7 @@
 //! Labelled images prepared for the recogniser: descriptors, classes and groups.
 
 use super::classes::Classes;
-use super::view::{View, ViewArgs};
+use super::view::{Choice, View};
 use crate::arrays::{self, Frames};
 use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
@@ -11,23 +11,18 @@ use std::path::PathBuf;
 use taxel_core::shape::Descriptor;
 
 /// Source of labelled images.
-#[derive(Debug, Clone, clap::Args)]
-pub struct ImagesArgs {
-    /// Images: .npz or .npy, one touch each
-    #[arg(long, value_name = "FILE")]
+#[derive(Debug, Clone)]
+pub struct Images {
+    /// Images: .npz or .npy, one touch each.
     pub images: PathBuf,
-    /// Their classes: CSV with a column `index` and one of names
-    #[arg(long, value_name = "CSV")]
+    /// Their classes: CSV with a column `index` and one of names.
     pub labels: Option<PathBuf>,
-    /// Sets to use of a file that holds NAME_img and NAME_label; * stands for any text
-    #[arg(long, value_name = "NAME")]
+    /// Sets to use of a file that holds `NAME_img` and `NAME_label`; `*` stands for any text.
     pub set: Vec<String>,
-    /// Classes to keep, as NAME or NAME=GROUP with commas; or one of `three`, `groups`
-    #[arg(long, value_name = "LIST", default_value = "all")]
+    /// Classes to keep.
     pub classes: Classes,
     /// Which part of an image is the touch.
-    #[command(flatten)]
-    pub view: ViewArgs,
+    pub view: Choice,
 }
 
 /// One image.
@@ -87,7 +82,7 @@ struct Labelled {
     names: Vec<String>,
 }
 
-impl ImagesArgs {
+impl Images {
     /// Reads and describes the images; with the view `seen` of a base, unless the arguments set another.
     pub fn read(&self, seen: Option<View>) -> Result<Examples> {
         let sets = self.sets()?;

@@ -1,42 +1,13 @@
-//! `taxel shapes prune`: removes prototypes that do not affect decisions.
+//! Removes prototypes that do not affect decisions.
 
-use super::base::Base;
 use super::train::Known;
-use crate::output::{Force, Output};
-use anyhow::Result;
-use std::path::PathBuf;
 use taxel_core::shape::{Exemplar, Point};
-
-/// Arguments of `taxel shapes prune`.
-#[derive(Debug, Clone, clap::Args)]
-pub struct PruneArgs {
-    /// Base: a file, or the name of a shipped base
-    pub base: PathBuf,
-    /// File to write
-    #[arg(short, long, value_name = "BASE")]
-    pub output: PathBuf,
-    /// Whether an existing output is replaced.
-    #[command(flatten)]
-    pub force: Force,
-}
-
-/// Runs the command.
-pub fn run(args: PruneArgs) -> Result<()> {
-    let output = Output::stream(&args.output, args.force, [&args.base])?;
-    let mut base = Base::open(&args.base)?;
-    let before = base.gallery.prototypes.len();
-    prune(&mut base.gallery);
-    base.card.split += ", before pruning";
-    base.save(output)?;
-    eprintln!("{}: {} of {before} prototypes", args.output.display(), base.gallery.prototypes.len());
-    Ok(())
-}
 
 /// Hart's condensed nearest neighbour rule: starting with the first prototype of each class, keeps only those
 /// that the kept ones would misclassify. From then on one neighbour votes, because the remaining prototypes
 /// lie where classes meet.
 /// classes meet.
-fn prune(gallery: &mut Known) {
+pub fn prune(gallery: &mut Known) {
     let all: Vec<Exemplar> = gallery.prototypes.to_vec();
     let mut kept = vec![false; all.len()];
     for class in 0..gallery.names.len() {
@@ -67,7 +38,7 @@ fn distance(a: &Point, b: &Point) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shapes::base::shipped_names;
+    use crate::shapes::base::{Base, shipped_names};
 
     #[test]
     fn what_is_kept_decides_the_same_of_all_prototypes() {

@@ -3,20 +3,17 @@
 use serde::{Deserialize, Serialize};
 use taxel_core::shape::{Descriptor, Patch, descriptor};
 
-/// Options of the command line.
-#[derive(Debug, Default, Clone, clap::Args)]
-pub struct ViewArgs {
-    /// Smallest value of a touched taxel, counts [default: that of the base, or 1/32 of the full scale]
-    #[arg(long, value_name = "COUNTS")]
+/// What is known of a view before the images are.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// Smallest value of a touched taxel, counts; none: that of the base, or 1/32 of the full scale.
     pub threshold: Option<u16>,
-    /// Which touched taxels: all, or the connected ones with the greatest total [default: that of the base,
-    /// or all]
-    #[arg(long, value_name = "WHICH")]
+    /// Which touched taxels; none: as in the base, or all.
     pub touch: Option<Which>,
 }
 
 /// Which taxels above the threshold belong to the touch.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
     /// All of them.
@@ -36,8 +33,8 @@ pub struct View {
     pub touch: Which,
 }
 
-impl ViewArgs {
-    /// The options' values, else those of `seen`, else defaults for images whose greatest value is `top`.
+impl Choice {
+    /// The chosen values, else those of `seen`, else defaults for images whose greatest value is `top`.
     pub fn build(&self, seen: Option<View>, top: u16) -> View {
         let threshold = (u32::from(top) + 1).next_power_of_two().div_ceil(32) as u16;
         let seen = seen.unwrap_or(View { threshold, touch: Which::All });

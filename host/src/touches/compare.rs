@@ -176,7 +176,7 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
 }
 
 /// A touch with its training data.
-pub(super) fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
+pub fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
     Example { course, class: touch.class, group: &touch.group }
 }
 

@@ -82,3 +82,14 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
     Model::read(&bytes).with_context(|| path.display().to_string())?;
     Ok(bytes)
 }
+
+/// Settings that differ from `one` in the values chosen by trial.
+pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
+    let mut all = Vec::new();
+    for penalty in penalties {
+        for balance in balances {
+            all.push(Settings { penalty: *penalty, balance: *balance, ..one });
+        }
+    }
+    all
+}

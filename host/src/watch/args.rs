@@ -1,9 +1,8 @@
 //! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
-use super::{GestureModel, TaxelPlace, feed, forms};
+use super::{GestureModel, Overwrite, TaxelPlace, feed, forms};
 use crate::calibrate::Calibration;
 use crate::fault::Fault;
-use crate::output::Force;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use anyhow::{Result, bail};
 use clap::Args;
@@ -147,7 +146,7 @@ pub struct LiveArgs {
     pub save: Option<PathBuf>,
     /// Whether an existing output is replaced.
     #[command(flatten)]
-    pub force: Force,
+    pub force: Overwrite,
     /// Print one taxel's time, code and pressure, frame by frame
     #[arg(long, value_name = "PANEL,ROW,COL")]
     pub taxel: Option<TaxelPlace>,
@@ -174,7 +173,7 @@ impl LiveArgs {
             json: false,
             pixels: false,
             save: None,
-            force: Force::default(),
+            force: Overwrite::default(),
             taxel: None,
             realtime: false,
             svg: None,

@@ -1,7 +1,7 @@
 //! Reads a source until it ends, or until the requested amount has come.
 
 use super::asked::Asked;
-use super::{BoardArgs, LiveArgs, outfit};
+use super::{BoardArgs, LiveArgs, outfit, stop};
 use crate::calibrate::Calibration;
 use crate::client::{Client, Event, ImageNews, request_name};
 use crate::fault::Fault;
@@ -59,7 +59,7 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show) -> Result<()>
         while let Some(note) = session.note() {
             show.gap(session.client(), &note)?;
         }
-        if !show.idle(session.parts().0)? {
+        if !show.idle(session.parts().0)? || stop::asked() {
             break;
         }
         patience.look(&session)?;

@@ -8,12 +8,16 @@ mod follow;
 mod forms;
 pub mod narrate;
 mod outfit;
+mod overwrite;
 mod place;
 pub mod rate;
+pub mod raw;
+pub mod stop;
 
 pub use args::{BoardArgs, LiveArgs, seconds};
 pub use feed::feed;
 pub use follow::watch;
 pub use forms::forms;
 pub use outfit::GestureModel;
+pub use overwrite::Overwrite;
 pub use place::TaxelPlace;

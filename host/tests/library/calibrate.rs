@@ -4,12 +4,13 @@
 use anyhow::Result;
 use fastrand::Rng;
 use std::collections::BTreeSet;
-use taxel::calibrate::{Calibration, Forces, Over, Reason, Seen, Task, calibrate, judge, plates, script};
+use taxel::calibrate::{Calibration, Forces, Over, Reason, Seen, judge, plates};
 use taxel::client::{Client, Event, ImageNews};
-use taxel::raw::RawBoard;
+use taxel::commands::garment::calibrate::{Task, calibrate, script};
 use taxel::scripts;
 use taxel::sim::{Script, Sensor};
 use taxel::source::{self, SourceOptions};
+use taxel::watch::raw::RawBoard;
 use taxel_core::body::Placed;
 use taxel_core::condition::Filter;
 use taxel_core::garment::{Garment, Layout};

@@ -2,7 +2,7 @@
 //! this one is reported as a ghost.
 
 use std::sync::atomic::{AtomicU32, Ordering};
-use taxel::health::{HealthArgs, Told, candidates, look};
+use taxel::commands::board::health::{HealthArgs, Told, candidates, look};
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::body::Placed;

@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use taxel::bench::acquisition::LINE_PF;
+use taxel::commands::garment::settle::{Scanner, settle};
 use taxel::scripts;
-use taxel::settle::{Scanner, settle};
 use taxel::sim::{PINS, SimBoard, Timing};
 use taxel_core::acquire::{Acquire, MuxScan, Plan};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};

@@ -3,7 +3,7 @@
 //! `TAXEL_CAMPAIGN=1` takes 1,000 wirings of the reference garment instead of 50.
 
 use fastrand::Rng;
-use taxel::setup::{Bundle, Found, Next, Solver, User};
+use taxel::commands::garment::setup::{Bundle, Found, Next, Solver, User};
 use taxel::sim::{Decoder, rewire};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
@@ -96,7 +96,9 @@ fn a_stroke_the_wrong_way_round_is_no_garment() {
             match solver.what_next() {
                 Next::Ask(ask) => {
                     let mut touch = user.touch(&ask).unwrap();
-                    if ask.panel == 2 && matches!(ask.gesture, taxel::setup::Gesture::Down { .. }) {
+                    if ask.panel == 2
+                        && matches!(ask.gesture, taxel::commands::garment::setup::Gesture::Down { .. })
+                    {
                         let last = touch.moments.last().unwrap().time;
                         touch.moments.reverse();
                         touch.moments.iter_mut().for_each(|moment| moment.time = last - moment.time);

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 /// Modules that write to a disk without it, and why.
 const ALLOWED: [(&str, &str); 4] = [
     ("output/", "the writer"),
-    ("flash.rs", "a board's drive, which restarts the board at the last block"),
+    ("commands/board/flash.rs", "a board's drive, which restarts the board at the last block"),
     ("source/emulator.rs", "a temporary folder of its own"),
     ("bench/record.rs", "a temporary folder of its own"),
 ];

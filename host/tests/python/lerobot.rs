@@ -4,7 +4,7 @@ use super::read;
 use super::stage::{Seen, file, plan, record};
 use serde_json::json;
 use std::num::NonZeroU16;
-use taxel::export::{ExportArgs, Form, run};
+use taxel::commands::recordings::export::{ExportArgs, Form, run};
 use taxel::output::Force;
 
 const FPS: u16 = 50;

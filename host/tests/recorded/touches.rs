@@ -5,7 +5,8 @@ use crate::data::find as data;
 use crate::start::{root, taxel};
 use serde_json::Value;
 use std::process::Command;
-use taxel::{gestures, intent, touches};
+use taxel::commands::touches::{gestures, intent};
+use taxel::touches;
 
 fn share(report: &Value, pointer: &str) -> f64 {
     report.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer} in {report}"))

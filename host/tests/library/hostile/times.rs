@@ -5,7 +5,7 @@ use crate::sink::Sink;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel::client::Client;
-use taxel::export::{self, ExportArgs, Form};
+use taxel::commands::recordings::export::{self, ExportArgs, Form};
 use taxel::json::Messages;
 use taxel::record::{Origin, Plan, Recorder};
 use taxel::report::{self, Seen};

@@ -1,7 +1,7 @@
 //! `taxel fcm new`: the four steps.
 
+use taxel::commands::maps::new::Dialog;
 use taxel::fcm::map::MapFile;
-use taxel::fcm::new::Dialog;
 
 const ANSWERS: &str = "press: how hard\nshape\nkindness: well meant\n\npress > kindness\nshape > kindness\n\n\
                        strong -\n0.9\ntanh\n-0.1\n\npress rise 0 30000\nhost 2 triangle 0 100 200\n";

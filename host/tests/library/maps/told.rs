@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 use taxel::client::{Client, Event};
-use taxel::fcm::told::{Told, listen};
+use taxel::commands::maps::told::listen;
+use taxel::fcm::told::Told;
 use taxel::fcm::why::{explain, explain_told, report};
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::watch;
-use taxel::watch::{BoardArgs, LiveArgs};
+use taxel::watch::{self, BoardArgs, LiveArgs};
 use taxel_core::intent::Leading;
 
 fn spec(words: &str) -> SourceSpec {

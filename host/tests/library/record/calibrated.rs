@@ -4,12 +4,11 @@ use super::stage::{file, plan};
 use crate::mat::{box_for, knee};
 use std::path::Path;
 use taxel::calibrate::Calibration;
-use taxel::export::{ExportArgs, Form, run};
-use taxel::output::Force;
+use taxel::commands::recordings::export::{ExportArgs, Form, run};
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::recording::Overview;
 use taxel::source::{self, SourceOptions};
-use taxel::watch::{BoardArgs, LiveArgs, watch};
+use taxel::watch::{BoardArgs, LiveArgs, Overwrite, watch};
 
 /// Records the scene with the calibration and raw codes.
 fn recorded(name: &str, calibration: &Calibration) {
@@ -27,7 +26,7 @@ fn recorded(name: &str, calibration: &Calibration) {
 
 fn table(path: &Path, output: &str, counts: bool) -> Vec<Vec<String>> {
     let output = file(output);
-    let force = Force { force: true };
+    let force = Overwrite { force: true };
     run(ExportArgs { counts, force, ..ExportArgs::of(vec![path.into()], Form::Csv, output.clone()) })
         .unwrap();
     let text = std::fs::read_to_string(output).unwrap();

@@ -4,8 +4,8 @@ use super::stage::{Seen, file, plan, record};
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 use taxel::arrays;
-use taxel::export::{ExportArgs, Form, run};
-use taxel::output::Force;
+use taxel::commands::recordings::export::{ExportArgs, Form, run};
+use taxel::watch::Overwrite;
 
 const PANELS: [&str; 4] = ["chest", "back", "left arm", "right arm"];
 
@@ -17,7 +17,7 @@ fn exported(seen_as: &str, to: Form, output: &str, every: u64) -> (Seen, PathBuf
     let plain = ExportArgs::of(vec![file(&name)], to, output.clone());
     let table = to == Form::Csv;
     let counts = to != Form::Npz;
-    run(ExportArgs { force: Force { force: true }, touched: table, counts, every, ..plain }).unwrap();
+    run(ExportArgs { force: Overwrite { force: true }, touched: table, counts, every, ..plain }).unwrap();
     (seen, output)
 }
 

@@ -3,14 +3,14 @@
 use super::stage::{file, plan, record};
 use serde_json::Value;
 use std::path::PathBuf;
-use taxel::export::{ExportArgs, Form, run};
-use taxel::output::Force;
+use taxel::commands::recordings::export::{ExportArgs, Form, run};
+use taxel::watch::Overwrite;
 
 fn exported(name: &str, recordings: Vec<PathBuf>) -> anyhow::Result<PathBuf> {
     let folder = file(name);
     let _ = std::fs::remove_dir_all(&folder);
     run(ExportArgs {
-        force: Force { force: true },
+        force: Overwrite { force: true },
         ..ExportArgs::of(recordings, Form::Lerobot, folder.clone())
     })?;
     Ok(folder)

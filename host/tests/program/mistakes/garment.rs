@@ -1,7 +1,7 @@
 //! Mistakes in a garment's file.
 
 use super::{Mistake, each, file, keys};
-use taxel::config::{Kind, check};
+use taxel::commands::garment::config::{Kind, check};
 use taxel_core::garment::Garment;
 
 /// A garment with every key.

@@ -1,7 +1,7 @@
 //! Mistakes in a scene's file.
 
 use super::{Mistake, each, file, keys};
-use taxel::config::{Kind, check};
+use taxel::commands::garment::config::{Kind, check};
 
 /// A scene with every key except for an inline map, which `taxel fcm check` checks.
 const BASE: &str = r#"name = "calm"

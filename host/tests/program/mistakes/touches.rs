@@ -1,7 +1,7 @@
 //! The keys of a script of touches.
 
 use super::keys;
-use taxel::config::Kind;
+use taxel::commands::garment::config::Kind;
 use taxel::scripts;
 
 /// A script with every key.
