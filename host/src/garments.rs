@@ -3,7 +3,6 @@
 mod key;
 
 use crate::fault::Fault;
-use crate::output::Output;
 use crate::{toml_key, verbose, words};
 use anyhow::{Context, Error, Result, anyhow, bail};
 use std::fmt::Display;
@@ -76,17 +75,6 @@ pub fn is_passive(garment: &Garment) -> bool {
 pub fn text(garment: &Garment, comment: &str) -> Result<String> {
     let comment: String = comment.lines().map(|line| format!("# {line}\n")).collect();
     Ok(comment + &toml::to_string(garment).context("the garment cannot be written as TOML")?)
-}
-
-/// Writes a garment's file. Prints the garment if there is no file, or if it cannot be written, so that a
-/// garment found by touch is not lost.
-pub fn write(garment: &Garment, comment: &str, output: Option<Output>) -> Result<()> {
-    let text = text(garment, comment)?;
-    let Some(output) = output else {
-        print!("\n{text}");
-        return Ok(());
-    };
-    output.write(text.as_bytes()).inspect_err(|_| print!("\n{text}"))
 }
 
 #[cfg(test)]

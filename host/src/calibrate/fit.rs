@@ -2,9 +2,8 @@
 
 use super::curve::{Curve, PARTS};
 use super::plates::Plate;
-use super::reading::Reading;
+use super::reading::{Reading, mean};
 use super::residuals::{OfWeight, Residuals, felt, of_weights};
-use crate::commands::garment::calibrate::steady::mean;
 use anyhow::{Context, Result, ensure};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;

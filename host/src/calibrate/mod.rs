@@ -6,7 +6,7 @@
 //! its calibration. The weight of a plate is spread evenly over the taxels that it covers. Loading and
 //! unloading are measured alike, and their mean is used.
 
-pub mod curve;
+mod curve;
 mod drift;
 mod file;
 mod fit;
@@ -16,11 +16,11 @@ mod plates;
 mod reading;
 mod residuals;
 
-pub use curve::{Curve, Knot};
+pub use curve::{Curve, Knot, PARTS};
 pub use drift::{Reason, Seen, judge};
 pub use file::{Calibration, PanelCurve};
 pub use fit::{Fitted, fit};
 pub use force::Forces;
 pub use plates::{Over, Plate, plates};
-pub use reading::{Reading, Rest};
+pub use reading::{Reading, Rest, mean};
 pub use residuals::{OfWeight, Residuals};

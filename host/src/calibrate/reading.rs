@@ -1,7 +1,5 @@
 //! Readings of taxels at rest and under a known force.
 
-use crate::commands::garment::calibrate::steady::mean;
-
 /// The garment at rest.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Rest {
@@ -42,6 +40,12 @@ impl Reading {
     pub fn each(&self) -> f64 {
         self.newtons / self.counts.len() as f64
     }
+}
+
+/// Mean; 0 for no values.
+pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -2,8 +2,7 @@
 
 use super::curve::{Curve, PARTS};
 use super::plates::Plate;
-use super::reading::Reading;
-use crate::commands::garment::calibrate::steady::mean;
+use super::reading::{Reading, mean};
 use serde::{Deserialize, Serialize};
 use taxel_core::condition::UNITY;
 

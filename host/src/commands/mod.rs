@@ -9,3 +9,12 @@ pub mod recordings;
 pub mod shapes;
 pub mod touches;
 pub mod views;
+
+/// Prints a command's messages besides its output: on standard error if the output is the standard output.
+pub fn tell(is_standard: bool, text: &str) {
+    if is_standard {
+        eprint!("{text}");
+    } else {
+        print!("{text}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Content of an output before it gets its name.
 
-use super::file::{Output, folder};
+use super::named::{Named, folder};
 use super::part::{self, Part};
 use super::place::{self, Place};
 use crate::verbose;
@@ -12,7 +12,7 @@ use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, 
 /// as before.
 #[derive(Debug)]
 pub struct Draft {
-    output: Output,
+    output: Named,
     sink: Sink,
 }
 
@@ -25,7 +25,7 @@ enum Sink {
 }
 
 impl Draft {
-    pub(super) fn of(output: Output) -> Result<Draft> {
+    pub(super) fn of(output: Named) -> Result<Draft> {
         let place = || format!("{} cannot be written", output.name.display());
         let sink = match &output.place {
             Place::Standard => Sink::Standard(stdout()),

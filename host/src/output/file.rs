@@ -2,23 +2,18 @@
 
 use super::draft::Draft;
 use super::force::Force;
+use super::named::{Named, exists, folder};
 use super::part::{self, Part};
 use super::place::{self, Place};
-use super::same::is_same;
 use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
-use std::fs::{self, File};
-use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
 
 /// An output that may be written: it is not an input, and it does not exist or may be replaced.
 #[derive(Debug)]
-pub struct Output {
-    pub(super) name: PathBuf,
-    pub(super) place: Place,
-    inputs: Vec<PathBuf>,
-    force: Force,
-}
+pub struct Output(Named);
 
 impl Output {
     /// A file, not the standard output. `inputs` are the files that the command reads.
@@ -29,7 +24,7 @@ impl Output {
     ) -> Result<Output> {
         let output = Output::stream(name, force, inputs)?;
         ensure!(
-            output.place != Place::Standard,
+            !output.is_standard(),
             Fault::usage("-o -: this cannot be written to the standard output, name a file")
         );
         Ok(output)
@@ -42,11 +37,11 @@ impl Output {
         inputs: impl IntoIterator<Item = P>,
     ) -> Result<Output> {
         let inputs = inputs.into_iter().map(|input| input.as_ref().to_path_buf()).collect();
-        let output = Output { name: name.into(), place: Place::of(name)?, inputs, force: force.into() };
-        output.is_no_input()?;
-        match &output.place {
-            Place::File(_, true) if !output.force.force => Err(exists(name)),
-            _ => Ok(output),
+        let named = Named { name: name.into(), place: Place::of(name)?, inputs, force: force.into() };
+        named.is_no_input()?;
+        match &named.place {
+            Place::File(_, true) if !named.force.force => Err(exists(name)),
+            _ => Ok(Output(named)),
         }
     }
 
@@ -58,12 +53,12 @@ impl Output {
 
     /// Name as given by the user.
     pub fn name(&self) -> &Path {
-        &self.name
+        &self.0.name
     }
 
     /// True for the standard output, where a command must not print anything else.
     pub fn is_standard(&self) -> bool {
-        self.place == Place::Standard
+        self.0.place == Place::Standard
     }
 
     /// Writes all bytes at once.
@@ -75,15 +70,15 @@ impl Output {
 
     /// Begins the content; [`Draft::keep`] puts it into the output.
     pub fn draft(self) -> Result<Draft> {
-        Draft::of(self)
+        Draft::of(self.0)
     }
 
     /// Begins a file that gets its name before it is complete: a recording, of which a crash must leave what
     /// was written. [`Begun::name`] gives it the name once its beginning is written. A replaced file is then
     /// gone; programs that have it open can go on reading it.
     pub fn begin(self) -> Result<(File, Begun)> {
-        let place = || format!("{} cannot be written", self.name.display());
-        let (file, part) = match &self.place {
+        let place = || format!("{} cannot be written", self.0.name.display());
+        let (file, part) = match &self.0.place {
             Place::Standard => bail!("the standard output cannot be truncated: name a file"),
             Place::Device(path) => (place::device(path).with_context(place)?, None),
             Place::File(path, _) => {
@@ -92,47 +87,14 @@ impl Output {
                 (file, Some(Part(part)))
             }
         };
-        Ok((file, Begun { output: self, part }))
-    }
-
-    /// Error if it is an input; it may have become one since the first check.
-    fn is_no_input(&self) -> Result<()> {
-        let Place::File(path, _) = &self.place else { return Ok(()) };
-        let Some(same) = self.inputs.iter().find(|input| is_same(path, input)) else { return Ok(()) };
-        let name = self.name.display();
-        if *same == self.name {
-            bail!(Fault::usage(format!("{name} is read by this command: give another name for the output")));
-        }
-        let same = same.display();
-        let told = format!("{name} is the same file as {same}, which this command reads: give another name");
-        bail!(Fault::usage(told))
-    }
-
-    /// Renames a temporary file to the output's name.
-    pub(super) fn take_name(&self, part: &Path) -> Result<()> {
-        let Place::File(path, existed) = &self.place else { return Ok(()) };
-        let place = || format!("{} cannot be written", self.name.display());
-        self.is_no_input()?;
-        if self.force.force {
-            if let (true, Ok(old)) = (existed, fs::metadata(path)) {
-                // The permissions are kept.
-                fs::set_permissions(part, old.permissions()).with_context(place)?;
-            }
-            fs::rename(part, path).with_context(place)?;
-        } else {
-            part::name(part, path).map_err(|error| match error.kind() {
-                ErrorKind::AlreadyExists => exists(&self.name),
-                _ => anyhow::Error::new(error).context(place()),
-            })?;
-        }
-        part::sync_folder(folder(path)).with_context(place)
+        Ok((file, Begun { output: self.0, part }))
     }
 }
 
 /// A file being written, without a name yet. Dropping it deletes it.
 #[derive(Debug)]
 pub struct Begun {
-    output: Output,
+    output: Named,
     part: Option<Part>,
 }
 
@@ -144,13 +106,4 @@ impl Begun {
         File::open(part).and_then(|file| file.sync_all()).with_context(place)?;
         self.output.take_name(part)
     }
-}
-
-fn exists(name: &Path) -> anyhow::Error {
-    anyhow::anyhow!("{} already exists: give another name, or --force to replace it", name.display())
-}
-
-/// Folder of a path found by [`Place::of`].
-pub(super) fn folder(path: &Path) -> &Path {
-    path.parent().unwrap_or(path)
 }

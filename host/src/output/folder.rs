@@ -1,7 +1,7 @@
 //! An output folder.
 
-use super::file::folder as parent;
 use super::force::Force;
+use super::named::folder as parent;
 use super::part;
 use super::same::is_same;
 use crate::fault::Fault;

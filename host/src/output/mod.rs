@@ -12,6 +12,7 @@
 //! | `same.rs` | whether two names lead to one file |
 //! | `place.rs` | what a name leads to: a file, a device, the standard output |
 //! | `file.rs` | [`Output`]: an output file; [`Begun`]: a recording, named once its beginning is written |
+//! | `named.rs` | its name, and how a temporary file gets it |
 //! | `draft.rs` | [`Draft`]: its content, before it has the name |
 //! | `folder.rs` | [`Folder`]: an output folder |
 //! | `scratch.rs` | [`Scratch`]: a temporary file for data that is needed later |
@@ -52,6 +53,7 @@ mod draft;
 mod file;
 mod folder;
 mod force;
+mod named;
 mod part;
 mod place;
 mod same;
@@ -59,15 +61,6 @@ mod scratch;
 
 #[cfg(test)]
 mod tests;
-
-/// Prints a command's messages besides its output: on standard error if the output is the standard output.
-pub fn tell(is_standard: bool, text: &str) {
-    if is_standard {
-        eprint!("{text}");
-    } else {
-        print!("{text}");
-    }
-}
 
 pub use draft::Draft;
 pub use file::{Begun, Output};

@@ -1,6 +1,6 @@
 //! A temporary file beside an output, for data too large for memory.
 
-use super::file::folder;
+use super::named::folder;
 use super::part;
 use anyhow::Result;
 use std::fs::{self, File};

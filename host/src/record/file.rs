@@ -1,12 +1,12 @@
 //! One file of a recording: its channels, and the messages written to them.
 
 use super::message;
-use super::provenance::{self, HELLO, Origin};
+use super::provenance::{self, Origin};
 use super::ros2::Ros2;
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
 use crate::client::{Client, Event, Worn};
-use crate::recording::{Store, Writer};
+use crate::recording::{HELLO, Store, Writer};
 use anyhow::Result;
 use serde_json::json;
 use taxel_core::fold::Posture;

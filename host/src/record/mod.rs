@@ -28,16 +28,13 @@ mod stamps;
 mod standing;
 mod tally;
 mod topics;
-mod wire_reader;
 
 pub use file::RecordingFile;
 pub use limit::Rotate;
 pub use message::json_message;
 pub use play::Play;
-pub use provenance::{CALIBRATION, HELLO, Origin};
+pub use provenance::{CALIBRATION, Origin};
 pub use recorder::{Plan, Recorder};
 pub use stamps::{NS, Stamp, Stamps, time_of};
-pub use standing::{lost, renumbered, sequence};
 pub use tally::{COUNTS, Tally};
-pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, WIRE, of as topic};
-pub use wire_reader::WireReader;
+pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, of as topic};

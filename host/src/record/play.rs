@@ -1,8 +1,7 @@
 //! Plays a recording through a client.
 
-use super::wire_reader::WireReader;
 use crate::client::{Client, Event};
-use crate::recording::Skipped;
+use crate::recording::{Skipped, WireReader};
 use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;

@@ -10,9 +10,6 @@ use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
 use taxel_core::wire::PROTOCOL;
 
-/// Attachment with the first `Hello`, a frame of the wire. Without it nothing else of the board can be read,
-/// and the chunk that holds it may be damaged.
-pub const HELLO: &str = "hello.taxel-wire";
 /// Attachment with the calibration.
 pub const CALIBRATION: &str = "calibration.toml";
 

@@ -6,13 +6,14 @@ use super::names::{self, beside, numbered};
 use super::progress::Progress;
 use super::provenance::Origin;
 use super::stamps::{Stamp, Stamps};
-use super::standing::{self, Standing};
+use super::standing::Standing;
 use super::tally::{COUNTS, Tally};
 use crate::client::{Client, Event, Worn};
 use crate::fault::Fault;
 use crate::output::{Begun, Force, Output};
 use crate::passed::Passed;
 use crate::progress::{self, Unit};
+use crate::recording;
 use crate::session::Show;
 use anyhow::{Context, Result};
 use std::fs::File;
@@ -181,7 +182,7 @@ impl Recorder {
         if let Some(worn) = &self.worn {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
         }
-        for bytes in self.standing.frames(standing::sequence(client.line())?)? {
+        for bytes in self.standing.frames(recording::sequence(client.line())?)? {
             file.wire(stamp, &bytes)?;
         }
         Ok(())

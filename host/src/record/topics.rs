@@ -2,12 +2,10 @@
 
 use super::schemas;
 use crate::client::Event;
-use crate::recording::{Format, Store, Writer};
+use crate::recording::{Format, Store, WIRE, Writer};
 use anyhow::Result;
 use serde_json::Value;
 
-/// Frames of the wire from the board.
-pub const WIRE: &str = "/taxel/wire";
 /// Frames of the wire to the board.
 pub const REQUESTS: &str = "/taxel/requests";
 /// Encoding of both, described in `taxel_core::wire`.

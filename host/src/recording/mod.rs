@@ -25,6 +25,8 @@
 //! | `attached.rs` | one attachment |
 //! | `salvage/` | the records of a file that may be damaged |
 //! | `scan.rs`, `found.rs` | contents of a file, by a scan |
+//! | `wire_reader.rs` | the frames of the wire in a file |
+//! | `renumber.rs` | numbers of the messages in such frames |
 //! | `repair.rs` | rewrites a damaged or truncated file |
 
 mod append;
@@ -39,6 +41,7 @@ mod lz4;
 mod messages;
 mod overview;
 mod records;
+mod renumber;
 mod repair;
 mod salvage;
 mod scan;
@@ -46,6 +49,7 @@ mod source;
 mod store;
 mod summary;
 mod texts;
+mod wire_reader;
 mod writer;
 mod written;
 
@@ -58,9 +62,11 @@ pub use damage::Skipped;
 pub use messages::{Message, Messages};
 pub use overview::Overview;
 pub use records::{Head, Inside, RawRecord, Records};
+pub use renumber::{lost, renumbered, sequence};
 pub use repair::repair;
 pub use salvage::Damage;
 pub use scan::{Scan, scan};
 pub use store::Store;
 pub use summary::{Summary, chunk_indexes, footer, summary};
+pub use wire_reader::{HELLO, WIRE, WireReader};
 pub use writer::{Format, Writer};

@@ -16,6 +16,20 @@ pub trait Store: Write {
     fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize>;
 }
 
+impl<S: Store + ?Sized> Store for &mut S {
+    fn keep(&mut self) -> io::Result<()> {
+        (**self).keep()
+    }
+
+    fn cut(&mut self, length: u64) -> io::Result<()> {
+        (**self).cut(length)
+    }
+
+    fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        (**self).look(offset, bytes)
+    }
+}
+
 impl Store for File {
     fn keep(&mut self) -> io::Result<()> {
         self.sync_data()

@@ -2,8 +2,7 @@
 
 use super::{Port, Source, SourceOptions};
 use crate::progress::{Progress, Unit};
-use crate::record::{WIRE, WireReader};
-use crate::recording::Overview;
+use crate::recording::{Overview, WIRE, WireReader};
 use anyhow::{Context, Result, bail};
 use std::fmt;
 use std::io::{self, IsTerminal};

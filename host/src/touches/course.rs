@@ -1,7 +1,7 @@
 //! Training data of a touch: features of the whole, of its parts, of its mirror images and of its beginnings.
 
 use super::data::{Data, Touch};
-use super::model::{EARLY, Settings};
+use super::settings::{EARLY, Settings};
 use super::windows::{Windows, ladder};
 use crate::progress::{Progress, Unit};
 use taxel_core::gesture::{Cells, Features, SIDE, Sheet, TouchState};

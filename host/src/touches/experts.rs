@@ -4,8 +4,8 @@
 
 use super::calibration::{Calibration, Judged};
 use super::course::Course;
-use super::model::{EARLY, Settings};
 use super::ridge::Ridge;
+use super::settings::{EARLY, Settings};
 use std::ops::Range;
 use taxel_core::gesture::{Features, LEADS};
 

@@ -3,8 +3,8 @@
 use super::compare::apart;
 use super::course::courses;
 use super::data::Data;
-use super::model::Settings;
 use super::report::{Outcome, Report, accuracy};
+use super::settings::Settings;
 use crate::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;

@@ -1,10 +1,11 @@
 //! Connects the board's thread with the threads of the pages.
 
-use super::mailbox::{Mailbox, Shot};
+use super::mailbox::Mailbox;
 use super::message::{self, Wish};
+use super::order::Order;
 use super::recent::Recent;
-use super::recorded::Order;
 use super::said::Said;
+use super::shot::Shot;
 use super::tape::{self, Tape};
 use crate::recording::Store;
 use crate::shared;
@@ -203,7 +204,7 @@ impl Hub {
     }
 
     /// Writes what is saved as a recording.
-    pub fn save<S: Store>(&self, store: S) -> Result<()> {
+    pub fn save(&self, store: &mut dyn Store) -> Result<()> {
         let (tape, range) = {
             let shared = self.lock();
             (shared.tape.clone(), shared.range)

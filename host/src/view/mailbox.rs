@@ -1,6 +1,7 @@
 //! Outgoing messages of one page: at most one image and a few lines, however slow the page is.
 
 use super::message;
+use super::shot::Shot;
 use crate::shared::Shared;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -12,19 +13,6 @@ const LINES: usize = 64;
 const SAMPLES: usize = 256;
 /// Shortest time between two images: 60 per second, with a margin for differing clocks.
 const PERIOD: Duration = Duration::from_micros(16_500);
-
-/// An image and its contacts.
-#[derive(Debug, Clone)]
-pub struct Shot {
-    /// Its line as printed by `taxel live --json`.
-    pub line: Arc<str>,
-    /// Pressure by taxel, counts.
-    pub image: Arc<[u16]>,
-    /// Start of the scan, us of the board.
-    pub time_us: u64,
-    /// Sum of all contacts, counts.
-    pub total: u32,
-}
 
 /// A message to a page.
 #[derive(Debug, PartialEq)]

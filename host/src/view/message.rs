@@ -33,11 +33,11 @@
 //! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
 //! not finite, a speed of 0 or less, and a step of 0; a time beyond the recording becomes its end.
 
-use super::mailbox::Shot;
-use super::recorded::Order;
+use super::order::Order;
+use super::shot::Shot;
 use crate::client::{Client, Event};
-use crate::json::{message, pins};
-use crate::{fcm, json};
+use crate::fcm;
+use crate::json::{self, message, pins};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::time::Duration;

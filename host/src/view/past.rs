@@ -1,7 +1,8 @@
 //! Images of the half minute before a page was opened, so that a reloaded page can step back through them.
 
-use super::mailbox::{Mailbox, Parcel, Shot};
+use super::mailbox::{Mailbox, Parcel};
 use super::message;
+use super::shot::Shot;
 use crate::client::{Client, Event, ImageNews};
 use serde_json::json;
 use taxel_core::format::Micros;

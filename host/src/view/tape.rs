@@ -1,6 +1,5 @@
 //! What a page can save as a recording: the last half minute of a board, or a part of a recording.
 
-use super::recorded::Cut;
 use crate::client::{Client, Event, Worn};
 use crate::clock::SteadyTime;
 use crate::record::{Origin, RecordingFile, Stamp, time_of};
@@ -12,13 +11,19 @@ use taxel_core::format::Micros;
 /// Board time per chunk, us.
 const CHUNK_US: u64 = 1_000_000;
 
+/// A recording, of which a part can be saved.
+pub trait Saved: Send + Sync {
+    /// Writes everything from the last image at the time `from` to the time `to`, us.
+    fn write(&self, range: [u64; 2], store: &mut dyn Store) -> Result<()>;
+}
+
 /// Origin of what is saved.
 #[derive(Clone)]
 pub enum Tape {
     /// A board.
     Live(Arc<Origin>),
     /// A recording.
-    Recorded(Arc<Cut>),
+    Recorded(Arc<dyn Saved>),
 }
 
 /// A recording written frame by frame.

@@ -31,7 +31,7 @@ impl<W: Write> Write for Transfer<W> {
     }
 }
 
-impl<W: Write> Store for &mut Transfer<W> {
+impl<W: Write> Store for Transfer<W> {
     fn keep(&mut self) -> io::Result<()> {
         self.0.flush()
     }

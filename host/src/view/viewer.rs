@@ -1,11 +1,11 @@
 //! Passes a board's stream to the pages.
 
 use super::hub::Hub;
-use super::mailbox::Shot;
 use super::message;
 use super::pace::Pace;
 use super::raw::RawCodes;
 use super::said::{Said, Teller};
+use super::shot::Shot;
 use crate::client::{Client, Event, ImageNews};
 use crate::json;
 use crate::session::Show;

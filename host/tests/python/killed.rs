@@ -10,8 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
-use taxel::record::WIRE;
-use taxel::recording::Messages;
+use taxel::recording::{Messages, WIRE};
 use taxel::session::Show;
 
 /// Messages of a board with their times, us.

@@ -1,12 +1,13 @@
 //! `taxel fcm combine` and `taxel fcm merge`: combine several maps into one, and report disagreements.
 
+use crate::commands::tell;
 use crate::fcm::aggregate::Aggregation;
 use crate::fcm::board::BoardMap;
 use crate::fcm::combine::{report, table};
 use crate::fcm::load;
 use crate::fcm::map::MapFile;
 use crate::fcm::unite::{Shared, unite};
-use crate::output::{Output, tell};
+use crate::output::Output;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

@@ -1,9 +1,10 @@
 //! `taxel fcm learn`: improves weights by labelled touches, within the limits set by the expert.
 
+use crate::commands::tell;
 use crate::fcm::board::BoardMap;
 use crate::fcm::learn::{learn, report, text};
 use crate::fcm::{load, touches};
-use crate::output::{Output, tell};
+use crate::output::Output;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

@@ -1,12 +1,13 @@
 //! `taxel fcm new`: creates a map in four steps by questions. The answers may also come from a file.
 
 use super::run::{lambda, threshold, transfer};
+use crate::commands::tell;
 use crate::fcm::board::BoardMap;
 use crate::fcm::map::{ConceptFile, EdgeFile, MapFile};
 use crate::fcm::member::InputFile;
 use crate::fcm::weight::Weight;
 use crate::fcm::{load, terms};
-use crate::output::{Output, tell};
+use crate::output::Output;
 use crate::watch::Overwrite;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{BufRead, IsTerminal, Write};

@@ -1,12 +1,10 @@
 //! Training and evaluation of a model of touches, shared by `taxel gestures` and `taxel intent`.
 
 use crate::output::Output;
-use crate::touches::compare::{as_it_is, example};
-use crate::touches::course::courses;
-use crate::touches::fitting::{saturation, units};
-use crate::touches::model::read;
-use crate::touches::nested::nested;
-use crate::touches::{Data, Files, Provenance, Report, Settings, Times, cross, train};
+use crate::touches::{
+    Data, Files, Provenance, Report, Settings, Times, as_it_is, courses, cross, example, nested, read,
+    saturation, train, units,
+};
 use crate::watch::Overwrite;
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};

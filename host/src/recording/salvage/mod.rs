@@ -17,6 +17,5 @@ mod opened;
 mod piece;
 mod walk;
 
-pub use opened::Opened;
-pub use piece::{Kind, Piece, fields};
+pub use piece::{Kind, Opened, Piece, fields};
 pub use walk::{Damage, Step, Walk};

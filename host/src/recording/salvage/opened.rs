@@ -1,27 +1,16 @@
 //! Opens a chunk with a valid checksum.
 
 use super::super::append::write;
-use super::super::chunk::{Index, LARGEST, LZ4};
+use super::super::chunk::{LARGEST, LZ4};
 use super::super::lz4;
 use super::super::records::Inside;
-use super::piece::{Kind, fields, parse};
+use super::piece::{Kind, Opened, fields, parse};
 use lz4_flex::frame::FrameDecoder;
-use mcap::records::{Channel, ChunkHeader, MessageIndexEntry, SchemaHeader, op};
+use mcap::records::{ChunkHeader, MessageIndexEntry, op};
 use std::io::Read;
 
 /// Largest expansion of LZ4.
 const MOST: u64 = 255;
-
-/// Contents of a chunk.
-#[derive(Debug, Default)]
-pub struct Opened {
-    /// Offsets of its messages in its uncompressed bytes, by channel.
-    pub index: Index,
-    /// Schemas declared in it.
-    pub schemas: Vec<(SchemaHeader, Vec<u8>)>,
-    /// Channels declared in it.
-    pub channels: Vec<Channel>,
-}
 
 /// Fields of a chunk at the beginning of its body, and their size.
 pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
@@ -62,7 +51,7 @@ fn checked(told: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
     if sum != 0 && sum != crc32fast::hash(plain) {
         return None;
     }
-    let (inside, is_whole) = Opened::of(plain);
+    let (inside, is_whole) = records(plain);
     let fits = sum != 0 || (is_whole && told.uncompressed_size == plain.len() as u64);
     fits.then_some(inside)
 }
@@ -95,25 +84,23 @@ fn decode(data: &[u8], most: u64, plain: &mut Vec<u8>) -> Option<()> {
     (plain.len() as u64 <= most).then_some(())
 }
 
-impl Opened {
-    /// Reads the uncompressed bytes of a chunk. Also returns whether they are complete records to the last
-    /// byte.
-    fn of(plain: &[u8]) -> (Opened, bool) {
-        let (mut inside, mut records) = (Opened::default(), Inside::of(plain, 0));
-        for record in records.by_ref() {
-            match parse(record.op, record.body) {
-                Some((Kind::Message(header), _)) => {
-                    let entry = MessageIndexEntry { log_time: header.log_time, offset: record.offset };
-                    inside.index.entry(header.channel_id).or_default().push(entry);
-                }
-                Some((Kind::Schema(header, data), _)) => inside.schemas.push((header, data)),
-                Some((Kind::Channel(channel), _)) => inside.channels.push(channel),
-                None if matches!(record.op, 0 | op::MESSAGE | op::SCHEMA | op::CHANNEL) => {
-                    return (inside, false);
-                }
-                _ => {}
+/// Reads the uncompressed bytes of a chunk. Also returns whether they are complete records to the last
+/// byte.
+fn records(plain: &[u8]) -> (Opened, bool) {
+    let (mut inside, mut records) = (Opened::default(), Inside::of(plain, 0));
+    for record in records.by_ref() {
+        match parse(record.op, record.body) {
+            Some((Kind::Message(header), _)) => {
+                let entry = MessageIndexEntry { log_time: header.log_time, offset: record.offset };
+                inside.index.entry(header.channel_id).or_default().push(entry);
             }
+            Some((Kind::Schema(header, data), _)) => inside.schemas.push((header, data)),
+            Some((Kind::Channel(channel), _)) => inside.channels.push(channel),
+            None if matches!(record.op, 0 | op::MESSAGE | op::SCHEMA | op::CHANNEL) => {
+                return (inside, false);
+            }
+            _ => {}
         }
-        (inside, records.offset() == plain.len())
     }
+    (inside, records.offset() == plain.len())
 }

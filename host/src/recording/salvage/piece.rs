@@ -1,8 +1,8 @@
 //! One record of a file that may be damaged.
 
 use super::super::attached::attached;
+use super::super::chunk::Index;
 use super::super::texts::{LONGEST, texts_fit};
-use super::opened::Opened;
 use binrw::BinRead;
 use mcap::records::{
     AttachmentHeader, AttachmentIndex, Channel, ChunkHeader, ChunkIndex, DataEnd, Footer, Header,
@@ -56,8 +56,19 @@ pub enum Kind {
     Unknown,
 }
 
+/// Contents of a chunk.
+#[derive(Debug, Default)]
+pub struct Opened {
+    /// Offsets of its messages in its uncompressed bytes, by channel.
+    pub index: Index,
+    /// Schemas declared in it.
+    pub schemas: Vec<(SchemaHeader, Vec<u8>)>,
+    /// Channels declared in it.
+    pub channels: Vec<Channel>,
+}
+
 /// Parses a record. Also returns whether its fields end where it ends. None if it is not such a record.
-/// Chunks are parsed by [`Opened`].
+/// Chunks are parsed by `opened::open`.
 pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
     let exact = |used: usize| used == body.len();
     let told = |used: usize| Some((Kind::Summary, exact(used)));

@@ -3,9 +3,9 @@
 use super::reel::Reel;
 use super::survey::Survey;
 use crate::client::{Client, Event};
-use crate::record::{NS, Origin, Stamp, renumbered, sequence};
-use crate::recording::{Clips, Piece, Store};
-use crate::view::tape::Copy;
+use crate::record::{NS, Origin, Stamp};
+use crate::recording::{Clips, Piece, Store, renumbered, sequence};
+use crate::view::tape::{Copy, Saved};
 use anyhow::{Context, Result};
 use std::sync::Arc;
 use taxel_core::format::Micros;
@@ -27,9 +27,10 @@ impl Cut {
     pub fn new(clips: Clips, survey: Arc<Survey>, origin: Origin) -> Cut {
         Cut { clips, survey, origin }
     }
+}
 
-    /// Writes everything from the last image at the time `from` to the time `to`, us.
-    pub fn write<S: Store>(&self, [from, to]: [u64; 2], store: S) -> Result<()> {
+impl Saved for Cut {
+    fn write(&self, [from, to]: [u64; 2], store: &mut dyn Store) -> Result<()> {
         let mut reel = Reel::new(self.clips.again()?, self.survey.clone());
         let mut copy = Copy::begin(store, self.origin.clone())?;
         let no_image = "the recording holds no image";

@@ -1,6 +1,6 @@
 //! Transport of the player: position, speed, range, loop.
 
-use super::order::Order;
+use crate::view::order::Order;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 

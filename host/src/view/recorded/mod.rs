@@ -7,7 +7,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `order.rs` | orders of a page to the player |
 //! | `deck.rs` | time: position, speed, range, loop |
 //! | `reel.rs` | the recording, read from any image on |
 //! | `standing.rs` | state at a moment |
@@ -18,22 +17,21 @@
 
 mod cut;
 mod deck;
-mod order;
 mod overview;
 mod reel;
 mod screen;
 mod standing;
 mod survey;
 
+use crate::view::Order;
 pub use cut::Cut;
-pub use order::Order;
 
 use super::hub::Hub;
 use super::tape::Tape;
 use crate::calibrate::Calibration;
 use crate::client::Event;
-use crate::record::{CALIBRATION, Origin, WIRE};
-use crate::recording::Clips;
+use crate::record::{CALIBRATION, Origin};
+use crate::recording::{Clips, WIRE};
 use anyhow::{Context, Result, bail};
 use deck::{Deck, Go};
 use reel::Reel;

@@ -3,8 +3,8 @@
 use crate::client::{Client, Event, ImageNews};
 use crate::json;
 use crate::view::hub::Hub;
-use crate::view::mailbox::Shot;
 use crate::view::message;
+use crate::view::shot::Shot;
 use crate::watch::rate::Rate;
 use serde_json::json;
 use std::sync::Arc;

@@ -5,8 +5,7 @@ use super::stage::{file, plan, record};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
-use taxel::record::HELLO;
-use taxel::recording::{Messages, scan};
+use taxel::recording::{HELLO, Messages, scan};
 use taxel::sim;
 
 #[test]

@@ -2,8 +2,7 @@
 
 use super::stage::{Moment, PROGRAM, View, file, moments, recorded};
 use serde_json::{Value, json};
-use taxel::record::WIRE;
-use taxel::recording::{chunk_indexes, repair, scan};
+use taxel::recording::{WIRE, chunk_indexes, repair, scan};
 
 /// The frame shown at a time.
 fn at(all: &[Moment], seconds: f64) -> &Moment {

@@ -112,8 +112,7 @@ fn felt(calibration: &Calibration, plate: &Plate, reading: &Reading) -> Result<f
     let curve = &panel.with_context(|| format!("the calibration has no panel {name}"))?.knots;
     let force = |(taxel, counts): (&u16, &f64)| {
         let gain = f64::from(calibration.gains[usize::from(*taxel)]) / f64::from(UNITY);
-        curve
-            .micronewtons((counts.max(0.0) * gain * f64::from(crate::calibrate::curve::PARTS)).round() as u32)
+        curve.micronewtons((counts.max(0.0) * gain * f64::from(crate::calibrate::PARTS)).round() as u32)
             as f64
             / 1e6
     };

@@ -1,5 +1,6 @@
 //! Detects a steady load: the mean over the plate has left the last load, and stands still.
 
+use crate::calibrate::mean;
 use std::collections::VecDeque;
 
 /// Frames of a steady load.
@@ -68,12 +69,6 @@ impl Steady {
         let spread = |taxel: usize| mean(column(taxel).map(|count| (count - counts[taxel]).powi(2))).sqrt();
         Held { noise: (0..taxels).map(spread).collect(), counts }
     }
-}
-
-/// Mean; 0 for no values.
-pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-    if count > 0.0 { sum / count } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The command `taxel settle`.
 
 use super::search::{Scanner, Settled, settle};
+use crate::commands::garment;
 use crate::fault::Fault;
-use crate::garments;
 use crate::output::Output;
 use crate::sim::FULL_SCALE;
 use crate::source::SourceSpec;
@@ -101,7 +101,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
         "Settling found by taxel settle: {:.1} counts are left of a full-scale step.",
         settled.residue_counts
     );
-    garments::write(&garment, &comment, output)
+    garment::write(&garment, &comment, output)
 }
 
 /// Prints the result; `garment` has the settling time that was found.

@@ -5,12 +5,13 @@ use super::feel::Feeler;
 use super::solver::{Found, Next, Solver};
 use super::touch::Touch;
 use super::user::User;
+use crate::commands::garment;
 use crate::fault::Fault;
 use crate::output::Output;
+use crate::sim;
 use crate::source::SourceSpec;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
-use crate::{garments, sim};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use fastrand::Rng;
@@ -98,7 +99,7 @@ pub fn run(args: &SetupArgs) -> Result<()> {
     if args.json && output.is_none() {
         return Ok(());
     }
-    garments::write(&found.garment, comment, output)
+    garment::write(&found.garment, comment, output)
 }
 
 fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {

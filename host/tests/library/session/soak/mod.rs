@@ -15,7 +15,7 @@ use std::fs::File;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use taxel::record::WireReader;
+use taxel::recording::WireReader;
 
 /// Least duration that shows growth of memory.
 const LONG: Duration = Duration::from_secs(300);

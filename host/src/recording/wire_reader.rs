@@ -1,12 +1,16 @@
 //! Reads the board's frames of the wire from a recording.
 
-use super::provenance::HELLO;
-use super::standing::lost;
-use super::topics::WIRE;
+use super::lost;
 use crate::recording::{Message, Messages, Skipped};
 use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
+
+/// Topic of the frames of the wire from the board.
+pub const WIRE: &str = "/taxel/wire";
+/// Attachment with the first `Hello`, a frame of the wire. Without it nothing else of the board can be read,
+/// and the chunk that holds it may be damaged.
+pub const HELLO: &str = "hello.taxel-wire";
 
 /// Iterates over the frames. If the initial `Hello` is lost, the attached one comes first.
 #[derive(Debug)]
