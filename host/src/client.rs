@@ -20,10 +20,12 @@ pub(crate) mod cleaned;
 mod counts;
 mod event;
 mod known;
+mod life;
 mod picture;
 mod requests;
 mod restart;
 mod syncs;
+mod time;
 mod wanted;
 mod worn;
 
@@ -37,8 +39,8 @@ pub use worn::Worn;
 
 use crate::growths::Growths;
 use crate::words::printable;
+use life::Life;
 use picture::Picture;
-use restart::Life;
 use std::collections::{BTreeMap, VecDeque};
 use syncs::Syncs;
 use taxel_core::body::Placed;

@@ -1,51 +1,15 @@
 //! Detects that a board has restarted, and requests its settings again.
 
-use super::again::{Again, Restored};
-use super::wanted::Wanted;
+use super::again::Restored;
 use super::{Client, Worn};
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Request, encode, frame_bound};
 
-/// Tolerated error of a board's clock, besides a hundredth of the elapsed time, us.
-const SLACK_US: u64 = 250_000;
 /// Number of `Hello`s in a row, without another message between them, that shows that the board has not been
 /// started.
 const LONELY: u8 = 2;
 
-/// State of a board between restarts.
-#[derive(Debug, Default, Clone)]
-pub(super) struct Life {
-    /// Settings that were requested.
-    pub wanted: Wanted,
-    /// The restore in progress.
-    pub again: Again,
-    /// The board has answered `Start` since its last restart.
-    started: bool,
-    /// A `Hello` has come since the link was opened.
-    met: bool,
-    /// The link was reopened, and it is not known yet whether the board has restarted.
-    reopened: bool,
-    /// The board has probably kept running when the link was last lost.
-    lived_on: bool,
-    /// Number of `Hello`s since any other message.
-    hellos: u8,
-    /// Last known board time, and when it was received.
-    clock: Option<(Micros, Instant)>,
-}
-
-impl Life {
-    /// True if a clock that shows this time has run on since it was last received.
-    fn goes_on(&self, clock: Micros) -> bool {
-        self.clock.is_some_and(|(then, told)| {
-            let passed = u64::try_from(told.elapsed().as_micros()).unwrap_or(u64::MAX);
-            let expected = then.0.saturating_add(passed);
-            clock >= then && clock.0.abs_diff(expected) <= SLACK_US.saturating_add(passed / 100)
-        })
-    }
-}
-
-/// Restarts.
 impl Client {
     /// The link was reopened. Discards a partial message, and asks the board to stream; its messages show
     /// whether it has restarted.

@@ -1,9 +1,7 @@
 //! Round trips of `Sync`: quick ones at the start, then one a second.
 
-use super::Client;
-use crate::clock::{HostClock, HostTime, RoundTrip};
+use crate::clock::{HostClock, RoundTrip};
 use std::collections::VecDeque;
-use taxel_core::format::Micros;
 use taxel_core::wire::{Request, SyncReport};
 
 /// Number of quick round trips at the start, and the time between them, us.
@@ -17,12 +15,13 @@ const OPEN: usize = 16;
 #[derive(Debug, Default, Clone)]
 pub(super) struct Syncs {
     /// Host time; none if it is not provided, and then nothing is requested.
-    now: Option<u64>,
+    pub now: Option<u64>,
     due: u64,
     made: u32,
     token: u32,
     open: VecDeque<(u32, u64)>,
-    clock: HostClock,
+    /// The model itself.
+    pub clock: HostClock,
 }
 
 impl Syncs {
@@ -57,22 +56,5 @@ impl Syncs {
         self.clock.forget();
         self.open.clear();
         (self.made, self.due) = (0, 0);
-    }
-}
-
-/// Time.
-impl Client {
-    /// Sets the host's time, microseconds since any epoch, never decreasing: before
-    /// [`Client::take_requests`], whose bytes must then be sent at once, and after each read, before the
-    /// bytes are pushed. The client then requests a streaming board's time, ten times in the first second,
-    /// then once per second.
-    pub fn tell_time(&mut self, host_us: u64) {
-        self.syncs.now = Some(host_us);
-    }
-
-    /// Converts a board time to host time, with its uncertainty; none until the board has answered, or if the
-    /// host's time is not set.
-    pub fn host_time(&self, board: Micros) -> Option<HostTime> {
-        self.syncs.clock.host_time(board)
     }
 }

@@ -1,6 +1,6 @@
 //! Reads attachments of a recording.
 
-use super::salvage::fields;
+use super::texts::fields;
 use mcap::records::{AttachmentHeader, op};
 
 /// Header and bytes of an attachment, and whether the record ends behind them; none if it is damaged.

@@ -2,8 +2,10 @@
 //! text claims to be long, up to 4 GB each, before it checks the length, and assumes that an attachment has
 //! its checksum.
 
+use binrw::BinRead;
 use mcap::records::{Record, op};
 use mcap::{McapError, McapResult};
+use std::io::Cursor;
 
 /// A part of a record's fields.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +80,16 @@ pub fn parse_record(number: u8, body: &[u8]) -> McapResult<Record<'_>> {
         return Err(McapError::UnexpectedEof);
     }
     mcap::parse_record(number, body)
+}
+
+/// Fields at the beginning of the body of a record with this number, and their size.
+pub fn fields<T: for<'a> BinRead<Args<'a> = ()>>(number: u8, body: &[u8]) -> Option<(T, usize)> {
+    if !texts_fit(number, body) {
+        return None;
+    }
+    let mut cursor = Cursor::new(body);
+    let fields = T::read_le(&mut cursor).ok()?;
+    Some((fields, cursor.position() as usize))
 }
 
 #[cfg(test)]

@@ -17,5 +17,5 @@ mod opened;
 mod piece;
 mod walk;
 
-pub use piece::{Kind, Opened, Piece, fields};
+pub use piece::{Kind, Opened, Piece};
 pub use walk::{Damage, Step, Walk};

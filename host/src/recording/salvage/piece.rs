@@ -2,13 +2,11 @@
 
 use super::super::attached::attached;
 use super::super::chunk::Index;
-use super::super::texts::{LONGEST, texts_fit};
-use binrw::BinRead;
+use super::super::texts::{LONGEST, fields};
 use mcap::records::{
     AttachmentHeader, AttachmentIndex, Channel, ChunkHeader, ChunkIndex, DataEnd, Footer, Header,
     MessageHeader, MessageIndex, Metadata, MetadataIndex, SchemaHeader, Statistics, SummaryOffset, op,
 };
-use std::io::Cursor;
 
 /// A record.
 #[derive(Debug)]
@@ -91,16 +89,6 @@ pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
         0 | op::CHUNK => return None,
         _ => (Kind::Unknown, false),
     })
-}
-
-/// Fields at the beginning of the body of a record with this number, and their size.
-pub fn fields<T: for<'a> BinRead<Args<'a> = ()>>(number: u8, body: &[u8]) -> Option<(T, usize)> {
-    if !texts_fit(number, body) {
-        return None;
-    }
-    let mut cursor = Cursor::new(body);
-    let fields = T::read_le(&mut cursor).ok()?;
-    Some((fields, cursor.position() as usize))
 }
 
 fn schema(body: &[u8]) -> Option<(Kind, bool)> {

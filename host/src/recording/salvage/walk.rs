@@ -3,10 +3,11 @@
 use super::super::append::HEAD;
 use super::super::chunk::{Index, LARGEST, is_known};
 use super::super::source::{Head, Source};
+use super::super::texts::fields;
 use super::likely::Judge;
 use super::marks::Marks;
 use super::opened;
-use super::piece::{Kind, Piece, fields, parse};
+use super::piece::{Kind, Piece, parse};
 use anyhow::{Context, Result, bail};
 use mcap::MAGIC;
 use mcap::records::{MessageIndex, op};

@@ -11,6 +11,7 @@
 //! | `reel.rs` | the recording, read from any image on |
 //! | `standing.rs` | state at a moment |
 //! | `survey.rs` | reads the recording once |
+//! | `told.rs` | the message of a piece of it |
 //! | `overview.rs` | summary for the timeline |
 //! | `screen.rs` | messages to the pages about a moment |
 //! | `cut.rs` | a part of it as a recording of its own |
@@ -22,6 +23,7 @@ mod reel;
 mod screen;
 mod standing;
 mod survey;
+mod told;
 
 use crate::view::Order;
 pub use cut::Cut;

@@ -2,11 +2,12 @@
 
 use super::standing::Standing;
 use super::survey::{RecordedTime, Survey};
+use super::told::with_report;
 use crate::client::{Client, Event};
 use crate::recording::{Clips, Piece};
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use taxel_core::wire::{self, Report};
+use taxel_core::wire::Report;
 
 /// Most chunks to search backwards for the key frame of an image; a board sends one each second.
 const REACH: usize = 64;
@@ -268,13 +269,6 @@ impl<I: Iterator> LastPosition for I {
     fn rposition_of(self, holds: impl Fn(I::Item) -> bool) -> Option<usize> {
         self.enumerate().filter_map(|(index, item)| holds(item).then_some(index)).last()
     }
-}
-
-/// Decodes a message; none if it cannot be read.
-pub(super) fn with_report<T>(piece: &Piece, read: impl FnOnce(u32, &Report<'_>) -> T) -> Option<T> {
-    let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
-    let (seq, report) = wire::decode::<(u32, Report<'_>)>(wire::open(&mut bytes).ok()?).ok()?;
-    Some(read(seq, &report))
 }
 
 /// True for a key frame; none if the message is not an image.

@@ -1,8 +1,8 @@
 //! Reads a recording once, beside its player: for the overview, and so that any part of it can be shown.
 
 use super::overview::Overview;
-use super::reel::with_report;
 use super::standing::Standing;
+use super::told::with_report;
 use crate::client::{Client, Event};
 use crate::recording::{Clips, HELLO, Piece, lost};
 use crate::shared::Shared;
