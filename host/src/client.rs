@@ -17,10 +17,13 @@
 
 mod again;
 pub(crate) mod cleaned;
+pub mod clock;
 mod counts;
 mod event;
+pub mod growths;
 mod known;
 mod life;
+pub mod passed;
 mod picture;
 mod requests;
 mod restart;
@@ -37,8 +40,8 @@ pub(crate) use requests::request_name;
 pub use requests::scene_bytes;
 pub use worn::Worn;
 
-use crate::growths::Growths;
-use crate::words::printable;
+use crate::client::growths::Growths;
+use crate::tell::words::printable;
 use life::Life;
 use picture::Picture;
 use std::collections::{BTreeMap, VecDeque};

@@ -3,9 +3,11 @@
 //! Lengths are in taxels and, with `_mm`, in millimetres if the garment has a pitch; angles in radians, times
 //! in seconds, pressure in counts. Floats are finite or `null`.
 
+mod frames;
 mod messages;
 pub mod pins;
 
+pub use frames::{Replay, State};
 pub use messages::{Messages, message};
 
 use serde_json::{Map, Value, json};

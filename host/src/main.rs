@@ -1,10 +1,10 @@
-//! The program `taxel`: prints one sentence about an error, and exits with the status of [`taxel::fault`].
+//! The program `taxel`: prints one sentence about an error, and exits with the status of [`taxel::tell::fault`].
 #![forbid(unsafe_code)]
 
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 use taxel::cli::Cli;
-use taxel::{fault, words};
+use taxel::tell::{fault, words};
 
 fn main() -> ExitCode {
     leave_where_nobody_reads();

@@ -4,7 +4,7 @@
 use crate::board::Emulated;
 use crate::faults::{examine, pin_faults};
 use std::collections::BTreeMap;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{FRAME_PERIOD_US, Script, frame_codes};
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{BoardInfo, Input, Shipped};

@@ -3,7 +3,7 @@
 //! more touches.
 
 use crate::board::Emulated;
-use taxel::scripts::load;
+use taxel::files::scripts::load;
 use taxel::sim::frame_codes;
 use taxel_core::capacity::TAXELS;
 use taxel_core::contact::Phase;

@@ -1,6 +1,6 @@
 //! Stand-in for `taxel foxglove` in a build without the feature: says how to build it in.
 
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 

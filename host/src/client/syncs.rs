@@ -1,6 +1,6 @@
 //! Round trips of `Sync`: quick ones at the start, then one a second.
 
-use crate::clock::{HostClock, RoundTrip};
+use super::clock::{HostClock, RoundTrip};
 use std::collections::VecDeque;
 use taxel_core::wire::{Request, SyncReport};
 

@@ -1,7 +1,7 @@
 //! The host's time, given to a client and asked of it.
 
 use super::Client;
-use crate::clock::HostTime;
+use super::clock::HostTime;
 use taxel_core::format::Micros;
 
 impl Client {

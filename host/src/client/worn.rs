@@ -1,7 +1,7 @@
 //! Contents of a board's `Hello`.
 
 use super::cleaned;
-use crate::words::printable;
+use crate::tell::words::printable;
 use taxel_core::format::{Micros, Name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::Pipeline;

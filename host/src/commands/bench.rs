@@ -1,7 +1,7 @@
 //! `taxel bench`: speed against error, as a text table, as JSON and as a chart.
 
 use crate::bench::{Report, acquisition, amplifier, nmi, record, stages};
-use crate::output;
+use crate::files::output;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};

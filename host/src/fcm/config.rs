@@ -5,7 +5,7 @@ use super::member::InputFile;
 use super::steps::{decimal, steps};
 use super::weight::Weight;
 use super::wrong::wrong;
-use crate::words::Step::{self, At, Key};
+use crate::tell::words::Step::{self, At, Key};
 use anyhow::{Result, anyhow, bail};
 use taxel_core::format::{Name, name};
 use taxel_core::intent::{Edge, MapConfig, Threshold};

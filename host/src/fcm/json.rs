@@ -9,7 +9,7 @@ use std::path::Path;
 /// Reads a JSON map. Errors are sentences with file, field and value.
 pub fn read(path: &Path) -> Result<Problem> {
     let file = path.display();
-    crate::verbose::reads(path);
+    crate::tell::verbose::reads(path);
     let text = std::fs::read_to_string(path).with_context(|| format!("{file}: cannot be read"))?;
     parse(&text).map_err(|error| anyhow!("{file}: {error}"))
 }

@@ -3,9 +3,9 @@
 use super::decimal::Decimal;
 use super::map::MapFile;
 use super::wrong;
-use crate::fault::Fault;
-use crate::output::Output;
-use crate::words;
+use crate::files::output::Output;
+use crate::tell::fault::Fault;
+use crate::tell::words;
 use anyhow::{Context, Result, anyhow, bail};
 use std::borrow::Cow;
 use std::path::Path;
@@ -30,7 +30,7 @@ pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
         let known = words::unknown("map", name_or_path, names);
         bail!(Fault::usage(format!("{known}, or give a .toml file")));
     }
-    crate::verbose::reads(name_or_path);
+    crate::tell::verbose::reads(name_or_path);
     let read = std::fs::read_to_string(name_or_path).map(Cow::Owned);
     read.with_context(|| {
         format!("{name_or_path}: cannot be read, and the shipped maps are {}", names.join(", "))

@@ -6,7 +6,7 @@ use super::member::InputFile;
 use super::steps::steps;
 use super::weight::Weight;
 use super::wrong::wrong;
-use crate::words::Step::{self, At, Key};
+use crate::tell::words::Step::{self, At, Key};
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;

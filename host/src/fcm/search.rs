@@ -11,7 +11,7 @@ use super::board::BoardMap;
 use super::map::MapFile;
 use super::touches::{Labelled, NONE, Touches};
 use super::weight::Weight;
-use crate::progress::{Progress, Unit};
+use crate::tell::progress::{Progress, Unit};
 use anyhow::Result;
 
 /// Required lead.

@@ -32,7 +32,7 @@ pub struct Touches {
 /// Reads a file for a map.
 pub fn read(path: &Path, file: &MapFile, map: &BoardMap) -> Result<Touches> {
     let place = path.display();
-    crate::verbose::reads(path);
+    crate::tell::verbose::reads(path);
     let text = std::fs::read_to_string(path).with_context(|| format!("{place}: cannot be read"))?;
     parse(&text, file, map).with_context(|| place.to_string())
 }

@@ -6,7 +6,7 @@ use super::engine::Q15_CONCEPTS;
 use super::map::MapFile;
 use super::paths::{Shares, shares};
 use super::told::Told;
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use taxel_core::intent::{Inference, Leading, Outcome, Why};

@@ -1,6 +1,6 @@
 //! Errors about a map, with their place in its file.
 
-use crate::words::{Step, line_of};
+use crate::tell::words::{Step, line_of};
 use anyhow::{Error, anyhow};
 use std::fmt;
 

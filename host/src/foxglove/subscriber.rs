@@ -1,7 +1,7 @@
 //! Outgoing messages of one client: a bounded amount, however slow it is.
 
 use super::protocol::{self, Channel};
-use crate::shared::Shared;
+use crate::source::shared::Shared;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::Duration;

@@ -6,8 +6,8 @@
 //! the message in microseconds since 1970, and `host_time_uncertainty_us`, the bound of its error, once the
 //! board has answered a `Sync`. Nothing else in a line depends on the host's time.
 
-use crate::calibrate::{Calibration, Forces};
 use crate::client::{Client, Event, ImageNews, request_name};
+use crate::files::calibrate::{Calibration, Forces};
 use crate::json;
 use crate::session::Show;
 use anyhow::Result;

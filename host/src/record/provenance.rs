@@ -1,8 +1,8 @@
 //! Origin of a recording: its attachments and metadata.
 
-use crate::calibrate::Calibration;
 use crate::client::Worn;
-use crate::garments;
+use crate::files::calibrate::Calibration;
+use crate::files::garments;
 use crate::recording::{Store, Writer};
 use anyhow::Result;
 use serde_json::{Value, json};

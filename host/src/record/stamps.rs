@@ -1,7 +1,7 @@
 //! Host times of a board's messages.
 
+use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event};
-use crate::clock::SteadyTime;
 use taxel_core::format::Micros;
 
 /// Nanoseconds per microsecond.

@@ -62,7 +62,7 @@ impl Records {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<Records> {
         let place = || format!("{} cannot be read", path.display());
-        crate::verbose::reads(path);
+        crate::tell::verbose::reads(path);
         let file = File::open(path).with_context(place)?;
         if path.is_dir() {
             bail!("{} is a folder", path.display());

@@ -9,7 +9,7 @@ use super::contents::Contents;
 use super::ending::Ending;
 use super::salvage::{Kind, Opened, Piece, Step, Walk};
 use super::scan::Scan;
-use crate::progress::{Progress, Unit};
+use crate::tell::progress::{Progress, Unit};
 use anyhow::Result;
 use binrw::BinWrite;
 use mcap::MAGIC;

@@ -3,7 +3,7 @@
 use super::chunk::Index;
 use super::contents::Contents;
 use super::salvage::{Damage, Kind, Piece, Step, Walk};
-use crate::progress::{Progress, Unit};
+use crate::tell::progress::{Progress, Unit};
 use anyhow::Result;
 use mcap::records::{Header, Metadata, Statistics};
 use std::path::Path;

@@ -31,7 +31,7 @@ impl Source {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<Source> {
         let place = || format!("{} cannot be read", path.display());
-        crate::verbose::reads(path);
+        crate::tell::verbose::reads(path);
         let file = File::open(path).with_context(place)?;
         let known = file.metadata().with_context(place)?;
         if known.is_dir() {

@@ -1,7 +1,7 @@
 //! A lost source, until it is back.
 
 use crate::source::{Return, Source};
-use crate::verbose;
+use crate::tell::verbose;
 use anyhow::Error;
 use std::thread;
 use std::time::{Duration, Instant};

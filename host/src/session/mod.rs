@@ -27,10 +27,10 @@ mod show;
 
 pub use show::Show;
 
+use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Restored, request_name};
-use crate::clock::SteadyTime;
-use crate::fault::{Blame, Fault};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
+use crate::tell::fault::{Blame, Fault};
 use absence::Absence;
 use anyhow::{Context, Result, bail};
 use outgoing::Outgoing;
@@ -312,7 +312,7 @@ impl Session {
         if self.source.returns.is_none() || self.returns == Returns::Never {
             return Err(why).with_context(|| format!("{label} is gone")).board();
         }
-        let text = format!("{label} is gone: {}; waiting for it", crate::words::sentence(&why));
+        let text = format!("{label} is gone: {}; waiting for it", crate::tell::words::sentence(&why));
         self.say(Level::Error, text);
         // A link that opens without bringing data does not end a gap.
         self.absence = Some(Absence::new(why, *self.gap.get_or_insert_with(Instant::now)));

@@ -3,9 +3,9 @@
 use super::serial::Serial;
 use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
 use crate::client::{Client, Event};
-use crate::fault::Fault;
-use crate::verbose;
-use crate::words::printable;
+use crate::tell::fault::Fault;
+use crate::tell::verbose;
+use crate::tell::words::printable;
 use anyhow::{Context, Result, bail};
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;

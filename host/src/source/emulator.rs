@@ -2,7 +2,7 @@
 
 use super::tcp::{CONNECT, Tcp};
 use super::{Port, Source, SourceOptions};
-use crate::scripts;
+use crate::files::scripts;
 use crate::sim::{self, COUNTS_PER_NEWTON, FRAME_PERIOD_US, FULL_SCALE, frame_codes, wiring_json};
 use anyhow::{Context, Result, anyhow, bail};
 use serde_json::Value;

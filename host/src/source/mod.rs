@@ -8,6 +8,7 @@ mod pipe;
 mod replay;
 mod scene;
 mod serial;
+pub mod shared;
 mod sim;
 mod spec;
 mod tcp;
@@ -18,7 +19,7 @@ pub use scene::{SceneFile, read_scene, scene_of};
 pub use spec::SourceSpec;
 
 use crate::sim::Script;
-use crate::verbose;
+use crate::tell::verbose;
 use anyhow::Result;
 use std::io;
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! Two byte queues between the host and a board in another thread. The board blocks on a slow reader, so that
 //! a simulation thins out nothing because of it.
 
-use crate::shared::Shared;
+use super::shared::Shared;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,8 +1,8 @@
 //! Plays a recording: the board's bytes in their original timing, scaled, or as fast as possible.
 
 use super::{Port, Source, SourceOptions};
-use crate::progress::{Progress, Unit};
 use crate::recording::{Overview, WIRE, WireReader};
+use crate::tell::progress::{Progress, Unit};
 use anyhow::{Context, Result, bail};
 use std::fmt;
 use std::io::{self, IsTerminal};

@@ -2,7 +2,7 @@
 
 use crate::fcm;
 use crate::sim::Script;
-use crate::{toml_key, words};
+use crate::tell::{toml_key, words};
 use anyhow::{Context, Error, Result, anyhow};
 use serde_json::Value;
 use std::fmt::Display;
@@ -29,7 +29,7 @@ impl SceneFile {
     /// Reads a scene's file, whose map may be [named](crate::fcm::scene). Errors name file, line and key.
     pub fn read(path: &Path) -> Result<SceneFile> {
         let name = path.display().to_string();
-        crate::verbose::reads(path);
+        crate::tell::verbose::reads(path);
         let text = std::fs::read_to_string(path).with_context(|| format!("{name} cannot be read"))?;
         let said: toml::Table =
             toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
@@ -131,7 +131,7 @@ fn merge(base: &mut Value, over: Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scripts;
+    use crate::files::scripts;
 
     fn of(scene: &str) -> Result<Scene> {
         scene_of(&scripts::parse(&format!("duration_s = 1\n[scene]\n{scene}"), "a.toml").unwrap())

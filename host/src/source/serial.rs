@@ -1,7 +1,7 @@
 //! A serial port.
 
 use super::Port;
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::Result;
 use serialport::SerialPort;
 use std::io::{self, ErrorKind, Read, Write};

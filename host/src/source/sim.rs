@@ -2,8 +2,7 @@
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
-use crate::garments;
-use crate::scripts;
+use crate::files::{garments, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use anyhow::{Context, Result, anyhow};
 use std::sync::mpsc;

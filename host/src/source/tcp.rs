@@ -1,7 +1,7 @@
 //! A board behind TCP.
 
 use super::Port;
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::Result;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};

@@ -2,7 +2,7 @@
 
 use super::View;
 use crate::client::{Client, Event};
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::session::Show;
 use anyhow::Result;
 use ratatui::buffer::{Buffer, Cell};

@@ -8,7 +8,7 @@ use super::said::Said;
 use super::shot::Shot;
 use super::tape::{self, Tape};
 use crate::recording::Store;
-use crate::shared;
+use crate::source::shared;
 use anyhow::{Context, Result};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

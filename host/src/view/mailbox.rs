@@ -2,7 +2,7 @@
 
 use super::message;
 use super::shot::Shot;
-use crate::shared::Shared;
+use crate::source::shared::Shared;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
 //! Bytes of the last half minute, as a file for `--source file:FILE`.
 
-use crate::passed::Passed;
+use crate::client::passed::Passed;
 use std::collections::VecDeque;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Report, decode, encode, frame_bound};

@@ -1,7 +1,7 @@
 //! What a page can save as a recording: the last half minute of a board, or a part of a recording.
 
+use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Worn};
-use crate::clock::SteadyTime;
 use crate::record::{Origin, RecordingFile, Stamp, time_of};
 use crate::recording::Store;
 use anyhow::Result;

@@ -1,9 +1,9 @@
 //! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
 use super::{GestureModel, Overwrite, TaxelPlace, feed, forms};
-use crate::calibrate::Calibration;
-use crate::fault::Fault;
+use crate::files::calibrate::Calibration;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
+use crate::tell::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;

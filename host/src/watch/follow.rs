@@ -2,16 +2,16 @@
 
 use super::asked::Asked;
 use super::{BoardArgs, LiveArgs, outfit, stop};
-use crate::calibrate::Calibration;
+use crate::client::passed::Passed;
 use crate::client::{Client, Event, ImageNews, request_name};
-use crate::fault::Fault;
-use crate::output::Output;
-use crate::passed::Passed;
+use crate::files::calibrate::Calibration;
+use crate::files::output::Output;
+use crate::learn::shapes::base::Base;
+use crate::learn::shapes::teach::teach;
 use crate::session::{Returns, Session, Show, Turn};
-use crate::shapes::base::Base;
-use crate::shapes::teach::teach;
 use crate::source::Source;
-use crate::verbose;
+use crate::tell::fault::Fault;
+use crate::tell::verbose;
 use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;

@@ -1,7 +1,7 @@
 //! Events as sentences, for the plain lines and for the log in the terminal.
 
 use crate::client::{Client, Event, Worn, request_name};
-use crate::starts;
+use crate::tell::starts;
 use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;

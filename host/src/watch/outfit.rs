@@ -1,10 +1,10 @@
 //! Queues the garment, scene and models of the command line before a board streams.
 
 use crate::client::Client;
-use crate::fault::Blame;
-use crate::garments;
+use crate::files::garments;
 use crate::source::read_scene;
-use crate::verbose;
+use crate::tell::fault::Blame;
+use crate::tell::verbose;
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The option `--force`.
 
-use crate::output::Force;
+use crate::files::output::Force;
 use clap::Args;
 
 /// Whether an existing output is replaced.

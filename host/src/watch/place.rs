@@ -1,7 +1,7 @@
 //! A taxel, named on the command line.
 
 use crate::client::Client;
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::{Result, anyhow};
 use std::str::FromStr;
 use taxel_core::garment::Place;

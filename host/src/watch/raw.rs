@@ -2,9 +2,9 @@
 
 use super::stop;
 use crate::client::{Client, Event, Worn, cleaned, scene_bytes};
-use crate::fault::Fault;
 use crate::session::{Returns, Session, Turn};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
+use crate::tell::fault::Fault;
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use taxel::learn::confusion::Confusion;
-use taxel::shapes::base::{Base, shipped_names};
+use taxel::learn::shapes::base::{Base, shipped_names};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};

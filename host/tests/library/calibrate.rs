@@ -4,10 +4,10 @@
 use anyhow::Result;
 use fastrand::Rng;
 use std::collections::BTreeSet;
-use taxel::calibrate::{Calibration, Forces, Over, Reason, Seen, judge, plates};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::commands::garment::calibrate::{Task, calibrate, script};
-use taxel::scripts;
+use taxel::files::calibrate::{Calibration, Forces, Over, Reason, Seen, judge, plates};
+use taxel::files::scripts;
 use taxel::sim::{Script, Sensor};
 use taxel::source::{self, SourceOptions};
 use taxel::watch::raw::RawBoard;
@@ -219,7 +219,7 @@ fn a_bent_sensor_needs_the_curve() {
     let rms = error(&felt(&calibration, &bent, 201).0, 0.5..=20.0).0;
     let mut straight = calibration.clone();
     let [first, ..] = *straight.panels[0].knots.knots() else { panic!("a curve has knots") };
-    straight.panels[0].knots = taxel::calibrate::Curve::new(vec![first]).unwrap();
+    straight.panels[0].knots = taxel::files::calibrate::Curve::new(vec![first]).unwrap();
     let without = error(&felt(&straight, &bent, 201).0, 0.5..=20.0).0;
     println!("bent: {:.2} % rms, {:.2} % with a straight line", 100.0 * rms, 100.0 * without);
     assert!(rms < 0.04 && without > 1.3 * rms, "{rms} {without}");

@@ -1,6 +1,6 @@
 //! A mat of one block: a box pressed on it, and its calibration.
 
-use taxel::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
+use taxel::files::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::{Garment, Layout};
 

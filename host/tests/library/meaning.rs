@@ -10,7 +10,7 @@ mod scripted;
 mod strangers;
 
 use std::collections::BTreeSet;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{self, FRAME_PERIOD_US, Player, Script};
 use taxel_core::capacity::TAXELS;
 use taxel_core::fold::{JointAngle, Posture};

@@ -1,7 +1,7 @@
 //! Small hard objects in the shipped scene: the share of their force that is reported at any position, and
 //! the delay.
 
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{FRAME_PERIOD_US, Player};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};

@@ -11,7 +11,7 @@ use std::future::Future;
 use std::pin::pin;
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
-use taxel::scripts::{garment as garment_of, load};
+use taxel::files::scripts::{garment as garment_of, load};
 use taxel::sim::{FRAME_PERIOD_US, PINS, Script, SimBoard, World, frame_codes, refit};
 use taxel_core::acquire::{Acquire, Adc, Clock, Lines, MuxScan, Plan, ScanError};
 use taxel_core::format::Micros;
@@ -413,7 +413,7 @@ fn crosstalk_makes_ghosts_on_the_rows_and_columns_of_the_block() {
 fn the_converter_of_the_rp2040_has_wide_codes() {
     let garment = binary_block();
     let text = "duration_s = 1\n[idle]\nbase_code = 520\nspread_counts = 0\nnoise_counts = 0\n[converter]\ndnl = true";
-    let script = taxel::scripts::parse(text, "dnl.toml").unwrap();
+    let script = taxel::files::scripts::parse(text, "dnl.toml").unwrap();
     assert!(scanned(&script, &garment, 1).iter().all(|code| *code < 517));
     let at_spike = |base: f64| {
         let mut script = script.clone();

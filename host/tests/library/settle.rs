@@ -3,7 +3,7 @@
 use anyhow::Result;
 use taxel::bench::acquisition::LINE_PF;
 use taxel::commands::garment::settle::{Scanner, settle};
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{PINS, SimBoard, Timing};
 use taxel_core::acquire::{Acquire, MuxScan, Plan};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};

@@ -1,7 +1,7 @@
 //! Models of touches: refused bytes, decisions of a trained model in the board's arithmetic, and its size.
 
 use proptest::prelude::*;
-use taxel::touches::{Head, Provenance, Ridge, Trained, export};
+use taxel::learn::touches::{Head, Provenance, Ridge, Trained, export};
 use taxel_core::format::Q15;
 use taxel_core::gesture::{
     FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, Shipped, TouchClassifier, TouchState,

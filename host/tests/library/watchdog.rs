@@ -1,7 +1,7 @@
 //! Long scans and self-tests feed the watchdog in time.
 
 use std::cell::Cell;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{PINS, SimBoard, SimClock};
 use taxel_core::acquire::{Acquire, Clock, Depth, LONGEST_MS, MuxScan, Plan, check_duration};
 use taxel_core::capacity::TAXELS;

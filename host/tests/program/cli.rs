@@ -339,7 +339,7 @@ fn a_garment_is_set_up_by_touch() {
         .collect();
     let kinds = |kind: &str| lines.iter().filter(|line| line["type"] == kind).count();
     assert_eq!((kinds("ask"), kinds("felt"), kinds("found")), (9, 9, 1));
-    let garment = taxel::garments::load(&output).unwrap();
+    let garment = taxel::files::garments::load(&output).unwrap();
     assert_eq!(serde_json::to_value(&garment).unwrap(), lines.last().unwrap()["garment"]);
     let said = run(&["setup", "--simulate", "7"]);
     let text = String::from_utf8(said.stdout).unwrap();
@@ -375,7 +375,7 @@ fn settling_is_found_and_written() {
     // time than a slower pace.
     assert_eq!(settled["in_slots_ns"], 12_000);
     assert_eq!(settled["measured"], serde_json::json!([26, 27, 28, 29]));
-    let garment = taxel::garments::load(&output).unwrap();
+    let garment = taxel::files::garments::load(&output).unwrap();
     assert_eq!(settled["settle_ns"], garment.wiring.settle_ns);
 }
 
@@ -407,7 +407,7 @@ fn a_board_is_set_up_by_touch() {
         String::from_utf8_lossy(&said.stdout),
         String::from_utf8_lossy(&said.stderr)
     );
-    let found = taxel::sim::Decoder::build(&taxel::garments::load(&output).unwrap());
+    let found = taxel::sim::Decoder::build(&taxel::files::garments::load(&output).unwrap());
     let wired = taxel::sim::Decoder::build(&taxel_core::garment::Garment::reference());
     // All levels of the nine address lines, on every input.
     let lines = [2, 3, 6, 7, 8, 9, 10, 11, 12];

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use taxel::arrays;
+use taxel::files::arrays;
 
 fn taxel(args: &[&str]) -> Output {
     let done = Command::new(env!("CARGO_BIN_EXE_taxel")).args(args).output().unwrap();

@@ -1,15 +1,17 @@
 //! `taxel live` through the library: a simulated board, the wire, the client, and all three outputs.
 
 use crate::sink::Sink;
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::{Terminal, backend::TestBackend};
 use serde_json::Value;
 use std::path::PathBuf;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json::Messages;
+use taxel::learn::shapes::base::Base;
+use taxel::learn::shapes::teach::teach;
 use taxel::session::Show;
-use taxel::shapes::{base::Base, teach::teach};
 use taxel::source::{self, Source, SourceOptions};
 use taxel::terminal::{Lines, TaxelLines, View};
 use taxel::watch::{GestureModel, LiveArgs, watch};
@@ -307,7 +309,7 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
 #[test]
 fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/garments/block-4x16.toml");
-    assert_eq!(taxel::garments::load(shipped).unwrap(), taxel_core::garment::Garment::block());
+    assert_eq!(taxel::files::garments::load(shipped).unwrap(), taxel_core::garment::Garment::block());
     let refused = |edit: &dyn Fn(&mut LiveArgs)| {
         let mut args = args("sim:idle", Some(1));
         edit(&mut args);

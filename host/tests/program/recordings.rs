@@ -106,7 +106,7 @@ fn what_is_damaged_is_passed_over_and_told() {
         assert!(String::from_utf8_lossy(&done.stderr).contains(&told), "{args:?}: {done:?}");
     }
     assert!(fs::read_to_string(page).unwrap().contains(&told));
-    let arrays = taxel::arrays::read(&npz, Some("chest")).unwrap();
+    let arrays = taxel::files::arrays::read(&npz, Some("chest")).unwrap();
     // Images behind the damage cannot be decoded until the next key frame.
     assert!(arrays.count as u64 <= frames(&after) && arrays.count as u64 + 220 > frames(&after));
 }

@@ -5,7 +5,7 @@ use super::stage::{Seen, file, plan, record};
 use serde_json::json;
 use std::num::NonZeroU16;
 use taxel::commands::recordings::export::{ExportArgs, Form, run};
-use taxel::output::Force;
+use taxel::files::output::Force;
 
 const FPS: u16 = 50;
 

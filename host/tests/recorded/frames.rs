@@ -5,7 +5,7 @@
 use crate::data;
 use crate::dense::Dense;
 use std::path::PathBuf;
-use taxel::arrays::{self, Frames};
+use taxel::files::arrays::{self, Frames};
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};

@@ -6,7 +6,7 @@ use crate::start::{root, taxel};
 use serde_json::Value;
 use std::process::Command;
 use taxel::commands::touches::{gestures, intent};
-use taxel::touches;
+use taxel::learn::touches;
 
 fn share(report: &Value, pointer: &str) -> f64 {
     report.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer} in {report}"))

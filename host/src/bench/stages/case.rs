@@ -1,9 +1,10 @@
 //! A case: a garment, settings of a scene, and the codes of its frames; the same for the emulated board and
 //! for this machine.
 
-use crate::arrays;
 use crate::client::Client;
-use crate::shapes::{base::Base, teach::teach};
+use crate::files::arrays;
+use crate::learn::shapes::base::Base;
+use crate::learn::shapes::teach::teach;
 use anyhow::{Context, Result};
 use std::path::Path;
 use taxel_core::acquire::Depth;

@@ -1,6 +1,6 @@
 //! `taxel flash`: writes the firmware to a board, by its boot loader's drive or a debug probe.
 
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::fs::{self, File};
@@ -37,7 +37,7 @@ pub struct FlashArgs {
 /// Runs the command.
 pub fn run(args: &FlashArgs) -> Result<()> {
     let name = args.file.display();
-    crate::verbose::reads(&args.file);
+    crate::tell::verbose::reads(&args.file);
     let image = fs::read(&args.file).with_context(|| format!("{name} cannot be read"))?;
     if image.starts_with(b"\x7fELF") {
         return probe(&args.file);

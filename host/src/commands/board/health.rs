@@ -6,10 +6,10 @@ use crate::json::pins;
 pub use ghosts::candidates;
 
 use crate::client::{Client, Event};
-use crate::fault::{Blame, Fault};
-use crate::garments;
+use crate::files::garments;
 use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::tell::fault::{Blame, Fault};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
@@ -216,7 +216,7 @@ pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fault;
+    use crate::tell::fault;
 
     #[test]
     fn a_line_at_fault_is_told_and_fails_the_command() {

@@ -1,9 +1,9 @@
 //! `taxel reset-settings`: restarts a board with the shipped settings, and keeps its saved ones aside.
 
 use crate::client::{Client, Event};
-use crate::fault::Fault;
 use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::tell::fault::Fault;
 use crate::watch::{self, LiveArgs};
 use anyhow::{Result, bail};
 use clap::Args;

@@ -1,9 +1,9 @@
 //! `taxel save`: saves a board's settings to its flash.
 
 use crate::client::{Client, Event};
-use crate::fault::Fault;
 use crate::session::Show;
 use crate::source::SourceOptions;
+use crate::tell::fault::Fault;
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! `taxel features`: moments, NMI and axis of one recorded image, without conditioning or thresholds.
 
-use crate::arrays;
-use crate::fault::Fault;
+use crate::files::arrays;
+use crate::tell::fault::Fault;
 use anyhow::{Context, Result, bail};
 use serde::Serialize;
 use std::path::PathBuf;

@@ -1,28 +1,20 @@
 //! `taxel process`: runs the board's pipeline over recorded frames, one JSON object per frame.
 
-use crate::arrays::{self, Frames};
-use crate::fault::Fault;
-use crate::growths::Growths;
-use crate::progress::{Progress, Unit};
+use crate::files::arrays::{self, Frames};
+use crate::json::Replay;
+use crate::learn::doubts;
+use crate::tell::fault::Fault;
+use crate::tell::progress::{Progress, Unit};
 use crate::watch::forms;
-use crate::{doubts, json};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use serde_json::{Value, json};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use taxel_core::body::Placed;
-use taxel_core::condition::Tare;
 use taxel_core::contact::Forms;
-use taxel_core::format::{Code, Micros, Name, Q15};
-use taxel_core::garment::{Garment, Layout};
-use taxel_core::intent::Leading;
-use taxel_core::pipeline::{Percept, Pipeline, PipelineState};
+use taxel_core::format::Micros;
+use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
-
-/// Taxels of the largest recording; half as many runs always suffice.
-const TAXELS: usize = 16_384;
-type State = PipelineState<TAXELS, { TAXELS / 2 }>;
 
 /// Arguments of `taxel process`.
 #[derive(Debug, Clone, Args)]
@@ -81,7 +73,7 @@ pub fn recordings(file: &Path, array: Option<&str>) -> Result<Vec<(String, Frame
 fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write) -> Result<()> {
     let top = frames.values.iter().copied().max().unwrap_or(0).max(args.full_scale);
     let garment = match &args.layout {
-        Some(layout) => crate::garments::load(layout)?,
+        Some(layout) => crate::files::garments::load(layout)?,
         None => Garment::recorded(frames.rows, frames.columns),
     };
     let place = || format!("{}{}", args.file.display(), array_of(name));
@@ -154,77 +146,4 @@ fn line(object: &Value) -> String {
     let leading = object["intent"]["leading"].as_str().unwrap_or("none");
     let all = each.collect::<Vec<_>>().join("; ");
     format!("frame {}: {leading}; {}", object["frame"], if all.is_empty() { "nothing touches" } else { &all })
-}
-
-/// A garment and a scene on the host: takes frames of values, returns JSON objects.
-pub struct Replay {
-    layout: Layout,
-    falling: bool,
-    pipeline: Pipeline,
-    state: Box<State>,
-    names: Vec<Name>,
-    leading: Leading,
-    concepts: Vec<Q15>,
-    growths: Growths,
-}
-
-impl Replay {
-    /// A replay on a garment with values up to `full_scale`.
-    pub fn new(garment: &Garment, scene: &Scene, full_scale: u16) -> Result<Replay> {
-        let layout = Layout::build(garment, TAXELS, full_scale)?;
-        let pipeline = Pipeline::build(scene, &layout)?;
-        let mut state = Box::new(State::default());
-        let falling = garment.wiring.falling;
-        state.reset(&layout, falling, full_scale);
-        let names = pipeline.intent().map_or_else(Vec::new, |intent| intent.map().concepts().to_vec());
-        let concepts = vec![Q15(0); names.len()];
-        Ok(Replay {
-            layout,
-            falling,
-            pipeline,
-            state,
-            names,
-            leading: Leading::None,
-            concepts,
-            growths: Growths::default(),
-        })
-    }
-
-    /// Processes one frame. Returns an object with time, contacts and intent.
-    pub fn frame(&mut self, values: &[u16], time: Micros) -> Value {
-        let codes: Vec<Code> = values.iter().map(|value| Code(*value)).collect();
-        let Replay { layout, falling, pipeline, state, names, leading, concepts, growths } = self;
-        let percept = pipeline.process(state, layout, &codes, *falling, time, &mut ());
-        if let Some(meaning) = &percept.meaning {
-            *leading = meaning.leading;
-            *concepts = meaning.activations.to_vec();
-        }
-        growths.feel(percept.present, percept.released);
-        let mut object = perceived(&percept, layout, growths);
-        object["time"] = json!(time.0 as f64 / 1e6);
-        object["intent"] = json::intent(*leading, names, concepts);
-        object
-    }
-}
-
-/// Encodes what was perceived in a frame, except for the intention.
-fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value {
-    let contact = |(index, placed): (usize, &Placed)| {
-        let mut object = json::contact(placed, layout, percept.unsure.is_unsure(index));
-        object["form_age"] = json!(percept.form_ages.get(index));
-        object["hardness"] = json!(growths.hardness(placed.contact.id, layout));
-        object
-    };
-    let mut object =
-        json!({ "contacts": percept.present.iter().enumerate().map(contact).collect::<Vec<_>>() });
-    if !percept.released.is_empty() {
-        object["released"] = json!(percept.released.iter().map(|p| p.contact.id).collect::<Vec<_>>());
-    }
-    if percept.dropped > 0 {
-        object["dropped"] = json!(percept.dropped);
-    }
-    if let Tare::Running { .. } = percept.tare {
-        object["tare"] = json!(true);
-    }
-    object
 }

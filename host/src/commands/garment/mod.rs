@@ -6,8 +6,8 @@ pub mod scenes;
 pub mod settle;
 pub mod setup;
 
-use crate::garments::text;
-use crate::output::Output;
+use crate::files::garments::text;
+use crate::files::output::Output;
 use anyhow::Result;
 use taxel_core::garment::Garment;
 

@@ -7,7 +7,7 @@ use crate::fcm::combine::{report, table};
 use crate::fcm::load;
 use crate::fcm::map::MapFile;
 use crate::fcm::unite::{Shared, unite};
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

@@ -6,7 +6,7 @@ use crate::fcm::decimal::Decimal;
 use crate::fcm::draw::svg;
 use crate::fcm::load;
 use crate::fcm::map::MapFile;
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

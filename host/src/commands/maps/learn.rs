@@ -4,7 +4,7 @@ use crate::commands::tell;
 use crate::fcm::board::BoardMap;
 use crate::fcm::learn::{learn, report, text};
 use crate::fcm::{load, touches};
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

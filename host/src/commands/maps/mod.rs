@@ -10,7 +10,7 @@ pub mod run;
 pub mod told;
 pub mod why;
 
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use anyhow::{Result, bail};
 
 /// Arguments of `taxel fcm`.

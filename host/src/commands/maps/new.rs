@@ -7,7 +7,7 @@ use crate::fcm::map::{ConceptFile, EdgeFile, MapFile};
 use crate::fcm::member::InputFile;
 use crate::fcm::weight::Weight;
 use crate::fcm::{load, terms};
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::watch::Overwrite;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{BufRead, IsTerminal, Write};

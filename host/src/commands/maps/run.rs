@@ -1,9 +1,9 @@
 //! `taxel fcm MAP`: runs a fuzzy cognitive map in f64 and in the arithmetic of the board, side by side.
 
-use crate::fault::Fault;
 use crate::fcm::decimal::Decimal;
 use crate::fcm::engine::{self, Problem, Settings, Trajectory};
 use crate::fcm::{json, load};
+use crate::tell::fault::Fault;
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
 use std::path::Path;

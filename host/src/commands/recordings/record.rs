@@ -1,8 +1,8 @@
 //! The command `taxel record`.
 
-use crate::fault::Fault;
 use crate::record::{Origin, Plan, Recorder, Rotate};
 use crate::source::SourceOptions;
+use crate::tell::fault::Fault;
 use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
 use anyhow::{Result, bail};
 use clap::Args;

@@ -1,6 +1,6 @@
 //! `taxel info --repair`: writes what can be read of a recording to another file.
 
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::recording::{self, Scan};
 use crate::watch::Overwrite;
 use anyhow::{Context, Result, bail};

@@ -1,14 +1,14 @@
 //! The command `taxel report`.
 
 use crate::client::Event;
-use crate::fault::Fault;
-use crate::output::Output;
-use crate::progress::{Progress, Unit};
+use crate::files::output::Output;
 use crate::record::Play;
 use crate::recording::Overview;
 use crate::report::{Seen, page};
 use crate::session::Show;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::tell::fault::Fault;
+use crate::tell::progress::{Progress, Unit};
 use crate::watch::{self, LiveArgs, Overwrite};
 use anyhow::{Result, bail};
 use clap::Args;

@@ -1,7 +1,7 @@
 //! `taxel shapes card`: prints the origin of a base, and where it fails.
 
 use crate::learn::confusion::Confusion;
-use crate::shapes::base::{Base, Source};
+use crate::learn::shapes::base::{Base, Source};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,8 @@
 //! Turns objects held against a board into prototypes.
 
 use crate::client::{Client, Event, ImageNews};
+use crate::learn::shapes::cluster::centres;
 use crate::session::Show;
-use crate::shapes::cluster::centres;
 use anyhow::Result;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactState};

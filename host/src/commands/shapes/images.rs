@@ -1,8 +1,8 @@
 //! Labelled images, named on the command line.
 
-use crate::shapes::classes::Classes;
-use crate::shapes::data::Images;
-use crate::shapes::view::{self, Choice};
+use crate::learn::shapes::classes::Classes;
+use crate::learn::shapes::data::Images;
+use crate::learn::shapes::view::{self, Choice};
 use std::path::PathBuf;
 
 /// Source of labelled images.

@@ -1,11 +1,11 @@
 //! `taxel shapes install`: sends a base to a board, which uses it until it is switched off.
 
 use crate::client::{Client, Event};
-use crate::fault::Fault;
+use crate::learn::shapes::base::Base;
+use crate::learn::shapes::teach::teach;
 use crate::session::Show;
-use crate::shapes::base::Base;
-use crate::shapes::teach::teach;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::tell::fault::Fault;
 use crate::watch::{self, LiveArgs};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;

@@ -2,12 +2,12 @@
 //! images.
 
 use super::hold::Hold;
-use crate::arrays;
+use crate::files::arrays;
+use crate::files::output::{Force, Output, is_same};
 use crate::learn::fingerprint::Fingerprint;
-use crate::output::{Force, Output, is_same};
-use crate::shapes::base::{Base, LEFT_OUT, Source};
-use crate::shapes::extend::{check_name, extend};
-use crate::shapes::view::Choice;
+use crate::learn::shapes::base::{Base, LEFT_OUT, Source};
+use crate::learn::shapes::extend::{check_name, extend};
+use crate::learn::shapes::view::Choice;
 use crate::source::{SourceOptions, SourceSpec};
 use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, seconds};
 use anyhow::{Result, ensure};

@@ -1,6 +1,6 @@
 //! `taxel shapes list`: lists the classes of a base.
 
-use crate::shapes::base::{Base, shipped_names};
+use crate::learn::shapes::base::{Base, shipped_names};
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

@@ -1,8 +1,8 @@
 //! `taxel shapes prune`: removes prototypes that do not affect decisions.
 
-use crate::output::Output;
-use crate::shapes::base::Base;
-use crate::shapes::prune::prune;
+use crate::files::output::Output;
+use crate::learn::shapes::base::Base;
+use crate::learn::shapes::prune::prune;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

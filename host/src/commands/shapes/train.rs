@@ -1,9 +1,9 @@
 //! `taxel shapes train`: trains a base on labelled images.
 
 use super::images::ImagesArgs;
-use crate::output::Output;
-use crate::shapes::train::Recipe;
-use crate::shapes::trained::train;
+use crate::files::output::Output;
+use crate::learn::shapes::train::Recipe;
+use crate::learn::shapes::trained::train;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 //! `taxel gestures`: recognises gestures by a model that fits the board.
 
 use super::task::{EvalArgs, Task, TrainArgs};
-use crate::touches::gestures::{SETTINGS, load, times};
-use crate::touches::{self, grid};
+use crate::learn::touches::gestures::{SETTINGS, load, times};
+use crate::learn::touches::{self, grid};
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::Shipped;

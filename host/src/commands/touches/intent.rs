@@ -1,8 +1,8 @@
 //! `taxel intent`: recognises the intention of a touch by a model that fits the board.
 
 use super::task::{EvalArgs, Task, TrainArgs};
-use crate::touches::intent::{Apart, SETTINGS, load, times};
-use crate::touches::{self, grid};
+use crate::learn::touches::intent::{Apart, SETTINGS, load, times};
+use crate::learn::touches::{self, grid};
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use taxel_core::gesture::Shipped;

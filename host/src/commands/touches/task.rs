@@ -1,7 +1,7 @@
 //! Training and evaluation of a model of touches, shared by `taxel gestures` and `taxel intent`.
 
-use crate::output::Output;
-use crate::touches::{
+use crate::files::output::Output;
+use crate::learn::touches::{
     Data, Files, Provenance, Report, Settings, Times, as_it_is, courses, cross, example, nested, read,
     saturation, train, units,
 };

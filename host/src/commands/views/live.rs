@@ -1,7 +1,7 @@
 //! `taxel live`: shows a board's stream in the terminal, as lines of text or as JSON.
 
+use crate::files::output::Output;
 use crate::json::Messages;
-use crate::output::Output;
 use crate::session::Show;
 use crate::source::SourceOptions;
 use crate::terminal::{Lines, Painter, Screen, TaxelLines, View};

@@ -1,6 +1,6 @@
 //! `taxel view`: shows a board's stream or a recording in the browser.
 
-use crate::calibrate::Calibration;
+use crate::files::calibrate::Calibration;
 use crate::record::Origin;
 use crate::source::{SourceOptions, SourceSpec, Speed};
 use crate::view::{Hub, Player, Tape, Viewer, browser, serve};

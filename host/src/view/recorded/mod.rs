@@ -30,8 +30,8 @@ pub use cut::Cut;
 
 use super::hub::Hub;
 use super::tape::Tape;
-use crate::calibrate::Calibration;
 use crate::client::Event;
+use crate::files::calibrate::Calibration;
 use crate::record::{CALIBRATION, Origin};
 use crate::recording::{Clips, WIRE};
 use anyhow::{Context, Result, bail};

@@ -5,7 +5,7 @@ use super::standing::Standing;
 use super::told::with_report;
 use crate::client::{Client, Event};
 use crate::recording::{Clips, HELLO, Piece, lost};
-use crate::shared::Shared;
+use crate::source::shared::Shared;
 use crate::view::hub::Hub;
 use crate::view::said::{Kind, Said, Teller, gap};
 use std::sync::Arc;

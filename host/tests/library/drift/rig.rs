@@ -1,6 +1,6 @@
 //! A drifting garment, and the board's perception of it.
 
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{Course, Drifting, Patch, World};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};

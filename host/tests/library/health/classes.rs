@@ -4,7 +4,7 @@ use super::is_campaign;
 use super::scripts::all_pressed;
 use super::worn::{FRAME_S, TARE, TAXELS, Worn};
 use std::collections::BTreeMap;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{Noisy, Script, Stuck};
 use taxel_core::acquire::Depth;
 use taxel_core::health::TaxelHealth;

@@ -3,7 +3,7 @@
 use super::is_campaign;
 use super::scripts::varied;
 use super::worn::{FRAME_S, Worn};
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim;
 use taxel_core::garment::Garment;
 

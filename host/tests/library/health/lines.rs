@@ -3,7 +3,7 @@
 use super::scripts::all_pressed;
 use super::worn::Worn;
 use crate::faults::{examine, pin_faults};
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{Stuck, rewire};
 use taxel_core::board::{Input, Job};
 use taxel_core::format::Micros;

@@ -2,7 +2,7 @@
 
 use super::worn::{FRAME_S, TARE, TAXELS, Worn};
 use std::collections::BTreeSet;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{Noisy, Script, Stuck};
 
 /// Frames of the tare and those in which every taxel is judged.

@@ -1,6 +1,6 @@
 //! Scripts of touches.
 
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::Script;
 use taxel_core::garment::{Garment, Panel};
 

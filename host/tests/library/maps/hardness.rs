@@ -1,7 +1,7 @@
 //! Hard and soft objects are distinguished by the growth of force and area, through the whole pipeline.
 
-use taxel::commands::frames::process::Replay;
 use taxel::fcm::map::MapFile;
+use taxel::json::Replay;
 use taxel::sim::{Footprint, Shape};
 use taxel_core::contact::Hardness;
 use taxel_core::format::Micros;

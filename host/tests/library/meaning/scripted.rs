@@ -6,7 +6,7 @@
 
 use crate::meaning::family::{Act, Family, Wish};
 use fastrand::Rng;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{Player, Script, Shape, Size, Touch};
 use taxel_core::garment::Garment;
 

@@ -3,7 +3,7 @@
 
 use crate::people::kind::{Act, Kind, Session};
 use fastrand::Rng;
-use taxel::scripts;
+use taxel::files::scripts;
 use taxel::sim::{Player, Script, Shape, Touch};
 use taxel_core::garment::Garment;
 

@@ -3,8 +3,8 @@
 use super::stage::{file, plan};
 use crate::mat::{box_for, knee};
 use std::path::Path;
-use taxel::calibrate::Calibration;
 use taxel::commands::recordings::export::{ExportArgs, Form, run};
+use taxel::files::calibrate::Calibration;
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::recording::Overview;
 use taxel::source::{self, SourceOptions};

@@ -3,8 +3,8 @@
 use super::stage::{Seen, file, plan, record};
 use std::num::NonZeroU64;
 use std::path::PathBuf;
-use taxel::arrays;
 use taxel::commands::recordings::export::{ExportArgs, Form, run};
+use taxel::files::arrays;
 use taxel::watch::Overwrite;
 
 const PANELS: [&str; 4] = ["chest", "back", "left arm", "right arm"];

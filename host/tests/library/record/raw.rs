@@ -2,9 +2,9 @@
 
 use super::stage::{file, plan, record};
 use taxel::client::{Client, Event};
-use taxel::fault::status;
 use taxel::record::{Plan, Play, Recorder};
 use taxel::session::Show;
+use taxel::tell::fault::status;
 
 /// A client after the `Hello` of a board that sends no raw codes.
 fn acquainted() -> Client {

@@ -2,7 +2,7 @@
 
 use super::keys;
 use taxel::commands::garment::config::Kind;
-use taxel::scripts;
+use taxel::files::scripts;
 
 /// A script with every key.
 const BASE: &str = r#"

@@ -124,6 +124,9 @@ fn a_recording_without_its_first_chunk_is_played() {
         assert!(decoded > 100 && decoded < whole, "{name}: {decoded} of {whole} frames");
         let npz = format!("{name}.npz");
         folder.good(&["export", name, "--to", "npz", "-o", &npz]);
-        assert_eq!(taxel::arrays::read(&folder.at(&npz), Some("chest")).unwrap().count as u64, decoded);
+        assert_eq!(
+            taxel::files::arrays::read(&folder.at(&npz), Some("chest")).unwrap().count as u64,
+            decoded
+        );
     }
 }

@@ -3,9 +3,9 @@
 use super::facts::Facts;
 use super::finding::{Finding, Grade};
 use super::judge::judge;
-use crate::date;
-use crate::fault::Fault;
 use crate::source::{self, SourceOptions, SourceSpec};
+use crate::tell::date;
+use crate::tell::fault::Fault;
 use crate::watch::{self, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;

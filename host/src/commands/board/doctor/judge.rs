@@ -2,9 +2,9 @@
 
 use super::facts::Facts;
 use super::finding::Finding;
-use crate::date::days_between;
 use crate::json::pins;
-use crate::starts;
+use crate::tell::date::days_between;
+use crate::tell::starts;
 use taxel_core::boot::{Aside, Boot};
 use taxel_core::wire::Health;
 

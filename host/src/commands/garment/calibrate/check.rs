@@ -1,10 +1,10 @@
 //! The command `taxel calibrate check`.
 
 use super::dialogue::Dialogue;
-use crate::calibrate::{Calibration, Over, Plate, Reading, Reason, Seen, judge, plates};
-use crate::date;
-use crate::fault::{Blame, Fault};
+use crate::files::calibrate::{Calibration, Over, Plate, Reading, Reason, Seen, judge, plates};
 use crate::source::SourceSpec;
+use crate::tell::date;
+use crate::tell::fault::{Blame, Fault};
 use crate::watch::raw::RawBoard;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
@@ -112,7 +112,8 @@ fn felt(calibration: &Calibration, plate: &Plate, reading: &Reading) -> Result<f
     let curve = &panel.with_context(|| format!("the calibration has no panel {name}"))?.knots;
     let force = |(taxel, counts): (&u16, &f64)| {
         let gain = f64::from(calibration.gains[usize::from(*taxel)]) / f64::from(UNITY);
-        curve.micronewtons((counts.max(0.0) * gain * f64::from(crate::calibrate::PARTS)).round() as u32)
+        curve
+            .micronewtons((counts.max(0.0) * gain * f64::from(crate::files::calibrate::PARTS)).round() as u32)
             as f64
             / 1e6
     };

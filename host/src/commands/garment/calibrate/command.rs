@@ -3,11 +3,11 @@
 use super::check::{self, CheckArgs};
 use super::task::{Task, calibrate};
 use super::{install, operator};
-use crate::calibrate::{Calibration, OfWeight, Over, plates};
-use crate::fault::Fault;
-use crate::output::Output;
+use crate::files::calibrate::{Calibration, OfWeight, Over, plates};
+use crate::files::output::Output;
 use crate::sim::Sensor;
 use crate::source::{self, SourceSpec};
+use crate::tell::fault::Fault;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
 use anyhow::{Result, bail, ensure};
@@ -111,7 +111,7 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
     let output = Output::stream(&args.output, args.force, inputs)?;
     let mut board = open(args, &weights)?;
     if let (Some(garment), None) = (&args.garment, args.simulate) {
-        board.wear(&crate::garments::load(garment)?)?;
+        board.wear(&crate::files::garments::load(garment)?)?;
     }
     let task = Task { over: Over::from(args.over), weights, by: by(args), wait: args.wait, json: args.json };
     let made = calibrate(&mut board, &task)?;
@@ -150,7 +150,7 @@ fn weights(args: &CalibrateArgs) -> Result<Vec<f64>> {
 fn open(args: &CalibrateArgs, weights: &[f64]) -> Result<RawBoard> {
     let Some(seed) = args.simulate else { return RawBoard::open(&args.source) };
     let name = args.garment.as_deref().unwrap_or(SIMULATED);
-    let garment = crate::garments::load(name)?;
+    let garment = crate::files::garments::load(name)?;
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let plates = plates(&garment, &layout, Over::from(args.over))?;
     let script = operator::script(name, &layout, &plates, weights, &SENSOR, seed)?;

@@ -1,7 +1,7 @@
 //! Asks for the weights, one after the other, on one plate after the other.
 
 use super::steady::Steady;
-use crate::calibrate::{Plate, Reading, Rest, mean};
+use crate::files::calibrate::{Plate, Reading, Rest, mean};
 use crate::watch::raw::RawBoard;
 use anyhow::{Result, bail};
 use serde_json::json;

@@ -1,6 +1,6 @@
 //! Sends a calibration to a board.
 
-use crate::calibrate::Calibration;
+use crate::files::calibrate::Calibration;
 use crate::watch::raw::RawBoard;
 use anyhow::Result;
 

@@ -1,7 +1,7 @@
 //! Simulates a user who puts weights on a garment.
 
-use crate::calibrate::Plate;
-use crate::scripts;
+use crate::files::calibrate::Plate;
+use crate::files::scripts;
 use crate::sim::{Script, Sensor};
 use anyhow::{Context, Result};
 use taxel_core::garment::Layout;

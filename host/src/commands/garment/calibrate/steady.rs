@@ -1,6 +1,6 @@
 //! Detects a steady load: the mean over the plate has left the last load, and stands still.
 
-use crate::calibrate::mean;
+use crate::files::calibrate::mean;
 use std::collections::VecDeque;
 
 /// Frames of a steady load.

@@ -1,8 +1,8 @@
 //! A complete calibration on a board.
 
 use super::dialogue::Dialogue;
-use crate::calibrate::{Calibration, Over, fit, plates};
-use crate::fault::Blame;
+use crate::files::calibrate::{Calibration, Over, fit, plates};
+use crate::tell::fault::Blame;
 use crate::watch::raw::RawBoard;
 use anyhow::{Context, Result};
 use taxel_core::garment::Layout;

@@ -1,6 +1,6 @@
 //! Checks that the standard board can run a garment's file and a scene's file.
 
-use crate::garments;
+use crate::files::garments;
 use crate::source::SceneFile;
 use anyhow::{Result, anyhow};
 use std::path::Path;

@@ -5,8 +5,8 @@ mod scene;
 
 pub use check::check;
 
-use crate::garments;
-use crate::output::{Force, Output};
+use crate::files::garments;
+use crate::files::output::{Force, Output};
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};

@@ -2,10 +2,10 @@
 
 use super::search::{Scanner, Settled, settle};
 use crate::commands::garment;
-use crate::fault::Fault;
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::sim::FULL_SCALE;
 use crate::source::SourceSpec;
+use crate::tell::fault::Fault;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
 use anyhow::{Result, bail};
@@ -77,7 +77,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     }
     let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
     let output = args.output.as_ref().map(|name| Output::stream(name, args.force, inputs)).transpose()?;
-    let given = args.garment.as_deref().map(crate::garments::load).transpose()?;
+    let given = args.garment.as_deref().map(crate::files::garments::load).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
     let mut garment = given.unwrap_or_else(|| board.garment().clone());
     if !args.json {

@@ -6,10 +6,10 @@ use super::solver::{Found, Next, Solver};
 use super::touch::Touch;
 use super::user::User;
 use crate::commands::garment;
-use crate::fault::Fault;
-use crate::output::Output;
+use crate::files::output::Output;
 use crate::sim;
 use crate::source::SourceSpec;
+use crate::tell::fault::Fault;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
 use anyhow::{Context, Result, bail};
@@ -103,7 +103,7 @@ pub fn run(args: &SetupArgs) -> Result<()> {
 }
 
 fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {
-    let template = crate::garments::load(args.garment.as_deref().unwrap_or("reference"))?;
+    let template = crate::files::garments::load(args.garment.as_deref().unwrap_or("reference"))?;
     let mut solver = solver(&template)?;
     let mut rng = Rng::with_seed(seed);
     let wired = sim::rewire(&template, &mut rng);
@@ -112,7 +112,7 @@ fn simulated(args: &SetupArgs, seed: u64) -> Result<Found> {
 }
 
 fn on_a_board(args: &SetupArgs) -> Result<Found> {
-    let given = args.garment.as_deref().map(crate::garments::load).transpose()?;
+    let given = args.garment.as_deref().map(crate::files::garments::load).transpose()?;
     let mut board = RawBoard::open(&args.source)?;
     let template = given.unwrap_or_else(|| board.garment().clone());
     let mut solver = solver(&template)?;

@@ -1,6 +1,6 @@
 //! Arguments of `taxel export`.
 
-use crate::fault::Fault;
+use crate::tell::fault::Fault;
 use crate::watch::Overwrite;
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};

@@ -2,9 +2,9 @@
 
 use super::units::{Scale, Units};
 use crate::client::{Client, Event, ImageNews};
-use crate::progress::{Progress, Unit};
 use crate::record::Play;
 use crate::recording::{Overview, Skipped};
+use crate::tell::progress::{Progress, Unit};
 use anyhow::{Context, Result, bail};
 use std::cell::Cell;
 use std::num::NonZeroU64;

@@ -24,8 +24,8 @@ mod units;
 
 pub use args::{ExportArgs, Form};
 
-use crate::fault::Fault;
-use crate::output::{Folder, Output};
+use crate::files::output::{Folder, Output};
+use crate::tell::fault::Fault;
 use anyhow::{Context, Result, bail};
 use frames::Frames;
 use std::io::Write;

@@ -2,7 +2,7 @@
 //! after the other, a recording yields all at once.
 
 use super::archive::Archive;
-use crate::output::Scratch;
+use crate::files::output::Scratch;
 use anyhow::Result;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Seek, Write};

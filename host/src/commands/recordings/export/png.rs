@@ -9,7 +9,7 @@
 //! contain it; with `--counts` it is 1.
 
 use super::frames::{self, Frames};
-use crate::output::Folder;
+use crate::files::output::Folder;
 use anyhow::{Context, Result, anyhow};
 use png::{BitDepth, ColorType, Compression, Encoder};
 use serde_json::json;

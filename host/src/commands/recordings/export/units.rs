@@ -1,6 +1,6 @@
 //! Units of pressure in exports.
 
-use crate::calibrate::{Calibration, Forces};
+use crate::files::calibrate::{Calibration, Forces};
 use crate::record::CALIBRATION;
 use crate::recording::Overview;
 use anyhow::{Context, Result};

@@ -1,10 +1,10 @@
 //! Contents of a recording, as reported by `taxel info`.
 
 use crate::commands::recordings::repair::found as told;
-use crate::progress::{Progress, Unit};
 use crate::record::{COUNTS, Play, Tally};
 use crate::recording::{ChannelInfo, Overview, Scan, Skipped, footer, scan};
-use crate::words::printable;
+use crate::tell::progress::{Progress, Unit};
+use crate::tell::words::printable;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;

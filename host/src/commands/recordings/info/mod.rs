@@ -3,7 +3,7 @@
 mod found;
 
 use super::repair::RepairArgs;
-use crate::words::printable_json;
+use crate::tell::words::printable_json;
 use anyhow::Result;
 use clap::Args;
 use found::Found;

@@ -5,7 +5,7 @@ use super::parquet::{Table, Values};
 use super::sampler::Sampler;
 use super::stats;
 use crate::commands::recordings::export::frames::Frame;
-use crate::output::Folder;
+use crate::files::output::Folder;
 use anyhow::{Result, ensure};
 use std::num::NonZeroU16;
 

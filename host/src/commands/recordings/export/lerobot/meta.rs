@@ -3,7 +3,7 @@
 use super::features::Features;
 use super::parquet::{Column, Kind, Table, Values};
 use super::{CHUNK, Choices, stats};
-use crate::output::Folder;
+use crate::files::output::Folder;
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::io::Write;

@@ -24,7 +24,7 @@ mod sampler;
 mod stats;
 
 use super::frames::Frames;
-use crate::output::Folder;
+use crate::files::output::Folder;
 use anyhow::{Context, Result};
 use episode::Episode;
 use features::Features;

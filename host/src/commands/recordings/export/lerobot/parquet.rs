@@ -1,6 +1,6 @@
 //! Parquet files: columns of numbers, of nested lists of numbers, of texts.
 
-use crate::output::Folder;
+use crate::files::output::Folder;
 use anyhow::{Result, bail};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, FloatType, Int64Type};
