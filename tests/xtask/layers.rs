@@ -65,6 +65,8 @@ impl Layers {
             let paths = used.chain(inline).filter_map(|path| absolute(&path, module));
             let mut found: BTreeSet<Module> = paths.map(|path| self.home(&path)).collect();
             found.remove(module);
+            // The root is a crate's face: it defines nothing that a module needs, but hands on other crates.
+            found.remove(&Vec::new());
             found
         };
         self.sources.iter().map(|(module, source)| (module, of(module, source))).collect()
@@ -241,9 +243,11 @@ mod tests {
 
     #[test]
     fn modules_of_the_host_import_in_one_direction() {
-        let layers = Layers::read(&root().join("host/src"));
-        assert!(layers.count() > 20, "{} modules", layers.count());
-        assert_eq!((layers.circles(), layers.upward()), Default::default());
+        for (folder, least) in [("sim", 20), ("taxel", 200), ("cli", 150)] {
+            let layers = Layers::read(&root().join("host").join(folder).join("src"));
+            assert!(layers.count() > least, "{folder}: {} modules", layers.count());
+            assert_eq!((layers.circles(), layers.upward()), Default::default(), "{folder}");
+        }
     }
 
     #[test]

@@ -1,7 +1,0 @@
-//! Files that users name: outputs, recorded frames, garments, scripts of touches, calibrations.
-
-pub mod arrays;
-pub mod calibrate;
-pub mod garments;
-pub mod output;
-pub mod scripts;
