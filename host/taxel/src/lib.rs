@@ -62,11 +62,9 @@ use session::Session;
 /// ```
 /// use taxel::client::Event;
 ///
-/// for event in taxel::open("sim:pat")?.take(200) {
-///     if let Event::Gesture(report) = event? {
-///         println!("{}", report.name);
-///     }
-/// }
+/// let events = taxel::open("sim:pat")?;
+/// let contacts = events.filter(|event| matches!(event, Ok(Event::Contacts { .. })));
+/// assert_eq!(contacts.take(3).count(), 3);
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn open(source: &str) -> anyhow::Result<Session> {

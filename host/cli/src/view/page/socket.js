@@ -1,4 +1,4 @@
-// The connection to the program; its messages are described in host/src/view/message.rs.
+// The connection to the program; its messages are described in host/cli/src/view/message.rs.
 
 const AGAIN_MS = 1000;
 
