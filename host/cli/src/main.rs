@@ -1,4 +1,5 @@
-//! The program `taxel`: prints one sentence about an error, and exits with the status of [`taxel::tell::fault`].
+//! The program `taxel`: prints one sentence about an error, and exits with the status of
+//! [`taxel::tell::fault`].
 #![forbid(unsafe_code)]
 
 use std::io::{ErrorKind, Write};

@@ -133,7 +133,7 @@ mod tests {
 
     fn script(touch: &str) -> Script {
         let text = format!(
-            "duration_s = 9\n[[touch]]\nstart_s = 0\nrise_s = 0\nhold_s = 4\nfall_s = 0\nforce_n = 10\n{touch}"
+            "name = \"test\"\nduration_s = 9\n[[touch]]\nstart_s = 0\nrise_s = 0\nhold_s = 4\nfall_s = 0\nforce_n = 10\n{touch}"
         );
         text.parse::<Script>().unwrap()
     }

@@ -309,7 +309,7 @@ mod tests {
         assert_eq!(at(1_100_000_000), [100, 0, 4095, 7]);
         let some = world(&format!("{STILL}[faults]\ndead_count = 9\n"));
         assert_eq!(some.taxels.iter().filter(|t| t.fault == Fault::Dead).count(), 9);
-        let script = "duration_s = 1\n[faults]\nopen = [2048]".parse::<Script>().unwrap();
+        let script = "name = \"a\"\nduration_s = 1\n[faults]\nopen = [2048]".parse::<Script>().unwrap();
         let error = World::build(&script, &Garment::reference()).unwrap_err().to_string();
         assert_eq!(error, "in script a: `faults.open` names taxel 2048, the garment has 2048");
     }

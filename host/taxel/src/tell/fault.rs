@@ -12,7 +12,7 @@
 //!
 //! ```
 //! use anyhow::{Context, Result, ensure};
-//! use taxel::fault::{Blame, Fault, status};
+//! use taxel::tell::fault::{Blame, Fault, status};
 //!
 //! fn rate(hz: f64) -> Result<()> {
 //!     ensure!(hz > 0.0, Fault::usage(format!("--rate {hz}: it must be above 0")));

@@ -22,7 +22,7 @@
 //!
 //! ```
 //! use std::io::Write;
-//! use taxel::output::{Force, Output};
+//! use taxel::files::output::{Force, Output};
 //!
 //! # fn main() -> anyhow::Result<()> {
 //! # let folder = std::env::temp_dir().join(format!("taxel-output-{}", std::process::id()));
