@@ -33,7 +33,7 @@ struct Course {
 }
 
 fn perceive(script: &Script) -> Course {
-    let garment = scripts::garment(&script).expect("a built-in scene has a garment");
+    let garment = scripts::garment(script).expect("a built-in scene has a garment");
     let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
     let pipeline = Pipeline::build(&Scene::shipped(), &layout).expect("the shipped scene fits");
     let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
