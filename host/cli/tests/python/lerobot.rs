@@ -4,8 +4,8 @@ use super::read;
 use super::stage::{Seen, file, plan, record};
 use serde_json::json;
 use std::num::NonZeroU16;
-use taxel::files::output::Force;
 use taxel_cli::commands::recordings::export::{ExportArgs, Form, run};
+use taxel_cli::watch::Overwrite;
 
 const FPS: u16 = 50;
 
@@ -35,7 +35,7 @@ fn every_row_is_the_image_of_its_time() {
     let task = "pat the robot".to_string();
     run(ExportArgs {
         counts: true,
-        force: Force { force: true },
+        force: Overwrite { force: true },
         fps: NonZeroU16::new(FPS).unwrap(),
         task,
         ..args

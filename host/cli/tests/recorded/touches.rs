@@ -5,8 +5,7 @@ use crate::data::find as data;
 use crate::start::{root, taxel};
 use serde_json::Value;
 use std::process::Command;
-use taxel::learn::touches;
-use taxel_cli::commands::touches::{gestures, intent};
+use taxel::learn::touches::{self, gestures, intent};
 
 fn share(report: &Value, pointer: &str) -> f64 {
     report.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer} in {report}"))
