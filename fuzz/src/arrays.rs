@@ -4,7 +4,7 @@
 use crate::bytes::Bytes;
 use crate::scratch::Scratch;
 use std::io::{Cursor, Write};
-use taxel::arrays;
+use taxel::files::arrays;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 

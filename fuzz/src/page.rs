@@ -2,8 +2,8 @@
 
 use crate::bytes::Bytes;
 use std::time::Duration;
-use taxel::serve::http::{self, Sites};
-use taxel::view::{Hub, Mailbox, hear};
+use taxel_cli::serve::http::{self, Sites};
+use taxel_cli::view::{Hub, Mailbox, hear};
 
 /// Orders that wait at most, as the hub says.
 const ORDERS: usize = 64;

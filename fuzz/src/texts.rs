@@ -4,12 +4,16 @@
 use crate::bytes::Bytes;
 use crate::scratch::Scratch;
 use std::path::Path;
-use taxel::calibrate::Calibration;
-use taxel::shapes::base::Base;
-use taxel::shapes::labels;
-use taxel::sim::World;
-use taxel::touches::Table;
-use taxel::{config, fcm, flash, garments, sim, source, view};
+use taxel::files::calibrate::Calibration;
+use taxel::files::{garments, scripts};
+use taxel::learn::shapes::base::Base;
+use taxel::learn::shapes::labels;
+use taxel::learn::touches::Table;
+use taxel::sim::{self, World};
+use taxel::{fcm, source};
+use taxel_cli::commands::board::flash;
+use taxel_cli::commands::garment::config;
+use taxel_cli::view;
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::gesture::Model;
 use taxel_core::intent::{CONCEPTS, EDGES};
@@ -52,11 +56,13 @@ fn scene(file: &Scratch, _: &[u8]) {
 }
 
 fn script(file: &Scratch, _: &[u8]) {
-    let Ok(script) = sim::load(file.name()) else { return };
+    let Ok(script) = scripts::load(file.name()) else { return };
     let _ = source::scene_of(&script);
     let garment = Garment::block();
     let layout = Layout::build(&garment, 64, 4095).expect("it ships");
-    let Ok(world) = World::build(&sim::refit(&script, &layout), &garment) else { return };
+    let home = scripts::garment(&script).ok().and_then(|home| Layout::build(&home, 65_535, 4095).ok());
+    let script = home.map_or_else(|| script.clone(), |home| sim::refit(&script, &home, &layout));
+    let Ok(world) = World::build(&script, &garment) else { return };
     for t_ns in [0, 500_000_000, u64::MAX] {
         assert!(world.newtons(7, t_ns).is_finite(), "a force is a number");
     }

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { box, drawn, page, pauseAtTouch, screen, show } from "./page.fixture.mjs";
 
-// As host/scenes/pat.toml has it: a palm on the back, column 7.5 and row 11, 8 N at most.
+// As host/sim/scenes/pat.toml has it: a palm on the back, column 7.5 and row 11, 8 N at most.
 const [PANEL, COLUMN, ROW] = [1, 7.5, 11];
 const [ROWS, COLUMNS] = [32, 16];
 // The ends of cividis (Nunez, Anderton, Renslow 2018), and the colour in its middle.

@@ -6,7 +6,7 @@ import { readFile } from "node:fs/promises";
 
 /** A module of the page that imports no other. */
 async function load(name) {
-  const text = await readFile(new URL(`../../host/src/view/page/${name}.js`, import.meta.url), "utf8");
+  const text = await readFile(new URL(`../../host/cli/src/view/page/${name}.js`, import.meta.url), "utf8");
   return import(`data:text/javascript,${encodeURIComponent(text)}`);
 }
 const [timeline, glow, follow, presence] = await Promise.all(

@@ -4,16 +4,16 @@
 
 mod bars;
 mod board;
-#[path = "../../host/tests/recorded/data.rs"]
+#[path = "../../host/cli/tests/recorded/data.rs"]
 mod data;
 
 use std::path::Path;
 use std::process::ExitCode;
-use taxel::bench::stages::case::{Case, Step};
-use taxel::bench::stages::format::{Form, FormRow};
-use taxel::bench::stages::row::{Cost, Row};
-use taxel::bench::stages::table::Table;
-use taxel::bench::stages::twin::{Told, Twin};
+use taxel_cli::bench::stages::case::{Case, Step};
+use taxel_cli::bench::stages::format::{Form, FormRow};
+use taxel_cli::bench::stages::row::{Cost, Row};
+use taxel_cli::bench::stages::table::Table;
+use taxel_cli::bench::stages::twin::{Told, Twin};
 
 /// The tables as they were last written.
 const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench");

@@ -5,7 +5,8 @@ use crate::board::Emulated;
 use crate::images::{Images, TAXELS};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use taxel::sim::{frame_codes, load, scale_rate};
+use taxel::files::scripts::load;
+use taxel::sim::{frame_codes, scale_rate};
 use taxel_core::garment::Garment;
 use taxel_core::wire::{Report, Request};
 

@@ -4,6 +4,7 @@
 use crate::board::Emulated;
 use crate::faults::{examine, pin_faults};
 use std::collections::BTreeMap;
+use taxel::files::scripts;
 use taxel::sim::{FRAME_PERIOD_US, Script, frame_codes};
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{BoardInfo, Input, Shipped};
@@ -39,7 +40,7 @@ fn self_test(board: &mut Emulated) -> Findings {
 #[test]
 fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
     let garment = Garment::reference();
-    let mut script = Script::parse("duration_s = 1", "rest.toml").unwrap();
+    let mut script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
     // At rest near ground, as the simulated garment is not: its source moves it away from there.
     let mut board = Emulated::start(&garment, &vec![0; 2048], 0, &[]);
     // It hears nothing before it has started.
@@ -65,7 +66,7 @@ fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
 #[test]
 fn what_breaks_in_use_is_told_by_itself() {
     let garment = Garment::reference();
-    let script = Script::parse("duration_s = 1\nseed = 8", "rest.toml").unwrap();
+    let script = scripts::parse("duration_s = 1\nseed = 8", "rest.toml").unwrap();
     let codes = frame_codes(&script, &garment, FRAME_PERIOD_US, 61).unwrap();
     let mut board = Emulated::start(&garment, &codes, 90, &["--loop"]);
     board.receive();
@@ -109,7 +110,7 @@ fn breaking(healthy: u64) -> (Script, u64, u64) {
     let broken = TARED + healthy;
     let seconds = |frames: u64| (frames * FRAME_PERIOD_US) as f64 / 1e6;
     let (pressed, end) = (broken + 5, broken + 20 + SOON);
-    let script = Script::parse(
+    let script = scripts::parse(
         &format!(
             "duration_s = {:.4}\nseed = 5\n\
              [faults]\nfrom_s = {:.4}\ndead = [776]\nstuck = [{{ taxel = 100, code = 300 }}]\n\

@@ -3,7 +3,8 @@
 //! more touches.
 
 use crate::board::Emulated;
-use taxel::sim::{frame_codes, load};
+use taxel::files::scripts::load;
+use taxel::sim::frame_codes;
 use taxel_core::capacity::TAXELS;
 use taxel_core::contact::Phase;
 use taxel_core::format::Code;

@@ -4,9 +4,9 @@
 mod board;
 mod boots;
 mod contacts;
-#[path = "../../host/tests/recorded/data.rs"]
+#[path = "../../host/cli/tests/recorded/data.rs"]
 mod data;
-#[path = "../../host/tests/library/faults.rs"]
+#[path = "../../host/taxel/tests/library/faults.rs"]
 mod faults;
 mod health;
 mod images;

@@ -5,7 +5,7 @@ use crate::board::Emulated;
 use crate::data;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
-use taxel::arrays::read_all;
+use taxel::files::arrays::read_all;
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{BoardInfo, Input, Shipped};
 use taxel_core::capacity::TAXELS;

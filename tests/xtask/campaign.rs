@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 enum Run {
     /// Tests of the core whose names contain this.
     Core(&'static str),
+    /// Tests of the commands whose names contain this.
+    Commands(&'static str),
     /// Tests of the library whose names contain this.
     Library(&'static str),
     /// A module of the tests of the firmware image.
@@ -47,7 +49,7 @@ const RUNS: [(&str, Run, &str); 18] = [
     ),
     ("link", Run::Library("link::"), "link: 10,000,000 messages through each kind of fault"),
     ("health", Run::Library("health::"), "health: every fault, and 10,000 healthy frames (simulated)"),
-    ("setup", Run::Library("setup::"), "setup by touch: 1,000 random wirings (simulated)"),
+    ("setup", Run::Commands("setup::"), "setup by touch: 1,000 random wirings (simulated)"),
     (
         "people",
         Run::Library("people::"),
@@ -121,6 +123,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
     let longer = [("TAXEL_CAMPAIGN", "1")];
     let end = match run {
         Run::Core(names) => targets::printed("core", &[names], log, &longer),
+        Run::Commands(names) => targets::printed("commands", &[names], log, &longer),
         Run::Library(names) => targets::printed("library", &[names], log, &longer),
         Run::Image(module) => targets::measured(module, log, &longer)?,
         Run::Browser(file) => browser::measured(&[file], log, &longer)?,

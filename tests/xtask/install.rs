@@ -89,7 +89,7 @@ pub fn python() -> Result<PathBuf, String> {
     }
     let folder = crate::paths::target().join("xtask/python");
     let python = folder.join("bin/python");
-    let wanted = crate::paths::root().join("host/tests/python/requirements.txt");
+    let wanted = crate::paths::root().join("host/cli/tests/python/requirements.txt");
     let read = |path: &Path| std::fs::read(path).ok();
     let note = folder.join("requirements.txt");
     if read(&note).is_some() && read(&note) == read(&wanted) {

@@ -11,6 +11,8 @@ mod excerpt;
 mod firmware;
 mod fuzz;
 mod install;
+#[cfg(test)]
+mod layers;
 mod locks;
 mod mutants;
 mod names;

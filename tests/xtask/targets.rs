@@ -12,7 +12,7 @@ pub type End<T = ()> = Result<Result<T, String>, String>;
 
 /// These targets by package; cargo skips them even if all targets are selected.
 pub const APART: &[(&str, &[&str])] =
-    &[("taxel-tests", &["emulated", "cycles"]), ("taxel", &["recorded", "python", "disk"])];
+    &[("taxel-tests", &["emulated", "cycles"]), ("taxel-cli", &["recorded", "python", "disk"])];
 
 /// Default minutes of a soak.
 const SOAK_MINUTES: f64 = 20.0;
@@ -129,7 +129,7 @@ pub fn soak(args: &[String]) -> Result<(), String> {
             .ok_or("--minutes takes a number above 0.1")?,
         _ => return Err(crate::USAGE.into()),
     };
-    let mut command = test_target("library");
+    let mut command = test_target("commands");
     command.args(["--", "--nocapture", "session::soak::"]).env("TAXEL_SOAK_MINUTES", minutes.to_string());
     process::run(&mut command)
 }

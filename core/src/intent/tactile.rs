@@ -1,8 +1,8 @@
 //! The map that ships: measures of a touch cause kindness, threat and attack; these cause happiness, anger
 //! and politeness. The source prints ten concepts and the matrix with all entries zero. The other ten
 //! concepts, all of them measures, and the weights, in steps of 0.05, are ours. They follow the judgement of
-//! an observer of forty families of touches (`host/tests/library/meaning`) and of twenty people
-//! (`host/tests/library/people`).
+//! an observer of forty families of touches (`host/taxel/tests/library/meaning`) and of twenty people
+//! (`host/taxel/tests/library/people`).
 //!
 //! Inputs have no causes, and the edges have no cycle: the map settles within six steps for any input.
 //! Without a touch every input is exactly 0, and so is every other concept. A concept that does not hold is

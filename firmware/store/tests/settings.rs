@@ -1,6 +1,6 @@
 //! Settings in flash: what was stored is loaded again, even if the power fails at any step of a save.
 
-#[path = "../../../host/src/sim/flash.rs"]
+#[path = "../../../host/sim/src/flash.rs"]
 mod flash;
 
 use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};

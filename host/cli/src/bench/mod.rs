@@ -1,0 +1,24 @@
+//! Speed against error, as a text table, as JSON and as a chart.
+
+pub mod acquisition;
+pub mod amplifier;
+pub mod chart;
+pub mod nmi;
+mod outline;
+pub mod record;
+pub mod stages;
+mod touch;
+
+use chart::Chart;
+use serde_json::Value;
+
+/// A finished table in its forms.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// Readable form.
+    pub text: String,
+    /// JSON form: `{"columns": ..., "rows": [...]}`
+    pub json: Value,
+    /// Chart of error over cost.
+    pub chart: Chart,
+}

@@ -1,0 +1,195 @@
+//! A case: a garment, settings of a scene, and the codes of its frames; the same for the emulated board and
+//! for this machine.
+
+use anyhow::{Context, Result};
+use std::path::Path;
+use taxel::client::Client;
+use taxel::files::arrays;
+use taxel::learn::shapes::base::Base;
+use taxel::learn::shapes::teach::teach;
+use taxel_core::acquire::Depth;
+use taxel_core::condition::Filter;
+use taxel_core::format::Code;
+use taxel_core::garment::Garment;
+use taxel_core::gesture::GestureConfig;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
+use taxel_suite::chain::{FULL_SCALE, TAXELS};
+use taxel_suite::kernel::Kernel;
+use taxel_suite::pattern::TouchPattern;
+
+/// Frames of the tare.
+const TARE: u16 = 16;
+/// Frames before the measured ones: contacts are tracked by then, and the images are differences.
+const WARM: usize = 8;
+/// Measured frames.
+pub const MEASURED: usize = 16;
+
+/// Recording, its posture and its first frame: a person lying still.
+const RECORDING: (&str, &str, usize) = ("pmatdata/subject_01.npz", "posture_03", 40);
+
+/// An input of the chain.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Step {
+    /// The host sends these bytes.
+    Receive(Vec<u8>),
+    /// A finished scan with these codes.
+    Scan(Vec<Code>),
+    /// A kernel to run on these codes.
+    Kernel(Kernel, Box<[Code; TAXELS]>),
+}
+
+/// One row of the table of the whole chain.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Name of the scene.
+    pub name: &'static str,
+    /// Variant of the chain.
+    pub variant: Variant,
+    /// Simulated pattern; none for a recording.
+    pub pattern: Option<TouchPattern>,
+    garment: Garment,
+    scene: Scene,
+    frames: Vec<Vec<Code>>,
+}
+
+/// Difference of a chain from the shipped one (12 bit, conservative filter).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variant {
+    /// None.
+    Shipped,
+    /// No filter.
+    Off,
+    /// Median of nine.
+    Median,
+    /// The upper 8 bits of each code.
+    EightBit,
+    /// With gestures, decided as often as possible.
+    Gestures,
+    /// With a shipped base of shapes taught to the board.
+    Taught,
+}
+
+impl Variant {
+    /// Name in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Variant::Shipped => "shipped",
+            Variant::Off => "filter off",
+            Variant::Median => "median",
+            Variant::EightBit => "8 bit",
+            Variant::Gestures => "gestures",
+            Variant::Taught => "taught",
+        }
+    }
+
+    fn scene(self) -> Scene {
+        let mut scene = Scene::shipped();
+        match self {
+            Variant::Shipped | Variant::Gestures | Variant::Taught => {}
+            Variant::Off => scene.condition.filter = Filter::Off,
+            Variant::Median => scene.condition.filter = Filter::Median,
+            Variant::EightBit => scene.plan.depth = Depth::Eight,
+        }
+        scene
+    }
+
+    /// Requests that teach a base, if the variant has one.
+    fn taught(self) -> Result<Vec<Step>> {
+        let mut client = Client::new();
+        client.request(&Request::SetShapes(&[]))?;
+        if self == Variant::Taught {
+            teach(&mut client, &Base::open(Path::new("drawn"))?)?;
+        }
+        // The harness transfers at most 4,096 bytes.
+        Ok(client.queued().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
+    }
+
+    fn gestures(self) -> Option<GestureConfig> {
+        let often = GestureConfig { decide_ms: 50, onset_ms: 0, ..GestureConfig::default() };
+        (self == Variant::Gestures).then_some(often)
+    }
+}
+
+impl Case {
+    /// All simulated cases.
+    pub fn simulated() -> Vec<Case> {
+        let shipped = TouchPattern::ALL.into_iter().filter(|pattern| *pattern != TouchPattern::Grid);
+        let cases = shipped.map(|pattern| (pattern, Variant::Shipped)).chain([
+            (TouchPattern::Grid, Variant::Off),
+            (TouchPattern::Five, Variant::Off),
+            (TouchPattern::Five, Variant::Median),
+            (TouchPattern::Five, Variant::EightBit),
+            (TouchPattern::Five, Variant::Gestures),
+            (TouchPattern::Five, Variant::Taught),
+            (TouchPattern::Texture, Variant::Off),
+            (TouchPattern::Texture, Variant::Median),
+        ]);
+        cases.map(|(pattern, variant)| Case::of(pattern, variant)).collect()
+    }
+
+    fn of(pattern: TouchPattern, variant: Variant) -> Case {
+        let scene = variant.scene();
+        let rest = (0..u32::from(TARE)).map(|n| (TouchPattern::Empty, n));
+        let touch = (u32::from(TARE)..).map(|n| (pattern, n)).take(WARM + MEASURED);
+        let frames = rest.chain(touch).map(|(pattern, number)| {
+            let mut codes = [Code(0); TAXELS];
+            pattern.codes(number, &mut codes);
+            codes.iter().map(|code| Code(scene.plan.depth.keep(code.0))).collect()
+        });
+        Case {
+            name: pattern.name(),
+            variant,
+            pattern: Some(pattern),
+            garment: Garment::reference(),
+            frames: frames.collect(),
+            scene,
+        }
+    }
+
+    /// A person lying on a mat of 64 x 32 taxels, from the folder of recordings.
+    pub fn recorded(data: &Path) -> Result<Case> {
+        let (file, posture, first) = RECORDING;
+        let recording = arrays::read(&data.join(file), Some(posture))?;
+        let rest = vec![vec![Code(0); TAXELS]; usize::from(TARE)];
+        let touch = recording.iter().skip(first).take(WARM + MEASURED);
+        let touch = touch.map(|frame| frame.iter().map(|code| Code((*code).min(FULL_SCALE))).collect());
+        let frames: Vec<Vec<Code>> = rest.into_iter().chain(touch).collect();
+        let variant = Variant::Shipped;
+        anyhow::ensure!(frames.len() == usize::from(TARE) + WARM + MEASURED, "{file}: too short");
+        let (garment, scene) = (Garment::mat(), variant.scene());
+        Ok(Case { name: "recorded", variant, pattern: None, garment, scene, frames })
+    }
+
+    /// Number of a measured frame, as counted by [`TouchPattern::pressure`].
+    pub const fn number(measured: usize) -> u32 {
+        TARE as u32 + (WARM + measured) as u32
+    }
+
+    /// Inputs in order; the last [`MEASURED`] scans are the measured ones.
+    pub fn steps(&self) -> Result<Vec<Step>> {
+        let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&self.scene)];
+        let (garment, scene) = (garment?, scene?);
+        let ask = |request: &Request<'_>| {
+            let mut wire = [0; frame_bound(LONGEST_REQUEST)];
+            let frame = encode(request, &mut wire).ok().context("a request too long")?;
+            Ok(Step::Receive(frame.to_vec()))
+        };
+        let mut steps = [
+            Request::Stop,
+            Request::SetGarment(&garment),
+            Request::SetScene(&scene),
+            Request::SetGestures(self.variant.gestures()),
+            Request::Tare { frames: TARE },
+        ]
+        .iter()
+        .map(ask)
+        .collect::<Result<Vec<Step>>>()?;
+        steps.extend(self.variant.taught()?);
+        let (rest, touch) = self.frames.split_at(TARE.into());
+        steps.extend(rest.iter().cloned().map(Step::Scan));
+        steps.push(ask(&Request::Start)?);
+        steps.extend(touch.iter().cloned().map(Step::Scan));
+        Ok(steps)
+    }
+}

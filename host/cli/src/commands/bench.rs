@@ -1,0 +1,80 @@
+//! `taxel bench`: speed against error, as a text table, as JSON and as a chart.
+
+use crate::bench::{Report, acquisition, amplifier, nmi, record, stages};
+use crate::watch::Overwrite;
+use anyhow::Result;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+use taxel::files::output;
+
+/// Arguments of `taxel bench`.
+#[derive(Debug, Clone, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct BenchArgs {
+    /// Which table; without it, `stages`
+    #[command(subcommand)]
+    table: Option<Table>,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum Table {
+    /// Each stage and each variant: time on this machine, error, contacts
+    #[command(after_help = "Example:\n  taxel bench stages --svg stages.svg")]
+    Stages(Output),
+    /// Frames per second against the error of a taxel, over settling, source resistance, bits and averaging
+    #[command(after_help = "Example:\n  taxel bench acquisition --svg acquisition.svg")]
+    Acquisition(Output),
+    /// Settling of the garment's amplifier over its gain-bandwidth product
+    #[command(after_help = "Example:\n  taxel bench amplifier --json")]
+    Amplifier(Output),
+    /// Spread of the NMI and its forms under rotation, scale, shift and pressure
+    #[command(after_help = "Example:\n  taxel bench nmi --json")]
+    Nmi(Output),
+    /// Cost of recording beside perceiving, and speed of replay
+    #[command(after_help = "Example:\n  taxel bench record")]
+    Record(record::RecordBench),
+}
+
+/// Options besides the text table.
+#[derive(Debug, Clone, Args)]
+pub struct Output {
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+    /// Also draw the chart into this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Whether an existing output is replaced.
+    #[command(flatten)]
+    pub force: Overwrite,
+}
+
+/// Runs the command.
+pub fn run(args: BenchArgs) -> Result<()> {
+    match args.table.unwrap_or(Table::Stages(args.output)) {
+        Table::Stages(output) => output.put(stages::report),
+        Table::Acquisition(output) => output.put(|| Ok(acquisition::report())),
+        Table::Amplifier(output) => output.put(|| Ok(amplifier::report())),
+        Table::Nmi(output) => output.put(nmi::report),
+        Table::Record(args) => record::run(&args),
+    }
+}
+
+impl Output {
+    /// Prints a report, and draws its chart if a file is named; an output that cannot be written is refused
+    /// before the work.
+    pub fn put(&self, report: impl FnOnce() -> Result<Report>) -> Result<()> {
+        let none: [&PathBuf; 0] = [];
+        let chart = self.svg.as_ref().map(|file| output::Output::file(file, self.force, none)).transpose()?;
+        let report = report()?;
+        chart.map_or(Ok(()), |file| file.write(report.chart.svg().as_bytes()))?;
+        if self.json {
+            println!("{}", report.json);
+        } else {
+            print!("{}", report.text);
+        }
+        Ok(())
+    }
+}

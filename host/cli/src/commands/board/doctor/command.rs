@@ -1,0 +1,70 @@
+//! The command `taxel doctor`.
+
+use super::facts::Facts;
+use super::finding::{Finding, Grade};
+use super::judge::judge;
+use crate::watch::{self, LiveArgs};
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+use serde_json::json;
+use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::tell::date;
+use taxel::tell::fault::Fault;
+
+/// Arguments of `taxel doctor`.
+#[derive(Debug, Clone, Args)]
+pub struct DoctorArgs {
+    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `sim[:TOUCHES]`, `file:FILE`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// Seconds of the board to listen
+    #[arg(long, value_name = "S", default_value_t = 5.0, allow_negative_numbers = true)]
+    pub seconds: f64,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs the command. Error if the board does not work.
+pub fn run(args: &DoctorArgs) -> Result<()> {
+    ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
+    let options = SourceOptions { seconds: Some(args.seconds), ..SourceOptions::default() };
+    let source = source::open(&args.source, &options)
+        .context("no link (`taxel ports` lists what is plugged in; docs/troubleshooting.md says more)")?;
+    let label = source.label.clone();
+    let mut facts = Facts::of(&label);
+    let live = LiveArgs { seconds: Some(args.seconds), ..LiveArgs::of(args.source.clone()) };
+    let heard = watch::watch(&live, source, &mut facts);
+    let found = judge(&facts, env!("CARGO_PKG_VERSION"), &date::today());
+    let worst = found.iter().map(|finding| finding.grade).max().unwrap_or(Grade::Good);
+    if args.json {
+        println!("{}", json!({ "type": "doctor", "source": label, "verdict": worst, "findings": found }));
+    } else {
+        println!("{label}");
+        found.iter().for_each(|finding| println!("{}", line(finding)));
+    }
+    heard?;
+    match worst {
+        Grade::Bad => {
+            bail!(Fault::board(format!("{label} does not work as it should: {}", first_cure(&found))))
+        }
+        _ if args.json => {}
+        Grade::Weak => println!("It works. What could be better is marked with !"),
+        Grade::Good => println!("All is well."),
+    }
+    Ok(())
+}
+
+fn line(finding: &Finding) -> String {
+    let mark = match finding.grade {
+        Grade::Good => ' ',
+        Grade::Weak => '!',
+        Grade::Bad => 'X',
+    };
+    let cure = if finding.cure.is_empty() { String::new() } else { format!(" -> {}", finding.cure) };
+    format!("{mark} {:<12} {}{cure}", finding.of, finding.what)
+}
+
+fn first_cure(found: &[Finding]) -> &str {
+    found.iter().find(|finding| finding.grade == Grade::Bad).map_or("", |finding| finding.cure)
+}

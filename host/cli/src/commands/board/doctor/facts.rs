@@ -1,0 +1,101 @@
+//! Observations of a board over some seconds.
+
+use anyhow::Result;
+use taxel::client::{Client, Event};
+use taxel::session::Show;
+use taxel_core::boot::Boot;
+use taxel_core::garment::Garment;
+use taxel_core::selftest::Findings;
+use taxel_core::wire::{Health, Request};
+
+/// What was observed.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct Facts {
+    /// The board is simulated.
+    pub simulated: bool,
+    /// Name and version of the firmware; none if no `Hello` came.
+    pub firmware: Option<String>,
+    /// Cause of the board's start; none if it does not report one.
+    pub boot: Option<Boot>,
+    /// Why a `Hello` could not be used.
+    pub unusable: Option<String>,
+    /// Number of taxels of the garment.
+    pub taxels: usize,
+    /// Id, date and fit error of the calibration; empty if there is none.
+    pub calibration: String,
+    /// First and last image: number of the scan, and its time, us.
+    pub frames: Option<[(u32, u64); 2]>,
+    /// Images received, thinned out, and received but not decodable.
+    pub images: [u64; 3],
+    /// Messages lost on the link, and frames refused.
+    pub lost: [u64; 2],
+    /// The board's counters, first and last report.
+    pub health: Option<[Health; 2]>,
+    /// Number of faulty taxels.
+    pub ill: usize,
+    /// Uncertainty of the host's time of a frame, us; none if the board is not real-time, or has not
+    /// answered.
+    pub clock_us: Option<u64>,
+    /// Answer to a self-test: none yet, passed, or the reason for refusal.
+    pub self_test: Option<Result<(), String>>,
+    /// Lines and inputs of a garment, and what the last self-test found of them.
+    pub pins: Option<(Garment, Findings)>,
+    /// Errors that the board has logged.
+    pub told: Vec<String>,
+    /// A self-test was requested.
+    pub asked: bool,
+}
+
+impl Facts {
+    /// No observations yet, of the source with this label.
+    pub fn of(label: &str) -> Facts {
+        Facts { simulated: label.starts_with("sim:"), ..Facts::default() }
+    }
+}
+
+impl Show for Facts {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Hello => self.firmware = client.worn().map(|worn| worn.firmware.clone()),
+            Event::Boot(boot) => self.boot = Some(*boot),
+            Event::Unusable(why) => self.unusable = Some(why.clone()),
+            Event::Frame { frame, time, .. } => {
+                let first = self.frames.map_or((*frame, time.0), |[first, _]| first);
+                self.frames = Some([first, (*frame, time.0)]);
+            }
+            Event::Health(health) => {
+                self.health = Some([self.health.map_or(*health, |[first, _]| first), *health]);
+            }
+            Event::SelfTest(report) => {
+                let worn = client.worn().map(|worn| worn.garment.clone());
+                self.pins = worn.map(|garment| (garment, report.findings.clone()));
+            }
+            Event::Answer { request, refusal } if *request == Request::SelfTest.number() => {
+                self.self_test = Some(refusal.clone().map_or(Ok(()), Err));
+            }
+            Event::Log { level: taxel_core::wire::Level::Error, text, .. } => self.told.push(text.clone()),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
+            client.request(&Request::SelfTest)?;
+        }
+        Ok(true)
+    }
+
+    fn end(&mut self, client: &Client) -> Result<()> {
+        let counts = client.counts();
+        self.images = [counts.frames, counts.thinned, counts.undecoded];
+        self.lost = [counts.lost, counts.refused()];
+        self.ill = client.ill().len();
+        if let Some(worn) = client.worn() {
+            (self.taxels, self.calibration) = (worn.layout.taxels(), worn.calibration.clone());
+        }
+        let last = self.frames.map(|[_, (_, time)]| taxel_core::format::Micros(time));
+        self.clock_us = last.and_then(|time| client.host_time(time)).map(|time| time.uncertainty_us);
+        Ok(())
+    }
+}

@@ -1,0 +1,72 @@
+//! `taxel save`: saves a board's settings to its flash.
+
+use crate::watch::{self, BoardArgs, LiveArgs};
+use anyhow::{Result, bail};
+use std::time::{Duration, Instant};
+use taxel::client::{Client, Event};
+use taxel::session::Show;
+use taxel::source::SourceOptions;
+use taxel::tell::fault::Fault;
+use taxel_core::wire::Request;
+
+/// Arguments of `taxel save`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct SaveArgs {
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
+}
+
+/// Longest wait for an answer.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Runs the command.
+pub fn run(args: SaveArgs) -> Result<()> {
+    let (source, _) = args.board.open(SourceOptions::default())?;
+    let label = source.label.clone();
+    let tare = args.board.tare.unwrap_or(source.tare);
+    let mut saving = Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false };
+    watch::watch(&LiveArgs::on(args.board), source, &mut saving)?;
+    if !saving.done {
+        bail!(Fault::board(format!("{label} ended before the board had saved its settings")));
+    }
+    println!("{label} has saved garment, scene, gains and baseline to its flash.");
+    Ok(())
+}
+
+/// Waits until earlier requests are done, requests the save, and waits for its answer.
+struct Saving {
+    /// A tare is under way.
+    waits_for: bool,
+    begun: Instant,
+    asked: Option<Instant>,
+    done: bool,
+}
+
+impl Show for Saving {
+    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+        let Event::Answer { request, refusal } = event else { return Ok(()) };
+        if let Some(why) = refusal {
+            bail!(Fault::board(format!("the board refuses: {why}")));
+        }
+        self.waits_for &= *request != Request::Tare { frames: 0 }.number();
+        self.done |= *request == Request::Save.number();
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        match self.asked {
+            None if client.worn().is_some() && !self.waits_for => {
+                client.request(&Request::Save)?;
+                self.asked = Some(Instant::now());
+            }
+            // A tare over many frames may take longer.
+            None if client.worn().is_none() && self.begun.elapsed() > PATIENCE => {
+                bail!(Fault::board("the board does not answer"))
+            }
+            Some(asked) if asked.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
+            _ => {}
+        }
+        Ok(!self.done)
+    }
+}

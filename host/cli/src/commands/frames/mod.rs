@@ -1,0 +1,4 @@
+//! Commands about recorded frames, without a board.
+
+pub mod features;
+pub mod process;

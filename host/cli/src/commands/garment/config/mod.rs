@@ -1,0 +1,147 @@
+//! `taxel config`: creates garment and scene files, checks them, and prints their schemas.
+
+mod check;
+mod scene;
+
+pub use check::check;
+
+use crate::watch::Overwrite;
+use anyhow::Result;
+use clap::{Args, Subcommand, ValueEnum};
+use std::fs;
+use std::path::{Path, PathBuf};
+use taxel::files::output::{Force, Output};
+use taxel::files::{garments, schemas};
+
+/// Kind of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Kind {
+    /// panels, blocks, pins, links of the body
+    Garment,
+    /// limits, map, reactions, stream of a deployment
+    Scene,
+    /// touches of a simulated garment: place, time, force
+    Touches,
+}
+
+impl Kind {
+    /// JSON schema of such a file.
+    pub fn schema(self) -> &'static str {
+        match self {
+            Kind::Garment => schemas::GARMENT,
+            Kind::Scene => schemas::SCENE,
+            Kind::Touches => schemas::TOUCHES,
+        }
+    }
+
+    /// Name of the schema's file beside such a file.
+    fn schema_file(self) -> &'static str {
+        match self {
+            Kind::Garment => "taxel-garment.schema.json",
+            Kind::Scene => "taxel-scene.schema.json",
+            Kind::Touches => "taxel-touches.schema.json",
+        }
+    }
+}
+
+/// Arguments of `taxel config`.
+#[derive(Debug, Clone, Args)]
+pub struct ConfigArgs {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum What {
+    /// Create a garment file, and beside it its schema for editors
+    #[command(after_help = "Example:\n  taxel config new mine.toml --like reference")]
+    New {
+        /// The file to write
+        file: PathBuf,
+        /// Whether an existing file is replaced.
+        #[command(flatten)]
+        force: Overwrite,
+        /// The garment to begin with: a preset or a TOML file
+        #[arg(long, value_name = "G", default_value = "block-4x16")]
+        like: String,
+    },
+    /// Create a scene file with the shipped values, and beside it its schema
+    #[command(after_help = "Example:\n  taxel config scene calm.toml")]
+    Scene {
+        /// The file to write
+        file: PathBuf,
+        /// Whether an existing file is replaced.
+        #[command(flatten)]
+        force: Overwrite,
+    },
+    /// Check a garment file, and a scene file with it; errors name line and key
+    #[command(after_help = "Example:\n  taxel config check mine.toml --scene scene.toml")]
+    Check {
+        /// The garment: a TOML file or a preset
+        #[arg(value_name = "GARMENT")]
+        garment: String,
+        /// A scene for this garment
+        #[arg(long, value_name = "FILE")]
+        scene: Option<PathBuf>,
+    },
+    /// Print the JSON schema of garment files, scene files or scripts of touches
+    #[command(after_help = "Example:\n  taxel config schema scene > taxel-scene.schema.json")]
+    Schema {
+        /// Kind of file
+        #[arg(value_enum, default_value_t = Kind::Garment)]
+        of: Kind,
+    },
+}
+
+/// Runs the command.
+pub fn run(args: &ConfigArgs) -> Result<()> {
+    match &args.what {
+        What::New { file, force, like } => {
+            let text = garments::read(like)?.text;
+            let begun = format!("# Like {like}. {}\n", next(file, ""));
+            let output = Output::file(file, *force, [like])?;
+            begin(output, (*force).into(), Kind::Garment, &(begun + without_schema(&text)))
+        }
+        What::Scene { file, force } => {
+            let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
+            let comment = format!("# The shipped scene; missing keys keep these values. {next}\n");
+            let none: [&Path; 0] = [];
+            let output = Output::file(file, *force, none)?;
+            begin(output, (*force).into(), Kind::Scene, &(comment + &scene::text()?))
+        }
+        What::Check { garment, scene } => {
+            println!("{}", check(garment, scene.as_deref())?);
+            Ok(())
+        }
+        What::Schema { of } => {
+            print!("{}", of.schema());
+            Ok(())
+        }
+    }
+}
+
+/// A file's text without the first line that names its schema; a new file gets such a line of its own.
+fn without_schema(text: &str) -> &str {
+    match text.strip_prefix("#:schema") {
+        Some(rest) => rest.split_once('\n').map_or("", |(_, rest)| rest),
+        None => text,
+    }
+}
+
+fn next(file: &Path, more: &str) -> String {
+    format!("Change it, then: taxel config check {}{more}", file.display())
+}
+
+/// Writes a file, and its schema beside it.
+fn begin(output: Output, force: Force, kind: Kind, text: &str) -> Result<()> {
+    let file = output.name().to_path_buf();
+    let schema = file.with_file_name(kind.schema_file());
+    let is_known = fs::read(&schema).is_ok_and(|known| known == kind.schema().as_bytes());
+    let beside = (!is_known).then(|| Output::file(&schema, force, [&file])).transpose()?;
+    // First the schema: if the file cannot be written, the command can be repeated unchanged.
+    beside.map_or(Ok(()), |beside| beside.write(kind.schema().as_bytes()))?;
+    // Editors look for `#:schema` in the first line.
+    output.write(format!("#:schema ./{}\n{text}", kind.schema_file()).as_bytes())?;
+    println!("{} and {} are written.", file.display(), schema.display());
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! `taxel fcm draw`: draws the graph of a map as SVG.
+
+use crate::commands::maps::told::ToldArgs;
+use crate::watch::Overwrite;
+use anyhow::Result;
+use std::path::PathBuf;
+use taxel::fcm::board::BoardMap;
+use taxel::fcm::decimal::Decimal;
+use taxel::fcm::draw::svg;
+use taxel::fcm::load;
+use taxel::fcm::map::MapFile;
+use taxel::files::output::Output;
+
+/// Arguments of `taxel fcm draw`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct DrawArgs {
+    /// TOML file, or the name of a shipped map
+    #[arg(required_unless_present = "source")]
+    pub map: Option<String>,
+    /// File to write (.svg)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Whether an existing output is replaced.
+    #[command(flatten)]
+    pub force: Overwrite,
+    /// Activation of a concept at the start, as NAME=VALUE; with it, activations are drawn
+    #[arg(long, value_parser = load::assignment)]
+    pub input: Vec<(String, Decimal)>,
+    /// Alternatively a source, whose activations are drawn.
+    #[command(flatten)]
+    pub told: ToldArgs,
+}
+
+/// Runs the command.
+pub fn run(args: DrawArgs) -> Result<()> {
+    let inputs = args.map.iter().map(PathBuf::from).chain(args.told.files());
+    let output = Output::stream(&args.output, args.force, inputs)?;
+    let (map, activations) = match args.told.listen()? {
+        Some(told) => {
+            let activations = told.report.concepts.iter().map(|value| value.to_f64()).collect();
+            (told.map, Some(activations))
+        }
+        None => {
+            let map = load::map(args.map.as_deref().unwrap_or_default())?;
+            let activations = (!args.input.is_empty()).then(|| settled(&map, &args.input)).transpose()?;
+            (map, activations)
+        }
+    };
+    output.write(svg(&map, activations.as_deref()).as_bytes())
+}
+
+fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {
+    let board = BoardMap::build(map)?;
+    let start = inputs.iter().map(|(name, value)| Ok((map.index(name, "--input")?, *value)));
+    let run = board.infer(&board.state(start.collect::<Result<Vec<_>>>()?));
+    Ok(run.state.iter().take(map.concept.len()).map(|x| board.value(*x)).collect())
+}

@@ -1,0 +1,61 @@
+//! `taxel fcm`: fuzzy cognitive maps as files: run, check, explain, combine, learn and draw.
+
+pub mod bench;
+pub mod check;
+pub mod combine;
+pub mod draw;
+pub mod learn;
+pub mod new;
+pub mod run;
+pub mod told;
+pub mod why;
+
+use anyhow::{Result, bail};
+use taxel::tell::fault::Fault;
+
+/// Arguments of `taxel fcm`.
+#[derive(Debug, Clone, clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct FcmArgs {
+    /// What to do with maps [default: run one]
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    run: Option<run::RunArgs>,
+}
+
+#[derive(Debug, Clone, clap::Subcommand)]
+enum Command {
+    /// Check a map: its numbers, unreachable concepts, whether it settles and fits the board
+    Check(check::CheckArgs),
+    /// Combine the maps of several experts into one; report where they disagree
+    Combine(combine::CombineArgs),
+    /// Merge maps that share concepts into one
+    Merge(combine::MergeArgs),
+    /// Explain an activation: what caused it, and what would change it
+    Why(why::WhyArgs),
+    /// Write a new map in four steps, by answering questions
+    New(new::NewArgs),
+    /// Learn weights from labelled touches; the expert's signs stay
+    Learn(learn::LearnArgs),
+    /// Draw a map as SVG
+    Draw(draw::DrawArgs),
+    /// Time one inference, beside other programs
+    Bench(bench::BenchArgs),
+}
+
+/// Runs the command.
+pub fn run(args: FcmArgs) -> Result<()> {
+    match (args.command, args.run) {
+        (Some(Command::Check(args)), _) => check::run(args),
+        (Some(Command::Combine(args)), _) => combine::combine(args),
+        (Some(Command::Merge(args)), _) => combine::merge(args),
+        (Some(Command::Why(args)), _) => why::run(args),
+        (Some(Command::New(args)), _) => new::run(args),
+        (Some(Command::Learn(args)), _) => learn::run(args),
+        (Some(Command::Draw(args)), _) => draw::run(args),
+        (Some(Command::Bench(args)), _) => bench::run(args),
+        (None, Some(args)) => run::run(args),
+        (None, None) => bail!(Fault::usage("a map or a command is missing: see taxel fcm --help")),
+    }
+}

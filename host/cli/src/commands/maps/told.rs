@@ -1,0 +1,124 @@
+//! Captures a board's report of an intention to be explained: from any source, when an intention is announced
+//! or at a given time.
+
+use crate::watch::{self, BoardArgs, LiveArgs};
+use anyhow::{Context, Result, bail};
+use std::path::PathBuf;
+use taxel::client::{Client, Event};
+use taxel::fcm::map::MapFile;
+use taxel::fcm::told::Told;
+use taxel::session::Show;
+use taxel::source::{SourceOptions, SourceSpec};
+use taxel_core::format::Micros;
+use taxel_core::intent::{Feed, Leading};
+use taxel_core::wire::IntentReport;
+
+/// Arguments of commands that show a map in the state of a board.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ToldArgs {
+    /// Instead of a map: a board or a recording, whose first announced intention is shown:
+    /// `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`, `file:FILE` or
+    /// `replay:FILE[@SPEED]`
+    #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
+    pub source: Option<SourceSpec>,
+    /// With --source: show the last state of the first S seconds, announced or not
+    #[arg(long, value_name = "S", value_parser = watch::seconds, requires = "source")]
+    pub at: Option<f64>,
+    /// With --source: scene to send to the board, a TOML file
+    #[arg(long, value_name = "FILE", requires = "source")]
+    pub scene: Option<PathBuf>,
+    /// With --source: set a concept, as in `taxel live`
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = watch::feed, requires = "source")]
+    pub feed: Vec<Feed>,
+}
+
+impl ToldArgs {
+    /// Paths of the input files.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.source.iter().filter_map(SourceSpec::file).chain(self.scene.clone()).collect()
+    }
+
+    /// Report of the source, if one is given.
+    pub fn listen(self) -> Result<Option<Told>> {
+        let Some(source) = self.source else { return Ok(None) };
+        listen(BoardArgs { scene: self.scene, feed: self.feed, ..BoardArgs::of(source) }, self.at).map(Some)
+    }
+}
+
+/// Listens until an intention is announced; with `at` for this many seconds, and returns the last report.
+pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
+    let (source, _) = board.open(SourceOptions { seconds: at, ..SourceOptions::default() })?;
+    let label = source.label.clone();
+    if source.real_time {
+        eprintln!("{label}: waiting for {}.", if at.is_some() { "the time" } else { "an intention" });
+    }
+    let mut ear = Ear { at, began: None, now: Micros(0), leading: Leading::None, found: None, done: false };
+    watch::watch(&LiveArgs::on(board), source, &mut ear)?;
+    match (ear.found, at) {
+        (Some(told), _) => Ok(told),
+        (None, None) => {
+            bail!("{label}: no intention was announced; --at S explains the state at that time")
+        }
+        (None, Some(at)) => bail!("{label}: no intention was reported in the first {at} s"),
+    }
+}
+
+/// State while listening.
+struct Ear {
+    at: Option<f64>,
+    /// Time of the first frame.
+    began: Option<Micros>,
+    now: Micros,
+    leading: Leading,
+    found: Option<Told>,
+    done: bool,
+}
+
+impl Ear {
+    /// Handles the board's time.
+    fn clock(&mut self, time: Micros) {
+        self.began.get_or_insert(time);
+        self.now = time;
+        self.done |= self.at.is_some_and(|at| self.seconds() > at);
+    }
+
+    fn seconds(&self) -> f64 {
+        self.began.map_or(0.0, |began| self.now.since(began) as f64 / 1e6)
+    }
+
+    fn take(&mut self, client: &Client, report: &IntentReport) -> Result<()> {
+        let announced = report.leading != self.leading && report.leading != Leading::None;
+        self.leading = report.leading;
+        if self.at.is_none() && !announced {
+            return Ok(());
+        }
+        let intent = client.worn().and_then(|worn| worn.scene.intent.as_ref());
+        let map = MapFile::from_config(&intent.context("the board's scene has no map")?.map);
+        self.found = Some(Told { map, report: report.clone(), seconds: self.seconds() });
+        self.done = self.at.is_none();
+        Ok(())
+    }
+}
+
+impl Show for Ear {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        if self.done {
+            return Ok(());
+        }
+        match event {
+            Event::Frame { time, .. } => self.clock(*time),
+            Event::Intent(report) => {
+                self.clock(report.time);
+                if !self.done {
+                    self.take(client, report)?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, _client: &mut Client) -> Result<bool> {
+        Ok(!self.done)
+    }
+}

@@ -1,0 +1,20 @@
+//! The commands: each is a module with its arguments and a function `run`.
+
+pub mod bench;
+pub mod board;
+pub mod frames;
+pub mod garment;
+pub mod maps;
+pub mod recordings;
+pub mod shapes;
+pub mod touches;
+pub mod views;
+
+/// Prints a command's messages besides its output: on standard error if the output is the standard output.
+pub fn tell(is_standard: bool, text: &str) {
+    if is_standard {
+        eprint!("{text}");
+    } else {
+        print!("{text}");
+    }
+}

@@ -1,0 +1,8 @@
+//! Commands about recordings.
+
+pub mod export;
+pub mod info;
+pub mod record;
+pub mod repair;
+pub mod replay;
+pub mod report;

@@ -1,0 +1,94 @@
+//! The command `taxel report`.
+
+use crate::report::{Seen, page};
+use crate::watch::{self, LiveArgs, Overwrite};
+use anyhow::{Result, bail};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use taxel::client::Event;
+use taxel::files::output::Output;
+use taxel::record::Play;
+use taxel::recording::Overview;
+use taxel::session::Show;
+use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::tell::fault::Fault;
+use taxel::tell::progress::{Progress, Unit};
+
+/// Arguments of `taxel report`.
+#[derive(Debug, Clone, Args)]
+pub struct ReportArgs {
+    /// Recording: .mcap
+    #[arg(conflicts_with = "source")]
+    pub file: Option<PathBuf>,
+    /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
+    /// `emulator[:TOUCHES]` or `file:FILE`
+    #[arg(long, value_name = "SOURCE")]
+    pub source: Option<SourceSpec>,
+    /// Page to write (.html), `-` for standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Whether an existing page is replaced.
+    #[command(flatten)]
+    pub force: Overwrite,
+    /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
+    /// once]
+    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
+    pub seconds: Option<f64>,
+}
+
+/// Default duration for a real board, s.
+const WATCHED: f64 = 10.0;
+
+/// Runs the command.
+pub fn run(args: ReportArgs) -> Result<()> {
+    let inputs = args.file.clone().into_iter().chain(args.source.as_ref().and_then(SourceSpec::file));
+    let output = Output::stream(&args.output, args.force, inputs)?;
+    let seen = match (&args.file, args.source) {
+        (Some(path), _) => recorded(path, args.seconds)?,
+        (None, Some(spec)) => watched(spec, args.seconds)?,
+        (None, None) => bail!(Fault::usage("give a recording, or a --source")),
+    };
+    let told = !output.is_standard();
+    output.write(page(&seen)?.as_bytes())?;
+    if told {
+        println!("{}: figures of {}", args.output.display(), seen.label);
+    }
+    if !seen.skipped.is_none() {
+        eprintln!("{}: {}", seen.label, seen.skipped);
+    }
+    Ok(())
+}
+
+/// Reads a recording.
+fn recorded(path: &Path, seconds: Option<f64>) -> Result<Seen> {
+    let overview = Overview::of(path)?;
+    let mut play = Play::open(path)?;
+    let mut progress =
+        Progress::of(format!("reading {}", path.display()), Unit::Bytes, Some(play.passed()[1]));
+    let scale = overview.counts_per_newton().map(|counts| counts as f32);
+    let mut seen = Seen::new(path.display().to_string(), scale);
+    let mut began = None;
+    while let Some((_, event)) = play.next_event()? {
+        seen.event(play.client(), &event)?;
+        if let Event::Frame { time, .. } = event {
+            progress.at(play.passed()[0]);
+            let passed = time.since(*began.get_or_insert(time)) as f64 / 1e6;
+            if seconds.is_some_and(|seconds| passed >= seconds) {
+                break;
+            }
+        }
+    }
+    seen.end(play.client())?;
+    seen.skipped = play.skipped();
+    Ok(seen)
+}
+
+/// Watches a board.
+fn watched(spec: SourceSpec, seconds: Option<f64>) -> Result<Seen> {
+    let options = SourceOptions { seconds, ..SourceOptions::default() };
+    let source = source::open(&spec, &options)?;
+    let seconds = seconds.or(source.real_time.then_some(WATCHED));
+    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton);
+    watch::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
+    Ok(seen)
+}

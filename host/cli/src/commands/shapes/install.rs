@@ -1,0 +1,82 @@
+//! `taxel shapes install`: sends a base to a board, which uses it until it is switched off.
+
+use crate::watch::{self, LiveArgs};
+use anyhow::{Context, Result, bail};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use taxel::client::{Client, Event};
+use taxel::learn::shapes::base::Base;
+use taxel::learn::shapes::teach::teach;
+use taxel::session::Show;
+use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::tell::fault::Fault;
+use taxel_core::wire::Request;
+
+/// Arguments of `taxel shapes install`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct InstallArgs {
+    /// Base: a file, or the name of a shipped base
+    pub base: PathBuf,
+    /// The board: as in `taxel live`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+}
+
+/// Time limit for everything.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Runs the command.
+pub fn run(args: InstallArgs) -> Result<()> {
+    let base = Base::open(&args.base)?;
+    let source = source::open(&args.source, &SourceOptions::default())?;
+    let label = source.label.clone();
+    let mut installing = Installing { base, opened: Instant::now(), begun: None, installed: None };
+    watch::watch(&LiveArgs::of(args.source), source, &mut installing)?;
+    match installing.installed {
+        Some((classes, prototypes)) => {
+            println!("{label} knows {classes} classes by {prototypes} prototypes, until it restarts.");
+            Ok(())
+        }
+        None => bail!(Fault::board(format!("{label} ended before the board had the base"))),
+    }
+}
+
+/// Waits for the board, sends the base, and waits for its confirmation.
+struct Installing {
+    base: Base,
+    opened: Instant,
+    begun: Option<Instant>,
+    installed: Option<(usize, u16)>,
+}
+
+impl Show for Installing {
+    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Answer { request, refusal: Some(why) }
+                if [Request::SetShapes(&[]), Request::AddShapes(&[])]
+                    .iter()
+                    .any(|r| r.number() == *request) =>
+            {
+                bail!(Fault::board(format!("the board refuses: {why}")))
+            }
+            Event::Shapes { names, prototypes } if self.begun.is_some() && *prototypes > 0 => {
+                self.installed = Some((names.len(), *prototypes));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        match self.begun {
+            None if client.worn().is_some() => {
+                teach(client, &self.base).context("the base is too long for a request")?;
+                self.begun = Some(Instant::now());
+            }
+            None if self.opened.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
+            Some(begun) if begun.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
+            _ => {}
+        }
+        Ok(self.installed.is_none())
+    }
+}

@@ -1,0 +1,127 @@
+//! `taxel shapes learn`: adds a class to a base, or examples to a class, from touches on a board or from
+//! images.
+
+use super::hold::Hold;
+use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, seconds};
+use anyhow::{Result, ensure};
+use std::path::{Path, PathBuf};
+use taxel::files::arrays;
+use taxel::files::output::{Force, Output, is_same};
+use taxel::learn::fingerprint::Fingerprint;
+use taxel::learn::shapes::base::{Base, LEFT_OUT, Source};
+use taxel::learn::shapes::extend::{check_name, extend};
+use taxel::learn::shapes::view::Choice;
+use taxel::source::{SourceOptions, SourceSpec};
+use taxel_core::shape::Point;
+
+/// Arguments of `taxel shapes learn`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct LearnArgs {
+    /// Name of the class, at most 16 bytes
+    pub name: String,
+    /// Learn from images or frames (.npz, .npy or .csv) [default: from touches of the board]
+    #[arg(long, value_name = "FILE", conflicts_with = "source")]
+    pub images: Option<PathBuf>,
+    /// Array of an .npz that holds several
+    #[arg(long, value_name = "NAME", requires = "images")]
+    pub array: Option<String>,
+    /// The board that the object is held against
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// Number of touches to wait for
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub touches: u16,
+    /// Stop waiting after S seconds of the board's time [default: a simulated scene is played once]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// Base to add to: a file, or the name of a shipped base [default: the output file; if it does not exist,
+    /// an empty base]
+    #[arg(long, value_name = "BASE")]
+    pub base: Option<PathBuf>,
+    /// Largest number of prototypes to add
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub prototypes: usize,
+    /// File to write
+    #[arg(short, long, value_name = "BASE")]
+    pub output: PathBuf,
+    /// Whether an existing output is replaced.
+    #[command(flatten)]
+    pub force: Overwrite,
+}
+
+/// Runs the command.
+pub fn run(args: LearnArgs) -> Result<()> {
+    check_name(&args.name)?;
+    let output = output(&args)?;
+    let mut base = match &args.base {
+        Some(base) => Base::open(base)?,
+        None if args.output.exists() => Base::open(&args.output)?,
+        None => Base::empty()?,
+    };
+    let (points, source) = match &args.images {
+        Some(images) => shown(&args, images, &base)?,
+        None => held(&args, &base)?,
+    };
+    let added = extend(&mut base, &args.name, &points, args.prototypes)?;
+    base.trained_on.push(source);
+    base.save(output)?;
+    let (file, name) = (args.output.display(), &args.name);
+    eprintln!("{file}: {added} prototypes of {name} from {} touches", points.len());
+    let count = base.gallery.prototypes.len();
+    if base.card.split == LEFT_OUT && count > 1 {
+        eprintln!("{:.0} % of {count} are recognised by the others", 100.0 * base.card.accuracy);
+    }
+    Ok(())
+}
+
+/// The output file. A base that is extended is read first, and may be replaced.
+fn output(args: &LearnArgs) -> Result<Output> {
+    let extends = args.base.as_ref().is_none_or(|base| is_same(base, &args.output));
+    let force = Force { force: args.force.force || extends };
+    let base = args.base.iter().filter(|_| !extends);
+    let inputs = base.chain(&args.images).cloned().chain(args.board.files());
+    Output::file(&args.output, force, inputs)
+}
+
+/// A point for each image with a touch.
+fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, Source)> {
+    let view = Choice::default().build(Some(base.view), 0);
+    let frames = arrays::read(images, args.array.as_deref())?;
+    let touched = frames.iter().filter(|image| image.iter().any(|value| *value >= view.threshold));
+    let place = |image| base.gallery.space.place(&view.describe(image, frames.columns));
+    let points: Vec<Point> = touched.map(place).collect();
+    let file = images.display();
+    ensure!(!points.is_empty(), "{file}: there is no touch: no value reaches {} counts", view.threshold);
+    let source = Source {
+        file: images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        fingerprint: Fingerprint::of(images)?.to_string(),
+        sets: args.array.iter().cloned().collect(),
+        images: points.len(),
+    };
+    Ok((points, source))
+}
+
+/// A point for each touch that was held against a board.
+fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
+    let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
+    let (source, _) = args.board.open(options)?;
+    let (label, wanted) = (source.label.clone(), usize::from(args.touches));
+    eprintln!(
+        "{label}: hold {} against the garment {wanted} times for half a second, each time at another place and angle",
+        args.name
+    );
+    let mut hold = Hold::new(&base.gallery.space, wanted);
+    let watched = LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board.clone()) };
+    watch::watch(&watched, source, &mut hold)?;
+    let points = hold.held;
+    if (1..wanted).contains(&points.len()) {
+        eprintln!("{label} ended after {} of {wanted} touches", points.len());
+    }
+    ensure!(!points.is_empty(), "{label} ended before anything was held against it for half a second");
+    let fingerprint = match &args.board.source {
+        SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Fingerprint::of(path)?.to_string(),
+        _ => String::new(),
+    };
+    let images = points.len();
+    Ok((points, Source { file: label, fingerprint, sets: Vec::new(), images }))
+}

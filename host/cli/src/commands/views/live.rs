@@ -1,0 +1,39 @@
+//! `taxel live`: shows a board's stream in the terminal, as lines of text or as JSON.
+
+use crate::terminal::{Lines, Painter, Screen, TaxelLines, View};
+use crate::watch::{LiveArgs, watch};
+use anyhow::Result;
+use std::io::{IsTerminal, stdout};
+use taxel::files::output::Output;
+use taxel::json::Messages;
+use taxel::session::Show;
+use taxel::source::SourceOptions;
+
+/// Runs the command.
+pub fn run(args: LiveArgs) -> Result<()> {
+    let terminal = stdout().is_terminal() && !args.json && args.taxel.is_none() && args.svg.is_none();
+    let bounded = args.frames.is_some() || args.seconds.is_some();
+    let options = SourceOptions {
+        realtime: args.realtime || terminal,
+        repeat: terminal && !bounded,
+        frames: args.frames,
+        seconds: args.seconds,
+        raw: args.taxel.is_some(),
+        ..SourceOptions::default()
+    };
+    let (source, calibration) = args.board.open(options)?;
+    let out = std::io::BufWriter::new(stdout());
+    let mut show: Box<dyn Show> = if let Some(file) = &args.svg {
+        let inputs = args.board.files().into_iter().chain(args.save.clone());
+        Box::new(Painter::new(View::new(&source), Output::stream(file, args.force, inputs)?))
+    } else if let Some(place) = &args.taxel {
+        Box::new(TaxelLines::new(place.clone(), args.json, out))
+    } else if args.json {
+        Box::new(Messages::new(args.pixels, out).calibrated(calibration))
+    } else if terminal {
+        Box::new(Screen::open(View::new(&source))?)
+    } else {
+        Box::new(Lines::new(&source, out))
+    };
+    watch(&args, source, show.as_mut())
+}

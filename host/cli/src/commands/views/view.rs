@@ -1,0 +1,116 @@
+//! `taxel view`: shows a board's stream or a recording in the browser.
+
+use crate::view::{Hub, Player, Tape, Viewer, browser, serve};
+use crate::watch::{self, BoardArgs, LiveArgs};
+use anyhow::{Context, Result};
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use taxel::files::calibrate::Calibration;
+use taxel::record::Origin;
+use taxel::source::{SourceOptions, SourceSpec, Speed};
+
+/// Default port, unless it is taken: T, A, X, L on a telephone keypad.
+const PORT: u16 = 8295;
+
+/// Arguments of `taxel view`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ViewArgs {
+    /// Recording (.mcap) to open in the page instead of a board: `--source replay:FILE` is the same
+    #[arg(conflicts_with = "source")]
+    pub file: Option<PathBuf>,
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
+    #[arg(long, value_name = "N")]
+    pub port: Option<u16>,
+    /// Open the page in the browser
+    #[arg(long)]
+    pub open: bool,
+}
+
+impl ViewArgs {
+    /// Recording to show, and its speed; none for a board.
+    fn recording(&self) -> Option<(PathBuf, f64)> {
+        match (&self.file, &self.board.source) {
+            (Some(file), _) => Some((file.clone(), 1.0)),
+            (None, SourceSpec::Replay { path, speed }) => {
+                let times = match speed {
+                    Speed::AsAsked => 1.0,
+                    Speed::Times(times) => *times,
+                    Speed::Max => f64::INFINITY,
+                };
+                Some((path.clone(), times))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(args: ViewArgs) -> Result<()> {
+    if let Some((file, speed)) = args.recording() {
+        return play(&args, &file, speed);
+    }
+    let listener = bind(args.port)?;
+    let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
+    let (source, calibration) = args.board.open(options)?;
+    let hub = Arc::new(Hub::default());
+    let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
+    hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
+    announce(&source.label, listener, &hub, args.open)?;
+    let mut viewer = Viewer::new(&source, hub);
+    watch::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
+    println!("Stream ended; showing the last frame (Ctrl-C ends).");
+    loop {
+        std::thread::park();
+    }
+}
+
+/// Shows a recording.
+fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
+    args.board.check_recorded(&file.display().to_string())?;
+    let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
+    let hub = Arc::new(Hub::default());
+    let player = Player::open(file, speed, calibration, hub.clone())?;
+    announce(&file.display().to_string(), bind(args.port)?, &hub, args.open)?;
+    player.run()
+}
+
+/// Serves the pages, and prints their address.
+fn announce(what: &str, listener: TcpListener, hub: &Arc<Hub>, open: bool) -> Result<()> {
+    let port = serve(listener, hub.clone())?;
+    let url = format!("http://127.0.0.1:{port}/");
+    println!("{what} at {url} (Ctrl-C ends)");
+    if open { browser::open(&url) } else { Ok(()) }
+}
+
+/// Binds to the loopback interface.
+fn bind(port: Option<u16>) -> Result<TcpListener> {
+    let listen = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    let wanted = port.unwrap_or(PORT);
+    let listener = match (listen(wanted), port) {
+        (Err(_), None) => listen(0),
+        (result, _) => result,
+    };
+    listener.with_context(|| format!("port {wanted} of this machine cannot be used for the page"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_port_that_is_taken_is_named_unless_nobody_asked_for_it() {
+        let taken = bind(Some(0)).unwrap();
+        let port = taken.local_addr().unwrap().port();
+        assert!(taken.local_addr().unwrap().ip().is_loopback());
+        let why = format!("{:#}", bind(Some(port)).unwrap_err());
+        assert!(
+            why.starts_with(&format!("port {port} of this machine cannot be used for the page: ")),
+            "{why}"
+        );
+        assert!(bind(None).is_ok());
+    }
+}

@@ -1,0 +1,112 @@
+//! The part of Foxglove's WebSocket protocol that a send-only server needs.
+//!
+//! | message | from | what |
+//! |---|---|---|
+//! | `serverInfo`, `advertise`, `status` | server, text | the server; the channels with their schemas; the losses of a slow client |
+//! | `subscribe`, `unsubscribe` | client, text | channels, each with a number chosen by the client |
+//! | 1 (u8), subscription (u32), time (u64, ns), data | server, binary, little-endian | a message of a channel |
+
+use serde_json::{Value, json};
+use taxel::record::{JsonTopic, TOPICS};
+
+/// Names of the protocol, the newer first; the messages used here are the same in both.
+pub const PROTOCOLS: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
+
+/// Number of a channel: 1 for the first topic.
+pub type Channel = u32;
+
+/// A request of a client.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Wish {
+    /// Numbers of subscriptions, each with its channel.
+    Subscribe(Vec<(u32, Channel)>),
+    /// Numbers of ended subscriptions.
+    Unsubscribe(Vec<u32>),
+}
+
+/// Parses a client's message; none if it is not supported.
+pub fn wish(text: &str) -> Option<Wish> {
+    let said: Value = serde_json::from_str(text).ok()?;
+    let number = |value: &Value| u32::try_from(value.as_u64()?).ok();
+    match said["op"].as_str()? {
+        "subscribe" => {
+            let each = said["subscriptions"].as_array()?.iter();
+            let pair = |one: &Value| Some((number(&one["id"])?, number(&one["channelId"])?));
+            Some(Wish::Subscribe(each.filter_map(pair).collect()))
+        }
+        "unsubscribe" => {
+            Some(Wish::Unsubscribe(said["subscriptionIds"].as_array()?.iter().filter_map(number).collect()))
+        }
+        _ => None,
+    }
+}
+
+/// Channel of a topic.
+pub fn channel(topic: &str) -> Option<Channel> {
+    (1..).zip(TOPICS).find(|(_, (name, _))| *name == topic).map(|(channel, _)| channel)
+}
+
+/// Message about the server.
+pub fn server_info(label: &str) -> String {
+    let program = concat!("taxel ", env!("CARGO_PKG_VERSION"));
+    let name = format!("{program}: {label}");
+    json!({
+        "op": "serverInfo", "name": name, "capabilities": [], "supportedEncodings": ["json"],
+        "metadata": { "program": program, "source": label }, "sessionId": std::process::id().to_string(),
+    })
+    .to_string()
+}
+
+/// Message about the channels: those of a recording.
+pub fn advertise() -> String {
+    let channel = |(id, (name, schema)): (Channel, JsonTopic)| {
+        json!({
+            "id": id, "topic": format!("/taxel/{name}"), "encoding": "json", "schemaName": format!("taxel.{name}"),
+            "schema": schema().to_string(), "schemaEncoding": "jsonschema",
+        })
+    };
+    let channels: Vec<_> = (1..).zip(TOPICS).map(channel).collect();
+    json!({ "op": "advertise", "channels": channels }).to_string()
+}
+
+/// Message about a slow client's losses.
+pub fn left_out(count: u64) -> String {
+    let text = format!("{count} messages were left out: this program reads too slowly");
+    json!({ "op": "status", "level": 1, "message": text, "id": "slow" }).to_string()
+}
+
+/// Message about too many subscriptions.
+pub fn too_many(most: usize) -> String {
+    let text = format!("a client can have {most} subscriptions: the others are ignored");
+    json!({ "op": "status", "level": 1, "message": text, "id": "subscriptions" }).to_string()
+}
+
+/// Encodes a message for a subscription.
+pub fn data(subscription: u32, ns: u64, data: &[u8]) -> Vec<u8> {
+    let mut bytes = vec![1];
+    bytes.extend(subscription.to_le_bytes());
+    bytes.extend(ns.to_le_bytes());
+    bytes.extend_from_slice(data);
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_client_wants_is_read_and_nothing_else() {
+        let wanted =
+            r#"{"op":"subscribe","subscriptions":[{"id":7,"channelId":3},{"id":-1,"channelId":3},{}]}"#;
+        assert_eq!(wish(wanted), Some(Wish::Subscribe(vec![(7, 3)])));
+        assert_eq!(
+            wish(r#"{"op":"unsubscribe","subscriptionIds":[7, "x"]}"#),
+            Some(Wish::Unsubscribe(vec![7]))
+        );
+        for other in ["", "[]", "7", "{}", r#"{"op":7}"#, r#"{"op":"subscribe"}"#, r#"{"op":"advertise"}"#] {
+            assert_eq!(wish(other), None, "{other}");
+        }
+        assert_eq!((channel("hello"), channel("contacts"), channel("x")), (Some(1), Some(3), None));
+        assert_eq!(data(2, 3, b"{}"), [1, 2, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, b'{', b'}']);
+    }
+}

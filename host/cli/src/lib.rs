@@ -1,0 +1,43 @@
+//! The program `taxel`, apart from its `main`: the command line, the commands, and what shows a stream.
+//!
+//! This crate is no library: its modules are public for its tests and for the fuzzer. Programs use the crate
+//! [`taxel`].
+//!
+//! In the order in which they build on each other; a module imports only modules before it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`watch`] | a followed board: options, loop, sentences about events |
+//! | [`terminal`] | views in the terminal |
+//! | [`report`] | a recording or a board on one page |
+//! | [`serve`] | the door of a server on this machine |
+//! | [`view`] | the page in the browser, and its server |
+//! | `foxglove` | the server for Foxglove (feature `foxglove`) |
+//! | [`mod@bench`] | tables and charts of cost and error |
+//! | `commands` | the commands |
+//! | [`cli`] | the command line |
+#![forbid(unsafe_code)]
+
+// First: the modules below use its macros.
+#[macro_use]
+mod told;
+
+pub mod watch;
+
+pub mod terminal;
+
+pub mod report;
+
+pub mod serve;
+
+pub mod view;
+
+#[cfg(feature = "foxglove")]
+pub mod foxglove;
+
+pub mod bench;
+
+#[doc(hidden)]
+pub mod commands;
+
+pub mod cli;

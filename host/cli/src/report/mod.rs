@@ -1,0 +1,24 @@
+//! A recording or a board on one self-contained HTML page without scripts.
+//!
+//! | section | what | file |
+//! |---|---|---|
+//! | pressure, 2-D | each panel at the moment of the greatest force: cells, lines of equal pressure, contacts, peaks | `plane.rs` |
+//! | pressure, 3-D | the same moment as a surface | `surface.rs` |
+//! | ranges | how many taxels lie in which range of pressure, then and at their greatest | `ranges.rs` |
+//! | over time | force by panel, activation of each concept | `strips.rs` |
+//! | contacts, events, health | | `tables.rs` |
+
+mod contour;
+mod page;
+mod plane;
+mod ranges;
+mod scale;
+mod seen;
+mod series;
+mod strips;
+mod surface;
+mod svg;
+mod tables;
+
+pub use page::page;
+pub use seen::Seen;

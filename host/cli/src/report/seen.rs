@@ -1,0 +1,176 @@
+//! Data of a stream collected for its report.
+
+use super::scale::Scale;
+use super::series::Series;
+use crate::watch::narrate::Narrator;
+use anyhow::Result;
+use std::collections::BTreeMap;
+use taxel::client::{Client, Counts, Event, ImageNews, Worn};
+use taxel::recording::Skipped;
+use taxel::session::Show;
+use taxel_core::body::Placed;
+use taxel_core::garment::Area;
+use taxel_core::health::TaxelHealth;
+use taxel_core::wire::Health;
+
+/// Most contacts listed: the strongest.
+pub(super) const LISTED: usize = 60;
+/// Most sentences of a report.
+const SENTENCES: usize = 500;
+
+/// Collected data.
+#[derive(Debug)]
+pub struct Seen {
+    /// Name of the recording or the board.
+    pub label: String,
+    pub(super) counts_per_newton: Option<f32>,
+    pub(super) worn: Option<Worn>,
+    pub(super) counts: Counts,
+    /// The moment of the greatest force.
+    pub(super) top: Moment,
+    /// Greatest pressure of each taxel, counts.
+    pub(super) hold: Vec<u16>,
+    /// Total of each panel over time, counts.
+    pub(super) totals: Series,
+    /// The strongest and the present contacts, each at its greatest total, with its last duration.
+    pub(super) contacts: BTreeMap<u32, Placed>,
+    /// Number of contacts.
+    pub(super) touches: u64,
+    /// Names of their shapes.
+    pub(super) shapes: BTreeMap<u8, String>,
+    /// Activation of each concept over time, -1 ..= 1.
+    pub(super) activations: Series,
+    pub(super) concepts: Vec<String>,
+    pub(super) sentences: Vec<String>,
+    /// Number of sentences left out.
+    pub(super) unsaid: usize,
+    pub(super) health: Option<Health>,
+    pub(super) ill: BTreeMap<u16, TaxelHealth>,
+    /// Damage of a recording.
+    pub skipped: Skipped,
+    narrator: Narrator,
+}
+
+/// An image and its contacts.
+#[derive(Debug, Default, Clone)]
+pub(super) struct Moment {
+    pub time_us: u64,
+    pub total: u64,
+    pub image: Vec<u16>,
+    pub contacts: Vec<Placed>,
+}
+
+impl Seen {
+    /// No data yet, of a source with this label.
+    pub fn new(label: String, counts_per_newton: Option<f32>) -> Seen {
+        Seen {
+            label,
+            counts_per_newton,
+            worn: None,
+            counts: Counts::default(),
+            top: Moment::default(),
+            hold: Vec::new(),
+            totals: Series::default(),
+            contacts: BTreeMap::new(),
+            touches: 0,
+            shapes: BTreeMap::new(),
+            activations: Series::default(),
+            concepts: Vec::new(),
+            sentences: Vec::new(),
+            unsaid: 0,
+            health: None,
+            ill: BTreeMap::new(),
+            skipped: Skipped::default(),
+            narrator: Narrator::new(counts_per_newton),
+        }
+    }
+
+    /// Unit of the page.
+    pub(super) fn scale(&self) -> Scale {
+        Scale::of(self.counts_per_newton)
+    }
+
+    /// Panels of the garment.
+    pub(super) fn areas(&self) -> &[Area] {
+        self.worn.as_ref().map_or(&[], |worn| worn.layout.areas())
+    }
+
+    fn image(&mut self, client: &Client, time_us: u64) {
+        let Some((_, image)) = client.image() else { return };
+        let sum = |values: &[u16]| values.iter().map(|value| u32::from(*value)).sum::<u32>();
+        let totals: Vec<u32> = self.areas().iter().map(|area| sum(of(area, image))).collect();
+        let total = totals.iter().map(|total| u64::from(*total)).sum();
+        self.totals.push(time_us, totals.iter().map(|total| f64::from(*total)).collect());
+        self.hold.resize(image.len(), 0);
+        self.hold.iter_mut().zip(image).for_each(|(held, value)| *held = (*held).max(*value));
+        if total > self.top.total || self.top.image.is_empty() {
+            self.top = Moment { time_us, total, image: image.to_vec(), contacts: client.contacts().to_vec() };
+        }
+    }
+
+    fn contact(&mut self, placed: &Placed) {
+        let known = self.contacts.len();
+        let kept = self.contacts.entry(placed.contact.id).or_insert_with(|| placed.clone());
+        let duration = placed.contact.duration_ms;
+        if placed.contact.total > kept.contact.total {
+            *kept = placed.clone();
+        }
+        kept.contact.duration_ms = duration;
+        self.touches += (self.contacts.len() - known) as u64;
+    }
+
+    /// Removes the weakest of many contacts, except for present ones.
+    fn forget_weak(&mut self, present: &[Placed]) {
+        if self.contacts.len() < 4 * LISTED {
+            return;
+        }
+        let mut totals: Vec<u32> = self.contacts.values().map(|placed| placed.contact.total).collect();
+        totals.sort_unstable_by_key(|total| std::cmp::Reverse(*total));
+        let least = totals[LISTED - 1];
+        self.contacts.retain(|id, placed| {
+            placed.contact.total >= least || present.iter().any(|placed| placed.contact.id == *id)
+        });
+    }
+}
+
+/// Values of a panel, row by row.
+pub(super) fn of<'v>(area: &Area, values: &'v [u16]) -> &'v [u16] {
+    let start = usize::from(area.base);
+    values.get(start..start + usize::from(area.rows) * usize::from(area.columns)).unwrap_or(&[])
+}
+
+impl Show for Seen {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Hello => {
+                self.worn = client.worn().cloned();
+                self.concepts = client.concepts().iter().map(ToString::to_string).collect();
+            }
+            Event::Frame { time, image: ImageNews::Whole, .. } => self.image(client, time.0),
+            Event::Contacts { released, .. } => {
+                for placed in client.contacts().iter().chain(released) {
+                    let class = placed.shape.class;
+                    self.shapes.entry(class.0).or_insert_with(|| client.shape_name(class));
+                    self.contact(placed);
+                }
+                self.forget_weak(client.contacts());
+            }
+            Event::Intent(report) => {
+                let values = report.concepts.iter().map(|value| value.to_f64()).collect();
+                self.activations.push(report.time.0, values);
+            }
+            Event::Health(health) => self.health = Some(*health),
+            Event::HealthMap { .. } => self.ill.clone_from(client.ill()),
+            _ => {}
+        }
+        for sentence in self.narrator.tell(client, event) {
+            if self.sentences.len() < SENTENCES { self.sentences.push(sentence) } else { self.unsaid += 1 }
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, client: &Client) -> Result<()> {
+        self.counts.clone_from(client.counts());
+        Ok(())
+    }
+}

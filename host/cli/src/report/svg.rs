@@ -1,0 +1,44 @@
+//! Shared by the drawings.
+
+use crate::terminal::ramp;
+
+/// Colour of a pressure.
+pub fn colour(value: f64, top: u16) -> String {
+    let [r, g, b] = ramp::pressure(value.round().clamp(0.0, 65535.0) as u16, top);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// Line colours that colour-blind readers can tell apart (Okabe and Ito).
+pub const LINES: [&str; 8] =
+    ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#999999", "#8c8c00"];
+
+/// Escapes text for HTML and SVG.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// End of a scale for `greatest`: a round number not far above it.
+pub fn nice_top(greatest: f64) -> f64 {
+    if greatest.is_nan() || greatest <= 0.0 {
+        return 1.0;
+    }
+    let power = 10f64.powf(greatest.log10().floor());
+    let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0].map(|step| step * power);
+    steps.into_iter().find(|top| *top >= greatest).unwrap_or(10.0 * power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_end_at_round_numbers() {
+        let tops = [0.0, 0.7, 1.0, 1.1, 230.0, 4095.0].map(nice_top);
+        assert!(
+            tops.iter()
+                .zip([1.0, 0.8, 1.0, 1.5, 300.0, 5000.0])
+                .all(|(a, b): (&f64, f64)| (a - b).abs() < 1e-9)
+        );
+        assert_eq!(escaped("a<\"b\"&"), "a&lt;&quot;b&quot;&amp;");
+    }
+}

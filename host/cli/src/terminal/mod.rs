@@ -1,0 +1,16 @@
+//! A board's stream in the terminal: panes and maps, lines of text, one taxel, and a picture of the panes.
+
+mod lines;
+mod map;
+mod panes;
+pub mod ramp;
+mod screen;
+mod svg;
+mod taxel;
+mod view;
+
+pub use lines::Lines;
+pub use screen::Screen;
+pub use svg::{Painter, picture};
+pub use taxel::TaxelLines;
+pub use view::View;

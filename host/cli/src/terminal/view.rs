@@ -1,0 +1,312 @@
+//! State of the display: draws what is known of a garment into a buffer of characters.
+
+use super::map::Grid;
+use super::panes;
+use super::ramp::{GLYPHS, Paint, color, ramp};
+use crate::watch::narrate::Narrator;
+use crate::watch::rate::Rate;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use std::collections::VecDeque;
+use std::time::Duration;
+use taxel::client::{Client, Event};
+use taxel::source::Source;
+
+/// Log lines kept.
+const LOG: usize = 100;
+/// Width that the panes beside the maps need.
+const SIDE: u16 = 62;
+/// Smallest width at which the panes are beside the maps instead of below them.
+const WIDE: u16 = 98;
+/// Initial end of the scale, counts.
+const TOP: u16 = 400;
+
+/// State of the display beyond the client's.
+#[derive(Debug, Clone)]
+pub struct View {
+    label: String,
+    narrator: Narrator,
+    log: VecDeque<String>,
+    rate: Rate,
+    top: u16,
+    /// Half of the last round trip to the board.
+    pub latency: Option<Duration>,
+    paint: Paint,
+    /// Shown while paused: the client and the view at that moment.
+    paused: Option<Box<(Client, View)>>,
+}
+
+impl View {
+    /// A view of a source.
+    pub fn new(source: &Source) -> View {
+        View {
+            label: source.label.clone(),
+            narrator: Narrator::new(source.counts_per_newton),
+            log: VecDeque::new(),
+            rate: Rate::default(),
+            top: TOP,
+            latency: None,
+            paint: Paint::Colours,
+            paused: None,
+        }
+    }
+
+    /// Sets how pressure is drawn.
+    pub fn painted(self, paint: Paint) -> View {
+        View { paint, ..self }
+    }
+
+    /// Handles an event.
+    pub fn event(&mut self, client: &Client, event: &Event) {
+        if let Event::Frame { time, .. } = event {
+            self.rate.add(*time);
+        }
+        for line in self.narrator.tell(client, event) {
+            self.note(line);
+        }
+    }
+
+    /// Adds a line to the log, also while paused.
+    pub fn say(&mut self, line: String) {
+        if let Some((_, view)) = self.paused.as_deref_mut() {
+            view.note(line.clone());
+        }
+        self.note(line);
+    }
+
+    fn note(&mut self, line: String) {
+        self.log.push_front(line);
+        self.log.truncate(LOG);
+    }
+
+    /// Pauses the display including its clock and log, or resumes it.
+    pub fn pause(&mut self, client: &Client) {
+        self.paused = match self.paused {
+            Some(_) => None,
+            None => Some(Box::new((client.clone(), self.clone()))),
+        };
+    }
+
+    /// Doubles or halves the end of the scale.
+    pub fn zoom(&mut self, up: bool) {
+        self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(25, 51_200);
+        if let Some((_, view)) = self.paused.as_deref_mut() {
+            view.top = self.top;
+        }
+    }
+
+    /// Draws everything.
+    pub fn draw(&self, client: &Client, buffer: &mut Buffer) {
+        match self.paused.as_deref() {
+            Some((client, view)) => view.paint(client, true, buffer),
+            None => self.paint(client, false, buffer),
+        }
+    }
+
+    fn paint(&self, client: &Client, paused: bool, buffer: &mut Buffer) {
+        if buffer.area.is_empty() {
+            // A terminal that is being resized may have no rows.
+            return;
+        }
+        let rows = Layout::vertical([Constraint::Length(2), Constraint::Fill(1), Constraint::Length(1)]);
+        let [header, body, footer] = rows.areas(buffer.area);
+        self.header(client, header, buffer);
+        self.footer(paused, footer, buffer);
+        let body = Rect {
+            y: body.y + u16::from(body.height > 12),
+            height: body.height - u16::from(body.height > 12),
+            ..body
+        };
+        if body.width >= WIDE {
+            let room = Rect { width: body.width - SIDE, ..body };
+            let taken = self.maps(client, room, buffer);
+            let side = Rect { x: body.x + taken, width: body.width - taken, ..body };
+            self.side(client, side, buffer);
+        } else if body.height >= 24 {
+            let parts = Layout::vertical([Constraint::Fill(1), Constraint::Length(12)]);
+            let [maps, below] = parts.areas(body);
+            self.maps(client, maps, buffer);
+            let [left, right] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas(below);
+            self.contacts(client, left, buffer);
+            panes::intention(client, right, buffer);
+        } else {
+            let [maps, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(body);
+            self.maps(client, maps, buffer);
+            if below.is_empty() {
+                return;
+            }
+            let touched: Vec<_> = client.contacts().iter().map(|p| client.region_name(p.region)).collect();
+            let line = format!("{} {}", client.leading().as_str(), touched.join(", "));
+            buffer.set_stringn(below.x, below.y, line, usize::from(below.width), Style::new());
+        }
+    }
+
+    /// Draws the maps. Returns their width.
+    fn maps(&self, client: &Client, space: Rect, buffer: &mut Buffer) -> u16 {
+        let Some(grid) = client.layout().and_then(|layout| Grid::fit(layout, space)) else { return 0 };
+        grid.draw(client, (self.top, self.paint), space, buffer);
+        grid.width()
+    }
+
+    fn header(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        if space.is_empty() {
+            return;
+        }
+        let width = usize::from(space.width);
+        let bold = Style::new().add_modifier(Modifier::BOLD);
+        let what = client.worn().map_or("waiting for a Hello".into(), |worn| {
+            let taxels = worn.layout.taxels();
+            format!(
+                "garment {} ({taxels} taxels)  scene {}  {}",
+                worn.garment.name, worn.scene.name, worn.firmware
+            )
+        });
+        buffer.set_stringn(space.x, space.y, format!("taxel  {}  {what}", self.label), width, bold);
+        let counts = client.counts();
+        let frame = client.image().map_or(0, |(frame, _)| frame);
+        let time = self.rate.last().map_or(0.0, |time| time.0 as f64 / 1e6);
+        let mut line = format!(
+            "{:.1} frames/s  frame {frame}  {time:.2} s  lost {}  thinned {}  refused {}",
+            self.rate.hz(),
+            counts.lost,
+            counts.thinned,
+            counts.refused()
+        );
+        if let Some(latency) = self.latency {
+            line += &format!("  latency {:.1} ms", latency.as_secs_f64() * 1e3);
+        }
+        if let Some(budget) = client.budget() {
+            let [scan, perceive, encode, wait] =
+                [budget.scan_us, budget.process_us, budget.encode_us, budget.send_us].map(ms);
+            line += &format!(
+                "  scan {scan:.2} ms  perceive {perceive:.2} ms  encode {encode:.2} ms  link {wait:.2} ms  overruns {}",
+                budget.overruns
+            );
+        }
+        if space.height > 1 {
+            buffer.set_stringn(space.x, space.y + 1, line, width, Style::new());
+        }
+    }
+
+    fn side(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        let concepts = client.concepts().len() as u16 + 1;
+        let contacts = client.contacts().len().max(3) as u16 + 1;
+        let rows = [contacts.min(space.height / 3), concepts.min(space.height / 2)].map(Constraint::Length);
+        let [upper, middle, lower] =
+            Layout::vertical([rows[0], rows[1], Constraint::Fill(1)]).spacing(1).areas(space);
+        self.contacts(client, upper, buffer);
+        panes::intention(client, middle, buffer);
+        let log: Vec<String> = self.log.iter().cloned().collect();
+        panes::list("events, newest first", &log, lower, buffer);
+    }
+
+    fn contacts(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
+        let newtons = self.narrator.counts_per_newton;
+        let lines: Vec<_> = client.contacts().iter().map(|p| panes::contact(client, p, newtons)).collect();
+        panes::list(panes::CONTACTS, &lines, space, buffer);
+    }
+
+    /// Draws keys and scale.
+    fn footer(&self, paused: bool, space: Rect, buffer: &mut Buffer) {
+        if space.is_empty() {
+            return;
+        }
+        let mut keys = String::from("q quit  space pause  t tare  +/- scale   0 ");
+        if paused {
+            keys = format!("PAUSED  {keys}");
+        }
+        let (mut x, y) = buffer.set_stringn(space.x, space.y, keys, usize::from(space.width), Style::new());
+        let steps: Vec<(char, Color)> = match self.paint {
+            Paint::Colours => (0..16).map(|step| (' ', color(ramp(step as f32 / 15.0)))).collect(),
+            Paint::Glyphs => GLYPHS.map(|glyph| (glyph, Color::Reset)).to_vec(),
+        };
+        for (glyph, ground) in steps {
+            let Some(cell) = buffer.cell_mut((x, y)).filter(|_| x < space.right()) else { break };
+            cell.set_char(glyph).set_bg(ground);
+            x += 1;
+        }
+        let left = usize::from(space.right().saturating_sub(x));
+        buffer.set_stringn(x, y, format!(" {} counts", self.top), left, Style::new());
+    }
+}
+
+fn ms(us: u32) -> f64 {
+    f64::from(us) / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taxel::source::{self, SourceOptions};
+
+    /// A terminal in which a box is pressed on the chest for a second.
+    struct Seat {
+        source: Source,
+        client: Client,
+        view: View,
+    }
+
+    impl Seat {
+        fn take(paint: Paint) -> Seat {
+            let source = source::open(&"sim:box".parse().unwrap(), &SourceOptions::default()).unwrap();
+            let mut client = Client::new();
+            client.start(source.tare).unwrap();
+            let view = View::new(&source).painted(paint);
+            Seat { source, client, view }
+        }
+
+        /// Runs until a frame of this time, us.
+        fn until(&mut self, time_us: u64) {
+            let mut buffer = [0; 512];
+            self.source.port.write(&self.client.take_requests()).unwrap();
+            while self.view.rate.last().is_none_or(|last| last.0 < time_us) {
+                let count = self.source.port.read(&mut buffer).unwrap().expect("the scene lasts longer");
+                for byte in &buffer[..count] {
+                    if let Some(event) = self.client.push(*byte) {
+                        self.view.event(&self.client, &event);
+                    }
+                }
+            }
+        }
+
+        fn picture(&self) -> Vec<String> {
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 120, 40));
+            self.view.draw(&self.client, &mut buffer);
+            let row = |y| (0..120).map(|x| buffer.cell((x, y)).unwrap().symbol()).collect::<String>();
+            (0..40).map(row).collect()
+        }
+    }
+
+    #[test]
+    fn without_colour_pressure_is_read_by_the_weight_of_characters() {
+        let mut seat = Seat::take(Paint::Glyphs);
+        seat.until(100_000);
+        let count = |picture: &[String], glyph| picture.iter().flat_map(|row| row.matches(glyph)).count();
+        let rest = seat.picture();
+        assert!(!rest.iter().any(|row| row.contains('▀')), "{rest:#?}");
+        // All 1,024 pairs of taxels are drawn, and the scale once.
+        assert!(count(&rest, '.') > 900 && count(&rest, '#') + count(&rest, '%') <= 2, "{rest:#?}");
+        seat.until(600_000);
+        let pressed = seat.picture();
+        let heavy = |picture: &[String]| {
+            ['*', '#', '%', '@'].map(|glyph| count(picture, glyph)).iter().sum::<usize>()
+        };
+        assert!(heavy(&pressed) > heavy(&rest) + 10, "{pressed:#?}");
+        assert!(pressed[39].contains(".:-=+o*#%@ 400 counts"), "{}", pressed[39]);
+    }
+
+    #[test]
+    fn a_paused_picture_stands_still_with_its_clock_and_its_log() {
+        let mut seat = Seat::take(Paint::Colours);
+        seat.until(250_000);
+        seat.view.pause(&seat.client);
+        let still = seat.picture();
+        assert!(still[39].starts_with("PAUSED"), "{}", still[39]);
+        seat.until(1_000_000);
+        assert_eq!(seat.picture(), still);
+        seat.view.pause(&seat.client);
+        let on = seat.picture();
+        assert!(on[1] != still[1] && !on[39].starts_with("PAUSED"), "{}", on[1]);
+    }
+}

@@ -1,0 +1,285 @@
+//! Connects the board's thread with the threads of the pages.
+
+use super::mailbox::Mailbox;
+use super::message::{self, Wish};
+use super::order::Order;
+use super::recent::Recent;
+use super::said::Said;
+use super::shot::Shot;
+use super::tape::{self, Tape};
+use anyhow::{Context, Result};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use taxel::recording::Store;
+use taxel::source::shared;
+use taxel_core::garment::Circuit;
+
+/// Most pages at a time.
+pub const PAGES: usize = 16;
+/// Log lines sent to a new page.
+const LOG: usize = 32;
+/// Recordings sent at a time: each takes as much memory as the bytes kept of the board.
+const TRANSFERS: usize = 3;
+/// Most tares queued: one in progress, and another.
+const TARES: usize = 2;
+/// Most orders queued for the player of a recording.
+const ORDERS: usize = 64;
+
+/// State shared by all threads.
+#[derive(Default)]
+pub struct Hub {
+    shared: Mutex<Shared>,
+    recent: Mutex<Recent>,
+    orders: shared::Shared<VecDeque<Order>>,
+    /// One reference per recording being sent, plus the hub's own.
+    transfers: Arc<()>,
+}
+
+#[derive(Default)]
+struct Shared {
+    pages: Vec<Arc<Mailbox>>,
+    /// The newest message of each kind.
+    known: BTreeMap<&'static str, Arc<str>>,
+    log: VecDeque<Arc<str>>,
+    circuit: Option<Box<Circuit>>,
+    tares: VecDeque<u16>,
+    /// The image for pages that come later.
+    shown: Option<Shot>,
+    tape: Option<Tape>,
+    /// Range of the recording that is saved, us.
+    range: [u64; 2],
+}
+
+impl Hub {
+    /// Locks the state. A panic of another thread does not invalidate it.
+    fn lock(&self) -> MutexGuard<'_, Shared> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn recent(&self) -> MutexGuard<'_, Recent> {
+        self.recent.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Adds a page with the current state; none if there are too many pages.
+    pub fn join(&self) -> Option<Arc<Mailbox>> {
+        let mut shared = self.lock();
+        if shared.pages.len() >= PAGES {
+            return None;
+        }
+        let page = Arc::new(Mailbox::default());
+        shared.known.iter().for_each(|(kind, line)| page.state(kind, line.clone()));
+        shared.log.iter().for_each(|line| page.line(line.clone()));
+        shared.shown.iter().for_each(|shot| page.shot(shot));
+        shared.pages.push(page.clone());
+        Some(page)
+    }
+
+    /// Removes a page.
+    pub fn leave(&self, page: &Arc<Mailbox>) {
+        page.close();
+        self.lock().pages.retain(|other| !Arc::ptr_eq(other, page));
+    }
+
+    /// Number of open pages.
+    pub fn pages(&self) -> usize {
+        self.lock().pages.len()
+    }
+
+    /// Sends a message to all pages, and to later ones until the next message of its kind.
+    pub fn state(&self, kind: &'static str, line: &serde_json::Value) {
+        let line: Arc<str> = line.to_string().into();
+        let mut shared = self.lock();
+        shared.pages.iter().for_each(|page| page.state(kind, line.clone()));
+        shared.known.insert(kind, line);
+    }
+
+    /// Withdraws the current message of a kind.
+    pub fn forget(&self, kind: &'static str) {
+        self.state(kind, &serde_json::json!({ "type": "none", "of": kind }));
+    }
+
+    /// Adds a line to the log.
+    pub fn say(&self, said: &Said) {
+        let line: Arc<str> = said.message().to_string().into();
+        let mut shared = self.lock();
+        shared.pages.iter().for_each(|page| page.line(line.clone()));
+        shared.log.push_back(line);
+        while shared.log.len() > LOG {
+            shared.log.pop_front();
+        }
+    }
+
+    /// Sends an image to all pages.
+    pub fn shot(&self, shot: &Shot) {
+        self.lock().pages.iter().for_each(|page| page.shot(shot));
+    }
+
+    /// Sends an image to all pages, and to later ones until the next image.
+    pub fn show(&self, shot: Shot) {
+        self.shot(&shot);
+        self.lock().shown = Some(shot);
+    }
+
+    /// The next image does not follow the current one.
+    pub fn forget_images(&self) {
+        self.lock().pages.iter().for_each(|page| page.forget_images());
+    }
+
+    /// Sets the wiring of the current garment.
+    pub fn wired(&self, circuit: Option<Circuit>) {
+        self.lock().circuit = circuit.map(Box::new);
+    }
+
+    /// Handles the raw codes of a frame.
+    pub fn codes(&self, frame: u32, codes: &[u16]) {
+        let shared = self.lock();
+        for page in &shared.pages {
+            let Some(taxel) = page.hovered() else { continue };
+            let Some(code) = codes.get(usize::from(taxel)) else { continue };
+            let line = message::taxel(taxel, shared.circuit.as_deref(), Some((frame, *code)));
+            page.state("taxel", line.to_string().into());
+        }
+    }
+
+    /// True if a pointer is on a taxel.
+    pub fn is_looked_at(&self) -> bool {
+        self.lock().pages.iter().any(|page| page.hovered().is_some())
+    }
+
+    /// Handles a page's request, or queues it for the board's thread.
+    pub fn wish(&self, page: &Mailbox, wish: Wish) {
+        let mut shared = self.lock();
+        match wish {
+            Wish::Hover(taxel) => {
+                page.hover(taxel);
+                if let Some(taxel) = taxel {
+                    let line = message::taxel(taxel, shared.circuit.as_deref(), None);
+                    page.state("taxel", line.to_string().into());
+                }
+            }
+            Wish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
+            Wish::Tare(_) => {}
+            Wish::Player(order) => self.order(order),
+        }
+    }
+
+    /// Queues an order for the player of a recording.
+    fn order(&self, order: Order) {
+        self.orders.change(|orders| {
+            if orders.back().is_some_and(|waiting| order.replaces(waiting)) {
+                orders.pop_back();
+            }
+            if orders.len() < ORDERS {
+                orders.push_back(order);
+            }
+        });
+    }
+
+    /// Takes the queued orders, after waiting up to `longest` if there are none.
+    pub fn orders(&self, longest: Duration) -> VecDeque<Order> {
+        let mut orders = self.orders.lock();
+        if orders.is_empty() {
+            orders = self.orders.wait(orders, longest);
+        }
+        std::mem::take(&mut *orders)
+    }
+
+    /// Sets what can be saved.
+    pub fn tape(&self, tape: Tape) {
+        self.lock().tape = Some(tape);
+    }
+
+    /// Sets the range of the recording that is saved, us.
+    pub fn cut_at(&self, range: [u64; 2]) {
+        self.lock().range = range;
+    }
+
+    /// True if there is something to save.
+    pub fn has_tape(&self) -> bool {
+        match &self.lock().tape {
+            Some(Tape::Live(_)) => self.recent().is_readable(),
+            tape => tape.is_some(),
+        }
+    }
+
+    /// Writes what is saved as a recording.
+    pub fn save(&self, store: &mut dyn Store) -> Result<()> {
+        let (tape, range) = {
+            let shared = self.lock();
+            (shared.tape.clone(), shared.range)
+        };
+        match tape.context("there is nothing to save")? {
+            Tape::Live(origin) => {
+                let (bytes, newest) = {
+                    let recent = self.recent();
+                    (recent.recording().context("no image was received")?, recent.newest())
+                };
+                tape::live(&bytes, newest, (*origin).clone(), store)
+            }
+            Tape::Recorded(cut) => cut.write(range, store),
+        }
+    }
+
+    /// Takes the frames of a tare that a page requests.
+    pub fn tare(&self) -> Option<u16> {
+        self.lock().tares.pop_front()
+    }
+
+    /// Keeps received bytes.
+    pub fn keep(&self, bytes: &[u8]) {
+        self.recent().push(bytes);
+    }
+
+    /// Permission to send a recording, held while sending; none if too many are being sent.
+    pub fn transfer(&self) -> Option<Arc<()>> {
+        // Under the lock, so that concurrent calls are counted one after the other.
+        let _shared = self.lock();
+        (Arc::strong_count(&self.transfers) <= TRANSFERS).then(|| self.transfers.clone())
+    }
+
+    /// See [`Recent::recording`].
+    pub fn recording(&self) -> Option<Vec<u8>> {
+        self.recent().recording()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mailbox::Parcel;
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_page_that_comes_late_is_told_what_is_known() {
+        let hub = Hub::default();
+        hub.state("link", &json!(1));
+        hub.state("link", &json!(2));
+        (0..100).for_each(|n| hub.say(&Said::note(n.to_string())));
+        let page = hub.join().unwrap();
+        assert_eq!(page.next(), Parcel::Line("2".into()));
+        let Parcel::Line(line) = page.next() else { panic!("no line") };
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&line).unwrap()["text"], "68");
+        hub.leave(&page);
+        assert_eq!(page.next(), Parcel::Closed);
+        let many: Vec<_> = std::iter::from_fn(|| hub.join()).take(2 * PAGES).collect();
+        assert_eq!((many.len(), hub.pages()), (PAGES, PAGES));
+    }
+
+    #[test]
+    fn a_code_is_told_to_who_looks_at_it() {
+        let hub = Hub::default();
+        let (one, other) = (hub.join().unwrap(), hub.join().unwrap());
+        hub.wish(&one, Wish::Hover(Some(1)));
+        hub.wish(&other, Wish::Hover(Some(9)));
+        assert!(hub.is_looked_at());
+        hub.codes(7, &[5, 6]);
+        let told = |page: &Mailbox| {
+            let Parcel::Line(line) = page.next() else { panic!("no line") };
+            serde_json::from_str::<serde_json::Value>(&line).unwrap()["code"].clone()
+        };
+        assert_eq!((told(&one), told(&other)), (json!(6), json!(null)));
+        (0..9).for_each(|_| hub.wish(&one, Wish::Tare(16)));
+        assert_eq!(std::iter::from_fn(|| hub.tare()).count(), TARES);
+    }
+}

@@ -1,0 +1,37 @@
+//! Shows a board's stream or a recording (see `recorded`) in the browser.
+//!
+//! One program serves one page and all its files, to this machine only, and sends each page the stream over a
+//! WebSocket; see [`message`]. Three rules keep the pages from delaying the board's stream: each page has one
+//! [`Mailbox`] of bounded size, a newer image replaces a queued one, and each page has its own writing
+//! thread.
+
+mod assets;
+pub mod browser;
+mod hub;
+mod mailbox;
+pub mod message;
+mod order;
+mod pace;
+mod page;
+mod past;
+mod raw;
+mod recent;
+mod recorded;
+mod said;
+mod server;
+mod shot;
+mod tape;
+mod transfer;
+mod viewer;
+
+pub use hub::Hub;
+pub use mailbox::{Mailbox, Parcel};
+pub use order::Order;
+pub use page::hear;
+pub use recent::Recent;
+pub use recorded::Player;
+pub use said::{Kind, Said};
+pub use server::serve;
+pub use shot::Shot;
+pub use tape::Tape;
+pub use viewer::Viewer;

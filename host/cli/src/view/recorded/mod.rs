@@ -1,0 +1,188 @@
+//! A recording in the page: playing, stepping, cutting.
+//!
+//! The player is in the program, not in a page: all pages show the same moment, and a new page gets the whole
+//! state. A page controls it by [`Order`]s. Two threads read the file. The player decodes from the key frame
+//! before the requested moment. The survey reads everything except images once, for the timeline and for the
+//! state at the beginning of each chunk, so that the player need not read what came before.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `deck.rs` | time: position, speed, range, loop |
+//! | `reel.rs` | the recording, read from any image on |
+//! | `standing.rs` | state at a moment |
+//! | `survey.rs` | reads the recording once |
+//! | `told.rs` | the message of a piece of it |
+//! | `overview.rs` | summary for the timeline |
+//! | `screen.rs` | messages to the pages about a moment |
+//! | `cut.rs` | a part of it as a recording of its own |
+
+mod cut;
+mod deck;
+mod overview;
+mod reel;
+mod screen;
+mod standing;
+mod survey;
+mod told;
+
+use crate::view::Order;
+pub use cut::Cut;
+
+use super::hub::Hub;
+use super::tape::Tape;
+use anyhow::{Context, Result, bail};
+use deck::{Deck, Go};
+use reel::Reel;
+use screen::Screen;
+use std::collections::VecDeque;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use survey::{RecordedTime, Survey};
+use taxel::client::Event;
+use taxel::files::calibrate::Calibration;
+use taxel::record::{CALIBRATION, Origin};
+use taxel::recording::{Clips, WIRE};
+
+/// Time between two messages about the position.
+const TOLD: Duration = Duration::from_millis(250);
+/// Time of playing between two looks at the orders.
+const TURN: Duration = Duration::from_millis(40);
+/// Lag of the images beyond which the transport waits for them, us.
+const BEHIND: u64 = 300_000;
+
+/// Plays a recording to the pages of a hub.
+pub struct Player {
+    hub: Arc<Hub>,
+    deck: Deck,
+    reel: Reel,
+    screen: Screen,
+    told: Instant,
+}
+
+impl Player {
+    /// Opens a recording and shows its first image. `calibration` replaces the attached one.
+    pub fn open(path: &Path, speed: f64, calibration: Option<Calibration>, hub: Arc<Hub>) -> Result<Player> {
+        let mut clips = Clips::open(path, WIRE)?;
+        if !clips.has_topic() && !clips.places().is_empty() {
+            // Channels may be declared in the first chunk.
+            clips.clip(0)?;
+        }
+        if !clips.has_topic() {
+            bail!("{} has no topic {WIRE}: it is not a recording of taxel", path.display());
+        }
+        let origin = origin(&clips, path, calibration)?;
+        let scale = origin.counts_per_newton;
+        let clock = RecordedTime::of(&clips);
+        let survey = Survey::start(clips.again()?, clock, scale, hub.clone())?;
+        let cut = Cut::new(clips.again()?, survey.clone(), origin);
+        hub.tape(Tape::Recorded(Arc::new(cut)));
+        let mut player = Player {
+            deck: Deck::new(clock.duration(), speed, Instant::now()),
+            reel: Reel::new(clips, survey),
+            screen: Screen::new(hub.clone(), path.display().to_string(), scale),
+            told: Instant::now(),
+            hub,
+        };
+        if player.reel.seek(0).map(|(at, event)| player.moment(at, &event)).is_none() {
+            bail!("{} holds no image", path.display());
+        }
+        player.tell();
+        Ok(player)
+    }
+
+    /// Plays once a page is open, and obeys orders; never returns.
+    pub fn run(mut self) -> Result<()> {
+        let mut orders = VecDeque::new();
+        while self.hub.pages() == 0 {
+            orders = self.hub.orders(Duration::from_millis(20));
+        }
+        self.obey(&Order::Play(true));
+        orders.iter().for_each(|order| self.obey(order));
+        loop {
+            self.turn();
+        }
+    }
+
+    /// Waits until there is something to do, and does it.
+    fn turn(&mut self) {
+        let due = self.reel.peek().map(|(at, _)| at);
+        for order in self.hub.orders(self.deck.rest(due, Instant::now())) {
+            self.obey(&order);
+        }
+        let go = self.deck.tick(Instant::now());
+        self.go(go);
+        if self.deck.is_playing() && self.told.elapsed() >= TOLD {
+            self.tell();
+            self.screen.link(self.reel.client());
+        } else if matches!(go, Go::To(_)) || (go != Go::Stay && !self.deck.is_playing()) {
+            self.tell();
+        }
+    }
+
+    fn obey(&mut self, order: &Order) {
+        let go = self.deck.obey(order, Instant::now());
+        self.go(go);
+        self.hub.cut_at(self.deck.range());
+        self.tell();
+    }
+
+    fn go(&mut self, go: Go) {
+        match go {
+            Go::On(until) => self.play(until),
+            Go::To(at) => {
+                if let Some((at, event)) = self.reel.seek(at) {
+                    self.moment(at, &event);
+                }
+            }
+            Go::By(images) => {
+                if let Some((at, event)) = self.reel.step(images) {
+                    self.deck.stand(at);
+                    self.moment(at, &event);
+                }
+            }
+            Go::Stay => {}
+        }
+    }
+
+    fn moment(&mut self, at: u64, event: &Event) {
+        self.screen.moment(self.reel.client(), self.reel.glow(), at, event, self.deck.seeks());
+    }
+
+    /// Plays up to a time.
+    fn play(&mut self, until: u64) {
+        let begun = Instant::now();
+        while let Some((at, _)) = self.reel.peek().filter(|(at, _)| *at <= until) {
+            if let Some(event) = self.reel.play() {
+                self.screen.event(self.reel.client(), at, &event, self.deck.seeks());
+            }
+            if begun.elapsed() > TURN {
+                if until.saturating_sub(at) > BEHIND {
+                    self.deck.hold_back(at, Instant::now());
+                }
+                return;
+            }
+        }
+    }
+
+    fn tell(&mut self) {
+        self.told = Instant::now();
+        self.hub.state("player", &self.deck.message(self.told));
+    }
+}
+
+/// Origin of a recording, and its calibration.
+fn origin(clips: &Clips, path: &Path, calibration: Option<Calibration>) -> Result<Origin> {
+    let name = format!("{CALIBRATION} of {}", path.display());
+    let attached = clips.attached.get(CALIBRATION).map(|bytes| {
+        let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
+        Calibration::parse(text, &name)
+    });
+    let calibration = calibration.or(attached.transpose()?);
+    let words = clips.words.get("taxel");
+    let word = |name: &str| words.and_then(|words| words.get(name)).cloned().unwrap_or_default();
+    let told =
+        word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);
+    let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton).or(told);
+    Ok(Origin { label: word("source"), counts_per_newton, calibration })
+}

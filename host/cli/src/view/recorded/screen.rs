@@ -1,0 +1,94 @@
+//! Shows moments of a recording to the pages of a hub.
+
+use crate::view::hub::Hub;
+use crate::view::message;
+use crate::view::shot::Shot;
+use crate::watch::rate::Rate;
+use serde_json::json;
+use std::sync::Arc;
+use taxel::client::{Client, Event, ImageNews};
+use taxel::json;
+use taxel_core::format::Micros;
+use taxel_core::garment::{Circuit, Pins};
+
+/// Messages to the pages.
+pub struct Screen {
+    hub: Arc<Hub>,
+    label: String,
+    scale: Option<f32>,
+    rate: Rate,
+}
+
+impl Screen {
+    /// Shows a recording with this label.
+    pub fn new(hub: Arc<Hub>, label: String, scale: Option<f32>) -> Screen {
+        Screen { hub, label, scale, rate: Rate::default() }
+    }
+
+    /// Shows another moment and its afterglow; earlier messages are no longer valid.
+    pub fn moment(&mut self, client: &Client, glow: &[u16], at: u64, event: &Event, seeks: u32) {
+        self.hub.forget_images();
+        self.rate = Rate::default();
+        self.hello(client);
+        let states = [
+            ("health", client.health().map(|health| Event::Health(*health))),
+            ("budget", client.budget().map(|budget| Event::Budget(*budget))),
+            ("pins", client.self_test().map(|report| Event::SelfTest(report.clone()))),
+            ("health_map", Some(Event::HealthMap { time: Micros(0), whole: true })),
+        ];
+        for (kind, told) in states {
+            match told {
+                Some(event) => self.state(client, &event),
+                None => self.hub.forget(kind),
+            }
+        }
+        self.hub.forget("taxel");
+        if let Event::Frame { time, .. } = event {
+            self.hub.state("glow", &message::glow(glow, *time, seeks));
+        }
+        self.image(client, at, event, seeks);
+        self.link(client);
+    }
+
+    /// Shows the next event.
+    pub fn event(&mut self, client: &Client, at: u64, event: &Event, seeks: u32) {
+        match event {
+            Event::Hello => self.hello(client),
+            Event::Frame { .. } => self.image(client, at, event, seeks),
+            Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
+            event => self.state(client, event),
+        }
+    }
+
+    fn image(&mut self, client: &Client, at: u64, event: &Event, seeks: u32) {
+        let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return };
+        let Some((_, image)) = client.image() else { return };
+        self.rate.add(*time);
+        let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
+        let mut line = message::frame(client, event);
+        (line["at_us"], line["seeks"]) = (json!(at), json!(seeks));
+        self.hub.show(Shot { line: line.to_string().into(), image: image.into(), time_us: time.0, total });
+    }
+
+    fn hello(&self, client: &Client) {
+        let circuit =
+            client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
+        self.hub.wired(circuit);
+        self.hub.state("hello", &message::hello(client, &self.label, self.scale));
+    }
+
+    fn state(&self, client: &Client, event: &Event) {
+        match event {
+            Event::Health(_) => self.hub.state("health", &json::message(client, event)),
+            Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
+            Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
+            Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
+            _ => {}
+        }
+    }
+
+    /// Reports the rate of images, in board time.
+    pub fn link(&self, client: &Client) {
+        self.hub.state("link", &message::link(client, self.rate.hz(), None, self.hub.pages()));
+    }
+}

@@ -1,0 +1,191 @@
+//! Reads a recording once, beside its player: for the overview, and so that any part of it can be shown.
+
+use super::overview::Overview;
+use super::standing::Standing;
+use super::told::with_report;
+use crate::view::hub::Hub;
+use crate::view::said::{Kind, Said, Teller, gap};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+use taxel::client::{Client, Event};
+use taxel::recording::{Clips, HELLO, Piece, lost};
+use taxel::source::shared::Shared;
+use taxel_core::wire::{self, Report};
+
+/// Time between two progress messages.
+const TOLD: Duration = Duration::from_millis(500);
+
+/// State at the beginning of each chunk.
+#[derive(Debug, Default)]
+pub struct Survey {
+    found: Shared<Found>,
+    beginning: Standing,
+}
+
+#[derive(Debug, Default)]
+struct Found {
+    standing: Vec<Standing>,
+    done: bool,
+}
+
+impl Survey {
+    /// Starts in a thread of its own.
+    pub fn start(
+        mut clips: Clips,
+        clock: RecordedTime,
+        scale: Option<f32>,
+        hub: Arc<Hub>,
+    ) -> anyhow::Result<Arc<Survey>> {
+        let beginning = beginning(&mut clips);
+        let survey = Arc::new(Survey { beginning: beginning.clone(), ..Survey::default() });
+        let mut surveyor = Surveyor {
+            clips,
+            clock,
+            overview: Overview::new(clock.duration()),
+            standing: beginning,
+            client: Client::new(),
+            teller: Teller::new(scale),
+        };
+        for frame in surveyor.standing.frames() {
+            surveyor.tell(0, &frame);
+        }
+        let found = survey.clone();
+        thread::Builder::new().name("survey".into()).spawn(move || {
+            surveyor.go(&found, &hub);
+            found.found.change(|found| found.done = true);
+        })?;
+        Ok(survey)
+    }
+
+    /// State before the first message.
+    pub fn beginning(&self) -> Standing {
+        self.beginning.clone()
+    }
+
+    /// State at the beginning of a chunk; none if it is not known yet.
+    pub fn known(&self, chunk: usize) -> Option<Standing> {
+        let found = self.found.lock();
+        found.standing.get(chunk).or(found.standing.last().filter(|_| found.done)).cloned()
+    }
+
+    /// State at the beginning of a chunk; waits until it is known.
+    pub fn standing(&self, chunk: usize) -> Standing {
+        loop {
+            if let Some(standing) = self.known(chunk) {
+                return standing;
+            }
+            let found = self.found.lock();
+            if found.done {
+                return found.standing.last().cloned().unwrap_or_default();
+            }
+            drop(self.found.wait(found, Duration::from_millis(50)));
+        }
+    }
+}
+
+/// State before the first message: the attached `Hello`, in case its chunk is lost.
+fn beginning(clips: &mut Clips) -> Standing {
+    let first = (0..clips.places().len()).find_map(|chunk| clips.clip(chunk).ok()?.first().cloned());
+    let mut standing = Standing::default();
+    if let (Some(first), Some(hello)) = (first, clips.attached.get(HELLO))
+        && let Some(frame) = lost(hello, &first.data)
+    {
+        let piece = Piece { data: frame.into(), ..first };
+        with_report(&piece, |seq, report| _ = standing.take(seq, report, &piece.data));
+    }
+    standing
+}
+
+/// Converts log times to microseconds since the recording began.
+#[derive(Debug, Clone, Copy)]
+pub struct RecordedTime {
+    start: u64,
+    end: u64,
+}
+
+impl RecordedTime {
+    /// Times of this recording.
+    pub fn of(clips: &Clips) -> RecordedTime {
+        let start = clips.places().first().map_or(0, |place| place.start);
+        let end = clips.places().iter().map(|place| place.end).max().unwrap_or(start);
+        RecordedTime { start, end }
+    }
+
+    /// Duration, us.
+    pub fn duration(&self) -> u64 {
+        self.at(self.end)
+    }
+
+    /// Converts a log time, ns.
+    pub fn at(&self, ns: u64) -> u64 {
+        ns.clamp(self.start, self.end).saturating_sub(self.start) / 1000
+    }
+}
+
+struct Surveyor {
+    clips: Clips,
+    clock: RecordedTime,
+    overview: Overview,
+    standing: Standing,
+    client: Client,
+    teller: Teller,
+}
+
+impl Surveyor {
+    fn go(&mut self, survey: &Survey, hub: &Hub) {
+        let mut told = Instant::now();
+        for chunk in 0..self.clips.places().len() {
+            survey.found.change(|found| found.standing.push(self.standing.clone()));
+            let at = self.clips.places().get(chunk).map_or(0, |place| self.clock.at(place.start));
+            match self.clips.clip(chunk) {
+                Ok(clip) => clip.iter().for_each(|piece| self.take(piece)),
+                Err(error) => {
+                    let text = format!("a part of the recording cannot be read: {}", error.root_cause());
+                    self.overview.say(at, Said { kind: Kind::Gap, time_us: None, text });
+                }
+            }
+            self.overview.reach(at);
+            if told.elapsed() >= TOLD {
+                hub.state("overview", &self.overview.message());
+                told = Instant::now();
+            }
+        }
+        self.overview.reach(self.clock.duration());
+        hub.state("overview", &self.overview.message());
+    }
+
+    /// Images are only counted; decoding them would take most of the time.
+    fn take(&mut self, piece: &Piece) {
+        let at = self.clock.at(piece.header.log_time);
+        let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
+        let message = wire::open(&mut bytes).ok();
+        let read = message.and_then(|message| wire::decode::<(u32, Report<'_>)>(message).ok());
+        let Some((seq, report)) = read else { return self.tell(at, &piece.data) };
+        let lost = self.standing.take(seq, &report, &piece.data);
+        if lost > 0 {
+            self.overview.say(at, gap(lost, None));
+        }
+        match &report {
+            Report::Frame(_) | Report::Raw(_) => {}
+            _ => self.tell(at, &piece.data),
+        }
+    }
+
+    /// Handles a message.
+    fn tell(&mut self, at: u64, frame: &[u8]) {
+        let client = &mut self.client;
+        let Some(event) = frame.iter().find_map(|byte| client.push(*byte)) else { return };
+        for said in self.teller.lines(client, &event) {
+            self.overview.say(at, said);
+        }
+        match &event {
+            Event::Contacts { .. } => {
+                let totals = client.contacts().iter().map(|placed| placed.contact.total);
+                self.overview.press(at, totals.fold(0, u32::saturating_add));
+            }
+            Event::Intent(report) => self.overview.lead(at, report.leading),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Events as lines of the log and marks on the timeline.
+
+use crate::watch::narrate::{Narrator, seconds};
+use serde::Serialize;
+use serde_json::{Value, json};
+use taxel::client::{Client, Event};
+use taxel::record::time_of;
+use taxel_core::contact::Phase;
+use taxel_core::format::Micros;
+
+/// Kind of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// A contact begins.
+    Onset,
+    /// A contact ends.
+    Release,
+    /// Another intention leads.
+    Intention,
+    /// A reaction of the garment begins or ends.
+    Reaction,
+    /// A gesture was recognised.
+    Gesture,
+    /// Messages or a part of a recording are missing.
+    Gap,
+    /// Everything else: garments, answers, log messages of the board.
+    Note,
+}
+
+/// A line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Said {
+    /// Kind.
+    pub kind: Kind,
+    /// Board time, us; none if it has none.
+    pub time_us: Option<u64>,
+    /// Sentence without its time.
+    pub text: String,
+}
+
+impl Said {
+    /// A sentence of the host's own.
+    pub fn note(text: impl Into<String>) -> Said {
+        Said { kind: Kind::Note, time_us: None, text: text.into() }
+    }
+
+    /// The sentence behind the board's time, as shown in the log.
+    pub fn line(&self) -> String {
+        self.time_us
+            .map_or_else(|| self.text.clone(), |time| format!("{} {}", seconds(Micros(time)), self.text))
+    }
+
+    /// The message `say`.
+    pub fn message(&self) -> Value {
+        json!({ "type": "say", "text": self.line(), "kind": self.kind, "time_us": self.time_us, "said": self.text })
+    }
+}
+
+/// Turns events into lines.
+#[derive(Debug, Clone)]
+pub struct Teller {
+    narrator: Narrator,
+    lost: u64,
+}
+
+impl Teller {
+    /// Starts at the beginning of a stream.
+    pub fn new(counts_per_newton: Option<f32>) -> Teller {
+        Teller { narrator: Narrator::new(counts_per_newton), lost: 0 }
+    }
+
+    /// Lines for an event, and for messages lost before it.
+    pub fn tell(&mut self, client: &Client, event: &Event) -> Vec<Said> {
+        let lost = client.counts().lost.saturating_sub(self.lost);
+        self.lost = client.counts().lost;
+        let mut said: Vec<Said> = (lost > 0).then(|| gap(lost, time_of(client, event))).into_iter().collect();
+        said.extend(self.lines(client, event));
+        said
+    }
+
+    /// Lines for an event.
+    pub fn lines(&mut self, client: &Client, event: &Event) -> Vec<Said> {
+        let time_us = time_of(client, event);
+        let kinds = kinds(event);
+        let lines = self.narrator.tell(client, event).into_iter().enumerate();
+        let said = |(index, line): (usize, String)| {
+            let stamp = time_us.map(|time| format!("{} ", seconds(Micros(time))));
+            let text = stamp.as_deref().and_then(|stamp| line.strip_prefix(stamp));
+            let kind = kinds.get(index).or(kinds.last()).copied().unwrap_or(Kind::Note);
+            match text {
+                Some(text) => Said { kind, time_us, text: text.into() },
+                None => Said { kind, time_us: None, text: line },
+            }
+        };
+        lines.map(said).collect()
+    }
+}
+
+/// Line about lost messages.
+pub fn gap(lost: u64, time_us: Option<u64>) -> Said {
+    let text = if lost == 1 { "1 message is missing".into() } else { format!("{lost} messages are missing") };
+    Said { kind: Kind::Gap, time_us, text }
+}
+
+/// Kind of each line of an event; the last one applies to all further lines.
+fn kinds(event: &Event) -> Vec<Kind> {
+    match event {
+        Event::Symbols(list) => {
+            let told = list.events.iter().filter(|symbol| symbol.phase != Phase::Held);
+            told.map(|symbol| if symbol.phase == Phase::Released { Kind::Release } else { Kind::Onset })
+                .collect()
+        }
+        Event::Intent(_) => vec![Kind::Intention],
+        Event::Reaction(_) => vec![Kind::Reaction],
+        Event::Gesture(_) => vec![Kind::Gesture],
+        _ => Vec::new(),
+    }
+}

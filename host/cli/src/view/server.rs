@@ -1,0 +1,86 @@
+//! Serves the pages and their files.
+
+use super::hub::Hub;
+use super::said::Said;
+use super::transfer::Transfer;
+use super::{assets, page};
+use crate::serve::http::{self, Refusal, Sites};
+use crate::serve::{self, Guest, Hurry};
+use anyhow::Result;
+use std::io::BufWriter;
+use std::net::{TcpListener, TcpStream};
+use std::sync::Arc;
+
+/// Connections at a time besides those of pages: those that browsers open for the files of a few pages.
+const CONNECTIONS: usize = 48;
+/// The file does not exist.
+const MISSING: Refusal = Refusal { status: "404 Not Found", why: "no such file" };
+/// Too many transfers.
+const BUSY: Refusal = Refusal {
+    status: "503 Service Unavailable",
+    why: "recordings are being sent to others: try again in a moment",
+};
+
+/// Serves the pages of a hub in a thread of its own. Returns the port.
+pub fn serve(listener: TcpListener, hub: Arc<Hub>) -> Result<u16> {
+    serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hub)?))
+}
+
+/// Answers one request, or serves a page until it closes.
+fn connection(mut stream: TcpStream, guest: &Guest, hub: &Hub) -> std::io::Result<()> {
+    let Some(request) = http::read(&mut stream, Sites::Own) else { return Ok(()) };
+    let request = match request {
+        Ok(request) => request,
+        Err(refusal) => return http::refuse(&mut stream, refusal),
+    };
+    match (request.path.as_str(), request.key) {
+        ("/socket", Some(key)) => match hub.join() {
+            Some(mailbox) => {
+                // Pages are counted by the hub.
+                guest.stay();
+                let end = http::upgrade(&mut stream, &key, None)
+                    .and_then(|()| page::talk(stream, request.rest, hub, &mailbox));
+                hub.leave(&mailbox);
+                end
+            }
+            None => {
+                let why = "too many pages are open";
+                http::refuse(&mut stream, Refusal { status: "503 Service Unavailable", why })
+            }
+        },
+        ("/recording.taxel" | "/recording.mcap", None) => match hub.transfer() {
+            Some(_transfer) => recording(stream, &request.path, hub),
+            None => http::refuse(&mut stream, BUSY),
+        },
+        (path, None) => match assets::find(path) {
+            Some(asset) => http::answer(&mut Hurry::new(stream), asset.kind, "", asset.bytes),
+            None => http::refuse(&mut stream, MISSING),
+        },
+        _ => http::refuse(&mut stream, MISSING),
+    }
+}
+
+/// Sends a recording to be saved.
+fn recording(mut stream: TcpStream, path: &str, hub: &Hub) -> std::io::Result<()> {
+    let kind = "application/octet-stream";
+    if path == "/recording.taxel" {
+        let Some(bytes) = hub.recording() else { return http::refuse(&mut stream, MISSING) };
+        let name = "Content-Disposition: attachment; filename=\"recording.taxel\"\r\n";
+        return http::answer(&mut Hurry::new(stream), kind, name, &bytes);
+    }
+    if !hub.has_tape() {
+        return http::refuse(&mut stream, MISSING);
+    }
+    let name = "Content-Disposition: attachment; filename=\"recording.mcap\"\r\n";
+    let mut stream = Hurry::new(stream);
+    http::begin(&mut stream, kind, name)?;
+    let mut transfer = Transfer(BufWriter::new(stream));
+    // On failure the end of the body is missing, which the browser reports.
+    match hub.save(&mut transfer) {
+        Ok(()) => transfer.end(),
+        Err(error) => {
+            hub.say(&Said::note(format!("the recording could not be saved: {error:#}")));
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What a page can save as a recording: the last half minute of a board, or a part of a recording.
+
+use anyhow::Result;
+use std::sync::Arc;
+use taxel::client::clock::SteadyTime;
+use taxel::client::{Client, Event, Worn};
+use taxel::record::{Origin, RecordingFile, Stamp, time_of};
+use taxel::recording::Store;
+use taxel_core::format::Micros;
+
+/// Board time per chunk, us.
+const CHUNK_US: u64 = 1_000_000;
+
+/// A recording, of which a part can be saved.
+pub trait Saved: Send + Sync {
+    /// Writes everything from the last image at the time `from` to the time `to`, us.
+    fn write(&self, range: [u64; 2], store: &mut dyn Store) -> Result<()>;
+}
+
+/// Origin of what is saved.
+#[derive(Clone)]
+pub enum Tape {
+    /// A board.
+    Live(Arc<Origin>),
+    /// A recording.
+    Recorded(Arc<dyn Saved>),
+}
+
+/// A recording written frame by frame.
+pub struct Copy<S: Store> {
+    file: RecordingFile<S>,
+    client: Client,
+    origin: Origin,
+    worn: Option<Worn>,
+    chunk_us: u64,
+}
+
+impl<S: Store> Copy<S> {
+    /// Begins the recording.
+    pub fn begin(store: S, origin: Origin) -> Result<Copy<S>> {
+        let file = RecordingFile::create(store, None)?;
+        Ok(Copy { file, client: Client::new(), origin, worn: None, chunk_us: 0 })
+    }
+
+    /// Adds a frame of the wire.
+    pub fn take(&mut self, stamp: Stamp, frame: &[u8]) -> Result<()> {
+        let client = &mut self.client;
+        match frame.iter().find_map(|byte| client.push(*byte)) {
+            Some(event) => self.keep(stamp, &event),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the client's latest event.
+    fn keep(&mut self, stamp: Stamp, event: &Event) -> Result<()> {
+        self.client.take_requests();
+        if *event == Event::Hello && self.client.worn() != self.worn.as_ref() {
+            self.worn = self.client.worn().cloned();
+            if let Some(worn) = &self.worn {
+                self.file.attach(worn, self.client.line(), &self.origin, stamp)?;
+            }
+        }
+        if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
+            self.chunk_us = stamp.board_us;
+            self.file.close()?;
+        }
+        self.file.wire(stamp, self.client.line())?;
+        self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)
+    }
+
+    /// Writes the end.
+    pub fn finish(self) -> Result<()> {
+        self.file.finish().map(drop)
+    }
+}
+
+/// Writes the received bytes of a board as a recording; `newest` is the time of their last image.
+pub fn live<S: Store>(bytes: &[u8], newest: Micros, origin: Origin, store: S) -> Result<()> {
+    let mut copy = Copy::begin(store, origin)?;
+    let now = SteadyTime::start().now_us();
+    let mut board_us = newest.0;
+    for byte in bytes {
+        let Some(event) = copy.client.push(*byte) else { continue };
+        board_us = time_of(&copy.client, &event).unwrap_or(board_us);
+        let host_us = now.saturating_sub(newest.0.saturating_sub(board_us));
+        copy.keep(Stamp { board_us, host_us, uncertainty_us: None }, &event)?;
+    }
+    copy.finish()
+}

@@ -1,0 +1,136 @@
+//! Passes a board's stream to the pages.
+
+use super::hub::Hub;
+use super::message;
+use super::pace::Pace;
+use super::raw::RawCodes;
+use super::said::{Said, Teller};
+use super::shot::Shot;
+use crate::watch::rate::Rate;
+use anyhow::Result;
+use serde_json::json;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use taxel::client::{Client, Event, ImageNews};
+use taxel::json;
+use taxel::session::Show;
+use taxel::source::Source;
+use taxel_core::format::Micros;
+use taxel_core::garment::{Circuit, Pins};
+use taxel_core::wire::Request;
+
+/// Time between two messages about the link.
+const LINK: Duration = Duration::from_millis(250);
+/// Time between two latency measurements.
+const ROUND: Duration = Duration::from_secs(1);
+
+/// Shows a stream to the pages of a hub.
+pub struct Viewer {
+    hub: Arc<Hub>,
+    label: String,
+    counts_per_newton: Option<f32>,
+    teller: Teller,
+    rate: Rate,
+    /// Paces a saved stream to its own time; none for a live one.
+    pace: Option<Pace>,
+    raw: RawCodes,
+    told: Instant,
+    asked: Instant,
+    token: u32,
+    /// Half of the last round trip to the board.
+    latency: Option<Duration>,
+}
+
+impl Viewer {
+    /// A viewer of a source.
+    pub fn new(source: &Source, hub: Arc<Hub>) -> Viewer {
+        let now = Instant::now();
+        Viewer {
+            hub,
+            label: source.label.clone(),
+            counts_per_newton: source.counts_per_newton,
+            teller: Teller::new(source.counts_per_newton),
+            rate: Rate::default(),
+            pace: source.label.starts_with("file:").then(Pace::default),
+            raw: RawCodes::default(),
+            told: now,
+            asked: now,
+            token: 0,
+            latency: None,
+        }
+    }
+
+    fn frame(&mut self, client: &Client, event: &Event, time: Micros) {
+        self.rate.add(time);
+        if let Some(pace) = &mut self.pace {
+            std::thread::sleep(pace.wait(time, Instant::now()));
+        }
+        let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
+        let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
+        let line = message::frame(client, event).to_string().into();
+        self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
+    }
+
+    fn hello(&self, client: &Client) {
+        let circuit =
+            client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
+        self.hub.wired(circuit);
+        self.hub.state("hello", &message::hello(client, &self.label, self.counts_per_newton));
+    }
+
+    fn link(&mut self, client: &Client) {
+        let line = message::link(client, self.rate.hz(), self.latency, self.hub.pages());
+        self.hub.state("link", &line);
+    }
+}
+
+impl Show for Viewer {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.hub.keep(bytes);
+    }
+
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Hello => self.hello(client),
+            Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
+            Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
+            Event::Health(_) => self.hub.state("health", &json::message(client, event)),
+            Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
+            Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
+            Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
+            Event::Sync(report) if report.token == self.token => {
+                self.latency = Some(self.asked.elapsed() / 2)
+            }
+            _ => {}
+        }
+        for said in self.teller.tell(client, event) {
+            self.hub.say(&said);
+        }
+        Ok(())
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        let now = Instant::now();
+        if client.worn().is_some() && now.saturating_duration_since(self.asked) > ROUND {
+            self.token = self.token.wrapping_add(1);
+            client.request(&Request::Sync { token: self.token })?;
+            self.asked = now;
+        }
+        if let Some(frames) = self.hub.tare() {
+            client.request(&Request::Tare { frames })?;
+            self.hub.say(&Said::note(format!("tare over {frames} frames")));
+        }
+        self.raw.tend(client, self.hub.is_looked_at(), now)?;
+        if now.saturating_duration_since(self.told) >= LINK {
+            self.told = now;
+            self.link(client);
+        }
+        Ok(true)
+    }
+
+    fn end(&mut self, client: &Client) -> Result<()> {
+        self.link(client);
+        self.hub.state("end", &json!({ "type": "end", "text": format!("{} has ended", self.label) }));
+        Ok(())
+    }
+}

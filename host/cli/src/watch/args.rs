@@ -1,0 +1,188 @@
+//! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
+
+use super::{GestureModel, Overwrite, TaxelPlace, feed, forms};
+use anyhow::{Result, bail};
+use clap::Args;
+use std::path::PathBuf;
+use taxel::files::calibrate::Calibration;
+use taxel::source::{self, Source, SourceOptions, SourceSpec};
+use taxel::tell::fault::Fault;
+use taxel_core::intent::Feed;
+
+/// A board, and what is requested of it before it is watched.
+#[derive(Debug, Clone, Args)]
+pub struct BoardArgs {
+    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`,
+    /// `file:FILE` or `replay:FILE[@SPEED]`
+    #[arg(long, value_name = "SOURCE", default_value = "auto")]
+    pub source: SourceSpec,
+    /// Garment to send to the board, real or simulated: a preset or a TOML file
+    #[arg(long, value_name = "G")]
+    pub garment: Option<String>,
+    /// Scene to send to the board: a TOML file; missing keys have the shipped values
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// Calibration to send to the board, for forces in newtons: a file written by `taxel calibrate`
+    #[arg(long, value_name = "FILE")]
+    pub calibration: Option<PathBuf>,
+    /// Take the mean of the first N frames as the baseline [default: that of a simulated scene, else 0]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096))]
+    pub tare: Option<u16>,
+    /// Timing reports of the board per second; 65535: one for each frame [default: 1]
+    #[arg(long, value_name = "HZ")]
+    pub budget: Option<u16>,
+    /// Gesture model to run on the board
+    #[arg(long, value_name = "MODEL", value_enum)]
+    pub gestures: Option<GestureModel>,
+    /// With --gestures: scale factor from the garment's counts to those that the model was trained on
+    /// [default: 1]
+    #[arg(long, value_name = "G", requires = "gestures")]
+    pub gesture_gain: Option<f64>,
+    /// With --gestures: announce a class once the model's confidence reaches this share, 0 to 0.999; the
+    /// board keeps this until it restarts [default: when it has led for 250 ms]
+    #[arg(long, value_name = "SHARE", requires = "gestures")]
+    pub gesture_certainty: Option<f64>,
+    /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to
+    /// 254, or all; also requests the ages of the forms. The board keeps this until it restarts [default: 1]
+    #[arg(long, value_name = "N", value_parser = forms)]
+    pub forms: Option<u8>,
+    /// Set a concept: value, -1 to 1; its age; the age from which the value expires [default: never]; the
+    /// value that replaces it then [default: 0]
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
+    pub feed: Vec<Feed>,
+    /// Base of shapes to send to the board: a file, or the name of a shipped base
+    #[arg(long, value_name = "BASE")]
+    pub shapes: Option<PathBuf>,
+    /// End when the connection to the board is lost, instead of waiting for the board
+    #[arg(long)]
+    pub once: bool,
+    /// Seed of the simulation
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+impl BoardArgs {
+    /// A source with all options at their defaults.
+    pub fn of(source: SourceSpec) -> BoardArgs {
+        BoardArgs {
+            source,
+            garment: None,
+            scene: None,
+            calibration: None,
+            tare: None,
+            budget: None,
+            gestures: None,
+            gesture_gain: None,
+            gesture_certainty: None,
+            forms: None,
+            feed: Vec::new(),
+            shapes: None,
+            once: false,
+            seed: None,
+        }
+    }
+
+    /// Paths of the input files, which no output may replace. A preset's name is among them like a path.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let named = [self.garment.clone().map(PathBuf::from), self.source.file()];
+        let told = [&self.scene, &self.calibration, &self.shapes].map(Clone::clone);
+        named.into_iter().chain(told).flatten().collect()
+    }
+
+    /// Refuses options that configure the board if `label` names a recording.
+    pub fn check_recorded(&self, label: &str) -> Result<()> {
+        let options = [
+            ("--garment", self.garment.is_some()),
+            ("--scene", self.scene.is_some()),
+            ("--tare", self.tare.is_some()),
+            ("--budget", self.budget.is_some()),
+            ("--gestures", self.gestures.is_some()),
+            ("--forms", self.forms.is_some()),
+            ("--feed", !self.feed.is_empty()),
+            ("--shapes", self.shapes.is_some()),
+        ];
+        match options.into_iter().find(|(_, is_there)| *is_there) {
+            Some((option, _)) => {
+                bail!(Fault::usage(format!("{option}: {label} is a recording, whose board does not listen")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Opens the source, and the calibration if there is one; the source then uses its counts per newton.
+    pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
+        let mut source = source::open(
+            &self.source,
+            &SourceOptions { seed: self.seed, garment: self.garment.clone(), ..options },
+        )?;
+        let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
+        let known = calibration.as_ref().and_then(Calibration::counts_per_newton);
+        source.counts_per_newton = known.or(source.counts_per_newton);
+        Ok((source, calibration))
+    }
+}
+
+/// Arguments of `taxel live`.
+#[derive(Debug, Clone, Args)]
+pub struct LiveArgs {
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// Stop after N images
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u64>,
+    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal
+    /// repeats it]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub seconds: Option<f64>,
+    /// Print messages as JSON, one per line
+    #[arg(long)]
+    pub json: bool,
+    /// With --json: also print the pressure of every taxel
+    #[arg(long, requires = "json")]
+    pub pixels: bool,
+    /// Also save the received bytes, for --source file:FILE
+    #[arg(long, value_name = "FILE")]
+    pub save: Option<PathBuf>,
+    /// Whether an existing output is replaced.
+    #[command(flatten)]
+    pub force: Overwrite,
+    /// Print one taxel's time, code and pressure, frame by frame
+    #[arg(long, value_name = "PANEL,ROW,COL")]
+    pub taxel: Option<TaxelPlace>,
+    /// Pace simulations to real time
+    #[arg(long)]
+    pub realtime: bool,
+    /// Write the terminal's last picture as SVG
+    #[arg(long, value_name = "FILE", hide = true)]
+    pub svg: Option<PathBuf>,
+}
+
+impl LiveArgs {
+    /// Everything from a source, with all options at their defaults.
+    pub fn of(source: SourceSpec) -> LiveArgs {
+        LiveArgs::on(BoardArgs::of(source))
+    }
+
+    /// Everything from a board, without limits.
+    pub fn on(board: BoardArgs) -> LiveArgs {
+        LiveArgs {
+            board,
+            frames: None,
+            seconds: None,
+            json: false,
+            pixels: false,
+            save: None,
+            force: Overwrite::default(),
+            taxel: None,
+            realtime: false,
+            svg: None,
+        }
+    }
+}
+
+/// Parses a time of the command line, s.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
+    time.ok_or_else(|| "must be a time of 0 or more".into())
+}

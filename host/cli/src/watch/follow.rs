@@ -1,0 +1,216 @@
+//! Reads a source until it ends, or until the requested amount has come.
+
+use super::asked::Asked;
+use super::{BoardArgs, LiveArgs, outfit, stop};
+use anyhow::{Context, Error, Result, bail};
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use taxel::client::passed::Passed;
+use taxel::client::{Client, Event, ImageNews, request_name};
+use taxel::files::calibrate::Calibration;
+use taxel::files::output::Output;
+use taxel::learn::shapes::base::Base;
+use taxel::learn::shapes::teach::teach;
+use taxel::session::{Returns, Session, Show, Turn};
+use taxel::source::Source;
+use taxel::tell::fault::Fault;
+use taxel::tell::verbose;
+use taxel_core::wire::Request;
+
+/// Longest wait for a silent board or a lost source in a run of limited time.
+const SILENCE: Duration = Duration::from_secs(10);
+/// Silence after which a message is printed.
+const QUIET: Duration = Duration::from_secs(3);
+
+/// Shows a source until it ends, or until the requested amount has come.
+pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show) -> Result<()> {
+    let limited = args.frames.is_some() || args.seconds.is_some();
+    let returns = match (args.board.once, limited) {
+        (true, _) => Returns::Never,
+        (false, true) => Returns::Within(SILENCE),
+        (false, false) => Returns::Always,
+    };
+    let mut session = Session::new(source, returns);
+    let (client, source) = session.parts();
+    prepare(client, &args.board, source)?;
+    let mut asked = if source.listens { Asked::of(&client.queued(), &args.board) } else { Asked::default() };
+    let mut limits = Limits::of(args);
+    let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
+    let mut patience = Patience { limited, began: Instant::now(), told: false };
+    while !limits.ended && asked.refusal.is_none() {
+        let turn = session.turn(&mut |client, bytes| show.asked(client, bytes))?;
+        if turn == Turn::End {
+            break;
+        }
+        show.bytes(session.bytes());
+        while let Some(event) = session.next_event() {
+            tell(session.client(), &event);
+            show.event(session.client(), &event)?;
+            asked.answered(&event);
+            if limits.reached(&event) || asked.refusal.is_some() {
+                break;
+            }
+        }
+        if let Some(save) = &mut save {
+            save.write(&session.bytes()[..session.taken()])?;
+        }
+        while let Some(note) = session.note() {
+            show.gap(session.client(), &note)?;
+        }
+        if !show.idle(session.parts().0)? || stop::asked() {
+            break;
+        }
+        patience.look(&session)?;
+    }
+    let (client, source) = session.parts();
+    show.end(client)?;
+    if let Some(remark) = source.port.remark() {
+        eprintln!("{}: {remark}", source.label);
+    }
+    match (asked.refusal, client.worn()) {
+        (Some(refusal), _) => Err(Fault::board(format!("{}: {refusal}", source.label)).into()),
+        (None, Some(_)) => Ok(()),
+        (None, None) => Err(silent(source, client.counts().bytes)),
+    }
+}
+
+/// Prints events for `-v`.
+fn tell(client: &Client, event: &Event) {
+    match event {
+        Event::Hello => {
+            if let Some(worn) = client.worn() {
+                let (firmware, garment, scene) = (&worn.firmware, &worn.garment.name, &worn.scene.name);
+                verbose::tell(format_args!("board {firmware}: garment {garment}, scene {scene}"));
+            }
+        }
+        Event::Answer { request, refusal: None } => {
+            verbose::tell(format_args!("the board has done {}", request_name(*request)));
+        }
+        Event::Answer { request, refusal: Some(why) } => {
+            verbose::tell(format_args!("the board refuses {}: {why}", request_name(*request)));
+        }
+        _ => {}
+    }
+}
+
+/// Error for a source without a `Hello`: a board is at fault, a recording is not.
+fn silent(source: &Source, bytes: u64) -> Error {
+    let why = format!("{}: no Hello of a taxel board in {bytes} bytes", source.label);
+    if source.real_time { Fault::board(why).into() } else { Error::msg(why) }
+}
+
+/// Queues the options' requests to the board.
+fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
+    if !source.listens {
+        args.check_recorded(&source.label)?;
+    }
+    if let Some(garment) = args.garment.as_ref().filter(|_| !source.wears_asked) {
+        if source.label.starts_with("sim:") {
+            bail!(Fault::usage(format!(
+                "--garment {garment}: a simulated board keeps the garment that it started with"
+            )));
+        }
+        outfit::wear(client, garment)?;
+    }
+    if let Some(scene) = &args.scene {
+        outfit::play(client, scene)?;
+    }
+    if let Some(in_frame) = args.forms {
+        client.request(&Request::SetForms { in_frame, ages: true })?;
+    }
+    for feed in &args.feed {
+        client.request(&Request::Feed(feed.clone()))?;
+    }
+    if let Some(file) = &args.calibration {
+        Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
+    }
+    client.start(args.tare.unwrap_or(source.tare))?;
+    if let Some(model) = args.gestures {
+        outfit::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
+    }
+    if let Some(base) = &args.shapes {
+        teach(client, &Base::open(base)?)?;
+    }
+    if let Some(hz) = args.budget {
+        client.request(&Request::Budget { hz })?;
+    }
+    Ok(())
+}
+
+/// Conditions for the end of a run.
+struct Limits {
+    frames: Option<u64>,
+    /// Time limit, us.
+    longest_us: Option<u64>,
+    passed: Passed,
+    /// Wait for the raw codes of the last image, which follow it.
+    codes: bool,
+    ended: bool,
+}
+
+impl Limits {
+    fn of(args: &LiveArgs) -> Limits {
+        let longest_us = args.seconds.map(|seconds| (seconds * 1e6) as u64);
+        let (frames, codes) = (args.frames, args.taxel.is_some());
+        Limits { frames, longest_us, passed: Passed::default(), codes, ended: false }
+    }
+
+    fn reached(&mut self, event: &Event) -> bool {
+        if self.frames == Some(0) {
+            self.ended |= matches!(event, Event::Raw { .. } | Event::Frame { .. });
+        } else if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
+            if let Some(frames) = &mut self.frames {
+                *frames = frames.saturating_sub(1);
+                self.ended |= *frames == 0 && !self.codes;
+            }
+            let passed_us = self.passed.until(time.0);
+            self.ended |= self.longest_us.is_some_and(|longest| passed_us >= longest);
+        }
+        self.ended
+    }
+}
+
+/// Saves the received bytes.
+struct Saver {
+    file: File,
+    path: PathBuf,
+}
+
+impl Saver {
+    fn open(path: &Path, args: &LiveArgs) -> Result<Saver> {
+        let (file, begun) = Output::file(path, args.force, args.board.files())?.begin()?;
+        begun.name()?;
+        Ok(Saver { file, path: path.into() })
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<()> {
+        self.file.write_all(bytes).with_context(|| format!("{} cannot be written", self.path.display()))
+    }
+}
+
+/// Patience with a silent board.
+struct Patience {
+    /// The run is limited in time, so the wait is, too.
+    limited: bool,
+    began: Instant,
+    /// The silence has been reported.
+    told: bool,
+}
+
+impl Patience {
+    fn look(&mut self, session: &Session) -> Result<()> {
+        if session.client().worn().is_some() || session.is_gone() {
+            return Ok(());
+        }
+        let passed = self.began.elapsed();
+        if passed > QUIET && !std::mem::replace(&mut self.told, true) {
+            eprintln!("No Hello yet from {}.", session.source().label);
+        }
+        if self.limited && passed > SILENCE {
+            return Err(silent(session.source(), session.client().counts().bytes));
+        }
+        Ok(())
+    }
+}

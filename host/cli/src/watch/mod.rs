@@ -1,0 +1,23 @@
+//! Watching a board: the options that set it, the loop that hands its stream to a
+//! [`Show`](taxel::session::Show), and events as sentences.
+
+mod args;
+mod asked;
+mod feed;
+mod follow;
+mod forms;
+pub mod narrate;
+mod outfit;
+mod overwrite;
+mod place;
+pub mod rate;
+pub mod raw;
+pub mod stop;
+
+pub use args::{BoardArgs, LiveArgs, seconds};
+pub use feed::feed;
+pub use follow::watch;
+pub use forms::forms;
+pub use outfit::GestureModel;
+pub use overwrite::Overwrite;
+pub use place::TaxelPlace;

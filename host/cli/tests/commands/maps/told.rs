@@ -1,0 +1,114 @@
+//! Announcements of a board are explained from its own numbers, live and from a recording.
+
+use std::path::PathBuf;
+use taxel::client::{Client, Event};
+use taxel::fcm::told::Told;
+use taxel::fcm::why::{explain, explain_told, report};
+use taxel::session::Show;
+use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel_cli::commands::maps::told::listen;
+use taxel_cli::watch::{self, BoardArgs, LiveArgs};
+use taxel_core::intent::Leading;
+
+fn spec(words: &str) -> SourceSpec {
+    words.parse().unwrap()
+}
+
+fn told(words: &str, at: Option<f64>) -> Result<Told, String> {
+    listen(BoardArgs::of(spec(words)), at).map_err(|error| error.to_string())
+}
+
+#[test]
+fn an_announced_intention_is_explained_as_the_board_inferred_it() {
+    for (scene, leading) in [("lash", Leading::Attack), ("pat", Leading::Kindness)] {
+        let told = told(&format!("sim:{scene}"), None).unwrap();
+        assert_eq!(told.report.leading, leading, "{scene}");
+        let explained = explain_told(&told, None).unwrap();
+        assert_eq!(told.map.concept[usize::from(explained.why.concept)].name, leading.as_str());
+        let parts: i32 = explained.why.parts.iter().map(|part| part.value.0).sum();
+        assert_eq!(parts - explained.why.threshold.0, explained.why.sum.0);
+        assert_eq!(explained.shares.sum(), i64::from(explained.why.sum.0));
+        // The same inputs lead to the same state here, so the explained map and touch are the right ones.
+        let again = explain(&told.map, &told.inputs(), Some(leading.as_str())).unwrap();
+        assert_eq!((again.run.state, again.why), (explained.run.state, explained.why.clone()));
+        assert_eq!((again.run.steps, again.run.outcome), (told.report.steps, told.report.outcome));
+        let json = report(&explained, None);
+        assert_eq!(json["concept"], leading.as_str());
+        assert!(told.text().contains(&format!(
+            "frame {}: {} leads; inputs press=",
+            told.report.frame,
+            leading.as_str()
+        )));
+    }
+}
+
+#[test]
+fn a_time_may_be_asked_for() {
+    let first = told("sim:lash", None).unwrap();
+    let (before, after) =
+        (told("sim:lash", Some(first.seconds - 0.004)), told("sim:lash", Some(first.seconds + 0.001)));
+    let (before, after) = (before.unwrap(), after.unwrap());
+    assert_eq!((before.report.leading, after.report.leading), (Leading::None, Leading::Attack));
+    assert_eq!(after.report, first.report);
+    // Nothing leads yet: the strongest concept is explained.
+    assert!(explain_told(&before, None).is_ok());
+    assert!(explain_told(&before, Some("anger")).is_ok());
+}
+
+#[test]
+fn where_there_is_nothing_to_explain_it_is_said() {
+    let quiet = told("sim:idle", None).unwrap_err();
+    assert!(quiet.ends_with("no intention was announced; --at S explains the state at that time"), "{quiet}");
+    let early = told("sim:lash", Some(0.0)).unwrap();
+    assert_eq!((early.report.leading, explain_told(&early, None).unwrap().why.sum.0), (Leading::None, 0));
+    let scene = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("silent.toml");
+    std::fs::write(&scene, "[stream]\nintent = false\n").unwrap();
+    let board = BoardArgs { scene: Some(scene), ..BoardArgs::of(spec("sim:lash")) };
+    let silent = listen(board, Some(0.1)).unwrap_err().to_string();
+    assert!(silent.ends_with("no intention was reported in the first 0.1 s"), "{silent}");
+}
+
+/// A map of a single concept, the temperature, which only a host can feed.
+const WARM: &str = "name = \"warm\"\nlambda = 1\n[[concept]]\nname = \"warmth\"\n[[concept]]\nname = \"kindness\"\n\
+                    [[input]]\nconcept = \"warmth\"\nsource = { host = 3 }\nrise = [-32768, 32768]\nat = [-1, 1]\n\
+                    [[edge]]\nfrom = \"warmth\"\nto = \"kindness\"\nweight = 1\n";
+
+#[test]
+fn what_the_host_feeds_counts_until_it_is_too_old() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    let scene = folder.join("warm scene.toml");
+    std::fs::write(folder.join("warm map.toml"), WARM).unwrap();
+    std::fs::write(&scene, "react = []\n[intent]\nmap = \"warm map.toml\"\n").unwrap();
+    let fed = |words: &str| {
+        let feed = vec![watch::feed(words).unwrap()];
+        let board = BoardArgs { scene: Some(scene.clone()), feed, ..BoardArgs::of(spec("sim:lash")) };
+        let told = listen(board, Some(0.4)).unwrap();
+        let explained = explain_told(&told, Some("kindness")).unwrap();
+        (told.report.concepts[0].0, told.report.leading, explained.why.sum.0)
+    };
+    assert_eq!(fed("warmth=0.75"), (24_576, Leading::Kindness, 24_576));
+    assert_eq!(fed("warmth=0.75,0,60000,-0.5"), (24_576, Leading::Kindness, 24_576));
+    assert_eq!(fed("warmth=0.75,0,100,-0.5"), (-16_384, Leading::None, -16_384));
+    assert_eq!(fed("warmth=0.75,200,100"), (0, Leading::None, 0));
+}
+
+/// A view that shows nothing.
+struct Silent;
+
+impl Show for Silent {
+    fn event(&mut self, _client: &Client, _event: &Event) -> anyhow::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_recording_explains_the_same() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("told.taxel");
+    let _ = std::fs::remove_file(&path);
+    let source = source::open(&spec("sim:lash"), &SourceOptions::default()).unwrap();
+    let args = LiveArgs { save: Some(path.clone()), ..LiveArgs::of(spec("sim:lash")) };
+    watch::watch(&args, source, &mut Silent).unwrap();
+    let (live, kept) =
+        (told("sim:lash", None).unwrap(), told(&format!("file:{}", path.display()), None).unwrap());
+    assert_eq!((live.report, live.map, live.seconds), (kept.report, kept.map, kept.seconds));
+}

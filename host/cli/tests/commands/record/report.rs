@@ -1,0 +1,48 @@
+//! The report page has the figures of the source.
+
+use super::stage::play;
+use taxel_cli::report::{Seen, page};
+
+#[test]
+fn the_figures_of_the_source_are_drawn() {
+    let mut seen = Seen::new("sim:source".into(), Some(1000.0));
+    play("sim:source", &mut seen);
+    let html = page(&seen).unwrap();
+    let count = |what: &str| html.matches(what).count();
+    for panel in ["chest", "back", "left arm", "right arm"] {
+        assert_eq!(count(&format!("class=\"title\">{panel}</text>")), 2, "2-D and 3-D of {panel}");
+    }
+    // Ten objects: each has a centre and a peak in 2-D, a peak with its value in 3-D, and a row of the table.
+    for mark in ["class=\"centre\"", "class=\"peak\"", "class=\"value\"", "<tr><td>#"] {
+        assert_eq!(count(mark), 10, "{mark}");
+    }
+    // 31 x 15 faces per panel, under four contours.
+    assert_eq!(count("<path fill=\"#"), 4 * 31 * 15);
+    assert_eq!(count("class=\"level\""), 4 * 4);
+    for title in ["Ranges of pressure", "Force over time", "Intention over time", "Events", "Health"] {
+        assert_eq!(count(&format!("<h2>{title}</h2>")), 1);
+    }
+    for foreign in ["<script", "http://", "https://", "url("] {
+        assert_eq!(count(foreign), 0, "{foreign}");
+    }
+}
+
+#[test]
+fn a_page_is_in_one_unit() {
+    let mut seen = Seen::new("sim:pat".into(), Some(1000.0));
+    play("sim:pat", &mut seen);
+    let html = page(&seen).unwrap();
+    assert!(html.contains("<th>total, N</th><th>peak, N</th>"));
+    let told = "the source knows that 1000 counts are a newton";
+    assert_eq!((html.matches("counts").count(), html.matches(told).count()), (1, 1), "only what the unit is");
+    let mut seen = Seen::new("sim:pat".into(), None);
+    play("sim:pat", &mut seen);
+    let html = page(&seen).unwrap();
+    assert!(html.contains("<th>total, counts</th><th>peak, counts</th>") && !html.contains(" N<"));
+}
+
+#[test]
+fn without_an_image_there_is_no_page() {
+    let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
+    assert_eq!(error, "file:x: no image was received, so there is nothing to report");
+}

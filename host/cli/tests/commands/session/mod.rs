@@ -1,0 +1,8 @@
+//! Boards that break while they are watched and recorded.
+
+// What else it can do, the tests of the library use.
+#[allow(dead_code)]
+#[path = "../../../../taxel/tests/library/session/rig.rs"]
+mod rig;
+mod soak;
+mod watched;

@@ -1,0 +1,81 @@
+//! Clients that take all connections, read slowly, or come from another site do not shut others out.
+
+use std::io::{Read, Write};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use taxel::client::{Client, Event};
+use taxel::session::Show;
+use taxel::source::{self, SourceOptions};
+use taxel_cli::view::{Hub, serve};
+use taxel_cli::watch::{LiveArgs, watch};
+
+/// Keeps the bytes of a board for the pages.
+struct Keeper(Arc<Hub>);
+
+impl Show for Keeper {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.0.keep(bytes);
+    }
+
+    fn event(&mut self, _: &Client, _: &Event) -> anyhow::Result<()> {
+        Ok(())
+    }
+}
+
+/// A page with a recording of some megabytes behind it.
+fn page() -> u16 {
+    let hub = Arc::new(Hub::default());
+    let spec: source::SourceSpec = "sim:five".parse().unwrap();
+    let options = SourceOptions { raw: true, seconds: Some(25.0), ..SourceOptions::default() };
+    let source = source::open(&spec, &options).unwrap();
+    watch(&LiveArgs { seconds: Some(25.0), ..LiveArgs::of(spec) }, source, &mut Keeper(hub.clone())).unwrap();
+    assert!(hub.recording().unwrap().len() > 4 << 20);
+    serve(TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap(), hub).unwrap()
+}
+
+fn ask(port: u16, path: &str) -> TcpStream {
+    let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    write!(stream, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n").unwrap();
+    stream
+}
+
+/// Time until the page sends its first file.
+#[track_caller]
+fn is_served(port: u16) -> Duration {
+    let begun = Instant::now();
+    let mut answer = String::new();
+    ask(port, "/").read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 200 OK") && answer.ends_with("</html>\n"), "{answer}");
+    begun.elapsed()
+}
+
+#[test]
+fn who_takes_large_files_and_does_not_read_them_shuts_nobody_out() {
+    let port = page();
+    for path in ["/recording.taxel", "/plotly.js", "/"] {
+        let held: Vec<TcpStream> = (0..150).map(|_| ask(port, path)).collect();
+        let waited = is_served(port);
+        assert!(waited < Duration::from_secs(4), "{path}: {waited:?}");
+        drop(held);
+    }
+    // Some silent clients.
+    let held: Vec<_> = (0..150).map(|_| TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap()).collect();
+    let waited = is_served(port);
+    assert!(waited < Duration::from_secs(4), "{waited:?}");
+    drop(held);
+    // A recording can still be downloaded.
+    let begun = Instant::now();
+    loop {
+        let mut answer = Vec::new();
+        ask(port, "/recording.taxel").read_to_end(&mut answer).unwrap();
+        if answer.starts_with(b"HTTP/1.1 200 OK") {
+            assert!(answer.len() > 4 << 20);
+            break;
+        }
+        assert!(answer.starts_with(b"HTTP/1.1 503 "), "{}", String::from_utf8_lossy(&answer));
+        assert!(begun.elapsed() < Duration::from_secs(30), "no recording in {:?}", begun.elapsed());
+        std::thread::sleep(Duration::from_millis(200));
+    }
+}

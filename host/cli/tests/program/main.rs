@@ -1,0 +1,29 @@
+//! Tests of the program and its examples from outside.
+
+mod builds;
+mod cli;
+mod commands;
+#[path = "../../../../core/tests/core/shape/drawn.rs"]
+mod drawn;
+mod exports;
+#[cfg(feature = "foxglove")]
+mod foxglove;
+mod hostile;
+mod live;
+mod maps;
+mod mistakes;
+mod outputs;
+mod own_garment;
+mod recordings;
+mod reference;
+mod repair;
+mod schemas;
+#[path = "../commands/sink.rs"]
+mod sink;
+mod start;
+mod status;
+mod steps;
+mod teach;
+mod tools;
+mod version;
+mod view;

@@ -1,0 +1,256 @@
+//! Every command writes through `output`: no input and no other file is lost by a name.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Modules that write to a disk without it, and why.
+const ALLOWED: [(&str, &str); 4] = [
+    ("taxel/src/files/output/", "the writer"),
+    ("cli/src/commands/board/flash.rs", "a board's drive, which restarts the board at the last block"),
+    ("taxel/src/source/emulator.rs", "a temporary folder of its own"),
+    ("cli/src/bench/record.rs", "a temporary folder of its own"),
+];
+/// Calls that write, replace or remove a file.
+const WRITES: [&str; 11] = [
+    "File::create",
+    "File::options",
+    "OpenOptions",
+    "fs::write",
+    "fs::copy",
+    "fs::rename",
+    "fs::hard_link",
+    "fs::remove_",
+    "fs::create_dir",
+    "create_new(",
+    "fs::set_permissions",
+];
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn no_other_module_writes_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut all = Vec::new();
+    ["cli/src", "sim/src", "taxel/src"].iter().for_each(|folder| sources(&root.join(folder), &mut all));
+    assert!(all.len() > 100, "{} files", all.len());
+    for path in all {
+        let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
+        if name.ends_with("tests.rs") || ALLOWED.iter().any(|(allowed, _)| name.starts_with(allowed)) {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        // Unit tests are at the end of a module.
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        for call in WRITES {
+            // `RecordingFile::create` does not create a file by itself.
+            let calls = |line: &str| line.contains(call) && !line.contains("RecordingFile::create");
+            let line = code.lines().position(calls);
+            assert!(
+                line.is_none(),
+                "{name}, line {}: {call} goes through crate::output",
+                line.unwrap_or(0) + 1
+            );
+        }
+    }
+}
+
+/// A test's folder with a recording, deleted at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Folder {
+        let path = std::env::temp_dir().join(format!("taxel-outputs-{name}-{}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        let folder = Folder(path);
+        let done = folder.run(&["record", "--source", "sim:press", "--frames", "40", "-o", "in.mcap"]);
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        fs::write(folder.0.join("old"), "precious").unwrap();
+        folder
+    }
+
+    fn run(&self, args: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_taxel"));
+        command.args(args).current_dir(&self.0).stdin(std::process::Stdio::null()).output().unwrap()
+    }
+
+    fn refused(&self, args: &[&str], words: &str) {
+        let done = self.run(args);
+        let error = String::from_utf8(done.stderr).unwrap();
+        assert!(!done.status.success() && error.contains(words), "{args:?}: {error}");
+    }
+
+    fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.0.join(name)).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        fs::remove_dir_all(&self.0).unwrap();
+    }
+}
+
+/// Commands that write, without the name of the output.
+const WRITERS: [&[&str]; 13] = [
+    &["record", "--source", "sim:press", "--frames", "5", "-o"],
+    &["live", "--source", "sim:press", "--frames", "5", "--save"],
+    &["live", "--source", "sim:press", "--frames", "5", "--svg"],
+    &["export", "in.mcap", "--to", "csv", "-o"],
+    &["export", "in.mcap", "--to", "npz", "-o"],
+    &["export", "in.mcap", "--to", "png", "-o"],
+    &["report", "in.mcap", "-o"],
+    &["fcm", "draw", "tactile", "-o"],
+    &["fcm", "combine", "tactile", "tactile", "-o"],
+    &["fcm", "new", "-o"],
+    &["setup", "--simulate", "7", "-o"],
+    &["calibrate", "--simulate", "7", "-o"],
+    &["config", "new"],
+];
+
+#[test]
+fn no_command_replaces_a_file_that_it_was_not_told_to_replace() {
+    let folder = Folder::new("replaced");
+    for command in WRITERS {
+        let words = if command.contains(&"png") { "is a file: name a folder" } else { "--force" };
+        folder.refused(&[command, &["old"]].concat(), words);
+        if !command.contains(&"png") {
+            folder.refused(&[command, &["no-such-folder/new"]].concat(), "folder");
+        }
+        assert_eq!(folder.bytes("old"), b"precious", "{command:?}");
+    }
+}
+
+#[test]
+fn no_command_replaces_its_input() {
+    let folder = Folder::new("input");
+    let before = folder.bytes("in.mcap");
+    fs::hard_link(folder.0.join("in.mcap"), folder.0.join("hard.mcap")).unwrap();
+    let readers: [&[&str]; 6] = [
+        &["record", "--source", "replay:in.mcap@max", "--force", "-o"],
+        &["live", "--source", "replay:in.mcap@max", "--force", "--save"],
+        &["export", "in.mcap", "--to", "csv", "--force", "-o"],
+        &["export", "in.mcap", "--to", "npz", "--force", "-o"],
+        &["report", "in.mcap", "--force", "-o"],
+        &["fcm", "draw", "--source", "replay:in.mcap@max", "--force", "-o"],
+    ];
+    for (command, name) in readers.iter().flat_map(|c| ["in.mcap", "./in.mcap", "hard.mcap"].map(|n| (c, n)))
+    {
+        folder.refused(&[command, &[name][..]].concat(), "this command");
+        assert!(folder.bytes("in.mcap") == before, "{command:?} {name}");
+    }
+    folder.refused(&["export", "in.mcap", "--to", "png", "--force", "-o", "."], "is the folder of");
+}
+
+#[test]
+fn the_standard_output_takes_what_is_a_stream() {
+    let folder = Folder::new("stream");
+    let table = folder.run(&["export", "in.mcap", "--to", "csv", "-o", "-"]);
+    assert!(table.status.success() && table.stdout.starts_with(b"time,panel,row"));
+    let page = folder.run(&["report", "in.mcap", "-o", "-"]);
+    assert!(page.stdout.trim_ascii_start().starts_with(b"<!"), "nothing but the page");
+    let map = folder.run(&["fcm", "combine", "tactile", "tactile", "-o", "-"]);
+    assert!(toml::from_str::<toml::Table>(std::str::from_utf8(&map.stdout).unwrap()).is_ok());
+    for command in [&["export", "in.mcap", "--to", "npz", "-o", "-"][..], &["record", "-o", "-"]] {
+        folder.refused(command, "standard output");
+    }
+    folder.refused(&["export", "in.mcap", "--to", "png", "-o", "-"], "standard output");
+    assert!(!folder.0.join("-").exists());
+}
+
+#[test]
+fn a_recording_in_several_files_looks_for_all_its_names() {
+    let folder = Folder::new("rotated");
+    fs::write(folder.0.join("day-0003.mcap"), "precious").unwrap();
+    let record = ["record", "--source", "sim:press", "--frames", "400", "--rotate", "1s", "-o", "day.mcap"];
+    folder.refused(&record, "day-0003.mcap already exists");
+    assert!(!folder.0.join("day.mcap").exists());
+    assert_eq!(folder.bytes("day-0003.mcap"), b"precious");
+}
+
+#[test]
+fn an_export_that_fails_names_its_recording_once() {
+    let folder = Folder::new("once");
+    fs::write(folder.0.join("torn.mcap"), &folder.bytes("in.mcap")[..40]).unwrap();
+    for to in ["csv", "npz", "png"] {
+        let done = folder.run(&["export", "torn.mcap", "--to", to, "-o", "out"]);
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert!(!done.status.success() && told.contains("torn.mcap holds no image"), "{told}");
+        assert_eq!(told.matches("torn.mcap").count(), 1, "{told}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
+    let folder = Folder::new("full");
+    folder.refused(&["report", "in.mcap", "-o", "/dev/full"], "/dev/full cannot be written");
+    folder.refused(
+        &["record", "--source", "sim:press", "--frames", "40", "-o", "/dev/full"],
+        "its last record is incomplete: no space left on device",
+    );
+    let done = folder.run(&["calibrate", "--simulate", "7", "-o", "/dev/full"]);
+    assert!(!done.status.success());
+    assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the numbers are printed");
+    let done = folder.run(&["setup", "--simulate", "7", "-o", "/dev/full"]);
+    assert!(!done.status.success());
+    assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the garment is printed");
+}
+
+/// Runs a command whose standard output or error is on a full disk.
+#[cfg(target_os = "linux")]
+fn on_full_disk(folder: &Folder, args: &[&str], is_error: bool) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_taxel"));
+    command.args(args).current_dir(&folder.0).stdin(std::process::Stdio::null());
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    if is_error {
+        command.stderr(full)
+    } else {
+        command.stdout(full)
+    };
+    command.output().unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_output_on_a_full_disk_is_named() {
+    let folder = Folder::new("output-full");
+    fs::write(folder.0.join("frames.csv"), "0,0\n0,9\n").unwrap();
+    let commands: [&[&str]; 7] = [
+        &["info", "in.mcap"],
+        &["scenes"],
+        &["config", "schema"],
+        &["process", "frames.csv", "--json"],
+        &["live", "--source", "sim:press", "--frames", "5", "--json"],
+        &["fcm", "tactile"],
+        &["setup", "--simulate", "7"],
+    ];
+    for command in commands {
+        let done = on_full_disk(&folder, command, false);
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(1), "{command:?}: {told}");
+        let error = "error: the standard output cannot be written: no space left on device\n";
+        assert!(told.ends_with(error), "{command:?}: {told}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_log_on_a_full_disk_ends_no_recording() {
+    let folder = Folder::new("log-full");
+    let record = ["-v", "record", "--source", "sim:press", "--frames", "40", "-o", "new.mcap"];
+    let done = on_full_disk(&folder, &record, true);
+    assert!(done.status.success(), "{}", done.status);
+    assert!(taxel::recording::scan(&folder.0.join("new.mcap")).unwrap().whole);
+    let done = on_full_disk(&folder, &["info", "no-such.mcap"], true);
+    assert_eq!(done.status.code(), Some(1), "the error cannot be told, its status can");
+}

@@ -1,0 +1,369 @@
+//! The host's end of the wire: takes bytes in any split, returns events, and keeps the state of the garment.
+//!
+//! ```
+//! use taxel::client::{Client, Event};
+//!
+//! let mut client = Client::new();
+//! client.start(16).unwrap();
+//! let to_the_board = client.take_requests();
+//! assert!(!to_the_board.is_empty());
+//! for byte in b"\x00garbage\x00" {
+//!     if let Some(Event::Refused(why)) = client.push(*byte) {
+//!         println!("{why}"); // and the next frame is read as if nothing had been
+//!     }
+//! }
+//! assert_eq!(client.counts().refused(), 1);
+//! ```
+
+mod again;
+pub mod cleaned;
+pub mod clock;
+mod counts;
+mod event;
+pub mod growths;
+mod known;
+mod life;
+pub mod passed;
+mod picture;
+mod requests;
+mod restart;
+mod syncs;
+mod time;
+mod wanted;
+mod worn;
+
+pub use again::Restored;
+pub use counts::Counts;
+pub use event::{Event, ImageNews};
+pub use known::leads;
+pub use requests::{request_name, scene_bytes};
+pub use worn::Worn;
+
+use crate::client::growths::Growths;
+use crate::tell::words::printable;
+use life::Life;
+use picture::Picture;
+use std::collections::{BTreeMap, VecDeque};
+use syncs::Syncs;
+use taxel_core::body::Placed;
+use taxel_core::boot::Boot;
+use taxel_core::contact::Phase;
+use taxel_core::format::Celsius;
+use taxel_core::health::TaxelHealth;
+use taxel_core::symbol::RegionState;
+use taxel_core::wire::{
+    Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello, IntentReport, Raw,
+    Receiver, Report, Request, SelfTestReport, WireError, decode, decode_image,
+};
+use wanted::Sets;
+
+/// Longest frame from a board.
+const LONGEST_REPORT: usize = 8192;
+/// Most ids of released contacts kept: those of 16 full lists.
+const RELEASED: usize = 1024;
+
+/// State of one board, built from its messages.
+#[derive(Debug, Clone)]
+pub struct Client {
+    receiver: Box<Receiver<LONGEST_REPORT>>,
+    message: Vec<u8>,
+    /// Bytes since the last 0x00.
+    line: Vec<u8>,
+    requests: Vec<u8>,
+    /// Requests held back until the board has answered others.
+    held: VecDeque<(Vec<u8>, Option<Sets>)>,
+    counts: Counts,
+    syncs: Syncs,
+    streaming: bool,
+    life: Life,
+    worn: Option<Worn>,
+    picture: Picture,
+    raw: Vec<u16>,
+    contacts: Vec<Placed>,
+    growths: Growths,
+    released: Vec<u32>,
+    /// The releases belong to a frame that was reported.
+    told: bool,
+    regions: Vec<RegionState>,
+    intention: Option<IntentReport>,
+    /// Last report with the announced intention in the lead.
+    led: Option<IntentReport>,
+    /// Confidence of the gesture reported last, or of the next one.
+    confidence: Option<ConfidenceReport>,
+    /// Ids of contacts that may be drift.
+    unsure: Vec<u32>,
+    /// The ages of forms were requested.
+    ages_asked: bool,
+    /// Last report of the ages.
+    forms: Option<FormsReport>,
+    /// Frame of the latest list of contacts.
+    contacts_of: u32,
+    health: Option<Health>,
+    budget: Option<Budget>,
+    celsius: Option<Celsius>,
+    ill: BTreeMap<u16, TaxelHealth>,
+    self_test: Option<SelfTestReport>,
+    boot: Option<Boot>,
+    /// Classes taught to the board; empty while the built-in base is in use.
+    shapes: Vec<String>,
+}
+
+impl Default for Client {
+    fn default() -> Self {
+        Client::new()
+    }
+}
+
+impl Client {
+    /// A client without any state.
+    pub fn new() -> Client {
+        Client {
+            receiver: Box::new(Receiver::new()),
+            message: Vec::new(),
+            line: Vec::new(),
+            // Terminates a partial frame that the board may have received before.
+            requests: vec![0],
+            held: VecDeque::new(),
+            counts: Counts::default(),
+            syncs: Syncs::default(),
+            streaming: false,
+            life: Life::default(),
+            worn: None,
+            picture: Picture::default(),
+            raw: Vec::new(),
+            contacts: Vec::new(),
+            growths: Growths::default(),
+            released: Vec::new(),
+            told: false,
+            regions: Vec::new(),
+            intention: None,
+            led: None,
+            confidence: None,
+            unsure: Vec::new(),
+            ages_asked: false,
+            forms: None,
+            contacts_of: 0,
+            health: None,
+            budget: None,
+            celsius: None,
+            ill: BTreeMap::new(),
+            self_test: None,
+            boot: None,
+            shapes: Vec::new(),
+        }
+    }
+
+    /// Handles one byte. If it completes a message, updates the state and returns the event.
+    pub fn push(&mut self, byte: u8) -> Option<Event> {
+        self.counts.bytes += 1;
+        self.keep(byte);
+        let ended = self.receiver.push(byte)?;
+        let mut message = std::mem::take(&mut self.message);
+        let copied = ended.map(|bytes| {
+            message.clear();
+            message.extend_from_slice(bytes);
+        });
+        let event = match copied.and_then(|()| self.read(&message)) {
+            Ok(event) => event,
+            Err(error) => {
+                self.counts.refuse(error);
+                Event::Refused(error)
+            }
+        };
+        self.message = message;
+        Some(event)
+    }
+
+    /// Restarts the counters: earlier messages were assembled from parts of a recording.
+    pub fn recount(&mut self) {
+        self.counts = Counts::default();
+    }
+
+    /// Keeps a byte for [`Client::line`]; only the beginning of an overlong frame is kept.
+    fn keep(&mut self, byte: u8) {
+        if self.line.last() == Some(&0) {
+            self.line.clear();
+        }
+        if self.line.len() < LONGEST_REPORT || byte == 0 {
+            self.line.push(byte);
+        }
+    }
+
+    /// Handles the message of an intact frame.
+    fn read(&mut self, message: &[u8]) -> Result<Event, WireError> {
+        let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
+        if self.counts.sequence(seq) {
+            self.begun_anew();
+        }
+        let report: Report<'_> = decode(rest)?;
+        self.counts.messages += 1;
+        // A board reports the cause of its start along with its `Hello`.
+        if !matches!(report, Report::Hello(_) | Report::Boot(_)) {
+            self.spoken();
+        }
+        Ok(self.take(report))
+    }
+
+    /// Discards the state from before a restart of the board.
+    fn forget(&mut self) {
+        self.picture = Picture::default();
+        self.contacts.clear();
+        self.regions.clear();
+        self.ill.clear();
+        self.self_test = None;
+        (self.intention, self.led) = (None, None);
+        self.confidence = None;
+        self.unsure.clear();
+        (self.forms, self.boot) = (None, None);
+    }
+
+    fn take(&mut self, report: Report<'_>) -> Event {
+        match report {
+            Report::Hello(hello) => self.take_hello(&hello),
+            Report::Frame(frame) => self.take_frame(&frame),
+            Report::Contacts(list) => self.take_contacts(list),
+            Report::Symbols(list) => {
+                self.regions = list.regions.to_vec();
+                Event::Symbols(Box::new(list))
+            }
+            Report::Intent(report) => {
+                if leads(self.concepts(), &report) {
+                    self.led = Some(report.clone());
+                }
+                self.intention = Some(report.clone());
+                Event::Intent(Box::new(report))
+            }
+            Report::Gesture(mut report) => {
+                cleaned::name(&mut report.name);
+                Event::Gesture(report)
+            }
+            Report::Confidence(report) => {
+                self.confidence = Some(report);
+                Event::Confidence(report)
+            }
+            Report::Unsure(report) => {
+                self.unsure = report.contacts.to_vec();
+                Event::Unsure(Box::new(report))
+            }
+            Report::Forms(report) => {
+                self.forms = Some(report.clone());
+                Event::Forms(Box::new(report))
+            }
+            Report::Shapes(report) => {
+                self.shapes = report.names.iter().map(|name| printable(name).into_owned()).collect();
+                self.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
+                Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
+            }
+            Report::Reaction(mut report) => {
+                cleaned::name(&mut report.reaction.name);
+                Event::Reaction(report)
+            }
+            Report::Reflex(report) => Event::Reflex(report),
+            Report::Health(health) => {
+                self.health = Some(health);
+                self.told_time(health.time);
+                Event::Health(health)
+            }
+            Report::Log(log) => {
+                Event::Log { time: log.time, level: log.level, text: printable(log.text).into_owned() }
+            }
+            Report::Sync(report) => {
+                self.syncs.take(&report);
+                Event::Sync(report)
+            }
+            Report::Answer(answer) => {
+                let refusal = answer.refusal.map(|why| printable(why).into_owned());
+                self.answered(answer.request, refusal.as_deref());
+                Event::Answer { request: answer.request, refusal }
+            }
+            Report::Raw(raw) => self.take_raw(&raw),
+            Report::Budget(budget) => {
+                self.budget = Some(budget);
+                Event::Budget(budget)
+            }
+            Report::HealthMap(map) => self.take_map(&map),
+            Report::Temperature(temperature) => {
+                self.celsius = Some(temperature.celsius);
+                Event::Temperature(temperature)
+            }
+            Report::Boot(boot) => {
+                self.boot = Some(boot);
+                Event::Boot(boot)
+            }
+            Report::SelfTest(report) => {
+                self.self_test = Some(report.clone());
+                Event::SelfTest(report)
+            }
+        }
+    }
+
+    fn take_hello(&mut self, hello: &Hello<'_>) -> Event {
+        match Worn::read(hello) {
+            Ok(worn) => {
+                self.greeted(&worn);
+                if self.worn.as_ref().is_none_or(|before| before.garment != worn.garment) {
+                    self.forget();
+                }
+                self.worn = Some(worn);
+                Event::Hello
+            }
+            Err(why) => Event::Unusable(why),
+        }
+    }
+
+    fn take_frame(&mut self, frame: &Frame<'_>) -> Event {
+        let every = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.frames_hz == u16::MAX);
+        self.counts.frame(frame.frame, every);
+        self.told_time(frame.time);
+        if self.told {
+            self.released.clear();
+        }
+        self.told = true;
+        let taxels = self.layout().map_or(0, |layout| layout.taxels());
+        let news = self.picture.take(frame, taxels);
+        if self.picture.wants_key() {
+            // A request of two bytes always fits.
+            let _ = self.request(&Request::KeyFrame);
+        }
+        if news != ImageNews::Whole {
+            self.counts.undecoded += 1;
+        }
+        Event::Frame { frame: frame.frame, time: frame.time, alone: frame.base.is_none(), image: news }
+    }
+
+    fn take_contacts(&mut self, list: ContactList) -> Event {
+        if std::mem::take(&mut self.told) {
+            self.released.clear();
+        }
+        let (gone, here): (Vec<_>, Vec<_>) =
+            list.contacts.into_iter().partition(|p| p.contact.phase == Phase::Released);
+        self.growths.feel(&here, &gone);
+        self.released.extend(gone.iter().map(|p| p.contact.id));
+        // A board that sends no images never completes the list.
+        self.released.drain(..self.released.len().saturating_sub(RELEASED));
+        self.contacts = here;
+        self.contacts_of = list.frame;
+        Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }
+    }
+
+    fn take_map(&mut self, map: &HealthMap) -> Event {
+        let taxels = self.layout().map_or(0, |layout| layout.taxels());
+        let span = usize::from(map.first)..usize::from(map.end);
+        self.ill.retain(|taxel, _| !span.contains(&usize::from(*taxel)));
+        for ill in &map.taxels {
+            let end = ill.first.saturating_add(ill.count).min(map.end);
+            self.ill.extend((ill.first.max(map.first)..end).map(|taxel| (taxel, ill.health)));
+        }
+        Event::HealthMap { time: map.time, whole: span.end >= taxels }
+    }
+
+    fn take_raw(&mut self, raw: &Raw<'_>) -> Event {
+        self.raw.resize(self.layout().map_or(0, |layout| layout.taxels()), 0);
+        let whole = decode_image(raw.data, None, &mut self.raw).is_ok();
+        if !whole {
+            self.raw.clear();
+            self.counts.undecoded += 1;
+        }
+        Event::Raw { frame: raw.frame, time: raw.time, whole }
+    }
+}

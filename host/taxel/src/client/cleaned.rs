@@ -1,0 +1,40 @@
+//! Removes control characters from a board's names, which are shown in many places.
+
+use crate::tell::words::printable;
+use taxel_core::format::Name;
+use taxel_core::garment::Garment;
+use taxel_core::react::Cause;
+use taxel_core::scene::Scene;
+
+/// Cleans a name. Replacements are never longer.
+pub fn name(name: &mut Name) {
+    if let std::borrow::Cow::Owned(clean) = printable(name) {
+        *name = taxel_core::format::name(&clean);
+    }
+}
+
+/// Cleans all names of a garment.
+pub fn garment(garment: &mut Garment) {
+    name(&mut garment.name);
+    for panel in &mut garment.panels {
+        [&mut panel.name, &mut panel.link, &mut panel.region].into_iter().for_each(name);
+    }
+}
+
+/// Cleans all names of a scene.
+pub fn scene(scene: &mut Scene) {
+    name(&mut scene.name);
+    scene.friendliness.iter_mut().for_each(|entry| name(&mut entry.region));
+    scene.joints.iter_mut().for_each(name);
+    for row in &mut scene.react {
+        name(&mut row.name);
+        name(&mut row.region);
+        if let Cause::Concept(concept) = &mut row.cause {
+            name(concept);
+        }
+    }
+    if let Some(intent) = &mut scene.intent {
+        name(&mut intent.map.name);
+        intent.map.concepts.iter_mut().for_each(name);
+    }
+}

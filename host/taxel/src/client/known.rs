@@ -1,0 +1,171 @@
+//! State of a board, as the client knows it.
+
+use super::{Client, Counts, Worn};
+use std::collections::BTreeMap;
+use taxel_core::body::Placed;
+use taxel_core::boot::Boot;
+use taxel_core::format::{Celsius, Name, Q15};
+use taxel_core::health::TaxelHealth;
+use taxel_core::intent::Leading;
+use taxel_core::shape::{Base, Class};
+use taxel_core::symbol::RegionState;
+use taxel_core::wire::{Budget, ConfidenceReport, GestureReport, Health, IntentReport, SelfTestReport};
+
+impl Client {
+    /// Counters of the connection.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Bytes of the last message including its 0x00; valid right after [`Client::push`] has returned its
+    /// event.
+    pub fn line(&self) -> &[u8] {
+        &self.line
+    }
+
+    /// Garment, scene and firmware; none before the first `Hello`.
+    pub fn worn(&self) -> Option<&Worn> {
+        self.worn.as_ref()
+    }
+
+    /// The garment's geometry; none before the first `Hello`.
+    pub fn layout(&self) -> Option<&taxel_core::garment::Layout> {
+        self.worn.as_ref().map(|worn| &worn.layout)
+    }
+
+    /// Last conditioned image by taxel number, with its frame number; none before the first key frame.
+    pub fn image(&self) -> Option<(u32, &[u16])> {
+        self.picture.image()
+    }
+
+    /// Last raw codes by taxel number; empty if none were sent.
+    pub fn raw(&self) -> &[u16] {
+        &self.raw
+    }
+
+    /// Present contacts, by the latest list.
+    pub fn contacts(&self) -> &[Placed] {
+        &self.contacts
+    }
+
+    /// Apparent hardness of a present or just released contact, counts per cm2; none if its growth does not
+    /// show it.
+    pub fn hardness(&self, contact: u32) -> Option<u32> {
+        self.growths.hardness(contact, self.layout()?)
+    }
+
+    /// True if the contact may be drift of its baseline; no intention follows from it.
+    pub fn is_unsure(&self, contact: u32) -> bool {
+        self.unsure.contains(&contact)
+    }
+
+    /// Age of a contact's form in frames, 255 for at least that; none unless the ages were requested.
+    pub fn form_age(&self, contact: u32) -> Option<u8> {
+        let told = self.forms.as_ref().filter(|report| report.frame == self.contacts_of);
+        let age = told.and_then(|report| report.ages.iter().find(|(id, _)| *id == contact));
+        self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
+    }
+
+    /// Ids of the contacts released with the last frame; at most the last 1,024.
+    pub fn released(&self) -> &[u32] {
+        &self.released
+    }
+
+    /// Touched regions, by the latest list.
+    pub fn regions(&self) -> &[RegionState] {
+        &self.regions
+    }
+
+    /// Names of the concepts of the scene's map.
+    pub fn concepts(&self) -> &[Name] {
+        self.worn.as_ref().map_or(&[], Worn::concepts)
+    }
+
+    /// The announced intention.
+    pub fn leading(&self) -> Leading {
+        self.intention.as_ref().map_or(Leading::None, |report| report.leading)
+    }
+
+    /// Activations of the concepts; 0 before the first inference.
+    pub fn activations(&self) -> Vec<Q15> {
+        let mut all = self.intention.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
+        all.resize(self.concepts().len(), Q15(0));
+        all
+    }
+
+    /// Activations of the concepts when the announced intention last led; these are drawn under its name. A
+    /// board announces an intention a little longer than the touch activates it.
+    pub fn activations_of_leading(&self) -> Vec<Q15> {
+        let mut all = self.led.as_ref().map_or_else(Vec::new, |report| report.concepts.to_vec());
+        all.resize(self.concepts().len(), Q15(0));
+        all
+    }
+
+    /// Confidence of the gesture just reported; none if the board does not know it.
+    pub fn confidence(&self, gesture: &GestureReport) -> Option<Q15> {
+        let of_it = |told: &&ConfidenceReport| (told.frame, told.touch) == (gesture.frame, gesture.touch);
+        self.confidence.as_ref().filter(of_it).map(|told| told.confidence)
+    }
+
+    /// Faulty taxels by number, by the latest report.
+    pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
+        &self.ill
+    }
+
+    /// Last self-test of lines and inputs; none before the first.
+    pub fn self_test(&self) -> Option<&SelfTestReport> {
+        self.self_test.as_ref()
+    }
+
+    /// Cause of the board's start; none if not reported.
+    pub fn boot(&self) -> Option<Boot> {
+        self.boot
+    }
+
+    /// Name of a class of the board's base of shapes.
+    pub fn shape_name(&self, class: Class) -> String {
+        if self.shapes.is_empty() {
+            return Base::BUILT_IN.name(class).into();
+        }
+        let index = usize::from(class.0).checked_sub(1);
+        index.and_then(|index| self.shapes.get(index)).map_or("unknown", String::as_str).into()
+    }
+
+    /// Name of a region of the board's garment.
+    pub fn region_name(&self, region: u8) -> &str {
+        let regions = self.layout().map_or(&[][..], |layout| layout.regions());
+        regions.get(usize::from(region)).map_or("?", Name::as_str)
+    }
+
+    /// Name of a panel of the board's garment.
+    pub fn panel_name(&self, panel: u8) -> &str {
+        let areas = self.layout().map_or(&[][..], |layout| layout.areas());
+        areas.get(usize::from(panel)).map_or("?", |area| &area.name)
+    }
+
+    /// Latest counters of the board.
+    pub fn health(&self) -> Option<&Health> {
+        self.health.as_ref()
+    }
+
+    /// Latest time budget of the board.
+    pub fn budget(&self) -> Option<&Budget> {
+        self.budget.as_ref()
+    }
+
+    /// Latest temperature of the board's converter; none without a thermometer, or before the first report.
+    pub fn celsius(&self) -> Option<Celsius> {
+        self.celsius
+    }
+}
+
+/// True if the announced intention is the most active of a map with these concepts, or none is announced.
+pub fn leads(concepts: &[Name], report: &IntentReport) -> bool {
+    let of = |leading: Leading| {
+        let at = concepts.iter().position(|name| name.as_str() == leading.as_str())?;
+        report.concepts.get(at).copied()
+    };
+    let own = of(report.leading);
+    let most = Leading::INTENTIONS.into_iter().filter_map(of).max();
+    report.leading == Leading::None || own.is_none() || (own == most && own > Some(Q15(0)))
+}

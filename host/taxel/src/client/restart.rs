@@ -1,0 +1,128 @@
+//! Detects that a board has restarted, and requests its settings again.
+
+use super::again::Restored;
+use super::{Client, Worn};
+use std::time::{Duration, Instant};
+use taxel_core::format::Micros;
+use taxel_core::wire::{Receiver, Request, encode, frame_bound};
+
+/// Number of `Hello`s in a row, without another message between them, that shows that the board has not been
+/// started.
+const LONELY: u8 = 2;
+
+impl Client {
+    /// The link was reopened. Discards a partial message, and asks the board to stream; its messages show
+    /// whether it has restarted.
+    pub fn reconnected(&mut self) {
+        *self.receiver = Receiver::new();
+        self.line.clear();
+        self.requests = vec![0];
+        self.syncs.restart();
+        self.picture = Default::default();
+        (self.life.met, self.life.started, self.life.hellos) = (false, false, 0);
+        self.life.reopened = self.worn.is_some();
+        self.ask_to_start();
+    }
+
+    /// Repeats `Start` at once, if the board was asked to stream.
+    pub fn ask_to_start(&mut self) {
+        let mut room = [0; frame_bound(8)];
+        if self.streaming
+            && let Ok(frame) = encode(&Request::Start, &mut room)
+        {
+            self.requests.extend_from_slice(frame);
+        }
+    }
+
+    /// True once a `Hello` was received since the link was opened.
+    pub fn is_met(&self) -> bool {
+        self.life.met
+    }
+
+    /// True while the board's settings are being restored.
+    pub fn is_restoring(&self) -> bool {
+        self.life.again.is_under_way() || self.life.reopened
+    }
+
+    /// True if the board restored last has probably kept running, and only its link was lost.
+    pub fn has_lived_on(&self) -> bool {
+        self.life.lived_on
+    }
+
+    /// Returns the result of a restore, once.
+    pub fn restored(&mut self) -> Option<Restored> {
+        self.life.again.ended()
+    }
+
+    /// True if a request has been unanswered for so long that the board cannot have received it.
+    pub fn is_overdue(&self, patience: Duration) -> bool {
+        !self.is_restoring() && self.life.wanted.is_overdue(patience)
+    }
+
+    /// Restores all settings, as after a restart of the board.
+    pub fn set_again(&mut self) {
+        (self.life.reopened, self.life.lived_on) = (false, false);
+        if self.streaming {
+            let wishes = self.life.wanted.all();
+            self.life.again.begin(wishes);
+        }
+    }
+
+    /// Handles a restart shown by the message numbers: discards earlier state.
+    pub(super) fn begun_anew(&mut self) {
+        self.forget();
+        self.shapes.clear();
+        self.syncs.restart();
+        (self.life.started, self.life.hellos) = (false, 0);
+        self.set_again();
+    }
+
+    /// Handles a `Hello`, before it replaces the last one.
+    pub(super) fn greeted(&mut self, now: &Worn) {
+        self.life.met = true;
+        self.life.hellos = self.life.hellos.saturating_add(1);
+        let goes_on = self.life.goes_on(now.clock);
+        let is_same = self.life.wanted.agrees(now)
+            && self
+                .worn
+                .as_ref()
+                .is_some_and(|before| before.garment == now.garment && before.calibration == now.calibration);
+        if self.life.reopened {
+            if goes_on && is_same {
+                self.life.reopened = false;
+                self.life.lived_on = true;
+                let wishes = self.life.wanted.unproven();
+                self.life.again.begin(wishes);
+            } else {
+                self.counts.restarts += 1;
+                self.begun_anew();
+            }
+        } else if self.life.started && !self.is_restoring() && self.life.hellos >= LONELY {
+            self.counts.restarts += 1;
+            self.begun_anew();
+        }
+        self.told_time(now.clock);
+    }
+
+    /// Handles any message except `Hello`.
+    pub(super) fn spoken(&mut self) {
+        self.life.hellos = 0;
+    }
+
+    /// Handles the current board time.
+    pub(super) fn told_time(&mut self, clock: Micros) {
+        self.life.clock = Some((clock, Instant::now()));
+    }
+
+    /// Last known board time.
+    pub fn board_time(&self) -> Option<Micros> {
+        self.life.clock.map(|(clock, _)| clock)
+    }
+
+    /// Handles an answer of the board.
+    pub(super) fn answered(&mut self, number: u8, refusal: Option<&str>) {
+        self.life.started |= number == Request::Start.number() && refusal.is_none();
+        self.life.wanted.answered(number, refusal.is_none());
+        self.life.again.answered(number, refusal);
+    }
+}

@@ -1,0 +1,64 @@
+//! Contents of a board's `Hello`.
+
+use super::cleaned;
+use crate::tell::words::printable;
+use taxel_core::format::{Micros, Name};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::pipeline::Pipeline;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Hello, MAGIC, PROTOCOL, decode};
+
+/// Garment, scene and firmware of a board.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Worn {
+    /// Name and version of the firmware.
+    pub firmware: String,
+    /// The garment.
+    pub garment: Garment,
+    /// Its geometry.
+    pub layout: Layout,
+    /// The scene.
+    pub scene: Scene,
+    /// Id, date and fit error of the calibration in use; empty if pressure is in counts.
+    pub calibration: String,
+    /// The board's time of the `Hello`.
+    pub clock: Micros,
+}
+
+impl Worn {
+    /// Names of the concepts of the scene's map.
+    pub fn concepts(&self) -> &[Name] {
+        self.scene.intent.as_ref().map_or(&[], |intent| intent.map.concepts.as_slice())
+    }
+
+    /// Decodes a `Hello`, or says why not.
+    pub fn read(hello: &Hello<'_>) -> Result<Worn, String> {
+        if hello.magic != MAGIC {
+            return Err("the Hello of something that is not a taxel board".into());
+        }
+        if hello.protocol != PROTOCOL {
+            return Err(format!(
+                "the board speaks protocol {}, this program {PROTOCOL}: update the older of the two",
+                hello.protocol
+            ));
+        }
+        let text = |bytes: &[u8]| printable(&String::from_utf8_lossy(bytes)).into_owned();
+        let mut garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
+        cleaned::garment(&mut garment);
+        // Exactness depends on the board's full scale, which the board has checked.
+        let layout = Layout::build(&garment, usize::from(u16::MAX), 1)
+            .map_err(|e| format!("garment {} in Hello: {e}", garment.name))?;
+        let mut scene: Scene = decode(hello.scene).map_err(|e| format!("scene in Hello: {e}"))?;
+        cleaned::scene(&mut scene);
+        // The board has checked its scene like this; the display relies on it.
+        Pipeline::build(&scene, &layout).map_err(|e| format!("scene in Hello: {e}"))?;
+        Ok(Worn {
+            firmware: text(hello.firmware),
+            layout,
+            scene,
+            calibration: text(hello.calibration),
+            clock: decode(hello.clock).map_err(|e| format!("clock in Hello: {e}"))?,
+            garment,
+        })
+    }
+}

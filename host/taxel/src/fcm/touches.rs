@@ -1,0 +1,110 @@
+//! Labelled touches from a CSV file: a column for each input concept, `label`, and optionally `group`.
+
+use super::board::{BoardMap, State};
+use super::decimal::Decimal;
+use super::map::MapFile;
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+
+/// Label of a touch without any intention of the map.
+pub const NONE: &str = "none";
+
+/// One touch.
+#[derive(Debug, Clone)]
+pub struct Labelled {
+    /// Initial state of its inference.
+    pub start: State,
+    /// Index of its class.
+    pub class: usize,
+    /// Group, such as a person; a cross-validation never splits a group.
+    pub group: String,
+}
+
+/// All touches of a file.
+#[derive(Debug, Clone)]
+pub struct Touches {
+    /// Labels in the order of their first touch: concepts of the map, or `none`.
+    pub classes: Vec<String>,
+    /// The touches.
+    pub touches: Vec<Labelled>,
+}
+
+/// Reads a file for a map.
+pub fn read(path: &Path, file: &MapFile, map: &BoardMap) -> Result<Touches> {
+    let place = path.display();
+    crate::tell::verbose::reads(path);
+    let text = std::fs::read_to_string(path).with_context(|| format!("{place}: cannot be read"))?;
+    parse(&text, file, map).with_context(|| place.to_string())
+}
+
+/// Parses the text of a file.
+pub fn parse(text: &str, file: &MapFile, map: &BoardMap) -> Result<Touches> {
+    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let cells = |line: &str| -> Vec<String> { line.split(',').map(|cell| cell.trim().to_string()).collect() };
+    let (_, header) = lines.next().context("it is empty")?;
+    let header = cells(header);
+    let column = |name: &str| header.iter().position(|cell| cell == name);
+    let label = column("label").context("line 1: there is no column label")?;
+    let group = column("group");
+    let mut inputs = Vec::new();
+    for (at, name) in header.iter().enumerate().filter(|(at, _)| *at != label && Some(*at) != group) {
+        let concept =
+            file.find(name).with_context(|| format!("line 1: column {name} is not a concept of the map"))?;
+        if file.is_driven(name) {
+            bail!("line 1: column {name} is a concept that has causes");
+        }
+        inputs.push((at, concept));
+    }
+    let mut found = Touches { classes: Vec::new(), touches: Vec::new() };
+    for (at, line) in lines {
+        let row = cells(line);
+        if row.len() != header.len() {
+            bail!("line {}: {} values, and there are {} columns", at + 1, row.len(), header.len());
+        }
+        let mut activations = Vec::new();
+        for (cell, concept) in &inputs {
+            let value = Decimal::parse(&row[*cell]).filter(|value| value.is_fraction());
+            let wrong = || {
+                format!("line {}: {} = {:?} is not a number in -1 ..= 1", at + 1, header[*cell], row[*cell])
+            };
+            activations.push((*concept, value.with_context(wrong)?));
+        }
+        let class = found.class(&row[label], file).with_context(|| format!("line {}", at + 1))?;
+        let group = group.map_or(String::new(), |group| row[group].clone());
+        found.touches.push(Labelled { start: map.state(activations), class, group });
+    }
+    match found.classes.len() {
+        0 | 1 => bail!("there must be touches of at least two labels"),
+        _ => Ok(found),
+    }
+}
+
+impl Touches {
+    fn class(&mut self, label: &str, file: &MapFile) -> Result<usize> {
+        if let Some(class) = self.classes.iter().position(|class| class == label) {
+            return Ok(class);
+        }
+        if label != NONE && !file.is_driven(label) {
+            bail!("label {label} is neither a concept with causes nor {NONE}");
+        }
+        self.classes.push(label.into());
+        Ok(self.classes.len() - 1)
+    }
+
+    /// Fold of each touch in a cross-validation with `folds` folds: by group if there are groups, else in
+    /// turn by class.
+    pub fn folds(&self, folds: usize) -> Vec<usize> {
+        let mut groups: Vec<&str> = self.touches.iter().map(|touch| touch.group.as_str()).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let mut seen = vec![0; self.classes.len()];
+        let fold = |touch: &Labelled| match groups.len() {
+            1 => {
+                seen[touch.class] += 1;
+                (seen[touch.class] - 1) % folds
+            }
+            _ => groups.iter().position(|group| *group == touch.group).unwrap_or(0) % folds,
+        };
+        self.touches.iter().map(fold).collect()
+    }
+}

@@ -1,0 +1,94 @@
+//! Scripts of touches: shipped, or read from TOML files. Errors are one sentence that names the file and the
+//! key.
+
+use super::garments;
+use crate::tell::fault::Fault;
+use crate::tell::{verbose, words};
+use anyhow::{Context, Result, anyhow, bail};
+use std::path::Path;
+use taxel_core::garment::Garment;
+
+use crate::sim::{self, Script};
+
+/// Reads a script; `file` names it in errors, and its stem the script if the text does not.
+pub fn parse(text: &str, file: &str) -> Result<Script> {
+    let mut script: Script =
+        toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, file)))?;
+    if script.name.is_empty() {
+        let stem = Path::new(file).file_stem().and_then(|s| s.to_str());
+        script.name = stem.unwrap_or(file).into();
+    }
+    script.check().with_context(|| format!("in {file}")).map_err(|e| anyhow!("{e:#}"))?;
+    Ok(script)
+}
+
+/// Loads a shipped script of touches, or a TOML file.
+pub fn load(name_or_path: &str) -> Result<Script> {
+    if let Some(text) = sim::text(name_or_path) {
+        return parse(text, &format!("{name_or_path}.toml"));
+    }
+    if !name_or_path.ends_with(".toml") && !Path::new(name_or_path).is_file() {
+        let known = words::unknown("script of touches", name_or_path, sim::names());
+        bail!(Fault::usage(format!("{known}, or give a .toml file")));
+    }
+    verbose::reads(name_or_path);
+    let text = std::fs::read_to_string(name_or_path);
+    parse(&text.with_context(|| format!("{name_or_path} cannot be read"))?, name_or_path)
+}
+
+/// Loads the garment that a script names.
+pub fn garment(script: &Script) -> Result<Garment> {
+    garments::load(&script.garment)
+        .with_context(|| format!("in script {}: `garment`", script.name))
+        .map_err(|e| anyhow!("{e:#}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str) -> String {
+        let message = parse(text, "x.toml").unwrap_err().to_string();
+        assert!(!message.contains('\n'), "{message}");
+        message
+    }
+
+    const TOUCH: &str = "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [8, 16]\nstart_s = 0.2\n";
+
+    #[test]
+    fn a_script_without_a_name_is_named_after_its_file() {
+        assert_eq!(parse(TOUCH, "some/where.toml").unwrap().name, "where");
+        let wrong = error(&format!("{TOUCH}hold_s = -1\n"));
+        assert_eq!(wrong, "in x.toml: touch 1: `hold_s` is -1, it must be 0 to 86400");
+    }
+
+    #[test]
+    fn errors_name_file_line_and_key() {
+        assert_eq!(error("seed = 2\n"), "x.toml, line 1: `duration_s` is missing");
+        let unknown = error("duration_s = 1\ncolour = 3\n");
+        assert!(unknown.starts_with("x.toml, line 2: `colour` is not a known key: `name`"), "{unknown}");
+        let wrong = error("duration_s = 1\nseed = \"a\"\n");
+        assert_eq!(wrong, "x.toml, line 2, `seed`: must be a whole number of 0 or more, not \"a\"");
+        let size = error(&format!("{TOUCH}size_mm = \"large\"\n"));
+        assert_eq!(size, "x.toml, line 8, `size_mm`: must be a number or [length, width]");
+        assert!(error("duration_s = = 1").starts_with("x.toml, line 1"));
+    }
+
+    #[test]
+    fn names_that_do_not_exist_are_answered_with_those_that_do() {
+        let error = load("tickle").unwrap_err().to_string();
+        assert!(
+            error.starts_with("there is no script of touches \"tickle\"; known are pat, lash, "),
+            "{error}"
+        );
+        let error = format!("{:#}", load("no/such.toml").unwrap_err());
+        assert!(error.starts_with("no/such.toml cannot be read: "), "{error}");
+        let script = Script { garment: "shirt".into(), ..load("pat").unwrap() };
+        let error = garment(&script).unwrap_err().to_string();
+        assert!(
+            error.starts_with(
+                "in script pat: `garment`: there is no garment \"shirt\"; known are reference, "
+            )
+        );
+    }
+}

@@ -1,0 +1,27 @@
+//! Files of recorded touches.
+
+use crate::tell::fault::Fault;
+use anyhow::{Result, ensure};
+use std::path::{Path, PathBuf};
+
+/// Recorded touches.
+#[derive(Debug, Clone)]
+pub struct Files {
+    /// Frames of all recordings, one after the other.
+    pub frames: PathBuf,
+    /// A line for each recording (columns gesture and participant) or for each frame (columns recording and
+    /// label).
+    pub labels: Option<PathBuf>,
+}
+
+/// Path of the labels of recorded touches; error if it is missing.
+pub fn labels(files: &Files) -> Result<&Path> {
+    let frames = files.frames.display();
+    ensure!(
+        files.labels.is_some(),
+        Fault::usage(format!(
+            "{frames}: frames of touches hold no labels of their own, name their file with --labels"
+        ))
+    );
+    Ok(files.labels.as_deref().unwrap_or(&files.frames))
+}

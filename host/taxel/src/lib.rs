@@ -1,0 +1,72 @@
+//! The host side of `taxel`, firmware and software for a robot's tactile garment: the library behind the
+//! program `taxel`.
+//!
+//! A board scans the garment, perceives touches, and sends frames, contacts and intentions. The host connects
+//! to boards and configures them, shows, records and evaluates their streams, simulates boards, and trains
+//! what they recognise. Perception itself is in the crate `taxel_core`, shared with the firmware.
+//!
+//! Begin with [`open`]: it opens any source, and yields its events. [`client`] is the layer below it, without
+//! any I/O.
+//!
+//! In the order in which they build on each other; a module imports only modules before it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`tell`] | errors in plain words and the exit status, steps and progress of long work |
+//! | [`sim`] | the simulated garment and its scripts of touches |
+//! | [`files`] | safe outputs, recorded frames, garments, scripts, calibrations |
+//! | [`client`] | the host's end of the wire: bytes in, events out, with host times |
+//! | [`recording`] | MCAP files: read, written and repaired |
+//! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
+//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, emulator, file, recording |
+//! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
+//! | [`json`] | a stream's JSON |
+//! | [`record`] | recordings of a stream and their topics |
+//! | [`learn`] | training of what a board recognises |
+//!
+//! Errors are `anyhow` errors of one sentence; [`tell::fault`] decides the exit status.
+#![forbid(unsafe_code)]
+
+// First: the modules below use its macros.
+#[macro_use]
+mod told;
+
+pub mod tell;
+
+/// The simulated garment and its scripts of touches.
+pub use taxel_sim as sim;
+
+pub mod files;
+
+pub mod client;
+
+pub mod recording;
+
+pub mod fcm;
+
+pub mod source;
+
+pub mod session;
+
+pub mod json;
+
+pub mod record;
+
+pub mod learn;
+
+use session::Session;
+
+/// Opens a source by its name: a board (`auto`, `usb`, `serial:PATH`, `tcp:HOST:PORT`), a simulated one
+/// (`sim:pat`), a file or a recording (`replay:touch.mcap`).
+///
+/// ```
+/// use taxel::client::Event;
+///
+/// let events = taxel::open("sim:pat")?;
+/// let contacts = events.filter(|event| matches!(event, Ok(Event::Contacts { .. })));
+/// assert_eq!(contacts.take(3).count(), 3);
+/// # Ok::<(), anyhow::Error>(())
+/// ```
+pub fn open(source: &str) -> anyhow::Result<Session> {
+    Session::open(source)
+}

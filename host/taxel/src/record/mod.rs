@@ -1,0 +1,40 @@
+//! Records a board's stream to a file for Foxglove, Rerun, Python and ROS 2.
+//!
+//! Log time is the host's time of a message's subject, publish time the board's; JSON messages hold both
+//! (`host_time_us`, `time_us`).
+//!
+//! | topic | encoding | what |
+//! |---|---|---|
+//! | `/taxel/wire` | `taxel-wire` | each frame of the wire as it came: COBS of postcard and CRC-32, then 0x00 |
+//! | `/taxel/requests` | `taxel-wire` | what the host asked, the same way |
+//! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
+//! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
+//!
+//! Attachments: `hello.taxel-wire` (the frame of the board's `Hello`), `garment.toml`, `scene.json`,
+//! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata
+//! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
+
+mod file;
+mod limit;
+mod message;
+mod names;
+mod play;
+mod progress;
+mod provenance;
+mod recorder;
+mod ros2;
+mod schemas;
+mod stamps;
+mod standing;
+mod tally;
+mod topics;
+
+pub use file::RecordingFile;
+pub use limit::Rotate;
+pub use message::json_message;
+pub use play::Play;
+pub use provenance::{CALIBRATION, Origin};
+pub use recorder::{Plan, Recorder};
+pub use stamps::{NS, Stamp, Stamps, time_of};
+pub use tally::{COUNTS, Tally};
+pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, of as topic};

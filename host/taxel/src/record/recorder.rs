@@ -1,0 +1,288 @@
+//! Records a board's stream, second by second, file after file.
+
+use super::file::RecordingFile;
+use super::limit::Rotate;
+use super::names::{self, beside, numbered};
+use super::progress::Progress;
+use super::provenance::Origin;
+use super::stamps::{Stamp, Stamps};
+use super::standing::Standing;
+use super::tally::{COUNTS, Tally};
+use crate::client::passed::Passed;
+use crate::client::{Client, Event, Worn};
+use crate::files::output::{Begun, Force, Output};
+use crate::recording;
+use crate::session::Show;
+use crate::tell::fault::Fault;
+use crate::tell::progress::{self, Unit};
+use anyhow::{Context, Result};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use taxel_core::wire::{self, Request};
+
+/// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
+const CHUNK: Duration = Duration::from_millis(500);
+/// Board time between two chunks for sources faster than real time, us, so that readers can seek to any
+/// second.
+const CHUNK_US: u64 = 1_000_000;
+
+/// Request number in the answer to an unreadable request, which the firmware does not know.
+const UNREADABLE: u8 = 255;
+
+/// Topic whose messages count as frames.
+const FRAMES: &str = "/taxel/frames";
+
+/// What to record, and where.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The first file.
+    pub path: PathBuf,
+    /// When to continue in another file.
+    pub rotate: Option<Rotate>,
+    /// Also write ROS 2 messages.
+    pub ros2: bool,
+    /// Replace existing files.
+    pub force: bool,
+    /// Input files, which are never replaced.
+    pub inputs: Vec<PathBuf>,
+    /// Origin of the stream.
+    pub origin: Origin,
+    /// Also request raw codes.
+    pub raw: bool,
+}
+
+/// A recording in progress.
+#[derive(Debug)]
+pub struct Recorder {
+    plan: Plan,
+    file: Option<RecordingFile<File>>,
+    path: PathBuf,
+    number: u32,
+    stamps: Stamps,
+    standing: Standing,
+    worn: Option<Worn>,
+    /// Board time since the file began.
+    passed: Passed,
+    /// Board time at the start of the chunk, us.
+    chunk_us: u64,
+    kept: Instant,
+    progress: Progress,
+    shown: progress::Progress,
+    /// Counters so far, and when the file began.
+    tally: [Tally; 2],
+    /// Raw codes are requested, and the board has not answered yet.
+    waits_for_raw: bool,
+}
+
+impl Recorder {
+    /// Creates the first file.
+    pub fn create(plan: Plan) -> Result<Recorder> {
+        if plan.rotate.is_some() && !plan.force {
+            names::are_free(&plan.path)?;
+        }
+        Ok(Recorder {
+            file: Some(begin(&plan, &plan.path)?),
+            path: plan.path.clone(),
+            number: 1,
+            stamps: Stamps::start(),
+            standing: Standing::default(),
+            worn: None,
+            passed: Passed::default(),
+            chunk_us: 0,
+            kept: Instant::now(),
+            progress: Progress::default(),
+            shown: progress::Progress::of("recording", Unit::BoardTime, None),
+            tally: [Tally::default(); 2],
+            waits_for_raw: false,
+            plan,
+        })
+    }
+
+    /// Sets the expected duration in board time.
+    pub fn expect(&mut self, seconds: f64) {
+        self.shown.expect((seconds * 1e6) as u64);
+    }
+
+    /// Progress in words.
+    pub fn progress(&self) -> String {
+        let bytes = self.file.as_ref().map_or(0, |file| file.bytes());
+        self.progress.line(&self.path, bytes)
+    }
+
+    /// Writes the end of the file, unless written already.
+    pub fn finish(&mut self) -> Result<()> {
+        let Some(mut file) = self.file.take() else { return Ok(()) };
+        self.shown.clear();
+        let [now, before] = self.tally;
+        let counted = file.writer.metadata(COUNTS, now.words(before));
+        let ended = file.finish().map(|bytes| self.progress.ended(bytes));
+        ended.and(counted).with_context(|| self.incomplete())
+    }
+
+    fn incomplete(&self) -> String {
+        format!("{} could not be completed: `taxel info --repair` completes it", self.path.display())
+    }
+
+    /// Ends the recording on a write error. Earlier data stays, and the file is completed.
+    fn guard(&mut self, done: Result<()>) -> Result<()> {
+        let Err(error) = done else { return Ok(()) };
+        let mut kept = "what was recorded before is whole".to_string();
+        if let Some(file) = self.file.take() {
+            // The last messages are lost in any case; the file itself shows whether it is complete.
+            let _ = file.finish();
+            let scan = crate::recording::scan(&self.path).ok().filter(|scan| scan.whole);
+            let bytes = std::fs::metadata(&self.path).map_or(0, |known| known.len());
+            self.progress.cut(bytes, scan.as_ref().map_or(0, |scan| scan.contents.messages(FRAMES)));
+            kept = if scan.is_some() { kept } else { self.incomplete() };
+        }
+        Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
+    }
+
+    fn take(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let stamp = self.stamps.of(client, event);
+        self.standing.take(client, event);
+        self.rotate(client, event, stamp)?;
+        self.tally[0] = Tally::of(client.counts());
+        self.progress.take(client, event, self.passed.until(stamp.board_us));
+        let Some(file) = &mut self.file else { return Ok(()) };
+        if *event == Event::Hello && client.worn() != self.worn.as_ref() {
+            self.worn = client.worn().cloned();
+            if let Some(worn) = &self.worn {
+                file.attach(worn, client.line(), &self.plan.origin, stamp)?;
+            }
+        }
+        if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
+            self.chunk_us = stamp.board_us;
+            file.close()?;
+        }
+        file.wire(stamp, client.line())?;
+        file.event(client, event, stamp, self.plan.origin.counts_per_newton)
+    }
+
+    /// Continues in another file when due. It begins with a key frame, so that the file stands alone.
+    fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
+        let Event::Frame { alone: true, .. } = event else { return Ok(()) };
+        let Some(file) = &self.file else { return Ok(()) };
+        let passed = self.passed.until(stamp.board_us);
+        let due = match self.plan.rotate {
+            None => false,
+            Some(Rotate::After(time)) => passed >= time.as_micros() as u64,
+            Some(Rotate::Bytes(bytes)) => file.bytes() >= bytes,
+        };
+        if !due {
+            return Ok(());
+        }
+        self.finish()?;
+        self.tally[1] = self.tally[0];
+        self.number += 1;
+        self.path = numbered(&self.plan.path, self.number);
+        self.passed = Passed::default();
+        let file = self.file.insert(begin(&self.plan, &self.path)?);
+        if let Some(worn) = &self.worn {
+            file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
+        }
+        for bytes in self.standing.frames(recording::sequence(client.line())?)? {
+            file.wire(stamp, &bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Error if the board refuses raw codes.
+    fn answered(&mut self, event: &Event) -> Result<()> {
+        let Event::Answer { request, refusal } = event else { return Ok(()) };
+        let is_ours = [(Request::SetRaw { hz: 0 }).number(), UNREADABLE].contains(request);
+        if !is_ours || !std::mem::take(&mut self.waits_for_raw) {
+            return Ok(());
+        }
+        match refusal {
+            Some(why) => Err(Fault::board(format!("--raw: the board refuses raw codes: {why}")).into()),
+            None => Ok(()),
+        }
+    }
+
+    fn keep(&mut self) -> Result<()> {
+        if self.kept.elapsed() < CHUNK {
+            return Ok(());
+        }
+        if let Some(file) = &mut self.file {
+            file.flush()?;
+        }
+        self.kept = Instant::now();
+        let line = || self.progress.line(&self.path, self.file.as_ref().map_or(0, |file| file.bytes()));
+        self.shown.told(self.progress.board_us(), line);
+        Ok(())
+    }
+}
+
+/// Creates a file, and the one beside it. They get their names once they are readable: a crash leaves what
+/// was written, and a failed start leaves no file of that name.
+fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
+    let output = |path: &Path| Output::file(path, Force { force: plan.force }, &plan.inputs);
+    let main = output(path)?;
+    let (ros2, ros2_begun) = match plan.ros2 {
+        true => output(&beside(path))?.begin().map(|(file, begun)| (Some(file), Some(begun)))?,
+        false => (None, None),
+    };
+    let (main, main_begun) = main.begin()?;
+    let file =
+        RecordingFile::create(main, ros2).with_context(|| format!("{} cannot be written", path.display()))?;
+    main_begun.name()?;
+    match ros2_begun.map_or(Ok(()), Begun::name) {
+        Ok(()) => Ok(file),
+        Err(error) => {
+            // The file that already has its name becomes an empty recording instead of half of one. The first
+            // of two errors is reported.
+            _ = file.finish();
+            Err(error)
+        }
+    }
+}
+
+impl Show for Recorder {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let done = self.take(client, event);
+        self.guard(done)?;
+        self.answered(event)
+    }
+
+    /// Also printed to standard error: a recording may not be looked at for days.
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+        if let Event::Log { text, .. } = note {
+            self.shown.clear();
+            eprintln!("{text}");
+        }
+        let stamp = self.stamps.now(client);
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let done = file.event(client, note, stamp, self.plan.origin.counts_per_newton);
+        self.guard(done)
+    }
+
+    fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {
+        let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
+        let stamp = self.stamps.now(client);
+        let mut done = file.requests(stamp, bytes);
+        for frame in bytes.split(|byte| *byte == 0) {
+            let mut frame = frame.to_vec();
+            let request = wire::open(&mut frame).and_then(wire::decode::<Request<'_>>);
+            if let (Ok(Request::Posture(posture)), true) = (request, done.is_ok()) {
+                let names = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+                done = file.posture(stamp, &posture, names);
+            }
+        }
+        self.guard(done)
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if client.worn().is_some() && std::mem::take(&mut self.plan.raw) {
+            self.waits_for_raw = client.request_codes()?;
+        }
+        let done = self.keep();
+        self.guard(done)?;
+        Ok(true)
+    }
+
+    fn end(&mut self, _: &Client) -> Result<()> {
+        self.finish()
+    }
+}

@@ -1,0 +1,103 @@
+//! Host times of a board's messages.
+
+use crate::client::clock::SteadyTime;
+use crate::client::{Client, Event};
+use taxel_core::format::Micros;
+
+/// Nanoseconds per microsecond.
+pub const NS: u64 = 1000;
+
+/// Times of a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp {
+    /// The board's time, us.
+    pub board_us: u64,
+    /// The host's time of the same moment, us since 1970.
+    pub host_us: u64,
+    /// Uncertainty of the host's time, us; none before the first round trip.
+    pub uncertainty_us: Option<u64>,
+}
+
+impl Stamp {
+    /// The host's time, ns since 1970, as stored in recordings; saturates.
+    pub fn host_ns(&self) -> u64 {
+        self.host_us.saturating_mul(NS)
+    }
+
+    /// The board's time, ns; saturates.
+    pub fn board_ns(&self) -> u64 {
+        self.board_us.saturating_mul(NS)
+    }
+}
+
+/// Assigns host times.
+#[derive(Debug)]
+pub struct Stamps {
+    time: SteadyTime,
+    /// A board time, and the host's time when it was first received.
+    heard: Option<(u64, u64)>,
+    last: u64,
+}
+
+impl Stamps {
+    /// Starts now.
+    pub fn start() -> Stamps {
+        Stamps { time: SteadyTime::start(), heard: None, last: 0 }
+    }
+
+    /// Stamp of an event: by the clock of a board that has answered a `Sync`; else by the arrival of the
+    /// first message, and the board time since. An event without a time has that of the one before.
+    pub fn of(&mut self, client: &Client, event: &Event) -> Stamp {
+        let board_us = time_of(client, event).unwrap_or(self.last);
+        self.last = board_us;
+        self.at(client, board_us)
+    }
+
+    /// Stamp of an action of the host: that of the last message.
+    pub fn now(&mut self, client: &Client) -> Stamp {
+        self.at(client, self.last)
+    }
+
+    fn at(&mut self, client: &Client, board_us: u64) -> Stamp {
+        if let Some(time) = client.host_time(Micros(board_us)) {
+            return Stamp { board_us, host_us: time.us, uncertainty_us: Some(time.uncertainty_us) };
+        }
+        let (board, host) = match self.heard {
+            // A restarted board begins anew.
+            Some((board, host)) if board_us >= board => (board, host),
+            _ => *self.heard.insert((board_us, self.time.now_us())),
+        };
+        Stamp { board_us, host_us: host.saturating_add(board_us - board), uncertainty_us: None }
+    }
+}
+
+/// Board time of an event, us; none if it has none.
+pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
+    let time = match event {
+        Event::Hello => client.worn()?.clock,
+        Event::Frame { time, .. }
+        | Event::Contacts { time, .. }
+        | Event::HealthMap { time, .. }
+        | Event::Log { time, .. }
+        | Event::Raw { time, .. } => *time,
+        Event::Symbols(list) => list.time,
+        Event::Intent(report) => report.time,
+        Event::Reaction(report) => report.time,
+        Event::Reflex(report) => report.time,
+        Event::Health(health) => health.time,
+        Event::Budget(budget) => budget.time,
+        Event::Temperature(temperature) => temperature.time,
+        Event::Gesture(report) => report.time,
+        Event::Confidence(report) => report.time,
+        Event::Unsure(report) => report.time,
+        Event::Forms(report) => report.time,
+        Event::SelfTest(report) => report.time,
+        Event::Sync(report) => report.sent,
+        Event::Boot(_)
+        | Event::Shapes { .. }
+        | Event::Unusable(_)
+        | Event::Answer { .. }
+        | Event::Refused(_) => return None,
+    };
+    Some(time.0)
+}

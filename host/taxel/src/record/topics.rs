@@ -1,0 +1,84 @@
+//! Topics of a recording, and which events go to which.
+
+use super::schemas;
+use crate::client::Event;
+use crate::recording::{Format, Store, WIRE, Writer};
+use anyhow::Result;
+use serde_json::Value;
+
+/// Frames of the wire to the board.
+pub const REQUESTS: &str = "/taxel/requests";
+/// Encoding of both, described in `taxel_core::wire`.
+const WIRE_ENCODING: &str = "taxel-wire";
+
+/// A topic with JSON messages: its name below `/taxel/`, and their schema.
+pub type JsonTopic = (&'static str, fn() -> Value);
+
+/// All JSON topics.
+pub const JSON: [JsonTopic; 14] = [
+    ("hello", schemas::hello),
+    ("frames", schemas::frames),
+    ("contacts", schemas::contacts),
+    ("symbols", schemas::symbols),
+    ("intent", schemas::intent),
+    ("reactions", schemas::reactions),
+    ("health", schemas::health),
+    ("health_map", schemas::health_map),
+    ("budget", schemas::budget),
+    ("temperature", schemas::temperature),
+    ("gestures", schemas::gestures),
+    ("self_test", schemas::self_test),
+    ("posture", schemas::posture),
+    ("log", schemas::log),
+];
+
+/// Channel numbers in one file.
+#[derive(Debug, Clone)]
+pub struct Topics {
+    /// Channel of [`WIRE`].
+    pub wire: u16,
+    /// Channel of [`REQUESTS`].
+    pub requests: u16,
+    json: Vec<(&'static str, u16)>,
+}
+
+impl Topics {
+    /// Declares the channels in a file.
+    pub fn open<S: Store>(writer: &mut Writer<S>) -> Result<Topics> {
+        let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: "" };
+        let (wire, requests) = (writer.channel(WIRE, &plain)?, writer.channel(REQUESTS, &plain)?);
+        let mut json = Vec::new();
+        for (name, schema) in JSON {
+            let (title, text) = (format!("taxel.{name}"), schema().to_string());
+            let format =
+                Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text: &text };
+            json.push((name, writer.channel(&format!("/taxel/{name}"), &format)?));
+        }
+        Ok(Topics { wire, requests, json })
+    }
+
+    /// The channel of a JSON topic.
+    pub fn json(&self, name: &str) -> Option<u16> {
+        self.json.iter().find(|(known, _)| *known == name).map(|(_, id)| *id)
+    }
+}
+
+/// JSON topic of an event; none if it is only on the wire.
+pub fn of(event: &Event) -> Option<&'static str> {
+    Some(match event {
+        Event::Hello => "hello",
+        Event::Frame { .. } => "frames",
+        Event::Contacts { .. } => "contacts",
+        Event::Symbols(_) => "symbols",
+        Event::Intent(_) => "intent",
+        Event::Reaction(_) => "reactions",
+        Event::Health(_) => "health",
+        Event::HealthMap { .. } => "health_map",
+        Event::Budget(_) => "budget",
+        Event::Temperature(_) => "temperature",
+        Event::Gesture(_) => "gestures",
+        Event::SelfTest(_) => "self_test",
+        Event::Log { .. } => "log",
+        _ => return None,
+    })
+}

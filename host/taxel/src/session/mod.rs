@@ -1,0 +1,367 @@
+//! A board's stream for other programs, and the loop by which every command follows a source.
+//!
+//! ```
+//! use taxel::client::Event;
+//! use taxel::session::Session;
+//!
+//! let session = Session::open("sim:pat")?;
+//! let contacts = session.filter(|event| matches!(event, Ok(Event::Contacts { .. })));
+//! assert!(contacts.take(3).count() == 3);
+//! # Ok::<(), anyhow::Error>(())
+//! ```
+//!
+//! A board that restarts, is unplugged or loses its connection is waited for, and all its settings are
+//! restored: garment, scene, gains and calibration, shapes, gestures, feeds, tare. The start and the end of a
+//! gap are reported by an [`Event::Log`] of the host's own. It is an error if the board refuses a setting
+//! that it had accepted before.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `outgoing.rs` | requests on their way to a board that may not read |
+//! | `absence.rs` | a lost source, until it is back |
+//! | `show.rs` | [`Show`]: who is handed the stream |
+
+mod absence;
+mod outgoing;
+mod show;
+
+pub use show::Show;
+
+use crate::client::clock::SteadyTime;
+use crate::client::{Client, Event, Restored, request_name};
+use crate::source::{self, Source, SourceOptions, SourceSpec};
+use crate::tell::fault::{Blame, Fault};
+use absence::Absence;
+use anyhow::{Context, Result, bail};
+use outgoing::Outgoing;
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+use taxel_core::format::Micros;
+use taxel_core::wire::{Level, Request};
+
+/// A streaming board sends something every second: one silent for this long is lost, whatever its link
+/// reports.
+const SILENCE: Duration = Duration::from_secs(5);
+/// Longest wait for an answer before all settings are restored.
+const ANSWER: Duration = Duration::from_secs(3);
+/// Time between two requests for a `Hello`.
+const GREETING: Duration = Duration::from_secs(1);
+/// Bytes read at a time.
+const PIECE: usize = 4096;
+
+/// A streaming board. Dropping it closes the connection.
+pub struct Session {
+    source: Source,
+    client: Client,
+    time: SteadyTime,
+    buffer: Vec<u8>,
+    taken: usize,
+    outgoing: Outgoing,
+    /// When bytes were last received, and when a `Hello` was last requested.
+    heard: Instant,
+    greeted: Instant,
+    /// When the link was opened.
+    opened: Instant,
+    absence: Option<Absence>,
+    /// Start of a gap in the stream, which ends once the board's settings are restored.
+    gap: Option<Instant>,
+    returns: Returns,
+    notes: VecDeque<Event>,
+}
+
+/// What to do about a lost source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Returns {
+    /// Wait for it.
+    Always,
+    /// Wait for it this long.
+    Within(Duration),
+    /// End the session.
+    Never,
+}
+
+/// Result of [`Session::turn`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turn {
+    /// Bytes, or none within a short while.
+    Bytes,
+    /// The source is lost, and waited for.
+    Waiting,
+    /// The stream has ended.
+    End,
+}
+
+impl Session {
+    /// Connects to a source as named for `--source` (`auto`, `usb`, `sim:pat`, `serial:/dev/ttyACM0`,
+    /// `tcp:HOST:PORT` ...) and requests the whole stream, after a tare if a simulation wants one.
+    pub fn open(source: &str) -> Result<Session> {
+        let spec: SourceSpec =
+            source.parse().map_err(|why| Fault::usage(format!("source {source}: {why}")))?;
+        Session::over(source::open(&spec, &SourceOptions::default())?)
+    }
+
+    /// Requests the whole stream from an open source.
+    pub fn over(source: Source) -> Result<Session> {
+        let tare = source.tare;
+        let mut session = Session::new(source, Returns::Always);
+        session.client.start(tare)?;
+        Ok(session)
+    }
+
+    /// A session with an open source that requests nothing yet.
+    pub fn new(source: Source, returns: Returns) -> Session {
+        let now = Instant::now();
+        Session {
+            source,
+            client: Client::new(),
+            time: SteadyTime::start(),
+            buffer: Vec::new(),
+            taken: 0,
+            outgoing: Outgoing::default(),
+            heard: now,
+            greeted: now,
+            opened: now,
+            absence: None,
+            gap: None,
+            returns,
+            notes: VecDeque::new(),
+        }
+    }
+
+    /// Current state: image, contacts, intention, health.
+    pub fn client(&self) -> &Client {
+        &self.client
+    }
+
+    /// The client, for requests, and the source.
+    pub fn parts(&mut self) -> (&mut Client, &Source) {
+        (&mut self.client, &self.source)
+    }
+
+    /// The source.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// True while the source is lost and waited for.
+    pub fn is_gone(&self) -> bool {
+        self.absence.is_some()
+    }
+
+    /// Queues a request to the board; the answer is an [`Event::Answer`].
+    pub fn request(&mut self, request: &Request<'_>) -> Result<()> {
+        Ok(self.client.request(request)?)
+    }
+
+    /// Returns an event, or nothing if none is complete within a short while (10 ms to a second, depending on
+    /// the link).
+    pub fn poll(&mut self) -> Result<Poll> {
+        if let Some(event) = self.next_event().or_else(|| self.note()) {
+            return Ok(Poll::Event(event));
+        }
+        Ok(match self.turn(&mut |_, _| Ok(()))? {
+            Turn::Bytes | Turn::Waiting => Poll::Nothing,
+            Turn::End => Poll::End,
+        })
+    }
+
+    /// Waits for the next event; none at the end of the stream. The [`client`](Session::client) already
+    /// includes it.
+    pub fn wait(&mut self) -> Result<Option<Event>> {
+        loop {
+            match self.poll()? {
+                Poll::Event(event) => return Ok(Some(event)),
+                Poll::Nothing => {}
+                Poll::End => return Ok(None),
+            }
+        }
+    }
+
+    /// Sends queued requests after passing them to `sent`, and reads. Error if the source is lost for good,
+    /// or if its board refuses a setting that it had accepted before.
+    pub fn turn(&mut self, sent: &mut dyn FnMut(&Client, &[u8]) -> Result<()>) -> Result<Turn> {
+        self.buffer.clear();
+        self.taken = 0;
+        if self.absence.is_some() {
+            return self.come_back();
+        }
+        self.restored()?;
+        self.ask_again();
+        self.tell_time();
+        let requests = self.client.take_requests();
+        sent(&self.client, &requests)?;
+        self.outgoing.add(&requests);
+        match self.exchange() {
+            Ok(true) => {
+                self.tell_time();
+                Ok(Turn::Bytes)
+            }
+            // Recordings and simulations end; a board streams as long as there is a link.
+            Ok(false) if self.source.returns.is_none() => Ok(Turn::End),
+            Ok(false) => self.lose(std::io::Error::other("the connection was closed").into()),
+            Err(error) => self.lose(error),
+        }
+    }
+
+    /// Bytes of the last turn.
+    pub fn bytes(&self) -> &[u8] {
+        &self.buffer
+    }
+
+    /// How many of them were handled.
+    pub fn taken(&self) -> usize {
+        self.taken
+    }
+
+    /// Next event of the last turn.
+    pub fn next_event(&mut self) -> Option<Event> {
+        while let Some(byte) = self.buffer.get(self.taken) {
+            self.taken += 1;
+            if let Some(event) = self.client.push(*byte) {
+                return Some(event);
+            }
+        }
+        None
+    }
+
+    /// The host's own message about the stream: an [`Event::Log`].
+    pub fn note(&mut self) -> Option<Event> {
+        self.notes.pop_front()
+    }
+
+    fn say(&mut self, level: Level, text: String) {
+        let time = self.client.board_time().unwrap_or(Micros(0));
+        self.notes.push_back(Event::Log { time, level, text });
+    }
+
+    fn tell_time(&mut self) {
+        if self.source.real_time {
+            self.client.tell_time(self.time.now_us());
+        }
+    }
+
+    /// Writes and reads. Returns false at the end of the stream.
+    fn exchange(&mut self) -> Result<bool> {
+        self.outgoing.send(self.source.port.as_mut())?;
+        self.buffer.resize(PIECE, 0);
+        let read = self.source.port.read(&mut self.buffer);
+        self.buffer.truncate(read.as_ref().ok().and_then(|count| *count).unwrap_or(0));
+        let Some(count) = read? else { return Ok(false) };
+        let now = Instant::now();
+        if count > 0 {
+            self.heard = now;
+        } else if self.source.real_time && self.client.worn().is_some() && now - self.heard > SILENCE {
+            bail!("it has sent nothing for {} s", SILENCE.as_secs());
+        }
+        if self.client.worn().is_some() && !self.client.is_met() && now - self.opened > SILENCE {
+            bail!("it has sent no Hello for {} s", SILENCE.as_secs());
+        }
+        Ok(true)
+    }
+
+    /// Repeats requests to a board that has sent no `Hello`, or has not received them.
+    fn ask_again(&mut self) {
+        if !self.source.real_time || !self.source.listens {
+            return;
+        }
+        if !self.client.is_met() && self.greeted.elapsed() > GREETING {
+            self.greeted = Instant::now();
+            self.client.ask_to_start();
+        }
+        if self.client.is_met() && self.client.is_overdue(ANSWER) {
+            self.client.set_again();
+        }
+    }
+
+    /// Handles the result of a restore.
+    fn restored(&mut self) -> Result<()> {
+        let Some(restored) = self.client.restored().filter(|_| self.source.listens) else { return Ok(()) };
+        let label = &self.source.label;
+        match restored {
+            Restored::Refused(request, why) => {
+                let request = request_name(request);
+                bail!(Fault::board(format!(
+                    "{label}: after it came back, the board refuses {request}: {why}"
+                )))
+            }
+            Restored::Silent(request) => {
+                let request = request_name(request);
+                bail!(Fault::board(format!(
+                    "{label}: after it came back, the board does not answer {request}"
+                )))
+            }
+            Restored::Done { set, untared } => {
+                let mut names: Vec<&str> = set.iter().map(|number| request_name(*number)).collect();
+                names.dedup();
+                let gap = self.gap.take().map(|gap| gap.elapsed().as_secs_f64());
+                let life = match (gap, self.client.has_lived_on()) {
+                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board kept running"),
+                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had restarted"),
+                    (None, _) => "has restarted, or missed requests".into(),
+                };
+                let untared = untared.map_or(String::new(), |why| format!("; no new tare: {why}"));
+                self.say(Level::Warn, format!("{label} {life}; set again: {}{untared}", names.join(", ")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Handles a lost source.
+    fn lose(&mut self, why: anyhow::Error) -> Result<Turn> {
+        let label = &self.source.label;
+        if self.source.returns.is_none() || self.returns == Returns::Never {
+            return Err(why).with_context(|| format!("{label} is gone")).board();
+        }
+        let text = format!("{label} is gone: {}; waiting for it", crate::tell::words::sentence(&why));
+        self.say(Level::Error, text);
+        // A link that opens without bringing data does not end a gap.
+        self.absence = Some(Absence::new(why, *self.gap.get_or_insert_with(Instant::now)));
+        Ok(Turn::Waiting)
+    }
+
+    /// Waits briefly for the source, and tries to open it.
+    fn come_back(&mut self) -> Result<Turn> {
+        let Some(absence) = &mut self.absence else { return Ok(Turn::Waiting) };
+        // Requests of this time reach nobody; lasting settings are remembered.
+        self.client.take_requests();
+        if let Returns::Within(patience) = self.returns
+            && absence.lasts() > patience
+        {
+            let label = &self.source.label;
+            let seconds = patience.as_secs();
+            let why = format!("{label} is gone, and has not come back within {seconds} s");
+            return Err(self.absence.take().map_or_else(|| anyhow::anyhow!("it is gone"), Absence::why))
+                .context(why)
+                .board();
+        }
+        if let Some(returns) = &mut self.source.returns
+            && let Some(again) = absence.try_open(returns.as_mut())
+        {
+            self.absence = None;
+            (self.source.label, self.source.port) = (again.label, again.port);
+            self.outgoing = Outgoing::default();
+            (self.heard, self.greeted, self.opened) = (Instant::now(), Instant::now(), Instant::now());
+            self.client.reconnected();
+        }
+        Ok(Turn::Waiting)
+    }
+}
+
+/// Result of [`Session::poll`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Poll {
+    /// An event.
+    Event(Event),
+    /// Nothing yet.
+    Nothing,
+    /// The stream has ended.
+    End,
+}
+
+impl Iterator for Session {
+    type Item = Result<Event>;
+
+    fn next(&mut self) -> Option<Result<Event>> {
+        self.wait().transpose()
+    }
+}

@@ -1,0 +1,33 @@
+//! Receivers of a session's stream.
+
+use crate::client::{Client, Event};
+use anyhow::Result;
+
+/// Receiver of a stream: shows or stores it.
+pub trait Show {
+    /// Handles received bytes; their events follow in [`event`](Show::event).
+    fn bytes(&mut self, _bytes: &[u8]) {}
+
+    /// Handles an event; the client already includes it.
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()>;
+
+    /// Handles an [`Event::Log`] of the host itself: the source is lost, or is back.
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+        self.event(client, note)
+    }
+
+    /// Called before these bytes are sent to the board.
+    fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<()> {
+        Ok(())
+    }
+
+    /// Called after bytes were handled, or after a while without any. Returns false to stop.
+    fn idle(&mut self, _client: &mut Client) -> Result<bool> {
+        Ok(true)
+    }
+
+    /// Called once at the end of the stream.
+    fn end(&mut self, _client: &Client) -> Result<()> {
+        Ok(())
+    }
+}

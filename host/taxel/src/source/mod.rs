@@ -1,0 +1,143 @@
+//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, the emulator, a file, a
+//! recording.
+
+mod auto;
+mod emulator;
+mod file;
+mod pipe;
+mod replay;
+mod scene;
+mod serial;
+pub mod shared;
+mod sim;
+mod spec;
+mod tcp;
+
+pub use auto::{PortKind, listed as ports};
+pub use replay::Speed;
+pub use scene::{SceneFile, read_scene, scene_of};
+pub use spec::SourceSpec;
+
+use crate::sim::Script;
+use crate::tell::verbose;
+use anyhow::Result;
+use std::io;
+use std::time::Duration;
+
+/// A byte stream in both directions. Bytes written before the first read are delivered before it, so that a
+/// simulated board finds them. An error means that the link is broken.
+pub trait Port: Send {
+    /// Reads available bytes, after a short wait if there are none (then 0); none at the end of the stream.
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>>;
+    /// Writes as many bytes as the other end accepts within a short while, which may be 0. Returns their
+    /// number.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
+    /// A remark to print at the end.
+    fn remark(&self) -> Option<String> {
+        None
+    }
+}
+
+/// Options of a source.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct SourceOptions {
+    /// Seed of a simulation, instead of its script's.
+    pub seed: Option<u64>,
+    /// Pace simulations to real time.
+    pub realtime: bool,
+    /// Repeat a simulation's script.
+    pub repeat: bool,
+    /// Images that are awaited; a simulation lasts that long.
+    pub frames: Option<u64>,
+    /// Seconds of board time that are awaited.
+    pub seconds: Option<f64>,
+    /// A simulation sends raw codes with every frame.
+    pub raw: bool,
+    /// Garment of a simulated board, a preset or a TOML file, instead of its script's.
+    pub garment: Option<String>,
+}
+
+/// Opens a lost source again.
+pub type Return = dyn FnMut() -> Result<Source> + Send;
+
+/// An open source.
+pub struct Source {
+    /// Short name.
+    pub label: String,
+    /// Byte stream.
+    pub port: Box<dyn Port>,
+    /// Frames over which it should be tared at the start; 0 for no tare.
+    pub tare: u16,
+    /// Its board runs in real time, so that its clock can be compared with the host's.
+    pub real_time: bool,
+    /// Counts per newton on a taxel, if known.
+    pub counts_per_newton: Option<f32>,
+    /// Its board already has the requested garment.
+    pub wears_asked: bool,
+    /// It has a board that receives requests; false for recordings.
+    pub listens: bool,
+    /// Opens it again when it is lost; none if it ends for good.
+    pub returns: Option<Box<Return>>,
+}
+
+impl Source {
+    /// A source that ends by itself.
+    pub fn new(label: impl Into<String>, port: impl Port + 'static) -> Source {
+        Source {
+            label: label.into(),
+            port: Box::new(port),
+            tare: 0,
+            real_time: false,
+            counts_per_newton: None,
+            wears_asked: false,
+            listens: true,
+            returns: None,
+        }
+    }
+
+    /// A real board, and how to open its link again.
+    pub fn real(
+        label: impl Into<String>,
+        port: impl Port + 'static,
+        returns: impl FnMut() -> Result<Source> + Send + 'static,
+    ) -> Source {
+        Source { real_time: true, returns: Some(Box::new(returns)), ..Source::new(label, port) }
+    }
+}
+
+/// Connects to a board within a time limit.
+fn tcp(address: &str, longest: Duration) -> Result<Source> {
+    let known = address.to_string();
+    // Attempts to reconnect are short, so that the caller can do other things.
+    let returns = move || tcp(&known, tcp::RETURN);
+    Ok(Source::real(format!("tcp:{address}"), tcp::Tcp::open(address, longest)?, returns))
+}
+
+/// Opens a simulated board that plays this script.
+pub fn simulated(script: Script, options: &SourceOptions) -> Result<Source> {
+    let label = format!("sim:{}", script.name);
+    sim::play(script, label, options)
+}
+
+/// Opens a source. Errors are one sentence.
+pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
+    let source = opened(spec, options)?;
+    verbose::tell(format_args!("source {} is open", source.label));
+    Ok(source)
+}
+
+fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
+    match spec {
+        SourceSpec::Auto => auto::open(options),
+        SourceSpec::Usb => auto::usb(),
+        SourceSpec::Sim(scene) => sim::open(scene, options),
+        SourceSpec::Serial { path, baud } => auto::port(path, *baud),
+        SourceSpec::Tcp(address) => tcp(address, tcp::CONNECT),
+        SourceSpec::Emulator(scene) => emulator::open(scene, options),
+        SourceSpec::File(path) => {
+            let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);
+            Ok(Source { listens: false, ..saved })
+        }
+        SourceSpec::Replay { path, speed } => replay::open(path, *speed, options),
+    }
+}

@@ -1,0 +1,156 @@
+//! Two byte queues between the host and a board in another thread. The board blocks on a slow reader, so that
+//! a simulation thins out nothing because of it.
+
+use super::shared::Shared;
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+use taxel_core::run::Link;
+
+/// Most bytes queued for each end.
+const ROOM: usize = 64 * 1024;
+/// Longest wait of a read by the host.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+#[derive(Debug, Default)]
+struct Queues {
+    to_host: VecDeque<u8>,
+    to_board: VecDeque<u8>,
+    /// The host has read for the first time.
+    begun: bool,
+    host_gone: bool,
+    board_gone: bool,
+}
+
+/// Creates both ends.
+pub fn pipe() -> (HostEnd, BoardEnd) {
+    let shared = Arc::new(Shared::default());
+    (HostEnd(shared.clone()), BoardEnd(shared))
+}
+
+/// The host's end.
+#[derive(Debug)]
+pub struct HostEnd(Arc<Shared<Queues>>);
+
+impl super::Port for HostEnd {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<Option<usize>> {
+        let mut queues = self.0.lock();
+        queues.begun = true;
+        self.0.wake();
+        if queues.to_host.is_empty() && !queues.board_gone {
+            queues = self.0.wait(queues, PATIENCE);
+        }
+        let count = queues.to_host.len().min(buffer.len());
+        for (slot, byte) in buffer.iter_mut().zip(queues.to_host.drain(..count)) {
+            *slot = byte;
+        }
+        self.0.wake();
+        Ok((count > 0 || !queues.board_gone).then_some(count))
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let mut queues = self.0.lock();
+        let count = bytes.len().min(ROOM.saturating_sub(queues.to_board.len()));
+        queues.to_board.extend(&bytes[..count]);
+        Ok(count)
+    }
+}
+
+impl Drop for HostEnd {
+    fn drop(&mut self) {
+        self.0.change(|queues| queues.host_gone = true);
+    }
+}
+
+/// The board's end.
+#[derive(Debug)]
+pub struct BoardEnd(Arc<Shared<Queues>>);
+
+impl BoardEnd {
+    /// Waits for the host's first read. Returns false if there will be none.
+    pub fn begin(&self) -> bool {
+        let mut queues = self.0.lock();
+        while !queues.begun && !queues.host_gone {
+            queues = self.0.wait(queues, Duration::from_secs(1));
+        }
+        !queues.host_gone
+    }
+
+    /// True if the host's end is closed.
+    pub fn is_alone(&self) -> bool {
+        self.0.lock().host_gone
+    }
+
+    /// Sleeps, or returns early if the host's end is closed.
+    pub fn sleep(&self, time: Duration) {
+        let queues = self.0.lock();
+        if !queues.host_gone {
+            drop(queues);
+            std::thread::sleep(time);
+        }
+    }
+}
+
+impl Link for &BoardEnd {
+    fn try_read(&mut self, buffer: &mut [u8]) -> usize {
+        let mut queues = self.0.lock();
+        let count = queues.to_board.len().min(buffer.len());
+        for (slot, byte) in buffer.iter_mut().zip(queues.to_board.drain(..count)) {
+            *slot = byte;
+        }
+        count
+    }
+
+    fn try_write(&mut self, bytes: &[u8]) -> usize {
+        if bytes.is_empty() {
+            return 0;
+        }
+        let mut queues = self.0.lock();
+        while queues.to_host.len() >= ROOM && !queues.host_gone {
+            queues = self.0.wait(queues, Duration::from_secs(1));
+        }
+        if !queues.host_gone {
+            queues.to_host.extend(bytes);
+            self.0.wake();
+        }
+        bytes.len()
+    }
+}
+
+impl Drop for BoardEnd {
+    fn drop(&mut self) {
+        self.0.change(|queues| queues.board_gone = true);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Port;
+    use super::*;
+
+    #[test]
+    fn the_board_waits_for_the_reader_and_both_notice_the_end() {
+        let (mut host, board) = pipe();
+        host.write(b"go").unwrap();
+        let thread = std::thread::spawn(move || {
+            assert!(board.begin());
+            let mut buffer = [0; 8];
+            let mut board = &board;
+            assert_eq!(board.try_read(&mut buffer), 2);
+            for part in 0..100u8 {
+                assert_eq!(board.try_write(&[part; 10_000]), 10_000);
+            }
+        });
+        let (mut count, mut buffer) = (0, [0; 1000]);
+        while let Some(read) = host.read(&mut buffer).unwrap() {
+            assert!(buffer[..read].iter().enumerate().all(|(i, b)| usize::from(*b) == (count + i) / 10_000));
+            count += read;
+        }
+        assert_eq!(count, 1_000_000);
+        thread.join().unwrap();
+        let (host, board) = pipe();
+        drop(host);
+        assert!(!board.begin() && board.is_alone());
+        assert_eq!((&board).try_write(&[0; 100_000]), 100_000);
+    }
+}

@@ -1,0 +1,142 @@
+//! Plays a recording: the board's bytes in their original timing, scaled, or as fast as possible.
+
+use super::{Port, Source, SourceOptions};
+use crate::recording::{Overview, WIRE, WireReader};
+use crate::tell::progress::{Progress, Unit};
+use anyhow::{Context, Result, bail};
+use std::fmt;
+use std::io::{self, IsTerminal};
+use std::path::Path;
+use std::str::FromStr;
+use std::time::{Duration, Instant};
+
+/// Longest wait of a read.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+/// Speed of a replay.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+pub enum Speed {
+    /// As a simulation: at the recorded speed if somebody watches, else as fast as possible.
+    #[default]
+    AsAsked,
+    /// Multiple of the recorded speed.
+    Times(f64),
+    /// As fast as possible.
+    Max,
+}
+
+impl Eq for Speed {}
+
+impl FromStr for Speed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Speed, String> {
+        match text.parse::<f64>() {
+            _ if text == "max" => Ok(Speed::Max),
+            Ok(times) if times.is_finite() && times > 0.0 => Ok(Speed::Times(times)),
+            _ => Err(format!("\"{text}\": a speed is a number above 0, or max")),
+        }
+    }
+}
+
+impl fmt::Display for Speed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Speed::AsAsked => Ok(()),
+            Speed::Times(times) => write!(f, "@{times}"),
+            Speed::Max => f.write_str("@max"),
+        }
+    }
+}
+
+/// Opens a recording.
+pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source> {
+    let speed = match speed {
+        Speed::AsAsked if options.realtime => Some(1.0),
+        Speed::Times(times) => Some(times),
+        Speed::AsAsked | Speed::Max => None,
+    };
+    let overview = Overview::of(path)?;
+    if !overview.channels.iter().any(|info| info.channel.topic == WIRE) {
+        bail!("{} has no topic {WIRE}: it is not a recording of taxel", path.display());
+    }
+    let scale = overview.counts_per_newton().map(|counts| counts as f32);
+    let wire = WireReader::open(path)?;
+    let progress =
+        || Progress::of(format!("playing {}", path.display()), Unit::Bytes, Some(wire.passed()[1]));
+    let progress = (!io::stdout().is_terminal()).then(progress);
+    let replay = Replay { wire, speed, began: None, next: Vec::new(), due: None, progress };
+    let label = format!("replay:{}", path.display());
+    Ok(Source { counts_per_newton: scale, listens: false, ..Source::new(label, replay) })
+}
+
+/// A recording being played.
+#[derive(Debug)]
+struct Replay {
+    wire: WireReader,
+    speed: Option<f64>,
+    /// When the first message was played, and its log time, ns.
+    began: Option<(Instant, u64)>,
+    /// Pending bytes, and when they are due.
+    next: Vec<u8>,
+    due: Option<Instant>,
+    /// None if the replay is displayed.
+    progress: Option<Progress>,
+}
+
+impl Replay {
+    /// Loads the bytes of the next message. Returns false at the end.
+    fn fetch(&mut self) -> Result<bool> {
+        if let Some(message) = self.wire.next_frame()? {
+            let time = message.header.log_time;
+            let (start, first) = *self.began.get_or_insert_with(|| (Instant::now(), time));
+            let passed = Duration::from_nanos(time.saturating_sub(first));
+            self.due = self.speed.and_then(|speed| {
+                start.checked_add(Duration::try_from_secs_f64(passed.as_secs_f64() / speed).ok()?)
+            });
+            self.next.extend_from_slice(message.data);
+            if let Some(progress) = &mut self.progress {
+                progress.at(self.wire.passed()[0]);
+            }
+            return Ok(true);
+        }
+        Ok(false)
+    }
+}
+
+impl Port for Replay {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        let mut count = 0;
+        loop {
+            if self.next.is_empty()
+                && !self.fetch().context("the recording ends").map_err(io::Error::other)?
+            {
+                return Ok((count > 0).then_some(count));
+            }
+            let wait = self.due.map_or(Duration::ZERO, |due| due.saturating_duration_since(Instant::now()));
+            if !wait.is_zero() {
+                if count == 0 {
+                    std::thread::sleep(wait.min(PATIENCE));
+                }
+                return Ok(Some(count));
+            }
+            let taken = self.next.len().min(buffer.len() - count);
+            buffer[count..count + taken].copy_from_slice(&self.next[..taken]);
+            self.next.drain(..taken);
+            count += taken;
+            if count == buffer.len() {
+                return Ok(Some(count));
+            }
+        }
+    }
+
+    fn remark(&self) -> Option<String> {
+        let skipped = self.wire.skipped();
+        (!skipped.is_none()).then(|| skipped.to_string())
+    }
+
+    /// Discards the bytes: a recording has no board.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Ok(bytes.len())
+    }
+}

@@ -1,0 +1,271 @@
+//! The simulated board as a source: runs the core's loop in a thread, on virtual time.
+
+use super::pipe::{BoardEnd, pipe};
+use super::{Source, SourceOptions, scene_of};
+use crate::files::{garments, scripts};
+use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
+use anyhow::{Context, Result, anyhow};
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
+use taxel_core::acquire::Clock;
+use taxel_core::board::{BoardInfo, Saved, Settings, Shipped};
+use taxel_core::boot::{Aside, Boot, BootCause};
+use taxel_core::capacity::TAXELS;
+use taxel_core::format::Micros;
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::pipeline::{Probe, Stage};
+use taxel_core::run::{Link, Platform, block_on, run};
+use taxel_core::scene::Scene;
+use taxel_store::{Found, Store, StoreError};
+
+/// Boards are boxed, but built on the stack.
+const STACK: usize = 8 << 20;
+/// Capacity of a USB link, bytes per second.
+const LINK: u32 = 1_000_000;
+/// Lag behind real time beyond which a simulation gives up catching up.
+const LAG: Duration = Duration::from_millis(250);
+
+/// What to play, and for how long.
+struct Play {
+    script: Script,
+    garment: Garment,
+    /// Scene of the board at its start.
+    scene: Scene,
+    seed: u64,
+    realtime: bool,
+    repeat: bool,
+    end_us: u64,
+}
+
+/// Opens a simulated board that plays a script of touches.
+pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
+    play(scripts::load(scene)?, format!("sim:{scene}"), options)
+}
+
+/// Starts a simulated board that plays a script.
+pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<Source> {
+    let mut board_scene = scene_of(&script)?;
+    let (script, garment) = match &options.garment {
+        Some(asked) => fitted(script, &garments::read(asked)?, &mut board_scene, &label)?,
+        None => {
+            let garment = scripts::garment(&script)?;
+            (script, garment)
+        }
+    };
+    if options.raw {
+        board_scene.stream.raw_hz = u16::MAX;
+    }
+    let tare = script.tare_frames.min(4096) as u16;
+    let play = Play {
+        seed: options.seed.unwrap_or(script.seed),
+        realtime: options.realtime,
+        repeat: options.repeat,
+        end_us: end_us(script.duration_s, options),
+        garment,
+        scene: board_scene,
+        script,
+    };
+    let (host, board_end) = pipe();
+    let (told, ready) = mpsc::channel();
+    thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
+        let made = play.board().map(Box::new);
+        // Built here for the check only; it is built again for each round.
+        let made = SimBoard::new(&play.garment, &play.script, play.seed).and(made);
+        match made {
+            Ok(mut board) => {
+                let _ = told.send(Ok(()));
+                if board_end.begin() {
+                    play.all(&mut board, board_end);
+                }
+            }
+            Err(error) => drop(told.send(Err(error))),
+        }
+    })?;
+    ready.recv().unwrap_or_else(|_| Err(anyhow!("its thread ended"))).with_context(|| label.clone())?;
+    let wears_asked = options.garment.is_some();
+    Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), wears_asked, ..Source::new(label, host) })
+}
+
+/// The script on another garment, once checked. Changes are reported on standard error.
+fn fitted(
+    script: Script,
+    asked: &garments::Read,
+    scene: &mut Scene,
+    label: &str,
+) -> Result<(Script, Garment)> {
+    let garment = asked.garment.clone();
+    let layout = Layout::build(&garment, TAXELS, FULL_SCALE).map_err(|error| asked.error(&error))?;
+    let circuit =
+        Circuit::build(&garment, &layout, info(&garment).pins).map_err(|error| asked.error(&error))?;
+    let lacking = sim::lacking(&script, &layout);
+    if let (Some(largest), false) = (sim::largest(&layout), lacking.is_empty()) {
+        let (name, lacking) = (&garment.name, lacking.join(", "));
+        eprintln!(
+            "{label}: the garment {name} has no panel {lacking}: what touches there touches {}.",
+            largest.name
+        );
+    }
+    // A script whose garment cannot be loaded keeps its places.
+    let home = scripts::garment(&script).ok();
+    let home = home.and_then(|home| Layout::build(&home, usize::from(u16::MAX), FULL_SCALE).ok());
+    let script = home.map_or_else(|| script.clone(), |home| sim::refit(&script, &home, &layout));
+    for row in &mut scene.react {
+        if let Some(line) = row.output.filter(|line| circuit.lines().contains(&line.pin)) {
+            eprintln!(
+                "{label}: the reaction {} drives no pin: GP{} is a line of the garment.",
+                row.name, line.pin
+            );
+            row.output = None;
+        }
+    }
+    Ok((script, garment))
+}
+
+/// End of the script, or later if more is awaited.
+fn end_us(duration_s: f64, options: &SourceOptions) -> u64 {
+    let seconds = duration_s.max(options.seconds.unwrap_or(0.0));
+    // The caller stops at its number of frames; this limit is for scenes that send none.
+    let frames = options.frames.map_or(0, |frames| 10_000_000 + frames.saturating_mul(100_000));
+    ((seconds * 1e6) as u64).max(frames)
+}
+
+fn info(garment: &Garment) -> BoardInfo {
+    let inputs =
+        garment.blocks.iter().fold(0, |mask, b| mask | 1u64.checked_shl(b.input.into()).unwrap_or(0));
+    BoardInfo {
+        firmware: concat!("taxel-sim ", env!("CARGO_PKG_VERSION")),
+        pins: Pins { outputs: !inputs, inputs, ..Pins::ANY },
+        full_scale: FULL_SCALE,
+        link_bytes_per_s: LINK,
+    }
+}
+
+impl Play {
+    /// A board as after power-up.
+    fn board(&self) -> Result<Shipped> {
+        let mut board = Shipped::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
+        board.booted(Boot::default());
+        Ok(board)
+    }
+
+    /// Restarts the board from its stored settings.
+    fn restart(&self, board: &mut Shipped, flash: &mut SimFlash) -> Result<()> {
+        *board = self.board()?;
+        let found = Store::new(flash, 0..SimFlash::BYTES)?.load(board)?;
+        let aside = if found == Found::Aside { Aside::Request } else { Aside::No };
+        board.booted(Boot { cause: BootCause::Request, resets: 0, aside });
+        Ok(())
+    }
+
+    /// Plays the script once, or round after round with the board's time running on.
+    fn all(&self, board: &mut Shipped, link: BoardEnd) {
+        let mut offset_us = 0;
+        let mut origin = Instant::now();
+        let mut flash = SimFlash::default();
+        // The inputs have been checked, so every round builds the same board.
+        while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
+            let SimBoard { mut lines, delay, adc, clock } = simulated;
+            let clock = Shifted { clock, offset_us };
+            let mut platform = Virtual {
+                clock: clock.clone(),
+                end: Micros(offset_us + self.end_us),
+                link: &link,
+                flash: &mut flash,
+                restarts: false,
+                origin: self.realtime.then_some(&mut origin),
+            };
+            let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
+            let mut ends = &link;
+            block_on(run(&mut scan, &mut ends, &mut platform, board));
+            offset_us = clock.now().0;
+            if platform.restarts && self.restart(board, &mut flash).is_ok() {
+                // Both its clock and the script restart.
+                offset_us = 0;
+                origin = Instant::now();
+                continue;
+            }
+            if link.is_alone() || !self.repeat {
+                break;
+            }
+        }
+        // Messages of the last frame.
+        loop {
+            let count = (&link).try_write(board.pending(Micros(offset_us), &mut ()));
+            board.sent(count);
+            if count == 0 {
+                return;
+            }
+        }
+    }
+}
+
+/// The simulated clock, shifted.
+#[derive(Debug, Clone)]
+struct Shifted {
+    clock: SimClock,
+    offset_us: u64,
+}
+
+impl Clock for Shifted {
+    fn now(&self) -> Micros {
+        Micros(self.clock.now().0 + self.offset_us)
+    }
+}
+
+/// The simulated board apart from its pins.
+struct Virtual<'a> {
+    clock: Shifted,
+    end: Micros,
+    link: &'a BoardEnd,
+    /// Keeps saved settings as long as the simulation runs.
+    flash: &'a mut SimFlash,
+    /// The board is to restart.
+    restarts: bool,
+    /// Real time at which the board's time was 0; none if it may run ahead.
+    origin: Option<&'a mut Instant>,
+}
+
+impl Clock for Virtual<'_> {
+    fn now(&self) -> Micros {
+        self.clock.now()
+    }
+}
+
+impl Probe for Virtual<'_> {
+    fn begin(&mut self, _: Stage) {}
+}
+
+impl Platform for Virtual<'_> {
+    fn alive(&mut self) -> bool {
+        let now = self.now();
+        if let Some(origin) = self.origin.as_deref_mut() {
+            let (due, passed) = (Duration::from_micros(now.0), origin.elapsed());
+            if due > passed {
+                self.link.sleep(due - passed);
+            } else if passed - due > LAG {
+                *origin += passed - due;
+            }
+        }
+        now < self.end && !self.link.is_alone() && !self.restarts
+    }
+
+    fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
+        let mut store = Store::new(&mut *self.flash, 0..SimFlash::BYTES).map_err(StoreError::sentence)?;
+        store.save(settings).map_err(StoreError::sentence)
+    }
+
+    fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
+        let mut store = Store::new(&mut *self.flash, 0..SimFlash::BYTES).map_err(StoreError::sentence)?;
+        store.put_aside(!undo).map_err(StoreError::sentence)
+    }
+
+    fn restart(&mut self) {
+        self.restarts = true;
+    }
+
+    async fn idle(&mut self, until: Micros) {
+        let next = until.0.min(self.now().0 + 1000);
+        self.clock.clock.advance_to(next.saturating_sub(self.clock.offset_us));
+    }
+}

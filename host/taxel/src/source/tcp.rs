@@ -1,0 +1,61 @@
+//! A board behind TCP.
+
+use super::Port;
+use crate::tell::fault::Fault;
+use anyhow::Result;
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::Duration;
+
+/// Longest wait of a read or write.
+const PATIENCE: Duration = Duration::from_millis(10);
+/// Time limits for the first connection, and for a reconnection.
+pub const CONNECT: Duration = Duration::from_secs(5);
+pub const RETURN: Duration = Duration::from_secs(1);
+
+/// An open connection.
+pub struct Tcp(TcpStream);
+
+impl Tcp {
+    /// Connects to `HOST:PORT`, with this time limit for each of its addresses.
+    pub fn open(address: &str, longest: Duration) -> Result<Tcp> {
+        let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
+        let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
+        let unknown = |_| Fault::board(format!("tcp:{address} cannot be reached: its name has no address"));
+        for target in address.to_socket_addrs().map_err(unknown)? {
+            match TcpStream::connect_timeout(&target, longest) {
+                Ok(stream) => {
+                    stream
+                        .set_nodelay(true)
+                        .and_then(|()| stream.set_read_timeout(Some(PATIENCE)))
+                        .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
+                        .map_err(wrong)?;
+                    return Ok(Tcp(stream));
+                }
+                Err(error) => last = error,
+            }
+        }
+        Err(wrong(last).into())
+    }
+}
+
+impl Port for Tcp {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        use ErrorKind::{ConnectionReset, Interrupted, TimedOut, WouldBlock};
+        match self.0.read(buffer) {
+            Ok(0) => Ok(None),
+            Ok(count) => Ok(Some(count)),
+            Err(error) if matches!(error.kind(), TimedOut | WouldBlock | Interrupted) => Ok(Some(0)),
+            Err(error) if error.kind() == ConnectionReset => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        use ErrorKind::{Interrupted, TimedOut, WouldBlock};
+        match self.0.write(bytes) {
+            Err(error) if matches!(error.kind(), TimedOut | WouldBlock | Interrupted) => Ok(0),
+            written => written,
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Assigns blame for an error, which decides the exit status of the program.
+//!
+//! | status | when | how an error says so |
+//! |---|---|---|
+//! | 0 | done | |
+//! | 1 | failed: a file, the disk, a result that is not good enough | not marked |
+//! | 2 | wrong use: another command line is needed | [`Fault::usage`], [`Blame::usage`] |
+//! | 3 | the board is at fault: no answer, a refusal, faulty lines or taxels | [`Fault::board`], [`Blame::board`] |
+//!
+//! A mark adds no words to the error, and contexts above it keep it. The innermost mark counts.
+//! `anyhow!("{error:#}")` loses it; use `context`.
+//!
+//! ```
+//! use anyhow::{Context, Result, ensure};
+//! use taxel::tell::fault::{Blame, Fault, status};
+//!
+//! fn rate(hz: f64) -> Result<()> {
+//!     ensure!(hz > 0.0, Fault::usage(format!("--rate {hz}: it must be above 0")));
+//!     Ok(())
+//! }
+//! fn read() -> Result<()> {
+//!     std::fs::File::open("/dev/no-such-board").context("no board").board()?;
+//!     Ok(())
+//! }
+//! let error = rate(0.0).context("process").unwrap_err();
+//! assert_eq!((status(&error), format!("{error:#}")), (2, "process: --rate 0: it must be above 0".into()));
+//! assert_eq!(status(&read().unwrap_err()), 3);
+//! ```
+
+use anyhow::Error;
+use std::fmt;
+
+/// An error with its blame.
+#[derive(Debug)]
+pub struct Fault {
+    status: u8,
+    error: Error,
+}
+
+impl Fault {
+    /// The command line is wrong: an unknown name, options that exclude each other, a number out of range.
+    pub fn usage(message: impl fmt::Display) -> Fault {
+        Fault { status: 2, error: Error::msg(message.to_string()) }
+    }
+
+    /// The board, or the link to it, is at fault.
+    pub fn board(message: impl fmt::Display) -> Fault {
+        Fault { status: 3, error: Error::msg(message.to_string()) }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl std::error::Error for Fault {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.error.source()
+    }
+}
+
+/// Marks the errors of a result.
+pub trait Blame<T> {
+    /// The command line is wrong.
+    fn usage(self) -> anyhow::Result<T>;
+
+    /// The board is at fault.
+    fn board(self) -> anyhow::Result<T>;
+}
+
+impl<T, E: Into<Error>> Blame<T> for Result<T, E> {
+    fn usage(self) -> anyhow::Result<T> {
+        self.map_err(|error| marked(2, error.into()))
+    }
+
+    fn board(self) -> anyhow::Result<T> {
+        self.map_err(|error| marked(3, error.into()))
+    }
+}
+
+fn marked(status: u8, error: Error) -> Error {
+    match mark(&error) {
+        Some(_) => error,
+        None => Fault { status, error }.into(),
+    }
+}
+
+fn mark(error: &Error) -> Option<u8> {
+    error.chain().find_map(|cause| cause.downcast_ref::<Fault>()).map(|fault| fault.status)
+}
+
+/// Exit status for this error.
+pub fn status(error: &Error) -> u8 {
+    mark(error).unwrap_or(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::{Context, anyhow};
+
+    #[test]
+    fn a_mark_adds_no_words_and_the_first_counts() {
+        assert_eq!(status(&anyhow!("the disk is full")), 1);
+        let deep: anyhow::Result<()> = Err(std::io::Error::other("cut off").into());
+        let error = deep.context("serial:x is gone").board().context("record").usage().unwrap_err();
+        assert_eq!((status(&error), format!("{error:#}")), (3, "record: serial:x is gone: cut off".into()));
+    }
+}

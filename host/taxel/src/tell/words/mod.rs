@@ -1,0 +1,82 @@
+//! Errors in the words of the user instead of those of libraries: `must be a whole number from 0 to 255, not
+//! "a"` instead of `invalid type: string "a", expected u8`.
+//!
+//! Parsers of user files turn the reader's error into a sentence by [`toml`] or [`json`], which name file,
+//! line and key. All other errors are translated when they are printed, by [`sentence`].
+
+mod json;
+mod meant;
+mod place;
+mod printable;
+mod serde;
+mod toml;
+
+pub use super::words::json::json;
+pub use super::words::meant::{meant, unknown};
+pub use super::words::place::{Step, line_of};
+pub use super::words::printable::{printable, printable_json};
+pub use super::words::serde::plain;
+pub use super::words::toml::toml;
+
+use std::error::Error;
+
+/// Formats an error and its causes as one sentence on one line, without control characters: causes quote
+/// files and boards.
+pub fn sentence(error: &anyhow::Error) -> String {
+    let mut causes: Vec<String> = error.chain().map(cause).collect();
+    // Some libraries quote their cause in addition to returning it.
+    causes.dedup_by(|cause, quoting| quoting.ends_with(cause.as_str()));
+    let line = causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    printable(&line).into_owned()
+}
+
+/// Formats one error without its causes.
+pub fn cause(error: &(dyn Error + 'static)) -> String {
+    if let Some(error) = error.downcast_ref::<serde_json::Error>() {
+        return json::without_text(error);
+    }
+    if let Some(error) = error.downcast_ref::<::toml::de::Error>() {
+        return plain(error.message());
+    }
+    io(&error.to_string())
+}
+
+/// The system's message without its number, in lower case.
+fn io(message: &str) -> String {
+    match message {
+        "stream did not contain valid UTF-8" => return "it is not text (UTF-8)".into(),
+        "failed to fill whole buffer" => return "it ends too early".into(),
+        _ => {}
+    }
+    let mut text = message.trim_start_matches("i/o error: ").to_string();
+    while let Some(start) = text.find(" (os error ") {
+        let Some(length) = text[start..].find(')') else { break };
+        text.replace_range(start..=start + length, "");
+        // The text before the number is a sentence of the system.
+        let begin = text[..start].rfind(": ").map_or(0, |at| at + 2);
+        if let Some(lower) = text[begin..].chars().next().map(|first| first.to_lowercase().to_string()) {
+            text.replace_range(begin..begin + text[begin..].chars().next().map_or(0, char::len_utf8), &lower);
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::{Context, anyhow};
+
+    #[test]
+    fn causes_are_told_without_numbers_of_the_system() {
+        let missing = std::io::Error::from_raw_os_error(2);
+        let flat = anyhow!("tcp:a:1 cannot be reached: {missing}");
+        assert_eq!(sentence(&flat), "tcp:a:1 cannot be reached: no such file or directory");
+        let deep = anyhow::Error::from(missing).context("x.toml cannot be read");
+        assert_eq!(sentence(&deep), "x.toml cannot be read: no such file or directory");
+        let number = serde_json::from_str::<u8>("-3").context("age").unwrap_err();
+        assert_eq!(
+            sentence(&number),
+            "age: line 1, character 2: must be a whole number from 0 to 255, not -3"
+        );
+    }
+}

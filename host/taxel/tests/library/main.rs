@@ -1,0 +1,22 @@
+//! Tests of the library: simulated boards and garments, maps, shapes, touches, sessions.
+
+mod bases;
+mod clock;
+#[path = "../../../../core/tests/core/shape/drawn.rs"]
+mod drawn;
+mod drift;
+mod faults;
+mod fcm;
+mod health;
+mod link;
+mod maps;
+mod meaning;
+mod people;
+mod points;
+mod scan;
+mod session;
+#[path = "../../../../core/tests/core/shape/rig.rs"]
+mod shape_of;
+mod shapes;
+mod touch;
+mod watchdog;

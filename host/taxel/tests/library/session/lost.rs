@@ -1,0 +1,138 @@
+//! Settings that cannot be restored, and sources that do not come back: an error that blames the board.
+
+use super::restored::{garment, told, until};
+use super::rig::{Rig, source};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use taxel::client::Event;
+use taxel::session::{Returns, Session};
+use taxel::tell::fault::status;
+use taxel_core::format::Code;
+use taxel_core::garment::Pins;
+use taxel_core::wire::Request;
+
+const TARE: Request<'_> = Request::Tare { frames: 8 };
+
+/// The error at the end of a session.
+fn ends(session: &mut Session) -> anyhow::Error {
+    let begun = Instant::now();
+    loop {
+        if let Err(error) = session.poll() {
+            return error;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+    }
+}
+
+#[test]
+fn a_board_that_refuses_what_it_had_taken_is_an_error() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    let (client, _) = session.parts();
+    let mut other = garment();
+    // A pin that differs from the board's shipped garment.
+    other.wiring.row.lines[0].pin = 22;
+    client.request(&Request::SetGarment(&postcard::to_allocvec(&other).unwrap())).unwrap();
+    client.start(0).unwrap();
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    {
+        let mut rig = rig.lock().unwrap();
+        rig.pins = Pins { outputs: Pins::ANY.outputs & !(1 << 22), ..Pins::ANY };
+        rig.restart();
+    }
+    let error = ends(&mut session);
+    let text = format!("{error:#}");
+    assert!(text.starts_with("rig: after it came back, the board refuses set-garment: "), "{text}");
+    assert_eq!(status(&error), 3);
+}
+
+#[test]
+fn a_source_that_does_not_come_back_ends_after_a_stated_time_or_at_once() {
+    for (returns, words) in [
+        (Returns::Never, "rig is gone: broken pipe"),
+        (
+            Returns::Within(Duration::from_secs(1)),
+            "rig is gone, and has not come back within 1 s: broken pipe",
+        ),
+    ] {
+        let rig = Arc::new(Mutex::new(Rig::new()));
+        let mut session = Session::new(source(&rig), returns);
+        session.parts().0.start(0).unwrap();
+        until(&mut session, |event| matches!(event, Event::Frame { .. }));
+        {
+            let mut rig = rig.lock().unwrap();
+            rig.plugged = false;
+            rig.cut();
+        }
+        let begun = Instant::now();
+        let error = ends(&mut session);
+        assert_eq!((format!("{error:#}").as_str(), status(&error)), (words, 3));
+        assert!(begun.elapsed() < Duration::from_secs(3));
+    }
+}
+
+#[test]
+fn a_source_is_waited_for_as_long_as_it_takes() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    session.parts().0.start(0).unwrap();
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    {
+        let mut rig = rig.lock().unwrap();
+        rig.plugged = false;
+        rig.cut();
+    }
+    told(&mut session, "is gone");
+    let begun = Instant::now();
+    while begun.elapsed() < Duration::from_millis(1500) {
+        session.poll().unwrap();
+    }
+    assert!(session.is_gone());
+    rig.lock().unwrap().plugged = true;
+    let text = told(&mut session, "is back after");
+    let seconds: f64 =
+        text.split("after ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+    assert!((1.5..4.0).contains(&seconds), "{text}");
+}
+
+#[test]
+fn a_board_that_does_not_read_holds_nothing_up() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Never);
+    session.parts().0.start(0).unwrap();
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    rig.lock().unwrap().deaf = true;
+    let begun = Instant::now();
+    let mut frames = 0;
+    let error = loop {
+        match session.poll() {
+            Ok(taxel::session::Poll::Event(Event::Frame { .. })) => frames += 1,
+            Ok(_) => {}
+            Err(error) => break error,
+        }
+        assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+    };
+    assert!(frames > 100, "{frames} frames came meanwhile");
+    let text = format!("{error:#}");
+    assert!(text.starts_with("rig is gone: the board has read nothing for 5 s; "), "{text}");
+    assert_eq!(status(&error), 3);
+}
+
+#[test]
+fn a_tare_that_a_touched_board_refuses_when_it_is_back_ends_nothing() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    session.parts().0.start(8).unwrap();
+    until(&mut session, |event| matches!(event, Event::Answer { request, .. } if *request == TARE.number()));
+    rig.lock().unwrap().codes[20..23].fill(Code(2000));
+    until(&mut session, |event| matches!(event, Event::Contacts { .. }));
+    while session.client().contacts().is_empty() {
+        session.poll().unwrap();
+    }
+    // The link breaks before the request is read.
+    session.parts().0.request(&TARE).unwrap();
+    rig.lock().unwrap().cut();
+    let text = told(&mut session, "is back after");
+    assert!(text.ends_with("; set again: start; no new tare: something touches the garment"), "{text}");
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+}
