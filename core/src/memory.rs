@@ -34,7 +34,7 @@ macro_rules! states {
 
 states! {
     ConditionState<TAXELS>, "condition/mod.rs", 21592, 21592;
-    ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76400, 76456;
+    ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76600, 76656;
     HardnessCue, "measure/hardness.rs", 20, 20;
     FoldState, "fold.rs", 96, 96;
     TouchState, "gesture/mod.rs", 3712, 3720;

@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
-//! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship: 76,400 bytes |
+//! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship: 76,600 bytes |
 //! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 59 k with five, 233 k with forty of 4 to 9; 179 k if all 2,048 taxels are touched, 223 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
@@ -36,7 +36,7 @@
 //! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
 //! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
 //! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
-//! `track::tracks`), and the form of one contact is measured (`measure::form`): it costs as much as the rest
+//! `track::tracks`), and the form of one contact is measured (`measure::form`, `measure::quartic`): it costs as much as the rest
 //! of a contact together, and changes slowly.
 
 mod stage;
@@ -48,5 +48,6 @@ pub use crate::measure::contact::{Contact, Phase};
 pub use crate::measure::forms::Forms;
 pub use crate::measure::hardness::{self, Hardness, HardnessCue};
 pub use crate::measure::moments::{Central, Moments};
+pub use crate::measure::quartic::Quartic;
 pub use crate::segment::config::{ContactConfig, NO_SLIP};
 pub use stage::{ContactState, Contacts, Touches};

@@ -9,6 +9,8 @@ use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
 use crate::measure::forms::Forms;
 use crate::measure::moments::Moments;
+use crate::measure::quartic::Quartic;
+use crate::measure::sight::Sight;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
 use crate::segment::seams::Joins;
@@ -46,6 +48,8 @@ pub struct Touches<'a> {
     pub moments: &'a [Moments],
     /// Age of their forms in the same order, frames; saturates at 255. See [`Contact`].
     pub ages: &'a [u8],
+    /// Ratios of the fourth order of those whose form is of this frame, in the same order; 0 for the others.
+    pub quartics: &'a [Quartic],
     /// Contacts that ended with this frame.
     pub released: &'a [Contact],
     /// Number of contacts that did not fit into this frame: those with the smallest totals.
@@ -174,11 +178,13 @@ impl Contacts {
         matching.assign(&self.config, tracks, &components.list, layout, now);
         components.reunite(labeller, layout, tracks);
         tracks.merge(labeller, layout);
-        tracks.update(&self.config, &components.list, labeller, layout, image, (now, self.forms));
+        let sight = Sight { labeller, layout, image };
+        tracks.update(&self.config, &components.list, &sight, (now, self.forms));
         Touches {
             present: tracks.contacts(),
             moments: tracks.moments(),
             ages: tracks.ages(),
+            quartics: tracks.quartics(),
             released: tracks.released(),
             dropped: components.dropped,
             faint: components.faint,

@@ -21,7 +21,8 @@ use heapless::Vec;
 pub struct Component {
     /// Root of its labels.
     pub(crate) label: u16,
-    joined: bool,
+    /// True if it holds labels that a seam joins.
+    pub(super) joined: bool,
     /// Sum of the pressure, counts.
     pub total: u32,
     /// Greatest pressure of a taxel, counts.

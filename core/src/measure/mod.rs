@@ -1,9 +1,10 @@
 //! Measures of a frame's contacts.
 //!
 //! [`component`] picks the connected touches that are contacts and sums their exact [`moments`], those beyond
-//! a seam by [`carried`]. [`form`] measures what is costly and changes slowly: the [`contour`], whose slope
-//! is a [`sobel`], and the [`axis`]; [`forms`] says how many contacts have their turn in a frame. [`contact`]
-//! is the record of a contact, [`hardness`] estimates that of the object from its growth.
+//! a seam by [`carried`]. [`form`] measures what is costly and changes slowly, on the frame that [`sight`]
+//! holds: the [`contour`], whose slope is a [`sobel`], the [`axis`] and the [`quartic`]; [`forms`] sets how
+//! many contacts have their turn in a frame. [`contact`] is the record of a contact, [`hardness`] estimates
+//! that of the object from its growth.
 
 pub(crate) mod axis;
 pub(crate) mod carried;
@@ -14,4 +15,7 @@ pub(crate) mod form;
 pub(crate) mod forms;
 pub mod hardness;
 pub(crate) mod moments;
+pub(crate) mod quartic;
+mod ratios;
+pub(crate) mod sight;
 pub(crate) mod sobel;

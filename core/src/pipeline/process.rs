@@ -102,10 +102,10 @@ impl Pipeline {
     ) {
         let gone = |contact: &Contact| Placed::new(layout, contact.clone(), shape_in(present, contact.id));
         replace(released, touches.released.iter().map(gone));
-        let forms = touches.moments.iter().zip(touches.ages);
-        for (index, (contact, (moments, age))) in touches.present.iter().zip(forms).enumerate() {
+        let forms = touches.moments.iter().zip(touches.quartics).zip(touches.ages);
+        for (index, (contact, ((moments, quartic), age))) in touches.present.iter().zip(forms).enumerate() {
             let shape = match &self.shape {
-                Some(stage) if *age == 0 => stage.process(moments, contact),
+                Some(stage) if *age == 0 => stage.process(moments, quartic, contact),
                 Some(_) => match present.get_mut(index) {
                     // The usual case: the entry already is this contact's.
                     Some(placed) if placed.contact.id == contact.id => {

@@ -1,33 +1,34 @@
 //! The features of a shape for the k-NN.
 
 use super::nmi::Nmi;
-use crate::contact::Contact;
+use crate::contact::{Contact, Quartic};
 use crate::format::Fixed24;
 
 /// Number of features of a shape.
-pub const FEATURES: usize = 4;
+pub const FEATURES: usize = 6;
 
-/// NMI by sum of squares, NMI by peak, anisotropy, size; see [`features`].
+/// NMI by sum of squares, anisotropy, size, kurtosis, two and four; see [`features`].
 pub type ShapeFeatures = [i16; FEATURES];
 
 /// Computes the features of a contact, scaled so that a step of one is as significant as a step of another:
 ///
-/// - NMI sqrt(sum f^2 / sum f) with Sheppard's correction, in 1/8192;
-/// - NMI sqrt(peak) with Sheppard's correction, in 1/4096;
-/// - anisotropy, in 1/1024;
+/// - NMI sqrt(sum f^2 / sum f) with Sheppard's correction, in 1/2048;
+/// - anisotropy, in 1/512;
 /// - logarithm to base 2 of the area in taxels, in 1/64: the effect of a grid on a shape depends on the
-///   number of taxels.
+///   number of taxels;
+/// - the three ratios of the [`Quartic`], in 1/512: they tell corners from round ends.
 ///
-/// None of them depends on pressure, position or direction. Never panics: forms above 4 and 8 saturate, no
-/// area counts as one taxel, and the anisotropy is clamped to 0 to 1.
-pub fn features(nmi: &Nmi, contact: &Contact) -> ShapeFeatures {
-    let anisotropy = contact.anisotropy.0.clamp(0, 32768) >> 5;
-    [form(nmi.s2_sheppard, 13), form(nmi.peak_sheppard, 12), anisotropy as i16, size(contact.area)]
+/// None of them depends on pressure, position or direction. Never panics: forms above 16 saturate, no area
+/// counts as one taxel, and the anisotropy is clamped to 0 to 1.
+pub fn features(nmi: &Nmi, quartic: &Quartic, contact: &Contact) -> ShapeFeatures {
+    let anisotropy = contact.anisotropy.0.clamp(0, 32768) >> 6;
+    let Quartic { kurtosis, two, four } = *quartic;
+    [form(nmi.s2_sheppard), anisotropy as i16, size(contact.area), kurtosis, two, four]
 }
 
-/// Converts to `bits` fraction bits; saturates.
-fn form(value: Fixed24, bits: u32) -> i16 {
-    (value.0 >> (24 - bits)).min(i16::MAX as u32) as i16
+/// In 1/2048.
+fn form(value: Fixed24) -> i16 {
+    (value.0 >> 13).min(i16::MAX as u32) as i16
 }
 
 /// Logarithm to base 2, in 1/64; a straight line between powers of two, which is 0.09 off at most.

@@ -59,19 +59,24 @@ pub(super) fn vote(
     reject: u32,
 ) -> (Class, Q15) {
     let limit = reject.saturating_mul(reject);
+    let nearest = |limit| match features {
+        // No contact that was measured has no kurtosis.
+        [_, _, _, 0, ..] => nearest(prototypes, features, k, limit, by_three),
+        _ => nearest(prototypes, features, k, limit, by_all),
+    };
     // Most touches are near a prototype, so prototypes beyond the limit need not be compared in full.
-    let mut nearest = nearest(prototypes, features, k, limit.saturating_add(1));
-    if nearest.iter().take(k).any(|(_, class)| *class == Class::UNKNOWN) {
-        nearest = self::nearest(prototypes, features, k, u32::MAX);
+    let mut found = nearest(limit.saturating_add(1));
+    if found.iter().take(k).any(|(_, class)| *class == Class::UNKNOWN) {
+        found = nearest(u32::MAX);
     }
-    let Some((least, class)) = nearest.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
+    let Some((least, class)) = found.first().copied() else { return (Class::UNKNOWN, Q15(0)) };
     if least > limit {
         return (Class::UNKNOWN, Q15::ratio((least - limit).into(), least.into()));
     }
     if k == 1 {
         return (class, Q15::ONE);
     }
-    let voters = || nearest.iter().take_while(|(_, class)| *class != Class::UNKNOWN);
+    let voters = || found.iter().take_while(|(_, class)| *class != Class::UNKNOWN);
     let best = voters().fold((Class::UNKNOWN, 0), |best, (_, class)| {
         let votes = voters().filter(|(_, other)| other == class).count();
         if votes > best.1 { (*class, votes) } else { best }
@@ -83,22 +88,23 @@ pub(super) fn vote(
     (best.0, Q15::ratio(own, all))
 }
 
-/// Returns the `k` nearest prototypes in the order of their squared distance, if that is below `limit`; ties
+/// Returns the `k` nearest prototypes in the order of their squared `distance`, if that is below `limit`; ties
 /// go to the first in the base.
 fn nearest(
     prototypes: &[Prototype],
     features: &ShapeFeatures,
     k: usize,
     limit: u32,
+    distance: impl Fn(u32, &Prototype, &ShapeFeatures) -> Option<u32>,
 ) -> [(u32, Class); VOTERS] {
     let mut nearest = [(limit, Class::UNKNOWN); VOTERS];
     if k == 1 {
-        nearest[0] = closest(prototypes, features, limit);
+        nearest[0] = closest(prototypes, features, limit, distance);
         return nearest;
     }
     let mut limit = limit;
     for prototype in prototypes {
-        let Some(distance) = distance_below(limit, prototype, features) else { continue };
+        let Some(distance) = distance(limit, prototype, features) else { continue };
         let mut carried = (distance, prototype.class);
         for held in nearest.iter_mut().take(k) {
             if carried.0 < held.0 {
@@ -112,29 +118,46 @@ fn nearest(
 
 /// Returns the nearest prototype, if its squared distance is below `limit`; ties go to the first in the base.
 #[inline(never)] // M0+: out of line
-fn closest(prototypes: &[Prototype], features: &ShapeFeatures, limit: u32) -> (u32, Class) {
+fn closest(
+    prototypes: &[Prototype],
+    features: &ShapeFeatures,
+    limit: u32,
+    distance: impl Fn(u32, &Prototype, &ShapeFeatures) -> Option<u32>,
+) -> (u32, Class) {
     let mut closest = (limit, Class::UNKNOWN);
     // One by one: two at a time need more registers.
     let mut left = prototypes;
     while let [prototype, rest @ ..] = left {
         left = rest;
-        if let Some(distance) = distance_below(closest.0, prototype, features) {
+        if let Some(distance) = distance(closest.0, prototype, features) {
             closest = (distance, prototype.class);
         }
     }
     closest
 }
 
-/// Returns the squared distance if it is below `limit`. Size and anisotropy come first: they exclude most
-/// prototypes.
-fn distance_below(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
-    let [nmi, form, anisotropy, size] = *features;
-    let [other_nmi, other_form, other_anisotropy, other_size] = prototype.features;
+/// Squared distance by all features, if it is below `limit`. Size and anisotropy come first: they exclude most prototypes.
+#[inline(always)]
+fn by_all(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
+    let [nmi, anisotropy, size, kurtosis, two, four] = *features;
+    let [other_nmi, other_anisotropy, other_size, other_kurtosis, other_two, other_four] = prototype.features;
     // Subtracts from the limit instead of adding up, so that nothing overflows.
     let left = below(limit, square(size, other_size))?;
     let left = below(left, square(anisotropy, other_anisotropy))?;
-    let left = below(left, square(nmi, other_nmi))?;
-    Some(limit - below(left, square(form, other_form))?)
+    let left = below(left, square(four, other_four))?;
+    let left = below(left, square(kurtosis, other_kurtosis))?;
+    let left = below(left, square(two, other_two))?;
+    Some(limit - below(left, square(nmi, other_nmi))?)
+}
+
+/// Squared distance by NMI, anisotropy and size, if it is below `limit`, for a contact whose moments of the fourth order are not measured.
+#[inline(always)]
+fn by_three(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
+    let [nmi, anisotropy, size, ..] = *features;
+    let [other_nmi, other_anisotropy, other_size, ..] = prototype.features;
+    let left = below(limit, square(size, other_size))?;
+    let left = below(left, square(anisotropy, other_anisotropy))?;
+    Some(limit - below(left, square(nmi, other_nmi))?)
 }
 
 /// Returns `limit - part` if `part` is below `limit`.

@@ -4,7 +4,7 @@ use super::config::ShapeConfig;
 use super::features::features;
 use super::knn::{Base, Class, VOTERS, vote};
 use super::nmi::nmi;
-use crate::contact::{Contact, Moments};
+use crate::contact::{Contact, Moments, Quartic};
 use crate::format::{Fixed24, Invalid, Q15};
 use serde::{Deserialize, Serialize};
 
@@ -65,10 +65,10 @@ impl Shapes {
         &self.base
     }
 
-    /// Recognises one contact from its moments.
-    pub fn process(&self, moments: &Moments, contact: &Contact) -> Shape {
+    /// Recognises one contact from its moments and its ratios of the fourth order.
+    pub fn process(&self, moments: &Moments, quartic: &Quartic, contact: &Contact) -> Shape {
         let nmi = nmi(moments, contact.peak);
-        let features = features(&nmi, contact);
+        let features = features(&nmi, quartic, contact);
         let (class, confidence) =
             vote(self.base.prototypes, &features, self.config.k.into(), self.config.reject.into());
         Shape { nmi: nmi.published, nmi_peak: nmi.peak, nmi_s2: nmi.s2, class, confidence }

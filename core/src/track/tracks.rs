@@ -3,12 +3,12 @@
 use super::motion::{FrameTimes, Scenery, Trail};
 use crate::format::{Fixed16, Micros, Q15};
 use crate::garment::{Layout, Place, Rect};
-use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::{Contact, Phase};
-use crate::measure::form::Sight;
 use crate::measure::forms::Forms;
 use crate::measure::moments::Moments;
+use crate::measure::quartic::Quartic;
+use crate::measure::sight::Sight;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
 use crate::segment::union_find::NONE;
@@ -23,6 +23,8 @@ pub(crate) struct Tracks<const CONTACTS: usize> {
     released: Vec<Contact, CONTACTS>,
     /// Age of the form of each contact, frames; saturates at 255.
     ages: Vec<u8, CONTACTS>,
+    /// Ratios of the fourth order of each contact whose form is of this frame; 0 for the others.
+    quartics: Vec<Quartic, CONTACTS>,
     /// Index of the first contact whose form is measured in this frame.
     turn: usize,
     id: u32,
@@ -37,6 +39,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             moments: Vec::new(),
             released: Vec::new(),
             ages: Vec::new(),
+            quartics: Vec::new(),
             turn: 0,
             id: 0,
             clock: FrameTimes::new(),
@@ -49,6 +52,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.moments.clear();
         self.released.clear();
         self.ages.clear();
+        self.quartics.clear();
     }
 
     pub fn contacts(&self) -> &[Contact] {
@@ -65,6 +69,10 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
 
     pub fn ages(&self) -> &[u8] {
         &self.ages
+    }
+
+    pub fn quartics(&self) -> &[Quartic] {
+        &self.quartics
     }
 
     /// Index of the contact that continues as `component`.
@@ -116,11 +124,10 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         &mut self,
         config: &ContactConfig,
         components: &[Component],
-        labeller: &Labeller<RUNS, LABELS>,
-        layout: &Layout,
-        image: &Image,
+        sight: &Sight<'_, RUNS, LABELS>,
         (now, forms): (Micros, Forms),
     ) {
+        let Sight { layout, image, .. } = *sight;
         let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
         let known = self.known();
         self.part(config, components, &known);
@@ -154,7 +161,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
                 self.begin(index, component, now);
             }
         }
-        self.look(held, forms, components, &Sight { labeller, layout, image });
+        self.look(held, forms, components, sight);
         self.moments.clear();
         for trail in &self.trails {
             if let Some(component) = components.get(usize::from(trail.component)) {
@@ -174,15 +181,17 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         let (next, count) = (self.turn + forms.in_frame(), forms.in_frame());
         self.turn = if next < held { next } else { 0 };
         self.ages.clear();
+        self.quartics.clear();
         for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
             let due = index.wrapping_sub(self.turn) < count || index >= held;
             trail.age = if due { 0 } else { trail.age.saturating_add(1) };
             // Always room: as many places as contacts.
             let _ = self.ages.push(trail.age);
             let Some(component) = components.get(usize::from(trail.component)).filter(|_| due) else {
+                let _ = self.quartics.push(Quartic::default());
                 continue;
             };
-            sight.look(contact, trail.component, component);
+            let _ = self.quartics.push(sight.look(contact, trail.component, component));
             if contact.total >= trail.looked {
                 (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
             }

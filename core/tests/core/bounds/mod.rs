@@ -8,6 +8,7 @@ mod images;
 mod map;
 mod nmi;
 mod numbers;
+mod quartic;
 mod speed;
 mod stability;
 mod sums;

@@ -6,7 +6,7 @@ use crate::bounds::table::bound;
 use crate::plain::Plain;
 use proptest::prelude::*;
 use taxel_core::condition::{Image, Rows};
-use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments, Quartic};
 use taxel_core::format::{Fixed24, Micros, Q15};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{Nmi, features, nmi};
@@ -119,13 +119,15 @@ pub fn contact() -> Contact {
 #[test]
 fn features_outside_their_range_saturate() {
     let mut any = contact();
+    let quartic = Quartic { kurtosis: i16::MAX, two: 0, four: 7 };
     let ends = |nmi: Fixed24, anisotropy: i32, area: u16, contact: &mut Contact| {
         (contact.anisotropy, contact.area) = (Q15(anisotropy), area);
-        features(&Nmi { s2_sheppard: nmi, peak_sheppard: nmi, ..Nmi::default() }, contact)
+        features(&Nmi { s2_sheppard: nmi, ..Nmi::default() }, &quartic, contact)
     };
-    assert_eq!(ends(Fixed24(0), -5, 0, &mut any), [0, 0, 0, 0]);
-    assert_eq!(ends(Fixed24(u32::MAX), i32::MAX, u16::MAX, &mut any), [32767, 32767, 1024, 1023]);
-    // Just below 4 and 8, nothing is lost but what is cut.
-    assert_eq!(ends(Fixed24((4 << 24) - 1), 32768, 2048, &mut any), [32767, 16383, 1024, 704]);
-    assert_eq!(ends(Fixed24((8 << 24) - 1), 16384, 3, &mut any), [32767, 32767, 512, 96]);
+    let [most, least] = [i16::MAX, 0];
+    assert_eq!(ends(Fixed24(0), -5, 0, &mut any), [0, 0, 0, most, least, 7]);
+    assert_eq!(ends(Fixed24(u32::MAX), i32::MAX, u16::MAX, &mut any), [32767, 512, 1023, most, least, 7]);
+    // Just below 16, nothing is lost but what is cut.
+    assert_eq!(ends(Fixed24((16 << 24) - 1), 32768, 2048, &mut any), [32767, 512, 704, most, least, 7]);
+    assert_eq!(ends(Fixed24(4 << 24), 16384, 3, &mut any), [8192, 256, 96, most, least, 7]);
 }

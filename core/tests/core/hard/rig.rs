@@ -1,7 +1,7 @@
 //! A garment, its image and the stage of contacts, frame by frame.
 
 use taxel_core::condition::{Image, Rows};
-use taxel_core::contact::{Contact, ContactConfig, ContactState, Contacts, Moments, Touches};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Contacts, Moments, Quartic, Touches};
 use taxel_core::format::{Fixed16, Micros};
 use taxel_core::garment::{Garment, Layout, Place};
 
@@ -23,6 +23,8 @@ pub struct Frame {
     /// Whether the form of each is of this frame.
     pub looked: Vec<bool>,
     pub ages: Vec<u8>,
+    /// Of those whose form is of this frame.
+    pub quartics: Vec<Quartic>,
     pub released: Vec<Contact>,
     pub dropped: u16,
     pub overflow: u16,
@@ -86,8 +88,8 @@ impl Rig {
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
         let touches = self.stage.process(&mut self.state, &self.layout, &image, Micros(self.now));
-        let Touches { present, moments, ages, released, dropped, overflow, .. } = touches;
-        assert_eq!((present.len(), present.len()), (moments.len(), ages.len()));
+        let Touches { present, moments, ages, quartics, released, dropped, overflow, .. } = touches;
+        assert_eq!([moments.len(), ages.len(), quartics.len()], [present.len(); 3]);
         for (contact, moments) in present.iter().zip(moments) {
             assert_eq!(u64::from(contact.total), moments.m);
         }
@@ -96,6 +98,7 @@ impl Rig {
             moments: moments.to_vec(),
             looked: ages.iter().map(|age| *age == 0).collect(),
             ages: ages.to_vec(),
+            quartics: quartics.to_vec(),
             released: released.to_vec(),
             dropped,
             overflow,

@@ -2,7 +2,7 @@
 
 use crate::hard::rig::Rig;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
-use taxel_core::contact::{Contact, ContactConfig, Moments};
+use taxel_core::contact::{Contact, ContactConfig, Moments, Quartic};
 use taxel_core::format::{Code, Micros, Q15};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{Base, Class, FEATURES, Prototype, Shape, ShapeConfig, features, nmi};
@@ -89,12 +89,18 @@ fn gate() {
 }
 
 /// The shape of a contact by a base of one prototype that lies `apart` from it.
-fn shape(contact: &Contact, moments: &Moments, apart: [i16; FEATURES], reject: u16) -> Shape {
-    let mut features = features(&nmi(moments, contact.peak), contact);
+fn shape(
+    contact: &Contact,
+    moments: &Moments,
+    quartic: &Quartic,
+    apart: [i16; FEATURES],
+    reject: u16,
+) -> Shape {
+    let mut features = features(&nmi(moments, contact.peak), quartic, contact);
     features.iter_mut().zip(apart).for_each(|(feature, apart)| *feature += apart);
     let prototypes = Box::leak(Box::new([Prototype { class: Class(1), features }]));
     let base = Base { names: &["it"], prototypes };
-    ShapeConfig { k: 1, reject }.build(base).unwrap().process(moments, contact)
+    ShapeConfig { k: 1, reject }.build(base).unwrap().process(moments, quartic, contact)
 }
 
 #[test]
@@ -102,13 +108,14 @@ fn reject() {
     let mut rig = Rig::mat();
     let frame = rig.fill([20, 24], [7, 13], 1000).frame();
     let at = |apart, reject| {
-        let Shape { class, confidence, .. } = shape(&frame.present[0], &frame.moments[0], apart, reject);
+        let Shape { class, confidence, .. } =
+            shape(&frame.present[0], &frame.moments[0], &frame.quartics[0], apart, reject);
         (class, confidence)
     };
     // 3-4-5 and its multiples: 50 away, exactly.
-    assert_eq!(at([30, -40, 0, 0], 50), (Class(1), Q15::ONE));
-    assert_eq!(at([30, -40, 0, 0], 51), (Class(1), Q15::ONE));
-    assert_eq!(at([30, -40, 0, 0], 49), (Class::UNKNOWN, Q15::ratio(2500 - 2401, 2500)));
-    assert_eq!(at([30, -40, 1, 0], 50), (Class::UNKNOWN, Q15::ratio(1, 2501)));
+    assert_eq!(at([30, -40, 0, 0, 0, 0], 50), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0, 0, 0], 51), (Class(1), Q15::ONE));
+    assert_eq!(at([30, -40, 0, 0, 0, 0], 49), (Class::UNKNOWN, Q15::ratio(2500 - 2401, 2500)));
+    assert_eq!(at([30, -40, 1, 0, 0, 0], 50), (Class::UNKNOWN, Q15::ratio(1, 2501)));
     assert_eq!(at([0; FEATURES], 1), (Class(1), Q15::ONE));
 }

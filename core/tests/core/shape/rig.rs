@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test that uses this takes a part of it
 
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Image, Sampled};
-use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments};
+use taxel_core::contact::{Contact, ContactConfig, ContactState, Moments, Quartic};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{Base, Shape, ShapeConfig, Shapes};
@@ -14,28 +14,33 @@ pub fn shapes() -> Shapes {
 
 /// Shape of the greatest contact of an image.
 pub fn shape_of(layout: &Layout, image: &Image) -> Option<Shape> {
-    greatest(layout, image, |moments, contact| shapes().process(moments, contact))
+    greatest(layout, image, |moments, quartic, contact| shapes().process(moments, quartic, contact))
 }
 
 /// Applies `of` to the greatest contact of an image.
-pub fn greatest<T>(layout: &Layout, image: &Image, of: impl Fn(&Moments, &Contact) -> T) -> Option<T> {
+pub fn greatest<T>(
+    layout: &Layout,
+    image: &Image,
+    of: impl Fn(&Moments, &Quartic, &Contact) -> T,
+) -> Option<T> {
     let mut state: ContactState<8, 1024> = ContactState::new();
     let contacts = ContactConfig::default().build().unwrap();
     let touches = contacts.process(&mut state, layout, image, Micros(0));
-    let all = touches.moments.iter().zip(touches.present);
-    all.max_by_key(|(_, contact)| contact.total).map(|(moments, contact)| of(moments, contact))
+    let all = touches.moments.iter().zip(touches.quartics).zip(touches.present);
+    let greatest = all.max_by_key(|(_, contact)| contact.total);
+    greatest.map(|((moments, quartic), contact)| of(moments, quartic, contact))
 }
 
 /// Shape of the greatest contact of a frame of codes.
 pub fn shape_of_codes(layout: &Layout, codes: &[Code]) -> Option<Shape> {
-    greatest_of_codes(layout, codes, |moments, contact| shapes().process(moments, contact))
+    greatest_of_codes(layout, codes, |moments, quartic, contact| shapes().process(moments, quartic, contact))
 }
 
 /// Applies `of` to the greatest contact of a frame of codes.
 pub fn greatest_of_codes<T>(
     layout: &Layout,
     codes: &[Code],
-    of: impl Fn(&Moments, &Contact) -> T,
+    of: impl Fn(&Moments, &Quartic, &Contact) -> T,
 ) -> Option<T> {
     let mut state: Box<ConditionState<2048>> = Box::default();
     state.reset(layout, Code(0));

@@ -2,9 +2,8 @@
 
 use crate::drawn::{CLASSES, Rng, Touch};
 use crate::shape_of::*;
-use taxel::fcm::board::BoardMap;
-use taxel::fcm::load;
-use taxel_core::contact::{Contact, Moments};
+use taxel::fcm::{board::BoardMap, load};
+use taxel_core::contact::{Contact, Moments, Quartic};
 use taxel_core::format::Q15;
 use taxel_core::shape::nmi;
 
@@ -20,7 +19,8 @@ fn the_shape_map_stands_beside_the_knn() {
         let mut confusion = [[0; 3]; 3];
         for (index, class) in CLASSES.into_iter().enumerate().cycle().take(300) {
             let touch = Touch::random(class, rows, columns, &mut rng);
-            let form = |moments: &Moments, contact: &Contact| nmi(moments, contact.peak).peak_sheppard;
+            let form =
+                |moments: &Moments, _: &Quartic, contact: &Contact| nmi(moments, contact.peak).peak_sheppard;
             let form = greatest_of_codes(&layout, &touch.codes(rows, columns), form).expect("a contact");
             let run = map.infer(&map.map.encode(None, &[Q15((form.0 >> 9) as i32)]));
             let answer = (0..3).max_by_key(|answer| run.state[concepts[*answer]]).expect("there are three");

@@ -1,0 +1,12 @@
+//! What a form is measured on.
+
+use crate::garment::Layout;
+use crate::image::view::Image;
+use crate::segment::labeller::Labeller;
+
+/// The frame in which forms are measured.
+pub(crate) struct Sight<'a, const RUNS: usize, const LABELS: usize> {
+    pub labeller: &'a Labeller<RUNS, LABELS>,
+    pub layout: &'a Layout,
+    pub image: &'a Image<'a>,
+}

@@ -1,0 +1,49 @@
+//! Examples of shapes: their features as the board computes them, and what they are.
+
+use crate::shape::drawn::CLASSES;
+use crate::shape::kinds::{KINDS, Kind, VIEWS, View};
+use crate::shape::rig::{greatest, recorded};
+use fastrand::Rng;
+use taxel_core::condition::{Image, Rows};
+use taxel_core::shape::{Class, ShapeFeatures, features, nmi};
+
+/// Rows and columns.
+pub const GRIDS: [[u16; 2]; 3] = [[4, 16], [16, 16], [32, 64]];
+
+/// Examples of one kind.
+pub struct Cell {
+    pub kind: Kind,
+    pub view: View,
+    pub grid: [u16; 2],
+    pub examples: Vec<(ShapeFeatures, Class)>,
+}
+
+/// So many of each generator, grid and view; what no contact is left of is drawn anew.
+pub fn drawn(count: usize, seed: u64) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for (number, kind) in (0..).zip(KINDS) {
+        for grid in GRIDS {
+            for view in VIEWS {
+                let rng = Rng::with_seed(seed * 1000 + number * 100 + u64::from(grid[0]) * 3 + view as u64);
+                cells.push(cell(kind, view, grid, count, rng));
+            }
+        }
+    }
+    cells
+}
+
+fn cell(kind: Kind, view: View, grid: [u16; 2], count: usize, mut rng: Rng) -> Cell {
+    let layout = recorded(grid[0], grid[1]);
+    let mut example = |class| loop {
+        let values = kind.image(class, grid, view, &mut rng);
+        let image = Image { values: &values, rows: &Rows::ALL };
+        let seen = greatest(&layout, &image, |moments, quartic, contact| {
+            features(&nmi(moments, contact.peak), quartic, contact)
+        });
+        if let Some(seen) = seen {
+            return (seen, class);
+        }
+    };
+    let examples = CLASSES.into_iter().cycle().take(count).map(&mut example).collect();
+    Cell { kind, view, grid, examples }
+}

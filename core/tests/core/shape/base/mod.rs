@@ -1,0 +1,64 @@
+//! Learns the built-in base of shapes from three generators, and judges each generator by a base that was
+//! learned without it. `cargo test -p taxel-core --test core shape::base -- --nocapture` prints the tables of
+//! `core/src/shape/base.rs` and the figures of `docs/shapes.md`.
+
+mod examples;
+mod glvq;
+
+use crate::shape::kinds::{KINDS, View};
+use examples::{Cell, GRIDS, drawn};
+use glvq::{Learned, learn};
+use taxel_core::shape::Base;
+
+/// Images of each generator, grid and view.
+const EACH: usize = 900;
+
+/// What is learned from some cells, each of which counts as much.
+fn learned<'a>(cells: impl Iterator<Item = &'a Cell>) -> Learned {
+    let mut examples = Vec::new();
+    for cell in cells {
+        let each = 1.0 / cell.examples.len() as f64;
+        examples.extend(cell.examples.iter().map(|(features, class)| (*features, *class, each)));
+    }
+    learn(&examples)
+}
+
+#[test]
+fn the_built_in_base_is_what_three_generators_give() {
+    let base = learned(drawn(EACH, 1).iter());
+    base.print();
+    let built_in = Base::BUILT_IN;
+    let held: Vec<_> = built_in.prototypes.iter().map(|known| (known.class, known.features)).collect();
+    assert_eq!(base.prototypes(), held);
+}
+
+#[test]
+fn a_generator_that_was_left_out_is_known() {
+    let (cells, others) = (drawn(EACH, 1), drawn(600, 2));
+    let all = learned(cells.iter());
+    let left_out = KINDS.map(|kind| learned(cells.iter().filter(|cell| cell.kind != kind)));
+    println!("grid, view: all generators learned, each left out");
+    for grid in GRIDS {
+        for (view, least) in [View::Clean, View::Noisy, View::Hard].into_iter().zip(least(grid)) {
+            let own = |kind| {
+                let cell = others.iter().find(|cell| (cell.kind, cell.view, cell.grid) == (kind, view, grid));
+                &cell.expect("there is one of each").examples
+            };
+            let known = KINDS.map(|kind| all.percent(own(kind)));
+            let unknown = [0, 1, 2].map(|i| left_out[i].percent(own(KINDS[i])));
+            println!("{} x {} {view:?}: {known:.1?}, {unknown:.1?}", grid[0], grid[1]);
+            for (known, unknown) in known.into_iter().zip(unknown) {
+                assert!(unknown >= least && unknown >= known - 3.0, "{grid:?} {view:?}: {known} {unknown}");
+            }
+        }
+    }
+}
+
+/// Least share of a generator that a base learned without it must recognise, in percent, by view.
+fn least(grid: [u16; 2]) -> [f64; 3] {
+    match grid {
+        [4, _] => [83.0, 78.0, 64.0],
+        [16, _] => [95.0, 95.0, 78.0],
+        _ => [98.0, 98.0, 91.0],
+    }
+}
