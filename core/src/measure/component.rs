@@ -440,4 +440,22 @@ mod tests {
             assert_eq!(found[0], found[1], "{columns} columns, {share} %");
         }
     }
+
+    #[test]
+    fn the_peak_of_two_is_the_greater_one_and_the_first_of_equal_ones() {
+        let places = [(0, 0, 3), (0, 1, 0), (0, 1, 5), (2, 0, 0)];
+        let all = places
+            .into_iter()
+            .flat_map(|(panel, row, column)| [7, 9].map(|peak| (peak, Some(Place { panel, row, column }))));
+        let with = |(peak, peak_at)| Component { peak, peak_at, ..Component::BLANK };
+        let order = |(peak, at): (u16, Option<Place>)| {
+            (core::cmp::Reverse(peak), at.map(|at| (at.panel, at.row, at.column)))
+        };
+        for (one, other) in all.clone().flat_map(|one| all.clone().map(move |other| (one, other))) {
+            let mut whole = with(one);
+            whole.absorb(&with(other));
+            let expected = if order(one) <= order(other) { one } else { other };
+            assert_eq!((whole.peak, whole.peak_at), expected, "{one:?} {other:?}");
+        }
+    }
 }
