@@ -458,4 +458,28 @@ mod tests {
             assert_eq!((whole.peak, whole.peak_at), expected, "{one:?} {other:?}");
         }
     }
+
+    #[test]
+    fn a_panel_is_faint_from_three_quarters_of_a_contact_on() {
+        let mut garment = Garment::recorded(12, 16);
+        garment.panels.push(garment.panels[0].clone()).unwrap();
+        garment.panels[1].name = crate::format::Name::try_from("second").unwrap();
+        let layout = Layout::build(&garment, 3072, 4095).unwrap();
+        let config = ContactConfig { low: 100, high: 400, min_area: 2, ..Default::default() };
+        for (panel, area, peak) in [0, 1].into_iter().flat_map(|panel| {
+            [1, 2].into_iter().flat_map(move |area| (100..500).map(move |peak| (panel, area, peak)))
+        }) {
+            let mut values = vec![0; layout.taxels()];
+            values[usize::from(layout.areas()[panel].base) + 20..][..area].fill(peak);
+            let rows = Rows::of(&layout, &values);
+            let mut labeller = Labeller::<64, 64>::new();
+            labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
+            let mut components = Components::<4>::new();
+            components.select(&config, &labeller);
+            let is_contact = area == 2 && peak >= 400;
+            let faint = if !is_contact && peak >= 300 { 1 << panel } else { 0 };
+            let found = (components.list.len(), components.faint);
+            assert_eq!(found, (usize::from(is_contact), faint), "{area} of {peak}");
+        }
+    }
 }

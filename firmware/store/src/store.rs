@@ -301,3 +301,23 @@ fn key(entry: &Entry, chunk: usize) -> u8 {
     let place = usize::from(entry.part) * 2 + usize::from(entry.place);
     (1 + place * CHUNKS + chunk) as u8
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use heapless::Vec;
+
+    #[test]
+    fn every_chunk_has_a_key_of_its_own_and_keeps_it() {
+        let mut keys = Vec::<u8, 256>::new();
+        for (part, place, chunk) in Part::ALL.into_iter().flat_map(|part| {
+            [0, 1].into_iter().flat_map(move |place| (0..CHUNKS).map(move |chunk| (part, place, chunk)))
+        }) {
+            keys.push(key(&Entry::of(part, place, &[]), chunk)).unwrap();
+        }
+        // Boards in use have stored their settings under these keys.
+        assert_eq!((keys.first(), keys.len()), (Some(&1), Part::ALL.len() * 2 * CHUNKS));
+        assert!(keys.is_sorted_by(|a, b| *b == a + 1), "{keys:?}");
+        assert_eq!(key(&Entry::of(Part::Gain, 1, &[]), 2), 1 + (2 * Part::Gain as u8 + 1) * 5 + 2);
+    }
+}

@@ -379,6 +379,12 @@ fn settings_that_do_not_fit_are_refused_and_leave_the_old_ones() {
         let found = load_from::<2048>(&mut flash, range.clone()).unwrap().unwrap();
         assert_eq!(found.garment, if taken { &large } else { &small }.garment, "{sectors} sectors");
         full += u32::from(refused);
+        // Sectors that hold the settings once need not hold the old and the new ones together.
+        let other = Kept { gain: vec![5; 2048], baseline: Some(vec![8; 2048]), ..large.clone() };
+        if items <= 4 * (sectors as usize - 1) {
+            assert_eq!(save(&mut flash, &other), Ok(Saved::Written), "{sectors} sectors");
+            assert_eq!(load_from::<2048>(&mut flash, range.clone()), Ok(Some(other)), "{sectors} sectors");
+        }
     }
     assert_eq!(full, 2);
 }
