@@ -1,6 +1,6 @@
 //! All mutants of a run in one build of the tests: a function that has some becomes a `match` over a number in
 //! the environment, with a copy of its body for each. cargo-mutants builds the tests again for each mutant,
-//! which takes ten times as long as running them.
+//! which takes longer than running them.
 
 use super::list::{Mutant, Place};
 use crate::{paths, process};
@@ -47,6 +47,9 @@ pub struct Built {
 
 /// Lines of a changed file that belong to a mutant; without a number, to the function as it was.
 type Arms = Vec<(Option<usize>, Range<usize>)>;
+
+/// Bytes of a function's body, and its mutants with their numbers.
+type Function<'a> = (Range<usize>, Vec<(usize, &'a Mutant)>);
 
 /// Builds the tests of packages with all mutants; `command` is `cargo` with its environment and targets.
 pub fn build(mutants: &[Mutant], mut command: Command, log: &Path) -> Result<Built, String> {
@@ -141,7 +144,7 @@ fn with_arms<'a>(
     mutants: impl Iterator<Item = (usize, &'a Mutant)>,
     left: &mut BTreeSet<usize>,
 ) -> (String, Arms) {
-    let mut functions: Vec<(Range<usize>, Vec<(usize, &Mutant)>)> = Vec::new();
+    let mut functions: Vec<Function> = Vec::new();
     for (number, mutant) in mutants {
         let body = mutant.function.as_ref().and_then(|function| body(source, &bytes(source, function)));
         let within =
