@@ -340,7 +340,8 @@ mod tests {
         assert!(ends.iter().all(|count| *count > 100), "{ends:?}");
     }
 
-    /// The solution of the centred sums, with divisions in wide integers; and whether it needs no expectation.
+    /// The solution of the centred sums, with divisions in wide integers; and whether it needs no
+    /// expectation.
     fn plain(sums: [i64; 9], count: i64, expected: [i32; 2]) -> (Flow, bool) {
         let nearest = |value: i64, divisor: i64| (value + divisor / 2).div_euclid(divisor);
         let [sx, sy, st, xx, xy, yy, xt, yt, tt] = sums;

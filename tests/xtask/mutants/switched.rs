@@ -1,6 +1,6 @@
-//! All mutants of a run in one build of the tests: a function that has some becomes a `match` over a number in
-//! the environment, with a copy of its body for each. cargo-mutants builds the tests again for each mutant,
-//! which takes longer than running them.
+//! All mutants of a run in one build of the tests: a function that has some becomes a `match` over a number
+//! in the environment, with a copy of its body for each. cargo-mutants builds the tests again for each
+//! mutant, which takes longer than running them.
 
 use super::list::{Mutant, Place};
 use crate::{paths, process};
@@ -37,8 +37,8 @@ pub enum End {
 
 /// Programs that hold the mutants.
 pub struct Built {
-    /// Numbers of the mutants that are not in the programs: those in constants, in `const fn`, and in functions
-    /// that return a type without a name.
+    /// Numbers of the mutants that are not in the programs: those in constants, in `const fn`, and in
+    /// functions that return a type without a name.
     pub left: BTreeSet<usize>,
     /// Numbers of those that do not compile, where the same function without the change does.
     pub unviable: BTreeSet<usize>,
