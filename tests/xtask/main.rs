@@ -48,6 +48,8 @@ usage: cargo xtask COMMAND
   mutants [--count N] [--seed S] [--write]
                         mutation tests: change the core and the store at N places (200), chosen by a seed, one at a time
                         --write: also write the result to docs/bench/mutants.txt
+  mutants --missed [--write]
+                        test again only what docs/bench/mutants.txt lists as missed and does not explain as equivalent
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom

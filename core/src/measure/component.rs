@@ -441,4 +441,46 @@ mod tests {
             assert_eq!(found[0], found[1], "{columns} columns, {share} %");
         }
     }
+
+    #[test]
+    fn the_peak_of_two_is_the_greater_one_and_the_first_of_equal_ones() {
+        let places = [(0, 0, 3), (0, 1, 0), (0, 1, 5), (2, 0, 0)];
+        let all = places
+            .into_iter()
+            .flat_map(|(panel, row, column)| [7, 9].map(|peak| (peak, Some(Place { panel, row, column }))));
+        let with = |(peak, peak_at)| Component { peak, peak_at, ..Component::BLANK };
+        let order = |(peak, at): (u16, Option<Place>)| {
+            (core::cmp::Reverse(peak), at.map(|at| (at.panel, at.row, at.column)))
+        };
+        for (one, other) in all.clone().flat_map(|one| all.clone().map(move |other| (one, other))) {
+            let mut whole = with(one);
+            whole.absorb(&with(other));
+            let expected = if order(one) <= order(other) { one } else { other };
+            assert_eq!((whole.peak, whole.peak_at), expected, "{one:?} {other:?}");
+        }
+    }
+
+    #[test]
+    fn a_panel_is_faint_from_three_quarters_of_a_contact_on() {
+        let mut garment = Garment::recorded(12, 16);
+        garment.panels.push(garment.panels[0].clone()).unwrap();
+        garment.panels[1].name = crate::format::Name::try_from("second").unwrap();
+        let layout = Layout::build(&garment, 3072, 4095).unwrap();
+        let config = ContactConfig { low: 100, high: 400, min_area: 2, ..Default::default() };
+        for (panel, area, peak) in [0, 1].into_iter().flat_map(|panel| {
+            [1, 2].into_iter().flat_map(move |area| (100..500).map(move |peak| (panel, area, peak)))
+        }) {
+            let mut values = vec![0; layout.taxels()];
+            values[usize::from(layout.areas()[panel].base) + 20..][..area].fill(peak);
+            let rows = Rows::of(&layout, &values);
+            let mut labeller = Labeller::<64, 64>::new();
+            labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
+            let mut components = Components::<4>::new();
+            components.select(&config, &labeller);
+            let is_contact = area == 2 && peak >= 400;
+            let faint = if !is_contact && peak >= 300 { 1 << panel } else { 0 };
+            let found = (components.list.len(), components.faint);
+            assert_eq!(found, (usize::from(is_contact), faint), "{area} of {peak}");
+        }
+    }
 }

@@ -145,3 +145,24 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         (0u16..).zip(&self.labels).filter(|(index, label)| label.parent == *index)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_contacts_behind_a_lost_one_move_up() {
+        let mut labeller = Labeller::<8, 8>::new();
+        for (label, contact) in [0, 1, NONE, 2, 3, 1].into_iter().enumerate() {
+            let _ = labeller.labels.push(Label { contact, ..Label::new(label as u16, 0) });
+        }
+        let after = |whole, lost| {
+            let mut labeller = labeller.clone();
+            labeller.renumber(whole, lost);
+            labeller.labels.iter().map(|label| label.contact).collect::<Vec<u16, 8>>()
+        };
+        assert_eq!(after(0, 1)[..], [0, 0, NONE, 1, 2, 0]);
+        assert_eq!(after(3, 1)[..], [0, 2, NONE, 1, 2, 2]);
+        assert_eq!(after(0, 3)[..], [0, 1, NONE, 2, 0, 1]);
+    }
+}

@@ -273,18 +273,23 @@ mod tests {
             let pictures = Pictures { peak: extreme, ..pictures(&before, &now) };
             let sums = FlowSums::of(&pictures).unwrap();
             let wide = wide(&before, &now, extreme);
-            let have = [sums.xx, sums.xy, sums.yy, sums.xt, sums.yt, sums.tt].map(i64::from);
-            assert_eq!((sums.count, have), (100, wide), "round {round}");
+            assert_eq!((sums.count, sums.all().map(i64::from)), (100, wide), "round {round}");
             // Nor does anything overflow in the solution.
             Flow::of(&pictures, [i32::MAX, i32::MIN]);
         }
     }
 
+    impl FlowSums {
+        fn all(&self) -> [i32; 9] {
+            [self.x, self.y, self.t, self.xx, self.xy, self.yy, self.xt, self.yt, self.tt]
+        }
+    }
+
     /// The sums in 64 bits, from the definition.
-    fn wide(before: &Picture, now: &Picture, peak: u16) -> [i64; 6] {
+    fn wide(before: &Picture, now: &Picture, peak: u16) -> [i64; 9] {
         let scale = (16 - peak.leading_zeros()).saturating_sub(8);
         let half = 1i64 << scale >> 1;
-        let mut sums = [0; 6];
+        let mut sums = [0; 9];
         for (row, column) in (1..SIDE - 1).flat_map(|row| (1..SIDE - 1).map(move |column| (row, column))) {
             let around = |weights: [[i64; 3]; 3], of: &dyn Fn(usize, usize) -> i64| -> i64 {
                 let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
@@ -295,10 +300,79 @@ mod tests {
             let x = (around([[-1, 0, 1], [-4, 0, 4], [-1, 0, 1]], &sum) + half) >> scale;
             let y = (around([[-1, -4, -1], [0, 0, 0], [1, 4, 1]], &sum) + half) >> scale;
             let t = (around([[1, 4, 1], [4, 16, 4], [1, 4, 1]], &change) + 2 * half) >> scale >> 1;
-            for (sum, term) in sums.iter_mut().zip([x * x, x * y, y * y, x * t, y * t, t * t]) {
+            for (sum, term) in sums.iter_mut().zip([x, y, t, x * x, x * y, y * y, x * t, y * t, t * t]) {
                 *sum += term;
             }
         }
         sums
+    }
+
+    #[test]
+    fn the_solution_is_that_of_wide_integers() {
+        let mut rng = fastrand::Rng::with_seed(3);
+        let mut ends = [0; 4];
+        for round in 0..6000 {
+            let full = [100.0, 255.0, 4000.0, 30000.0][rng.usize(..4)];
+            let (across, deep) = ([1.0, 0.3, 0.05, 0.0][rng.usize(..4)], [0.25, 0.1, 0.02][rng.usize(..3)]);
+            let waves = |way: [f64; 2], length: f64| {
+                picture(|x, y| {
+                    let [x, y] =
+                        [(x - way[0]) / length, (y - way[1]) / length].map(|part| (TAU * part).cos());
+                    full * (0.5 + deep * (x + across * y))
+                })
+            };
+            let way = [0; 2].map(|_| rng.f64() * rng.f64() * 3.0 - 0.7);
+            let length = 5.0 + 20.0 * rng.f64();
+            let (before, mut now) = (waves([0.0; 2], length), waves(way, length));
+            let noise = ([0.0, 1.0, 4.0, 16.0][rng.usize(..4)] * full / 256.0) as u16;
+            now.iter_mut().flatten().for_each(|value| *value += rng.u16(..=noise));
+            let expected = way.map(|way| (way * 65536.0) as i32 + rng.i32(-20_000..20_000));
+            let flow = Flow::of(&pictures(&before, &now), expected);
+            let peak = before.iter().chain(&now).flatten().copied().max().unwrap();
+            let (plain, whole) = plain(wide(&before, &now, peak), 100, expected);
+            assert_eq!(flow, plain, "round {round}: {way:?}");
+            ends[match plain {
+                Flow::Flat => 0,
+                Flow::Changed => 1,
+                Flow::Moved(_) => 2 + usize::from(whole),
+            }] += 1;
+        }
+        assert!(ends.iter().all(|count| *count > 100), "{ends:?}");
+    }
+
+    /// The solution of the centred sums, with divisions in wide integers; and whether it needs no
+    /// expectation.
+    fn plain(sums: [i64; 9], count: i64, expected: [i32; 2]) -> (Flow, bool) {
+        let nearest = |value: i64, divisor: i64| (value + divisor / 2).div_euclid(divisor);
+        let [sx, sy, st, xx, xy, yy, xt, yt, tt] = sums;
+        let [x, y, t] = [sx, sy, st].map(|sum| nearest(sum, count));
+        let centred = [xx - x * sx, xy - x * sy, yy - y * sy, xt - x * st, yt - y * st, tt - t * st];
+        let energy = centred[0] + centred[2];
+        if energy < 64 * count {
+            return (Flow::Flat, false);
+        }
+        let down = (64 - energy.leading_zeros()).saturating_sub(14);
+        let [xx, xy, yy, xt, yt, tt] = centred.map(|sum| sum >> down);
+        let energy = xx + yy;
+        if xt.abs().max(yt.abs()) > 2 * energy {
+            return (Flow::Changed, false);
+        }
+        let left = |w: [i64; 2]| (tt - ((w[0] * xt + w[1] * yt) >> 12)).max(0);
+        let clear = |energy: i64, w: [i64; 2]| energy * count >= left(w) * 98;
+        let determinant = xx * yy - xy * xy;
+        let mut whole = None;
+        if determinant >= energy * energy / 64 {
+            let w = [yy * xt - xy * yt, xx * yt - xy * xt].map(|n| nearest(n * 4096, determinant));
+            let is_near = w.iter().all(|w| w.abs() <= 6144);
+            whole = (is_near && clear(nearest(determinant, energy), w)).then_some(w);
+        }
+        let w = whole.unwrap_or_else(|| {
+            let e = expected.map(|way| -((i64::from(way).clamp(-131_072, 131_072) * 3) >> 6));
+            let rest = [xt * 4096 - xx * e[0] - xy * e[1], yt * 4096 - xy * e[0] - yy * e[1]];
+            [0, 1].map(|axis| e[axis] + nearest(rest[axis], energy))
+        });
+        let fits = w.iter().all(|w| w.abs() <= 6144) && clear(energy, w) && left(w) <= energy / 8;
+        let way = w.map(|w| (-w * 64 / 3) as i32);
+        (if fits { Flow::Moved(way) } else { Flow::Changed }, whole.is_some())
     }
 }

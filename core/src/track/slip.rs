@@ -71,4 +71,49 @@ mod tests {
             assert_eq!(begins(trembling), 0, "{way:?}");
         }
     }
+
+    #[test]
+    fn it_is_the_rule_whatever_the_steps() {
+        let mut state = 1u32;
+        let mut next = |below: u32| {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            (state >> 8) % below
+        };
+        let (mut begun, mut rounds) = (0, 0);
+        for _ in 0..400 {
+            let (mut slip, mut plain) = (Slip::new(), Plain { steps: [[0; 2]; 2], jitter: 8192 });
+            // From steps in one direction with noise of any size to noise alone.
+            let (size, noise, limit) = (1 << next(19), 1 << next(19), 1 << next(16));
+            let way = [0; 2].map(|_| next(2 * size) as i32 - size as i32);
+            for _ in 0..60 {
+                let step = way.map(|way| way + next(2 * noise) as i32 - noise as i32);
+                let expected = plain.begins(step.map(i64::from), limit.into());
+                assert_eq!(slip.begins(step, limit), expected, "{way:?} {step:?} {limit}");
+                (begun, rounds) = (begun + u32::from(expected), rounds + 1);
+            }
+        }
+        assert!(rounds / 10 < begun && begun < rounds / 2, "{begun} of {rounds}");
+    }
+
+    /// The rule in wide integers.
+    struct Plain {
+        steps: [[i64; 2]; 2],
+        jitter: i64,
+    }
+
+    impl Plain {
+        fn begins(&mut self, step: [i64; 2], limit: i64) -> bool {
+            let step = step.map(|way| way.div_euclid(16).clamp(-8192, 8192));
+            let [first, second] = self.steps;
+            self.steps = [second, step];
+            let change: i64 = step.iter().zip(second).map(|(now, before)| (now - before).abs()).sum();
+            let least = limit.max((3 * self.jitter).div_euclid(16)).min(32768);
+            self.jitter += (16 * change.min(2048) - self.jitter).div_euclid(16);
+            let sum = [0, 1].map(|axis| first[axis] + second[axis] + step[axis]);
+            let along = |step: [i64; 2]| step[0] * sum[0] + step[1] * sum[1];
+            let square = along(sum);
+            square >= least * least
+                && [first, second, step].map(along).iter().all(|along| *along >= square / 6)
+        }
+    }
 }

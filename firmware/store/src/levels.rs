@@ -128,6 +128,7 @@ mod tests {
             levels(3, 1),
             "the number turns over"
         );
+        assert_eq!(in_force([record(5, 3, 1), record(5 + (1 << 31), 4, 4)]), levels(3, 1), "half a turn");
         for bit in 0..32 * WORDS {
             let mut torn = record(9, 4, 4);
             torn[bit / 32] ^= 1 << (bit % 32);

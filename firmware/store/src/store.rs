@@ -301,3 +301,73 @@ fn key(entry: &Entry, chunk: usize) -> u8 {
     let place = usize::from(entry.part) * 2 + usize::from(entry.place);
     (1 + place * CHUNKS + chunk) as u8
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::convert::Infallible;
+    use embedded_storage::nor_flash::{ErrorType, ReadNorFlash};
+    use heapless::Vec;
+
+    #[test]
+    fn every_chunk_has_a_key_of_its_own_and_keeps_it() {
+        let mut keys = Vec::<u8, 256>::new();
+        for (part, place, chunk) in Part::ALL.into_iter().flat_map(|part| {
+            [0, 1].into_iter().flat_map(move |place| (0..CHUNKS).map(move |chunk| (part, place, chunk)))
+        }) {
+            keys.push(key(&Entry::of(part, place, &[]), chunk)).unwrap();
+        }
+        // Boards in use have stored their settings under these keys.
+        assert_eq!((keys.first(), keys.len()), (Some(&1), Part::ALL.len() * 2 * CHUNKS));
+        assert!(keys.is_sorted_by(|a, b| *b == a + 1), "{keys:?}");
+        assert_eq!(key(&Entry::of(Part::Gain, 1, &[]), 2), 1 + (2 * Part::Gain as u8 + 1) * 5 + 2);
+    }
+
+    /// Two sectors of flash.
+    struct Ram([u8; 8192]);
+
+    impl ErrorType for Ram {
+        type Error = Infallible;
+    }
+
+    impl ReadNorFlash for Ram {
+        const READ_SIZE: usize = 1;
+
+        fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Infallible> {
+            bytes.copy_from_slice(&self.0[offset as usize..][..bytes.len()]);
+            Ok(())
+        }
+
+        fn capacity(&self) -> usize {
+            self.0.len()
+        }
+    }
+
+    impl NorFlash for Ram {
+        const WRITE_SIZE: usize = 1;
+        const ERASE_SIZE: usize = 4096;
+
+        fn erase(&mut self, from: u32, to: u32) -> Result<(), Infallible> {
+            self.0[from as usize..to as usize].fill(0xff);
+            Ok(())
+        }
+
+        fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Infallible> {
+            self.0[offset as usize..].iter_mut().zip(bytes).for_each(|(held, byte)| *held &= byte);
+            Ok(())
+        }
+    }
+
+    /// As a firmware with chunks of another length would leave them.
+    #[test]
+    fn a_chunk_of_another_length_is_damage() {
+        let mut store = Store::new(Ram([0xff; 8192]), 0..8192).unwrap();
+        let (content, mut read) = ([7; 128], [0; PART_BYTES]);
+        let entry = Entry::of(Part::Gain, 0, &content);
+        for length in [127, 129, 0, 128] {
+            store.put(key(&entry, 0), &[7; 129][..length]).unwrap();
+            let expected = if length == 128 { Ok(&content[..]) } else { Err(StoreError::Damaged) };
+            assert_eq!(store.read(&entry, &mut read).map(|read| &*read), expected, "{length} bytes");
+        }
+    }
+}

@@ -3,17 +3,17 @@
 #[path = "../../../host/sim/src/flash.rs"]
 mod flash;
 
-use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
-use flash::{Cut, SimFlash};
+use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
+use flash::{Cut, FlashError, SimFlash};
 use taxel_core::acquire::ScanError;
-use taxel_core::board::{Board, BoardInfo, Input, Job, Part, Saved, Settings};
+use taxel_core::board::{Board, BoardInfo, Input, Job, PART_BYTES, Part, Saved, Settings};
 use taxel_core::condition::Certificate;
 use taxel_core::format::{Micros, name};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::react::Levels;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Request, encode};
-use taxel_store::{Found, Store, StoreError, in_force, keep_levels};
+use taxel_store::{CHUNK, Found, Store, StoreError, in_force, keep_levels};
 
 /// Pseudo-random numbers with a fixed seed.
 struct Random(u32);
@@ -169,6 +169,7 @@ fn what_has_not_changed_is_not_written() {
     let mut flash = SimFlash::default();
     let mut kept = Kept::new(Garment::block(), 64);
     assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
+    assert_eq!(flash.erased(), 0, "blank sectors need no erasure");
     let steps = flash.steps();
     assert_eq!(save(&mut flash, &kept), Ok(Saved::Unchanged));
     assert_eq!(flash.steps(), steps);
@@ -351,5 +352,114 @@ fn a_flash_that_something_else_has_written_takes_settings() {
         (0..3).for_each(|_| kept.change(&mut random));
         assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "round {round}");
         assert_eq!(load::<64>(&mut flash), Ok(Some(kept)), "round {round}");
+    }
+}
+
+#[test]
+fn settings_that_do_not_fit_are_refused_and_leave_the_old_ones() {
+    let small = Kept::new(Garment::block(), 64);
+    let large = Kept { baseline: Some(vec![9; 2048]), ..Kept::new(Garment::reference(), 2048) };
+    // At least four items in each sector but one; the index is one.
+    let mut buffer = [0; PART_BYTES];
+    let lengths =
+        Part::ALL.map(|part| large.settings().write(part, &mut buffer).unwrap().map_or(0, <[u8]>::len));
+    let items = 1 + lengths.iter().map(|length| length.div_ceil(CHUNK)).sum::<usize>();
+    let mut full = 0;
+    for sectors in 2..16u32 {
+        let (mut flash, range) = (SimFlash::default(), 0..4096 * sectors);
+        let save = |flash: &mut SimFlash, kept: &Kept| {
+            Store::new(flash, range.clone()).unwrap().save(&kept.settings())
+        };
+        assert_eq!(save(&mut flash, &small), Ok(Saved::Written));
+        let end = save(&mut flash, &large);
+        let taken = end == Ok(Saved::Written);
+        // Shorter items leave room for more of them.
+        let refused = end == Err(StoreError::Full) && items > 4 * (sectors as usize - 1);
+        assert!(taken || refused, "{end:?}: {items} items, {sectors} sectors");
+        let found = load_from::<2048>(&mut flash, range.clone()).unwrap().unwrap();
+        assert_eq!(found.garment, if taken { &large } else { &small }.garment, "{sectors} sectors");
+        full += u32::from(refused);
+        // Sectors that hold the settings once need not hold the old and the new ones together.
+        let other = Kept { gain: vec![5; 2048], baseline: Some(vec![8; 2048]), ..large.clone() };
+        if items <= 4 * (sectors as usize - 1) {
+            assert_eq!(save(&mut flash, &other), Ok(Saved::Written), "{sectors} sectors");
+            assert_eq!(load_from::<2048>(&mut flash, range.clone()), Ok(Some(other)), "{sectors} sectors");
+        }
+    }
+    assert_eq!(full, 2);
+}
+
+#[test]
+fn what_is_damaged_is_written_again() {
+    let mut flash = SimFlash::default();
+    let kept = Kept { baseline: Some(vec![0x123; 64]), ..Kept::new(Garment::block(), 64) };
+    save(&mut flash, &kept).unwrap();
+    let mut held = vec![0; FOUR_SECTORS as usize];
+    flash.read(0, &mut held).unwrap();
+    let (mut unread, mut places) = (0, 0);
+    for place in (0..held.len()).filter(|place| ![0, 0xff].contains(&held[*place])) {
+        let mut damaged = flash.clone();
+        damaged.write(place as u32, &[0]).unwrap();
+        let read = load::<64>(&mut damaged);
+        unread += u32::from(read.is_err());
+        assert!(matches!(read, Ok(None) | Err(_)) || read == Ok(Some(kept.clone())), "byte {place}");
+        save(&mut damaged, &kept).unwrap();
+        assert_eq!(load::<64>(&mut damaged).unwrap().as_ref(), Some(&kept), "byte {place}");
+        places += 1;
+    }
+    assert!(places > 300 && unread > places / 2, "{unread} of {places}");
+}
+
+/// A flash that reports no error for bits that it cannot raise, as the chips do.
+struct Silent(SimFlash);
+
+impl ErrorType for Silent {
+    type Error = FlashError;
+}
+
+impl ReadNorFlash for Silent {
+    const READ_SIZE: usize = 1;
+
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), FlashError> {
+        self.0.read(offset, bytes)
+    }
+
+    fn capacity(&self) -> usize {
+        self.0.capacity()
+    }
+}
+
+impl NorFlash for Silent {
+    const WRITE_SIZE: usize = 1;
+    const ERASE_SIZE: usize = SimFlash::ERASE_SIZE;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), FlashError> {
+        self.0.erase(from, to)
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), FlashError> {
+        let mut held = vec![0; bytes.len()];
+        self.0.read(offset, &mut held)?;
+        held.iter_mut().zip(bytes).for_each(|(held, byte)| *held &= byte);
+        self.0.write(offset, &held)
+    }
+}
+
+#[test]
+fn what_a_flash_did_not_take_is_noticed() {
+    let mut random = Random(23);
+    let mut kept = Kept::new(Garment::block(), 64);
+    for round in 0..300 {
+        let mut flash = Silent(SimFlash::default());
+        let range = 0..FOUR_SECTORS;
+        Store::new(&mut flash, range.clone()).unwrap().save(&kept.settings()).unwrap();
+        // Bits are lost where the next items will lie.
+        for _ in 0..1 + random.below(4) {
+            let place = random.below(4096);
+            flash.write(place, &[random.below(256) as u8]).unwrap();
+        }
+        kept.change(&mut random);
+        Store::new(&mut flash, range).unwrap().save(&kept.settings()).unwrap();
+        assert_eq!(load::<64>(&mut flash.0), Ok(Some(kept.clone())), "round {round}");
     }
 }

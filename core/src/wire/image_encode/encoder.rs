@@ -309,4 +309,68 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn images_too_long_or_of_another_length_than_the_base_are_refused() {
+        let (values, mut out) = (vec![0; LIMIT], [0; 16]);
+        let length = |taxels: usize, base: Option<usize>, out: &mut [u8]| {
+            encode_image(&values[..taxels], base.map(|base| &values[..base]), out)
+        };
+        assert_eq!((LIMIT, length(LIMIT, None, &mut out)), (2_097_152, None));
+        assert_eq!(length(LIMIT - 1, None, &mut out), Some(0));
+        assert_eq!(length(LIMIT - 1, Some(LIMIT - 1), &mut out), Some(0));
+        assert_eq!([8, 10].map(|base| length(9, Some(base), &mut out)), [None; 2]);
+    }
+
+    /// The code by its definition, taxel by taxel; what is behind the image or the longest run is unchanged.
+    fn plain(values: &[u16], base: Option<&[u16]>) -> Vec<u8> {
+        let same = |i: usize| values.get(i).is_none_or(|value| *value == base.map_or(0, |base| base[i]));
+        let mut code = Vec::new();
+        let mut number = |mut number: usize| {
+            while number > 127 {
+                code.push(number as u8 | 128);
+                number >>= 7;
+            }
+            code.push(number as u8);
+        };
+        let mut told = 0;
+        while let Some(start) = (told..values.len()).find(|i| !same(*i)) {
+            let last = start + RUN;
+            let end = (start..last).find(|i| same(*i) && (i + 1 == last || same(i + 1))).unwrap_or(last);
+            number(start - told);
+            number(end - start);
+            for i in start..end {
+                let before = base.map_or(if i == start { 0 } else { values[i - 1] }, |base| base[i]);
+                let difference = i32::from(values[i]) - i32::from(before);
+                number(if difference < 0 { -2 * difference - 1 } else { 2 * difference } as usize);
+            }
+            told = end;
+        }
+        code
+    }
+
+    #[test]
+    fn it_is_the_plain_code_of_any_image() {
+        let mut rng = fastrand::Rng::with_seed(11);
+        for round in 0..3000 {
+            let (changed, far) = ([2, 20, 60, 95, 99][rng.usize(..5)], [0, 1, 10, 100][rng.usize(..4)]);
+            let base: Vec<u16> = (0..rng.usize(..700)).map(|_| rng.u16(..)).collect();
+            let mut change = |value: u16| match rng.usize(..100) {
+                of if of >= changed => value,
+                _ if rng.usize(..100) < far => value ^ rng.u16(0x2000..),
+                _ => value ^ rng.u16(..100),
+            };
+            let now: Vec<u16> = base.iter().map(|value| change(*value)).collect();
+            let alone: Vec<u16> = base.iter().map(|_| change(0)).collect();
+            for (values, base) in [(&now, Some(&base[..])), (&alone, None)] {
+                let plain = plain(values, base);
+                let mut code = vec![0; plain.len()];
+                let room = encode_image(values, base, &mut code);
+                assert!(room == Some(plain.len()) && code == plain, "round {round}, {changed} %");
+                if let Some(less) = plain.len().checked_sub(1) {
+                    assert_eq!(encode_image(values, base, &mut code[..less]), None, "round {round}");
+                }
+            }
+        }
+    }
 }

@@ -157,8 +157,12 @@ fn sum_of(start: usize, values: &[u16]) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::*;
-    use crate::wire::image_sum;
+    use crate::garment::Garment;
+    use crate::image::rows::Rows;
+    use crate::wire::{decode_image, image_sum};
+    use std::vec;
 
     #[test]
     fn taxels_are_kept_and_summed_up_wherever_they_stand() {
@@ -173,6 +177,43 @@ mod tests {
                     assert_eq!(&kept[at..at + part.len()], part);
                 }
                 assert_eq!(sum_of(start, part), image_sum(&image), "{start} {end}");
+            }
+        }
+    }
+
+    #[test]
+    fn images_of_any_garment_come_back_and_are_kept() {
+        let mut rng = fastrand::Rng::with_seed(5);
+        for round in 0..300 {
+            let mut garment = Garment::recorded(1 + rng.u16(..12), [1, 2, 7, 16, 33][rng.usize(..5)]);
+            for name in ["b", "c"] {
+                let mut panel = garment.panels[0].clone();
+                (panel.name, panel.rows) = (crate::format::Name::try_from(name).unwrap(), 1 + rng.u16(..12));
+                panel.columns = [1, 3, 8, 16, 20][rng.usize(..5)];
+                garment.panels.push(panel).unwrap();
+            }
+            let layout = Layout::build(&garment, 2048, 4095).unwrap();
+            let mut reference = ImageReference::<2048>::new();
+            let (mut values, mut decoded) = (vec![0u16; layout.taxels()], vec![0u16; layout.taxels()]);
+            for frame in 0..12 {
+                let held = [0, 10, 50, 100][rng.usize(..4)];
+                for area in layout.areas() {
+                    for row in 0..area.rows {
+                        let start = usize::from(area.base + row * area.columns);
+                        let row = &mut values[start..][..area.columns.into()];
+                        let is_held = rng.usize(..100) < held;
+                        row.iter_mut().for_each(|value| *value = if is_held { rng.u16(..300) } else { 0 });
+                    }
+                }
+                let rows = Rows::of(&layout, &values);
+                let (image, alone) = (Image { values: &values, rows: &rows }, rng.bool());
+                let mut code = vec![0; 4 * values.len() + 99];
+                let length = reference.advance(&layout, &image, alone, &mut code).unwrap();
+                let base = decoded.clone();
+                decode_image(&code[..length], Some(&base[..]).filter(|_| !alone), &mut decoded).unwrap();
+                assert_eq!(decoded, values, "round {round}, frame {frame}, alone: {alone}");
+                let kept = (&reference.values[..values.len()], reference.sum());
+                assert_eq!(kept, (&values[..], image_sum(&values)), "round {round}, frame {frame}");
             }
         }
     }
