@@ -34,7 +34,7 @@ const GROUPS: u32 = 3;
 
 /// Number of groups of taxels side by side.
 fn groups(run: &Run) -> u32 {
-    if run.right - run.left < u16::from(run.area) {
+    if run.right - run.left < run.area {
         return 1;
     }
     let taxels = run.rebased();

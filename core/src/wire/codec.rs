@@ -74,3 +74,22 @@ pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, WireError> {
         Err(_) => Err(WireError::Message),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec;
+
+    #[test]
+    fn the_room_before_a_message_is_enough() {
+        for bytes in 1..1200 {
+            let start = lead(bytes);
+            // Without a zero, each full group takes an extra byte.
+            let mut place = vec![0x55; start + bytes + crc32::BYTES + 1];
+            let frame = close(&mut place, start..start + bytes).expect("there is room");
+            assert!(frame.len() <= frame_bound(bytes) && frame.end <= place.len(), "{bytes} bytes");
+            assert_eq!(start, 1 + (bytes + 4) / 254, "{bytes} bytes");
+        }
+    }
+}

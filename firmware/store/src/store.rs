@@ -367,8 +367,7 @@ mod tests {
         for length in [127, 129, 0, 128] {
             store.put(key(&entry, 0), &[7; 129][..length]).unwrap();
             let expected = if length == 128 { Ok(&content[..]) } else { Err(StoreError::Damaged) };
-            let result = store.read(&entry, &mut read);
-            assert_eq!(result.map(|read| read as &[u8]), expected, "{length} bytes");
+            assert_eq!(store.read(&entry, &mut read).map(|read| read as &[u8]), expected, "{length} bytes");
         }
     }
 }
