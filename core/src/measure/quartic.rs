@@ -17,7 +17,7 @@ use crate::segment::run::Run;
 ///
 /// J and sum r^4 f count the width of the taxels themselves. Of a contact of more than 400 taxels in at least
 /// 24 rows, every second row is taken. A contact that crosses a seam is not measured: together with its
-/// contour it would cost more than a frame has left. Nor is one that has more than three groups of taxels in a
+/// contour it would cost more than a frame has left. Nor is one that has more than seven groups of taxels in a
 /// run, which is none of the shapes that this tells apart.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Quartic {
@@ -30,7 +30,7 @@ pub struct Quartic {
 }
 
 /// Most groups of taxels of a run.
-const GROUPS: u32 = 3;
+const GROUPS: u32 = 7;
 
 /// Number of groups of taxels side by side.
 fn groups(run: &Run) -> u32 {
