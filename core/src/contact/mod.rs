@@ -7,7 +7,7 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
 //! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship: 76,600 bytes |
-//! | M0+ cycles | reference garment: 2 k where nothing touches; 18 k with one contact of 29 taxels, 59 k with five, 233 k with forty of 4 to 9; 179 k if all 2,048 taxels are touched, 223 k as a checkerboard of 1,024 runs |
+//! | M0+ cycles | reference garment: 2 k where nothing touches; 21 k with one contact of 29 taxels, 61 k with five, 231 k with forty of 4 to 9; 185 k if all 2,048 taxels are touched, 222 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
 //! taxel of the component, in its panel or across a seam. A component is a contact if its peak reaches the
@@ -36,8 +36,8 @@
 //! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
 //! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
 //! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
-//! `track::tracks`), and the form of one contact is measured (`measure::form`, `measure::quartic`): it costs as much as the rest
-//! of a contact together, and changes slowly.
+//! `track::tracks`), and the form of one contact is measured (`measure::form`, `measure::quartic`): it costs
+//! as much as the rest of a contact together, and changes slowly.
 
 mod stage;
 
