@@ -136,7 +136,8 @@ fn closest(
     closest
 }
 
-/// Squared distance by all features, if it is below `limit`. Size and anisotropy come first: they exclude most prototypes.
+/// Squared distance by all features, if it is below `limit`. Size and anisotropy come first: they exclude most
+/// prototypes.
 #[inline(always)]
 fn by_all(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
     let [nmi, anisotropy, size, kurtosis, two, four] = *features;
@@ -150,7 +151,8 @@ fn by_all(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option
     Some(limit - below(left, square(nmi, other_nmi))?)
 }
 
-/// Squared distance by NMI, anisotropy and size, if it is below `limit`, for a contact whose moments of the fourth order are not measured.
+/// Squared distance by NMI, anisotropy and size, if it is below `limit`, for a contact whose moments of the
+/// fourth order are not measured.
 #[inline(always)]
 fn by_three(limit: u32, prototype: &Prototype, features: &ShapeFeatures) -> Option<u32> {
     let [nmi, anisotropy, size, ..] = *features;

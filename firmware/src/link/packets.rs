@@ -56,10 +56,12 @@ pub(super) fn begin() {
     }
 }
 
-/// Gives the controller, which has no packet, the next one, if the port is open and there is one.
+/// Gives the controller the next packet, if it has none, the port is open, and there is something to send.
 fn send_next(last: &mut Last) {
-    let endpoint = USB_DPRAM.ep_in_control(ENDPOINT - 1).read();
-    if !endpoint.enable() || !OPENED.get() {
+    let control = USB_DPRAM.ep_in_buffer_control(ENDPOINT);
+    let (mut next, endpoint) = (control.read(), USB_DPRAM.ep_in_control(ENDPOINT - 1).read());
+    // Asked again: the interrupt may have come since.
+    if next.available(0) || !endpoint.enable() || !OPENED.get() {
         return;
     }
     let count = SENT.try_read(&mut last.bytes).unwrap_or(0);
@@ -69,8 +71,6 @@ fn send_next(last: &mut Last) {
     last.is_full = count == PACKET;
     fill(usize::from(endpoint.buffer_address()), &last.bytes);
     // The first packet after a connection is DATA0: the driver has left the other one there.
-    let control = USB_DPRAM.ep_in_buffer_control(ENDPOINT);
-    let mut next = control.read();
     next.set_pid(0, !next.pid(0));
     next.set_length(0, count as u16);
     next.set_full(0, true);
