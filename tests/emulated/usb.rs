@@ -186,6 +186,24 @@ fn arrives(used: &Scene, most: u64) {
     assert_eq!(came.len(), shown.len());
 }
 
+/// Scans of forty contacts while the interrupt is at odds with the main loop.
+const RACED: usize = 400;
+
+/// The main loop and the interrupt both hand packets to the controller. Neither may overwrite the other's:
+/// each image is compared with its sum, and the computer compares the toggle of each packet.
+#[test]
+fn an_interrupt_at_any_instruction_loses_no_packet() {
+    let codes = codes(&[(TouchPattern::Grid, true)], RACED);
+    let (mut board, _) = streaming(&Scene::shipped(), &codes, &["--race", "link7packets5begin"]);
+    let mut images = Images::default();
+    let first = next_frame(&mut board, &mut images).0;
+    while next_frame(&mut board, &mut images).0 < first + RACED as u32 {}
+    let stats = board.look("stats");
+    println!("USB {}; {} interrupts", stats["usb"], stats["races"]);
+    assert!(stats["races"].as_u64().unwrap() > 300, "less than once before each instruction");
+    board.end();
+}
+
 /// Time of the board that is looked at, us.
 const FLOODED_US: u64 = 1_500_000;
 

@@ -10,9 +10,11 @@ import { Check } from './check.mjs';
 import { BOD } from './chip_reset.mjs';
 import { loadImage } from './elf.mjs';
 import { Garment, readFrames, readWiring } from './garment.mjs';
+import { Intruder } from './intruder.mjs';
 import { Link } from './link.mjs';
 import { BoardError, Machine, WatchdogReset } from './machine.mjs';
 import { PowerCut } from './rom.mjs';
+import { USB_IRQ } from './usb.mjs';
 
 const SETTINGS_START = 0x1ee000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
 const BATCH_NANOS = 500_000; // how often the world outside is looked at
@@ -29,6 +31,7 @@ const { values: options } = parseArgs({
     every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
     flash: { type: 'string' }, cut: { type: 'string' }, restarts: { type: 'boolean', default: false },
     ground: { type: 'string', default: '' }, clock: { type: 'string', default: '0' }, 'reset-by': { type: 'string', default: 'power' },
+    race: { type: 'string' },
   },
 });
 
@@ -75,7 +78,7 @@ function tellTimes(machine, link) {
   }
 }
 
-function statistics(machine, garment, link, started) {
+function statistics({ machine, garment, intruder }, link, started) {
   const wall = (performance.now() - started) / 1000;
   return {
     emulated_us: Math.round(machine.micros), wall_ms: Math.round(wall * 1000), cycles: machine.cycles,
@@ -83,7 +86,7 @@ function statistics(machine, garment, link, started) {
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, link: { sent: link.sent, dropped: link.dropped, received: link.received,
       uart_overruns: machine.uart.overruns }, usb: machine.usb.packets, uart: machine.uart.sent, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
-    marks: machine.marks, check: garment?.check, brown_out: machine.supply.kept[BOD],
+    marks: machine.marks, check: garment?.check, races: intruder?.count, brown_out: machine.supply.kept[BOD],
   };
 }
 
@@ -130,6 +133,7 @@ async function main() {
       });
       machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));
       board.machine = machine;
+      if (options.race !== undefined) board.intruder = new Intruder(machine, USB_IRQ, options.race, () => machine.chip.usbCtrl.update());
       tellTimes(machine, link);
       if (overUsb) {
         machine.usb.plug();
@@ -150,7 +154,7 @@ async function main() {
   const control = { quit: false };
   const commands = {
     play: () => board.garment?.play(),
-    stats: () => say({ stats: statistics(board.machine, board.garment, link, started) }),
+    stats: () => say({ stats: statistics(board, link, started) }),
     faults: (list) => {
       board.machine.pads.faults = JSON.parse(list);
       say({ faults: board.machine.pads.faults.length });
@@ -213,10 +217,10 @@ async function main() {
     if (error instanceof BoardError && machine.rtt.text !== '') error.message += `\nlog: ${machine.rtt.text}`;
     throw error;
   } finally {
-    const { machine, garment } = board;
+    const { machine } = board;
     if (options.flash !== undefined) writeFileSync(options.flash, settings());
     if (options.rtt !== undefined) writeFileSync(options.rtt, Uint8Array.from(machine.rtt.bytes));
-    if (options.stats) say({ stats: statistics(machine, garment, link, started) });
+    if (options.stats) say({ stats: statistics(board, link, started) });
     await link.close();
   }
 }

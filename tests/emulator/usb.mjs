@@ -13,7 +13,7 @@ const CONTROLLER_EN = 1 << 0, PULLUP_EN = 1 << 16, EP0_INT_1BUF = 1 << 29;
 const STATUS_VBUS = 1 << 0, STATUS_SUSPENDED = 1 << 4, STATUS_RESUME = 1 << 11, STATUS_CONNECTED = 1 << 16;
 const STATUS_SETUP = 1 << 17, STATUS_RESET = 1 << 19;
 const INT_BUFFER = 1 << 4, INT_RESET = 1 << 12, INT_SUSPEND = 1 << 14, INT_RESUME = 1 << 15, INT_SETUP = 1 << 16;
-const USB_IRQ = 5;
+export const USB_IRQ = 5;
 
 // Memory of the controller: setup packet, controls of endpoints 1 to 15, buffer controls of 0 to 15, buffers.
 const ENDPOINT_CONTROL = 0x08, BUFFER_CONTROL = 0x80, BUFFER_CONTROL_END = 0x100, EP0_BUFFER = 0x100;
