@@ -271,7 +271,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     fn next_job(&mut self, now: Micros) -> Option<Job> {
-        self.health.process_us = self.ledger.process_us();
         self.outbox.tick(now);
         self.look_after(now);
         if let Some((pin, level)) = self.outputs.next() {
@@ -359,6 +358,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let Board {
             outbox, ledger, info, boot, setup, monitor, examined, certificate, health, state, ..
         } = self;
+        health.process_us = ledger.process_us();
         let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
         let (boot, unsure, taught) = (*boot, state.unsure(), &state.taught);

@@ -29,11 +29,24 @@ pub fn encode_image(values: &[u16], base: Option<&[u16]>, out: &mut [u8]) -> Opt
     Some(room - encoder.room())
 }
 
-/// Returns the number of taxels before the first that is not 0. This loop reads all unchanged taxels of an
-/// image without a base.
-fn zeros(values: &[u16]) -> usize {
-    let whole = values.as_chunks::<8>().0.iter().take_while(|block| zero(block)).count() * 8;
-    whole + values.iter().skip(whole).take_while(|value| **value == 0).count()
+/// Returns the taxels from the first that is not 0. This loop reads all unchanged taxels of an image without a
+/// base.
+fn behind_zeros(mut values: &[u16]) -> &[u16] {
+    // Often a run begins right behind the two taxels that end the last one.
+    if let [0, 0, rest @ ..] = values
+        && rest.first() != Some(&0)
+    {
+        return rest;
+    }
+    while let Some((block, rest)) = values.split_first_chunk()
+        && zero(block)
+    {
+        values = rest;
+    }
+    while let [0, rest @ ..] = values {
+        values = rest;
+    }
+    values
 }
 
 /// Unrolled by hand, because a compiler that optimises for size keeps a loop.
@@ -94,16 +107,16 @@ impl<'a> Encoder<'a> {
 
     #[inline(never)]
     fn alone(&mut self, start: usize, values: &[u16]) -> Option<()> {
-        let (mut out, mut told, mut at) = (take(&mut self.out), self.told, 0);
+        let (mut out, mut told, mut now) = (take(&mut self.out), self.told, values);
         loop {
-            at += zeros(values.get(at..)?);
-            let now = values.get(at..)?;
+            now = behind_zeros(now);
             let Some((first, more)) = now.split_first() else { break };
-            let (length, begun) = varint(out, (start + at - told) as u32)?.split_first_mut()?;
+            let at = start + values.len() - now.len();
+            let (length, begun) = varint(out, (at - told) as u32)?.split_first_mut()?;
             let run = rest::<true>(varint(begun, zigzag((*first).into()))?, more, now, RUN - 1)?;
             *length = 1 + run.taxels as u8;
-            at += 1 + run.taxels;
-            (out, told) = (run.out, start + at);
+            now = more.get(run.taxels..)?;
+            (out, told) = (run.out, at + 1 + run.taxels);
         }
         (self.out, self.told) = (out, told);
         Some(())

@@ -77,13 +77,20 @@ pub(super) fn go_on<const ALONE: bool>(
     base: &[u16],
     most: usize,
 ) -> Option<Told> {
-    if most > LANES
-        && let (Some(now), Some(base)) = (now.first_chunk(), base.first_chunk())
-        && let Some(out) = out.first_chunk_mut()
-    {
-        return Some(tell_within::<ALONE>(out, now, base));
+    if most <= LANES {
+        cold_path();
+        return edge::<ALONE>(out, now, base, most);
     }
-    edge::<ALONE>(out, now, base, most)
+    // One by one: a compiler turns joined conditions into numbers first.
+    let (Some(near), Some(base_near)) = (now.first_chunk(), base.first_chunk()) else {
+        cold_path();
+        return edge::<ALONE>(out, now, base, most);
+    };
+    let Some(room) = out.first_chunk_mut() else {
+        cold_path();
+        return edge::<ALONE>(out, now, base, most);
+    };
+    Some(tell_within::<ALONE>(room, near, base_near))
 }
 
 /// Encodes like [`go_on`], with fewer taxels or less room: the missing taxels count as unchanged.
@@ -167,11 +174,10 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
     }
     // The first of two unchanged taxels ends a run.
     let last = if ALONE {
-        if now[LANE] == 0 {
+        // Two instructions for both; two conditions cost a jump more for each taxel that is 0.
+        if u32::from(now[LANE]) | u32::from(now[LANE + 1]) << 16 == 0 {
             cold_path();
-            if now[LANE + 1] == 0 {
-                return Err(state.ended(LANE));
-            }
+            return Err(state.ended(LANE));
         }
         if LANE == 0 { base[0] } else { now[LANE - 1] }
     } else {
