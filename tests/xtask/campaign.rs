@@ -25,7 +25,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 18] = [
+const RUNS: [(&str, Run, &str); 19] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -75,6 +75,11 @@ const RUNS: [(&str, Run, &str); 18] = [
         "sessions",
         Run::Library("session::"),
         "sessions: 1,000 disconnects and restarts by each kind of link, everything set again (simulated)",
+    ),
+    (
+        "day",
+        Run::Commands("session::day"),
+        "a day of a board's time, recorded and reported: memory (simulated)",
     ),
     ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
     ("disk", Run::Disk, "files: every command that writes, each fault of a disk at each call"),

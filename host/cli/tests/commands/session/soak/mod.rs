@@ -5,11 +5,10 @@
 //! quarter of a minute.
 
 mod loss;
-mod memory;
 mod served;
 mod visitors;
 
-use memory::Watched;
+use super::memory::Watched;
 use served::Served;
 use std::fs::File;
 use std::path::Path;
