@@ -6,7 +6,7 @@ use crate::cross::Toolchain;
 use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
 use crate::targets::{End, WHOLE};
-use crate::{browser, firmware, locks, no_panic, paths, process, recordings, sizes, targets};
+use crate::{browser, firmware, locks, no_panic, package, paths, process, recordings, sizes, targets};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
@@ -41,6 +41,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("disk", targets::disk),
     ("clippy", clippy),
     ("docs", docs),
+    ("package", package::check),
     ("locks", compare_locks),
 ];
 

@@ -17,6 +17,7 @@ mod locks;
 mod mutants;
 mod names;
 mod no_panic;
+mod package;
 mod paths;
 mod process;
 mod recordings;
@@ -38,6 +39,7 @@ usage: cargo xtask COMMAND
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   cycles [--json|--write]
                         cost and error of the chain on the emulated board; --write updates docs/bench
+  bench [TABLE]         cost and error on this machine: stages, acquisition, amplifier, nmi or record; `bench --help` has more
   recorded [--all]      run the recorded frames of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json|--write]
                         compare the core with imageproc, and with OpenCV if Python has it: microseconds per panel
@@ -53,6 +55,7 @@ usage: cargo xtask COMMAND
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
+  package               pack the published crates, and build each from its package alone
   docs                  build the pages of docs/ as a book, target/docs/index.html
   test [--recorded] [--only NAME] [--may-miss NAME]
                         every check, two at a time; one that cannot run fails the run, unless it is named by --may-miss;
@@ -77,12 +80,18 @@ fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let rest = args.get(1..).unwrap_or(&[]);
     let done = match args.first().map(String::as_str) {
+        Some("bench") => targets::bench(rest).map(|()| true),
+        Some(_) if args.iter().any(|arg| arg == "--help") => {
+            print!("{USAGE}");
+            Ok(true)
+        }
         Some("firmware") => build_firmware(rest).map(|()| true),
         Some("core-thumb") => firmware::build_core().map(|()| true),
         Some("emulator") => firmware::emulate(rest).map(|()| true),
         Some("cycles") => targets::show_cycles(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
+        Some("package") if rest.is_empty() => package::run().map(|()| true),
         Some("docs") if rest.is_empty() => docs::run().map(|()| true),
         Some("campaign") => campaign::run(rest).map(|()| true),
         Some("fuzz") => fuzz::run(rest),

@@ -166,6 +166,13 @@ pub fn peers(args: &[String]) -> Result<(), String> {
     process::run(command.args(args))
 }
 
+/// `cargo xtask bench`: cost and error on this machine.
+pub fn bench(args: &[String]) -> Result<(), String> {
+    let mut command =
+        cargo(&["run", "--quiet", "--release", "--package", "taxel-bench", "--"], paths::root());
+    process::run(command.args(args))
+}
+
 /// A test target of the workspace.
 pub fn test_target(name: &str) -> Command {
     let mut command = cargo(&[&["test"], WHOLE, &["--test", name]].concat(), paths::root());

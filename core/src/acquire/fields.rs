@@ -17,7 +17,7 @@
 //!
 //! From one address to the next, row and column both change, so a line settles from a taxel that is no
 //! neighbour: the residue is a part of the whole signal, not of a difference between neighbours. The bound, a
-//! full-scale step, is that of every order (`taxel bench acquisition`, "order").
+//! full-scale step, is that of every order (`cargo xtask bench acquisition`, "order").
 
 use super::addresses::{self, Address, InputPins, Read};
 use super::rounds::Rounds;

@@ -70,7 +70,7 @@ impl Garment {
     /// one multiplexer (GP9-GP12) connects its sixteen columns to one converter input (GP26).
     ///
     /// It settles for 8 us. A delay in whole microseconds is sure to give 7, after which a line of 80 pF
-    /// behind its 10 kOhm keeps 0.65 counts of a full-scale step (`taxel bench acquisition`).
+    /// behind its 10 kOhm keeps 0.65 counts of a full-scale step (`cargo xtask bench acquisition`).
     pub fn block() -> Garment {
         let mut garment = plain("block-4x16", 4, 16);
         garment.wiring.block.lines.clear();
@@ -114,8 +114,8 @@ fn plain(title: &str, rows: u16, columns: u16) -> Garment {
 ///
 /// Settling is 3 us, of which a board is sure to give 2 (one conversion, or a delay in whole microseconds). A
 /// conditioned line with a time constant of 240 ns (3 kOhm and 80 pF) then keeps 0.98 counts of a full-scale
-/// step (`taxel bench acquisition`). A slower line needs a longer time, which a frame pays 512 times or a
-/// little more (`acquire::Rounds`). For an amplifier that is fast enough: `taxel bench amplifier`.
+/// step (`cargo xtask bench acquisition`). A slower line needs a longer time, which a frame pays 512 times or
+/// a little more (`acquire::Rounds`). For an amplifier that is fast enough: `cargo xtask bench amplifier`.
 fn reference_wiring() -> Wiring {
     Wiring {
         block: lines(&[2, 3, 6]),

@@ -6,7 +6,8 @@
 //! suffers less from noise and coarse grids. Sheppard's correction removes the variance of the pixel itself
 //! from the moment of inertia: J - m / 6.
 //!
-//! `taxel bench nmi` measures which form varies least (one touch turned, scaled, shifted or pressed harder).
+//! `cargo xtask bench nmi` measures which form varies least (one touch turned, scaled, shifted or pressed
+//! harder).
 //! On a fine grid it is the form by peak with the correction: 0.4 % on 32 x 64. On a block of 4 x 16 it is
 //! the form by sum of squares without it, because a touch is hardly wider than the pixel whose variance the
 //! correction removes.

@@ -5,7 +5,6 @@ mod examples;
 #[cfg(not(feature = "foxglove"))]
 mod not_built;
 
-use crate::commands::bench::{self, BenchArgs};
 use crate::commands::board::doctor::{self, DoctorArgs};
 use crate::commands::board::flash::{self, FlashArgs};
 use crate::commands::board::health::{self, HealthArgs};
@@ -95,9 +94,6 @@ enum Command {
     /// Recognise kindness, threat and attack: train and evaluate models that fit the board
     #[command(after_help = INTENT)]
     Intent(IntentArgs),
-    /// Measure speed and error: tables and charts
-    #[command(after_help = BENCH)]
-    Bench(BenchArgs),
     /// Identify a garment's wires by touch, and write its garment file
     #[command(after_help = SETUP)]
     Setup(SetupArgs),
@@ -165,7 +161,6 @@ impl Cli {
             Command::Fcm(args) => maps::run(args),
             Command::Gestures(args) => gestures::run(args),
             Command::Intent(args) => intent::run(args),
-            Command::Bench(args) => bench::run(args),
             Command::Setup(args) => setup::run(&args),
             Command::Calibrate(args) => calibrate::run(&args),
             Command::Settle(args) => settle::run(&args),

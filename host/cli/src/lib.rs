@@ -13,7 +13,6 @@
 //! | [`serve`] | the door of a server on this machine |
 //! | [`view`] | the page in the browser, and its server |
 //! | `foxglove` | the server for Foxglove (feature `foxglove`) |
-//! | [`mod@bench`] | tables and charts of cost and error |
 //! | `commands` | the commands |
 //! | [`cli`] | the command line |
 #![forbid(unsafe_code)]
@@ -34,8 +33,6 @@ pub mod view;
 
 #[cfg(feature = "foxglove")]
 pub mod foxglove;
-
-pub mod bench;
 
 #[doc(hidden)]
 pub mod commands;

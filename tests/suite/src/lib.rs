@@ -1,5 +1,5 @@
-//! Benchmarks, shared by the emulated board (`cargo xtask cycles`) and this machine (`taxel bench`): the
-//! scenes of [`pattern`], the whole [`chain`] from codes to encoded messages, and [`kernel`]s: reading alone,
+//! Benchmarks, shared by the emulated board (`cargo xtask cycles`) and this machine (`cargo xtask bench`):
+//! the scenes of [`pattern`], the whole [`chain`] from codes to encoded messages, and [`kernel`]s: reading alone,
 //! the [`dense`] chain, number formats to [`measure`] the contacts of [`windows`] or for the [`activation`]
 //! of concepts, and [`copies`].
 #![no_std]

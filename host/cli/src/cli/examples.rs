@@ -83,12 +83,6 @@ pub(super) const INTENT: &str = "Examples:
   taxel intent eval --frames frames.npz --labels labels.csv --cross day --json
   taxel intent train --frames frames.npz --labels labels.csv -o my.model";
 
-pub(super) const BENCH: &str = "Examples:
-  taxel bench
-  taxel bench acquisition
-  taxel bench nmi --json
-  taxel bench record";
-
 pub(super) const SETUP: &str = "Examples:
   taxel setup --garment reference -o garment.toml
   taxel setup --source serial:/dev/ttyACM0 --garment mine.toml -o garment.toml

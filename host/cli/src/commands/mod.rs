@@ -1,6 +1,5 @@
 //! The commands: each is a module with its arguments and a function `run`.
 
-pub mod bench;
 pub mod board;
 pub mod frames;
 pub mod garment;

@@ -10,5 +10,4 @@ mod session;
 mod settle;
 mod setup;
 mod sink;
-mod tables;
 mod view_recording;

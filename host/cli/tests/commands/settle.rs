@@ -3,12 +3,13 @@
 use anyhow::Result;
 use taxel::files::scripts;
 use taxel::sim::{PINS, SimBoard, Timing};
-use taxel_cli::bench::acquisition::LINE_PF;
 use taxel_cli::commands::garment::settle::{Scanner, settle};
 use taxel_core::acquire::{Acquire, MuxScan, Plan};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::run::block_on;
 
+/// Capacitance of a line, pF.
+const LINE_PF: f64 = 80.0;
 /// Allowed residue of a full-scale step, counts.
 const ERROR: f64 = 4.0;
 /// Two objects on two panels.

@@ -171,5 +171,4 @@ pub const CASES: &[Case] = &[
             &[file("base.json")],
         )
     },
-    case("bench amplifier", "bench amplifier --svg out.svg", &[ends("out.svg", "</svg>\n")]),
 ];

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Modules that write to a disk without it, and why.
-const ALLOWED: [(&str, &str); 4] = [
+const ALLOWED: [(&str, &str); 3] = [
     ("taxel/src/files/output/", "the writer"),
     ("cli/src/commands/board/flash.rs", "a board's drive, which restarts the board at the last block"),
     ("taxel/src/source/emulator.rs", "a temporary folder of its own"),
-    ("cli/src/bench/record.rs", "a temporary folder of its own"),
 ];
 /// Calls that write, replace or remove a file.
 const WRITES: [&str; 11] = [

@@ -2,7 +2,6 @@
 //! changed.
 
 mod calibrated;
-mod cost;
 mod exports;
 mod lerobot;
 mod raw;

@@ -39,4 +39,4 @@ pub use table::Table;
 pub use windows::Windows;
 
 /// Cards of the shipped models.
-pub const CARDS: &str = include_str!("../../../../../docs/models.md");
+pub const CARDS: &str = include_str!("../../../models.md");

@@ -1,4 +1,5 @@
-//! Speed against error, as a text table, as JSON and as a chart.
+//! Speed against error, as a text table, as JSON and as a chart: what `cargo xtask bench` prints.
+#![forbid(unsafe_code)]
 
 pub mod acquisition;
 pub mod amplifier;

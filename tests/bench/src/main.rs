@@ -1,16 +1,20 @@
-//! `taxel bench`: speed against error, as a text table, as JSON and as a chart.
+//! `cargo xtask bench`: speed against error, as a text table, as JSON and as a chart.
 
-use crate::bench::{Report, acquisition, amplifier, nmi, record, stages};
-use crate::watch::Overwrite;
+#![forbid(unsafe_code)]
+
 use anyhow::Result;
-use clap::{Args, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
+use std::process::ExitCode;
 use taxel::files::output;
+use taxel::tell::{fault, words};
+use taxel_bench::{Report, acquisition, amplifier, nmi, record, stages};
+use taxel_cli::watch::Overwrite;
 
-/// Arguments of `taxel bench`.
-#[derive(Debug, Clone, Args)]
-#[command(args_conflicts_with_subcommands = true)]
-pub struct BenchArgs {
+/// Measure speed and error: tables and charts
+#[derive(Debug, Clone, Parser)]
+#[command(bin_name = "cargo xtask bench", args_conflicts_with_subcommands = true)]
+struct BenchArgs {
     /// Which table; without it, `stages`
     #[command(subcommand)]
     table: Option<Table>,
@@ -21,38 +25,47 @@ pub struct BenchArgs {
 #[derive(Debug, Clone, Subcommand)]
 enum Table {
     /// Each stage and each variant: time on this machine, error, contacts
-    #[command(after_help = "Example:\n  taxel bench stages --svg stages.svg")]
+    #[command(after_help = "Example:\n  cargo xtask bench stages --svg stages.svg")]
     Stages(Output),
     /// Frames per second against the error of a taxel, over settling, source resistance, bits and averaging
-    #[command(after_help = "Example:\n  taxel bench acquisition --svg acquisition.svg")]
+    #[command(after_help = "Example:\n  cargo xtask bench acquisition --svg acquisition.svg")]
     Acquisition(Output),
     /// Settling of the garment's amplifier over its gain-bandwidth product
-    #[command(after_help = "Example:\n  taxel bench amplifier --json")]
+    #[command(after_help = "Example:\n  cargo xtask bench amplifier --json")]
     Amplifier(Output),
     /// Spread of the NMI and its forms under rotation, scale, shift and pressure
-    #[command(after_help = "Example:\n  taxel bench nmi --json")]
+    #[command(after_help = "Example:\n  cargo xtask bench nmi --json")]
     Nmi(Output),
     /// Cost of recording beside perceiving, and speed of replay
-    #[command(after_help = "Example:\n  taxel bench record")]
+    #[command(after_help = "Example:\n  cargo xtask bench record")]
     Record(record::RecordBench),
 }
 
 /// Options besides the text table.
 #[derive(Debug, Clone, Args)]
-pub struct Output {
+struct Output {
     /// Print JSON instead of a table
     #[arg(long)]
-    pub json: bool,
+    json: bool,
     /// Also draw the chart into this file
     #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
+    svg: Option<PathBuf>,
     /// Whether an existing output is replaced.
     #[command(flatten)]
-    pub force: Overwrite,
+    force: Overwrite,
 }
 
-/// Runs the command.
-pub fn run(args: BenchArgs) -> Result<()> {
+fn main() -> ExitCode {
+    match run(BenchArgs::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {}", words::sentence(&error));
+            ExitCode::from(fault::status(&error))
+        }
+    }
+}
+
+fn run(args: BenchArgs) -> Result<()> {
     match args.table.unwrap_or(Table::Stages(args.output)) {
         Table::Stages(output) => output.put(stages::report),
         Table::Acquisition(output) => output.put(|| Ok(acquisition::report())),
@@ -65,7 +78,7 @@ pub fn run(args: BenchArgs) -> Result<()> {
 impl Output {
     /// Prints a report, and draws its chart if a file is named; an output that cannot be written is refused
     /// before the work.
-    pub fn put(&self, report: impl FnOnce() -> Result<Report>) -> Result<()> {
+    fn put(&self, report: impl FnOnce() -> Result<Report>) -> Result<()> {
         let none: [&PathBuf; 0] = [];
         let chart = self.svg.as_ref().map(|file| output::Output::file(file, self.force, none)).transpose()?;
         let report = report()?;

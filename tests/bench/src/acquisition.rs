@@ -1,4 +1,4 @@
-//! `taxel bench acquisition`: frame rate against the error of a taxel.
+//! `cargo xtask bench acquisition`: frame rate against the error of a taxel.
 //!
 //! A simulated scan of the reference garment (512 addresses, four converter inputs) with a texture of signals
 //! between 200 and 3,800 counts, so that neighbours in time differ by up to 3,600 and no noise is clipped at

@@ -1,4 +1,4 @@
-//! `taxel bench nmi`: spread of the normalised moment of inertia and its forms if one touch is turned,
+//! `cargo xtask bench nmi`: spread of the normalised moment of inertia and its forms if one touch is turned,
 //! scaled, shifted by fractions of a taxel, or pressed harder.
 //!
 //! Every touch is drawn exactly (the covered part of each taxel), rounded to 12-bit codes, and measured by

@@ -2,7 +2,7 @@
 
 use super::format::FormRow;
 use super::row::Row;
-use crate::bench::chart::{Axis, Better, Chart, Series};
+use crate::chart::{Axis, Better, Chart, Series};
 use serde_json::{Value, json};
 use std::fmt;
 use taxel_core::pipeline::Stage;

@@ -1,7 +1,7 @@
 //! The tables and charts in docs/bench equal the program's output. TAXEL_BLESS=1 updates them.
 
 use std::path::Path;
-use taxel_cli::bench::{Report, acquisition, amplifier, nmi};
+use taxel_bench::{Report, acquisition, amplifier, nmi};
 
 /// Compares a table and its chart with the files, or writes them.
 fn check(name: &str, report: &Report) {

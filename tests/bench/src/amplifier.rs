@@ -1,4 +1,4 @@
-//! `taxel bench amplifier`: required speed of the amplifier that holds the multiplexers' commons at one
+//! `cargo xtask bench amplifier`: required speed of the amplifier that holds the multiplexers' commons at one
 //! voltage.
 //!
 //! A transimpedance amplifier holds the summing point of a panel's eight multiplexers at one voltage and

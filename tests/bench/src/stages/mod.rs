@@ -1,4 +1,4 @@
-//! `taxel bench stages`: cost on this machine and error of each stage and variant. The emulated board runs
+//! `cargo xtask bench stages`: cost on this machine and error of each stage and variant. The emulated board runs
 //! the same steps (`cargo xtask cycles`).
 
 pub mod case;

@@ -1,6 +1,5 @@
 //! Cost of recording compared with perception, and speed of replay.
 
-use crate::watch::{LiveArgs, watch};
 use anyhow::{Context, Result};
 use clap::Args;
 use serde_json::{Value, json};
@@ -11,6 +10,7 @@ use taxel::record::{Origin, Plan, Recorder};
 use taxel::session::Show;
 use taxel::sim;
 use taxel::source::{self, SourceOptions, SourceSpec, Speed};
+use taxel_cli::watch::{LiveArgs, watch};
 use taxel_core::capacity::{PARTS, RUNS, TAXELS};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -22,7 +22,7 @@ const SCENE: &str = "five";
 /// Repetitions; the fastest counts, because the others were disturbed.
 const TIMES: usize = 3;
 
-/// Arguments of `taxel bench record`.
+/// Arguments of `cargo xtask bench record`.
 #[derive(Debug, Clone, Args)]
 pub struct RecordBench {
     /// Print JSON instead of a table

@@ -1,11 +1,11 @@
 //! Cost of recording compared with perception, and speed of replay: printed, never judged.
 
-use super::stage::file;
-use taxel_cli::bench::record::measure;
+use std::path::Path;
+use taxel_bench::record::measure;
 
 #[test]
 fn costs_are_printed() {
-    let folder = file("cost");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cost");
     let cost = measure(&folder).unwrap();
     std::fs::remove_dir_all(folder).unwrap();
     assert!(cost.frames > 400 && (5000.0..5300.0).contains(&cost.period), "{cost:?}");
