@@ -12,7 +12,7 @@ const PUBLISHED: [&str; 5] = ["taxel-core", "taxel-store", "taxel-sim", "taxel",
 /// Packs them; changes that are not committed are packed, too.
 fn packing() -> Command {
     let mut command = cargo(&["package", "--quiet", "--allow-dirty"], paths::root());
-    PUBLISHED.iter().for_each(|name| drop(command.args(["--package", name])));
+    command.args(PUBLISHED.iter().flat_map(|name| ["--package", *name]));
     command
 }
 
