@@ -1,4 +1,4 @@
-//! The program `taxel`, apart from its `main`: the command line, the commands, and what shows a stream.
+//! The program `taxel`: the command line, the commands, and what shows a stream.
 //!
 //! This crate is no library: its modules are public for its tests and for the fuzzer. Programs use the crate
 //! [`taxel`].
@@ -16,6 +16,7 @@
 //! | [`mod@bench`] | tables and charts of cost and error |
 //! | `commands` | the commands |
 //! | [`cli`] | the command line |
+//! | [`program`] | the program from its arguments to its exit status |
 #![forbid(unsafe_code)]
 
 // First: the modules below use its macros.
@@ -41,3 +42,5 @@ pub mod bench;
 pub mod commands;
 
 pub mod cli;
+
+pub mod program;
