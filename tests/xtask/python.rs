@@ -12,6 +12,9 @@ const VERSIONS: std::ops::RangeInclusive<u32> = 10..=13;
 const FIRST_FRAME_S: f64 = 10.0;
 /// Frames over which a campaign watches the memory.
 const FRAMES: &str = "1000000";
+/// Folders of tests, and of what else mypy checks.
+const TESTS: [&str; 2] = ["tests", "lerobot/tests"];
+const TYPED: &[&str] = &["tests", "examples", "lerobot/lerobot_robot_taxel", "lerobot/tests"];
 /// Prints the length of the first image.
 const FIRST: &str = "import taxel; \
                      print(next(e.image.size for e in taxel.open('sim:pat') if isinstance(e, taxel.Frame)))";
@@ -110,17 +113,18 @@ fn steps(python: &Path, build: Build, log: &Path, variables: &[(&str, &str)]) ->
     install.args(["-m", "pip", "install", "--quiet", "--no-deps", "--force-reinstall"]).arg(&wheel);
     process::run_into(&mut install, log)?;
     let mut pytest = Command::new(python);
-    pytest.args(["-m", "pytest", "-p", "no:cacheprovider", "-rP"]).arg(package().join("tests"));
+    pytest.args(["-m", "pytest", "-p", "no:cacheprovider", "-rP"]);
+    pytest.args(TESTS.map(|folder| package().join(folder)));
     pytest.current_dir(paths::target()).envs(variables.iter().copied());
     process::run_into(&mut pytest, log)?;
-    let mut mypy = Command::new(python);
-    mypy.args(["-m", "mypy", "--strict", "--cache-dir"]).arg(paths::target().join("xtask/mypy"));
-    mypy.args(["-p", "taxel"]).current_dir(package().join("examples"));
-    process::run_into(&mut mypy, log)?;
-    let mut mypy = Command::new(python);
-    mypy.args(["-m", "mypy", "--strict", "--cache-dir"]).arg(paths::target().join("xtask/mypy"));
-    mypy.args(["tests", "examples"]).current_dir(package());
-    process::run_into(&mut mypy, log)?;
+    // The package itself, as it is installed, then what uses it.
+    let package_itself: &[&str] = &["-p", "taxel"];
+    for what in [package_itself, TYPED] {
+        let mut mypy = Command::new(python);
+        mypy.args(["-m", "mypy", "--strict", "--cache-dir"]).arg(paths::target().join("xtask/mypy"));
+        mypy.args(what).current_dir(package()).env("MYPYPATH", "lerobot");
+        process::run_into(&mut mypy, log)?;
+    }
     let said = std::fs::read_to_string(log).unwrap_or_default();
     let measured = said.lines().filter(|line| line.contains("resident memory") || line.contains("of a core"));
     let mut lines: Vec<String> = measured.map(String::from).collect();

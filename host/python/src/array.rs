@@ -51,7 +51,8 @@ impl Panel {
     /// The panel's rows in an image of all taxels: a view, not a copy.
     pub fn of<'py>(&self, image: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let end = self.first + self.rows * self.columns;
-        let part = PySlice::new(image.py(), self.first as isize, end as isize, 1);
+        // `PySlice::new` never frees its numbers.
+        let part = image.py().get_type::<PySlice>().call1((self.first, end))?;
         image.get_item(part)?.call_method1("reshape", (self.rows, self.columns))
     }
 }

@@ -43,8 +43,8 @@ def test_maps_run_as_by_the_command() -> None:
 
 
 def test_maps_are_built_and_kept(tmp_path: Path) -> None:
-    mine = fcm.build("two", concepts=["a", {"name": "b", "note": "the effect"}], edges=[("a", "b", "strong -")],
-                     transfer="sigmoid")
+    concepts: list[str | dict[str, str]] = ["a", {"name": "b", "note": "the effect"}]
+    mine = fcm.build("two", concepts=concepts, edges=[("a", "b", "strong -")], transfer="sigmoid")
     assert mine.to_dict()["edge"] == [{"from": "a", "to": "b", "weight": "strong -"}]
     assert fcm.parse(mine.to_toml()) == mine and "svg" in mine.draw() and "2 concepts" in repr(mine)
     fcm.save(mine, tmp_path / "two.toml")

@@ -6,8 +6,9 @@
 >>> frames[0].panels["back"].shape
 (32, 16)
 
-``taxel.open`` iterates over the events of a board, ``taxel.Board`` is the board itself, ``taxel.read`` reads
-recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation: docs/python.md of the project.
+``taxel.open`` iterates over the events of a board, ``taxel.Board`` is the board itself, ``taxel.read``
+reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
+docs/python.md of the project.
 """
 
 from __future__ import annotations

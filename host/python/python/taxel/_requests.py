@@ -32,7 +32,8 @@ class Requests:
         ``age_ms`` is the value's age now. From an age of ``lasts_ms`` on (0: never) it no longer counts, and
         ``otherwise`` does.
         """
-        self._ask("set_concept", name=name, value=value, age_ms=age_ms, lasts_ms=lasts_ms, otherwise=otherwise)
+        ages = {"age_ms": age_ms, "lasts_ms": lasts_ms}
+        self._ask("set_concept", name=name, value=value, otherwise=otherwise, **ages)
 
     def set_posture(self, degrees: Mapping[str, float]) -> None:
         """Tells the angles of joints, by their names in the scene, so that folds are no touches."""

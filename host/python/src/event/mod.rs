@@ -1,5 +1,5 @@
-//! Events as Python objects. An event holds its line, the JSON object of `taxel live --json`, and what belongs
-//! to it: the image of a frame, the codes of a scan. Its attributes are the line's keys.
+//! Events as Python objects. An event holds its line, the JSON object of `taxel live --json`, and what
+//! belongs to it: the image of a frame, the codes of a scan. Its attributes are the line's keys.
 //!
 //! | file | holds |
 //! |---|---|

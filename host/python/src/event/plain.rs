@@ -45,7 +45,7 @@ classes! {
     "boot" => Boot, "Cause of the board's start.";
     "unusable" => Unusable, "A `Hello` that this version cannot use; `why` says why.";
     "symbols" => Symbols, "Words for each contact, and the state of each region.";
-    "intent" => Intent, "The intention of the touch: `intent[\"leading\"]` and the activation of each concept.";
+    "intent" => Intent, "The announced intention, `intent[\"leading\"]`, and the activation of each concept.";
     "gesture" => Gesture, "The gesture of a touch.";
     "confidence" => Confidence, "Confidence of the gesture that follows.";
     "unsure" => Unsure, "Ids of the contacts that may be drift.";
