@@ -117,7 +117,7 @@ pub struct RecordedMessages {
 }
 
 /// A message: topic, log time and publish time in ns, data.
-type Told = (String, u64, u64, Py<PyBytes>);
+type Told<Data> = (String, u64, u64, Data);
 
 #[pymethods]
 impl RecordedMessages {
@@ -131,14 +131,14 @@ impl RecordedMessages {
         slf
     }
 
-    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Told>> {
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Told<Py<PyBytes>>>> {
         let found = py.detach(|| self.next()).map_err(raised)?;
         Ok(found.map(|(topic, log, publish, data)| (topic, log, publish, PyBytes::new(py, &data).unbind())))
     }
 }
 
 impl RecordedMessages {
-    fn next(&self) -> anyhow::Result<Option<(String, u64, u64, Vec<u8>)>> {
+    fn next(&self) -> anyhow::Result<Option<Told<Vec<u8>>>> {
         let mut messages = held(&self.messages);
         while let Some(message) = messages.next_message()? {
             let (header, data) = (message.header, message.data.to_vec());
