@@ -22,9 +22,9 @@ const FIRST: &str = "import taxel; \
 /// How the wheel is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Build {
-    /// As the tests are, whose products it uses as far as it can.
+    /// By the dev profile, like the other tests.
     Dev,
-    /// As it is given away, with all that the command can do.
+    /// For users: by the release profile, with all that the command can do.
     Release,
 }
 

@@ -1,34 +1,47 @@
 //! `taxel._taxel`: what the Python package `taxel` takes from Rust.
 //!
-//! | file | holds |
+//! In the order in which they build on each other; a module imports only modules before it:
+//!
+//! | module | holds |
 //! |---|---|
-//! | `error.rs` | errors as exceptions |
-//! | `value.rs` | JSON values as Python objects |
-//! | `array.rs` | NumPy arrays that own their buffer and that nobody can write |
-//! | `contact.rs` | contacts as a structured array |
-//! | `event/` | events as Python objects |
-//! | `board.rs` | `Board`: the very board, stepped by hand |
-//! | `recording.rs` | recordings: contents, events, messages |
-//! | `features.rs` | features of a touch, moments of an image |
-//! | `map.rs` | fuzzy cognitive maps |
-//! | `program.rs` | the command `taxel` (feature `cli`) |
-//! | `request.rs` | requests to a board |
-//! | `stream.rs` | `Stream`: a board's stream |
+//! | `error` | errors as exceptions |
+//! | `value` | JSON values as Python objects |
+//! | `array` | NumPy arrays that own their buffer and that nobody can write |
+//! | `contact` | contacts as a structured array |
+//! | `event` | events as Python objects |
+//! | `request` | requests to a board |
+//! | `stream` | `Stream`: a board's stream |
+//! | `board` | `Board`: the very board, stepped by hand |
+//! | `recording` | recordings: contents, events, messages |
+//! | `features` | features of a touch, moments of an image |
+//! | `map` | fuzzy cognitive maps |
+//! | `program` | the command `taxel` (feature `cli`) |
 #![forbid(unsafe_code)]
 
-mod array;
-mod board;
-mod contact;
 mod error;
+
+mod value;
+
+mod array;
+
+mod contact;
+
 mod event;
+
+mod request;
+
+mod stream;
+
+mod board;
+
+mod recording;
+
 mod features;
+
 mod map;
+
 #[cfg(feature = "cli")]
 mod program;
-mod recording;
-mod request;
-mod stream;
-mod value;
 
 use pyo3::prelude::*;
 

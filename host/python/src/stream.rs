@@ -103,7 +103,7 @@ impl Stream {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Looks for an event, for a second at most in which nothing comes.
+    /// Looks for an event until nothing has come for a while: a second or so.
     fn look(&self) -> anyhow::Result<Look> {
         let until = Instant::now() + Duration::from_millis(100);
         loop {
@@ -167,13 +167,12 @@ impl Stream {
 
     /// Closes the connection; then there are no more events.
     fn close(&self, py: Python<'_>) {
-        let open = py.detach(|| {
+        py.detach(|| {
             self.asking.fetch_add(1, Ordering::AcqRel);
             let open = self.lock().take();
             self.asking.fetch_sub(1, Ordering::AcqRel);
-            open
+            drop(open);
         });
-        drop(open);
     }
 
     /// Short name of the source; None once it is closed.

@@ -105,6 +105,21 @@ def test_requests_are_answered() -> None:
     assert answers["feed"] is not None, "the shipped map has no concept of this name"
 
 
+def test_postures_are_told_by_names() -> None:
+    with taxel.open("sim:elbow", tare=0, seconds=1) as board:
+        answers: list[taxel.Answer] = []
+        for event in board:
+            if isinstance(event, taxel.Hello):
+                with pytest.raises(taxel.UsageError, match="no joint knee; known: left_elbow"):
+                    board.set_posture({"knee": 10})
+                with pytest.raises(taxel.UsageError, match="left_elbow must be -180 to 180 degrees"):
+                    board.set_posture({"left_elbow": 200})
+                board.set_posture({"left_elbow": 12.5})
+            elif isinstance(event, taxel.Answer):
+                answers.append(event)
+    assert ("posture", None) in [(answer.request, answer.refusal) for answer in answers]
+
+
 def test_wrong_use_is_told_in_a_sentence() -> None:
     with pytest.raises(taxel.UsageError, match='no script of touches "nope"'):
         taxel.open("sim:nope")

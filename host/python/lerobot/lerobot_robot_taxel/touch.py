@@ -46,6 +46,7 @@ class Touch:
         self._windows = Windows(rows)
         self._news = threading.Condition()
         self._frame: taxel.Frame | None = None
+        self._panels: dict[str, tuple[int, int]] = {}
         self._felt = dict.fromkeys(INTENTIONS, 0.0)
         self._error: BaseException | None = None
         self._stream: Stream | None = None
@@ -87,6 +88,8 @@ class Touch:
                 self._news.notify_all()
 
     def _take(self, event: taxel.Event) -> None:
+        if isinstance(event, taxel.Hello):
+            self._panels = {one["name"]: (one["rows"], one["columns"]) for one in event.panels}
         if not isinstance(event, taxel.Frame) or event.image is None:
             return
         with self._news:
@@ -107,9 +110,25 @@ class Touch:
             return Seen(self._windows.take(frame.image.size), frame.panels, dict(self._felt))
 
     @property
-    def panels(self) -> dict[str, tuple[int, ...]]:
-        """Shape of each panel, once the garment is connected."""
-        return {} if self._frame is None else {name: one.shape for name, one in self._frame.panels.items()}
+    def panels(self) -> dict[str, tuple[int, int]]:
+        """Rows and columns of each panel. Before it is connected, the garment is opened briefly to ask for
+        them: LeRobot makes its data set before it connects."""
+        if not self._panels:
+            self._ask()
+        return self._panels
+
+    def _ask(self) -> None:
+        stream = self._open()
+        end = threading.Timer(PATIENCE, stream.close)
+        end.start()
+        for event in stream:
+            if isinstance(event, taxel.Hello):
+                self._take(event)
+                break
+        end.cancel()
+        stream.close()
+        if not self._panels:
+            raise taxel.BoardError(f"the board did not tell its garment within {PATIENCE:.0f} s")
 
     @property
     def waiting(self) -> int:

@@ -17,7 +17,7 @@ class Wrapped:
 
     @property
     def observation_features(self) -> dict[str, Any]:
-        """The robot's, and the numbers of touch. Those of the panels are known once it is connected."""
+        """The robot's, and the numbers of touch."""
         return {**self.inner.observation_features, **schema.observation_features(self.touch.panels)}
 
     @property

@@ -58,20 +58,21 @@ def test_no_image_is_lost() -> None:
 
 def test_a_robot_has_touch() -> None:
     robot = Wrapped(Arm(), Touch(lambda: taxel.open("sim:pat", realtime=True, repeat=True)))
+    features = robot.observation_features
+    assert not robot.is_connected
     robot.connect()
-    assert robot.is_connected and robot.is_calibrated
+    assert robot.is_connected and robot.is_calibrated and robot.observation_features == features
     times: list[int] = []
     for _ in range(20):
         time.sleep(1 / 30)
         seen = robot.get_observation()
-        assert set(robot.observation_features) <= set(seen) and seen["elbow.pos"] == 1.5
+        assert set(features) <= set(seen) and seen["elbow.pos"] == 1.5
         assert seen["touch"].shape == (ROWS, 2048) and seen["touch"].dtype == np.float32
         times += seen["touch_time_us"][: seen["touch_count"][0]].tolist()
     assert times == sorted(set(times)) and len(times) > 40
     assert robot.send_action({"elbow.pos": 2.0}) == {"elbow.pos": 2.0}
     robot.disconnect()
     assert not robot.is_connected
-    features = robot.observation_features
     assert features["touch.left_arm.total"] is float and features["touch.attack"] is float
 
 
