@@ -1,6 +1,6 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
-use crate::{browser, paths, targets, ways};
+use crate::{browser, paths, python, targets, ways};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -18,6 +18,8 @@ enum Run {
     Browser(&'static str),
     /// Python tests whose names contain this.
     Python(&'static str),
+    /// The Python package with each CPython.
+    Wheels,
     /// Tests of files on a failing disk.
     Disk,
     /// The image by each toolchain.
@@ -82,6 +84,11 @@ const RUNS: [(&str, Run, &str); 19] = [
         "a day of a board's time, recorded and reported: memory (simulated)",
     ),
     ("python", Run::Python("killed::"), "recordings: kill -9 while 50 of them are made"),
+    (
+        "python-wheels",
+        Run::Wheels,
+        "Python: the wheel with each CPython, a million frames of five contacts, from pip install to the first frame",
+    ),
     ("disk", Run::Disk, "files: every command that writes, each fault of a disk at each call"),
     (
         "view",
@@ -133,6 +140,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Image(module) => targets::measured(module, log, &longer)?,
         Run::Browser(file) => browser::measured(&[file], log, &longer)?,
         Run::Python(names) => targets::read_by_python(&[names], log, &longer)?,
+        Run::Wheels => python::campaign(log, &longer)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),
     };

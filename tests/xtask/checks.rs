@@ -6,7 +6,9 @@ use crate::cross::Toolchain;
 use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
 use crate::targets::{End, WHOLE};
-use crate::{browser, firmware, locks, no_panic, package, paths, process, recordings, sizes, targets};
+use crate::{
+    browser, firmware, locks, no_panic, package, paths, process, python, recordings, sizes, targets,
+};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
@@ -38,6 +40,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
     ("view", browser::check),
     ("python", targets::python),
+    ("wheel", python::check),
     ("disk", targets::disk),
     ("clippy", clippy),
     ("docs", docs),

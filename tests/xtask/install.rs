@@ -83,26 +83,35 @@ fn node(folder: &Path, package: &str) -> Result<(), String> {
 
 /// Creates a Python environment with the readers of recordings, in a folder of its own.
 pub fn python() -> Result<PathBuf, String> {
-    let _alone = alone();
-    if !process::exists("python3") {
-        packages(&["python3", "python3-venv"])?;
-    }
+    python3("python3")?;
     let folder = crate::paths::target().join("xtask/python");
-    let python = folder.join("bin/python");
     let wanted = crate::paths::root().join("host/cli/tests/python/requirements.txt");
+    python_in("python3", &folder, &wanted)
+}
+
+/// Installs Python if that is missing.
+pub fn python3(python: &str) -> Result<(), String> {
+    let _alone = alone();
+    if process::exists(python) { Ok(()) } else { packages(&["python3", "python3-venv"]) }
+}
+
+/// Creates an environment of an interpreter with these packages, pinned by hash.
+pub fn python_in(interpreter: &str, folder: &Path, wanted: &Path) -> Result<PathBuf, String> {
+    let _alone = alone();
+    let python = folder.join("bin/python");
     let read = |path: &Path| std::fs::read(path).ok();
     let note = folder.join("requirements.txt");
-    if read(&note).is_some() && read(&note) == read(&wanted) {
+    if read(&note).is_some() && read(&note) == read(wanted) {
         return Ok(python);
     }
-    let mut make = Command::new("python3");
-    make.args(["-m", "venv"]).arg(&folder);
+    let mut make = Command::new(interpreter);
+    make.args(["-m", "venv"]).arg(folder);
     let mut install = Command::new(&python);
-    install.args(["-m", "pip", "install", "--quiet", "--require-hashes", "--requirement"]).arg(&wanted);
+    install.args(["-m", "pip", "install", "--quiet", "--require-hashes", "--requirement"]).arg(wanted);
     for command in [&mut make, &mut install] {
         process::output(command).ok_or(format!("`{}` failed", process::shown(command)))?;
     }
-    std::fs::copy(&wanted, &note).map_err(|error| format!("{}: {error}", note.display()))?;
+    std::fs::copy(wanted, &note).map_err(|error| format!("{}: {error}", note.display()))?;
     Ok(python)
 }
 

@@ -20,6 +20,7 @@ mod no_panic;
 mod package;
 mod paths;
 mod process;
+mod python;
 mod recordings;
 mod report;
 mod sizes;
@@ -52,6 +53,8 @@ usage: cargo xtask COMMAND
                         --write: also write the result to docs/bench/mutants.txt
   mutants --missed [--write]
                         test again only what docs/bench/mutants.txt lists as missed and does not explain as equivalent
+  python [--release]    build the Python package as a wheel and test it in an environment of its own;
+                        --release: as it is given away
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
@@ -96,6 +99,7 @@ fn main() -> ExitCode {
         Some("campaign") => campaign::run(rest).map(|()| true),
         Some("fuzz") => fuzz::run(rest),
         Some("mutants") => mutants::run(rest).map(|()| true),
+        Some("python") => python::run(rest).map(|()| true),
         Some("soak") => targets::soak(rest).map(|()| true),
         Some("supply") => supply::run(rest),
         Some("test") => checks::run(rest),

@@ -13,7 +13,7 @@ const ADVISORIES: &str = "advisories";
 /// Its message if the advisories are not available.
 const NO_LIST: &str = "failed to fetch advisory database";
 /// Deliverables, and the folders of their lock files.
-const GIVEN: [(&str, &str); 2] = [("taxel-cli", "."), ("taxel-firmware", "firmware")];
+const GIVEN: [(&str, &str); 3] = [("taxel-cli", "."), ("taxel-python", "."), ("taxel-firmware", "firmware")];
 
 /// Result of a check.
 #[derive(Debug, PartialEq, Eq)]

@@ -38,6 +38,7 @@ use completions::CompletionsArgs;
 use examples::*;
 #[cfg(not(feature = "foxglove"))]
 use not_built::{self as foxglove, FoxgloveArgs};
+use std::ffi::OsString;
 use taxel::tell::{verbose, words};
 
 /// See, record and understand touch on a robot's tactile garment
@@ -136,9 +137,9 @@ enum Command {
 }
 
 impl Cli {
-    /// Reads the command line; the program ends here where it is wrong, or asks for help.
-    pub fn read() -> Cli {
-        Cli::try_parse().unwrap_or_else(|error| in_words(error).exit())
+    /// Reads a command line; the program ends here where it is wrong, or asks for help.
+    pub fn read(words: impl IntoIterator<Item = OsString>) -> Cli {
+        Cli::try_parse_from(words).unwrap_or_else(|error| in_words(error).exit())
     }
 
     /// Runs what was asked for.

@@ -1,4 +1,4 @@
-//! The program `taxel`, apart from its `main`: the command line, the commands, and what shows a stream.
+//! The program `taxel`: the command line, the commands, and what shows a stream.
 //!
 //! This crate is no library: its modules are public for its tests and for the fuzzer. Programs use the crate
 //! [`taxel`].
@@ -15,6 +15,7 @@
 //! | `foxglove` | the server for Foxglove (feature `foxglove`) |
 //! | `commands` | the commands |
 //! | [`cli`] | the command line |
+//! | [`program`] | the program from its arguments to its exit status |
 #![forbid(unsafe_code)]
 
 // First: the modules below use its macros.
@@ -38,3 +39,5 @@ pub mod foxglove;
 pub mod commands;
 
 pub mod cli;
+
+pub mod program;

@@ -15,6 +15,7 @@ pub mod load;
 pub mod map;
 pub mod member;
 pub mod paths;
+pub mod ran;
 pub mod scene;
 pub mod search;
 pub mod steps;

@@ -20,7 +20,9 @@
 //! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
 //! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, emulator, file, recording |
 //! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
+//! | [`stepped`] | the very board, stepped by hand with codes and a time |
 //! | [`json`] | a stream's JSON |
+//! | [`moments`] | moments, NMI and axis of one image |
 //! | [`record`] | recordings of a stream and their topics |
 //! | [`learn`] | training of what a board recognises |
 //!
@@ -48,7 +50,11 @@ pub mod source;
 
 pub mod session;
 
+pub mod stepped;
+
 pub mod json;
+
+pub mod moments;
 
 pub mod record;
 

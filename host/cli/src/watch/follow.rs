@@ -1,7 +1,7 @@
 //! Reads a source until it ends, or until the requested amount has come.
 
 use super::asked::Asked;
-use super::{BoardArgs, LiveArgs, outfit, stop};
+use super::{BoardArgs, LiveArgs, gesture_model, stop};
 use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;
@@ -13,8 +13,8 @@ use taxel::files::calibrate::Calibration;
 use taxel::files::output::Output;
 use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
-use taxel::session::{Returns, Session, Show, Turn};
-use taxel::source::Source;
+use taxel::session::{Returns, Session, Show, Turn, setting};
+use taxel::source::{SceneFile, Source};
 use taxel::tell::fault::Fault;
 use taxel::tell::verbose;
 use taxel_core::wire::Request;
@@ -112,10 +112,10 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
                 "--garment {garment}: a simulated board keeps the garment that it started with"
             )));
         }
-        outfit::wear(client, garment)?;
+        setting::set_garment(client, garment)?;
     }
     if let Some(scene) = &args.scene {
-        outfit::play(client, scene)?;
+        setting::set_scene(client, &SceneFile::read(scene)?)?;
     }
     if let Some(in_frame) = args.forms {
         client.request(&Request::SetForms { in_frame, ages: true })?;
@@ -128,7 +128,7 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     }
     client.start(args.tare.unwrap_or(source.tare))?;
     if let Some(model) = args.gestures {
-        outfit::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
+        gesture_model::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
     }
     if let Some(base) = &args.shapes {
         teach(client, &Base::open(base)?)?;

@@ -19,10 +19,12 @@
 //! |---|---|
 //! | `outgoing.rs` | requests on their way to a board that may not read |
 //! | `absence.rs` | a lost source, until it is back |
+//! | `setting.rs` | garments, scenes and models of the user, queued as requests |
 //! | `show.rs` | [`Show`]: who is handed the stream |
 
 mod absence;
 mod outgoing;
+pub mod setting;
 mod show;
 
 pub use show::Show;

@@ -16,6 +16,7 @@ mod tcp;
 pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
+pub(crate) use sim::info as simulated_info;
 pub use spec::SourceSpec;
 
 use crate::sim::Script;

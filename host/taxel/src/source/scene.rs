@@ -31,13 +31,22 @@ impl SceneFile {
         let name = path.display().to_string();
         crate::tell::verbose::reads(path);
         let text = std::fs::read_to_string(path).with_context(|| format!("{name} cannot be read"))?;
+        SceneFile::parse(text, name, path.parent().unwrap_or(Path::new(".")))
+    }
+
+    /// Parses a scene's text. `name` names it in errors; paths of maps are relative to `folder`.
+    pub fn parse(text: String, name: String, folder: &Path) -> Result<SceneFile> {
         let said: toml::Table =
             toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
         let said = serde_json::to_value(said)?;
-        let folder = path.parent().unwrap_or(Path::new("."));
         let scene =
             filled(said, folder).map_err(|Wrong { key, why }| toml_key::error(&name, &text, &key, why))?;
         Ok(SceneFile { scene, name, text })
+    }
+
+    /// Path of the file, or what else names the scene in errors.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Error about one of its keys, with its line.

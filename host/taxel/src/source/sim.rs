@@ -130,7 +130,8 @@ fn end_us(duration_s: f64, options: &SourceOptions) -> u64 {
     ((seconds * 1e6) as u64).max(frames)
 }
 
-fn info(garment: &Garment) -> BoardInfo {
+/// A simulated board for this garment: any pin may be a line or an output.
+pub fn info(garment: &Garment) -> BoardInfo {
     let inputs =
         garment.blocks.iter().fold(0, |mask, b| mask | 1u64.checked_shl(b.input.into()).unwrap_or(0));
     BoardInfo {

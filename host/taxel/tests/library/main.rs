@@ -18,5 +18,6 @@ mod session;
 #[path = "../../../../core/tests/core/shape/rig.rs"]
 mod shape_of;
 mod shapes;
+mod stepped;
 mod touch;
 mod watchdog;

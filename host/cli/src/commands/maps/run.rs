@@ -1,10 +1,10 @@
 //! `taxel fcm MAP`: runs a fuzzy cognitive map in f64 and in the arithmetic of the board, side by side.
 
 use anyhow::{Result, bail};
-use serde_json::{Value, json};
 use std::path::Path;
 use taxel::fcm::decimal::Decimal;
 use taxel::fcm::engine::{self, Problem, Settings, Trajectory};
+use taxel::fcm::ran::report;
 use taxel::fcm::{json, load};
 use taxel::tell::fault::Fault;
 use taxel_core::intent::{Outcome, Rule, Transfer};
@@ -121,23 +121,6 @@ pub fn run(args: RunArgs) -> Result<()> {
     Ok(())
 }
 
-/// `{"f64": ..., "q15": ...}`; if the core refuses the map, `q15` is null and `q15_error` is the reason.
-pub fn report(float: &Trajectory, fixed: &Result<Trajectory>) -> Value {
-    match fixed {
-        Ok(fixed) => json!({ "f64": trajectory(float), "q15": trajectory(fixed) }),
-        Err(error) => json!({ "f64": trajectory(float), "q15": null, "q15_error": error.to_string() }),
-    }
-}
-
-fn trajectory(t: &Trajectory) -> Value {
-    let (outcome, period) = match t.outcome {
-        Outcome::Fixed => ("fixed", 1),
-        Outcome::Cycle(period) => ("cycle", period),
-        Outcome::Unsettled => ("unsettled", 0),
-    };
-    json!({ "trajectory": t.states, "final": t.last(), "steps": t.steps, "outcome": outcome, "period": period })
-}
-
 /// Describes the outcome.
 fn ending(t: &Trajectory) -> String {
     match t.outcome {
@@ -169,6 +152,7 @@ pub fn table(problem: &Problem, float: &Trajectory, fixed: &Result<Trajectory>) 
 mod tests {
     use super::*;
     use clap::Parser;
+    use serde_json::json;
 
     #[derive(clap::Parser)]
     struct Cli {

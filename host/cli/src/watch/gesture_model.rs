@@ -1,0 +1,33 @@
+//! The gesture models of the command line.
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use taxel::client::Client;
+use taxel::session::setting;
+use taxel_core::gesture::Shipped;
+
+/// A model in the board's firmware.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum GestureModel {
+    /// constant, notouch, pat, rub, scratch, stroke, tickle
+    Gestures,
+    /// kindness, threat, attack
+    Intent,
+}
+
+/// Queues the confidence and the model.
+pub fn recognise(
+    client: &mut Client,
+    model: GestureModel,
+    gain: Option<f64>,
+    certainty: Option<f64>,
+) -> Result<()> {
+    let model = match model {
+        GestureModel::Gestures => Shipped::Gestures,
+        GestureModel::Intent => Shipped::Intent,
+    };
+    if let Some(certainty) = certainty {
+        setting::set_certainty(client, certainty).context("--gesture-certainty")?;
+    }
+    setting::set_gestures(client, model, gain, certainty.is_some()).context("--gestures")
+}

@@ -1,0 +1,27 @@
+"""Prints what touches, and what is meant by it: `python touches.py usb`, or `sim:lash` without a board."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import taxel
+
+
+def main(source: str) -> None:
+    leading = "none"
+    with taxel.open(source) as board:
+        for event in board:
+            if isinstance(event, taxel.Contacts) and len(event.contacts):
+                hardest = event.contacts[np.argmax(event.contacts["total"])]
+                place = f"{hardest['panel_name']} at ({hardest['x']:.1f}, {hardest['y']:.1f})"
+                print(f"{event.time_us / 1e6:.3f} s: {hardest['total']} counts on {place}")
+            elif isinstance(event, taxel.Intent) and event.intent["leading"] != leading:
+                leading = event.intent["leading"]
+                print(f"{event.time_us / 1e6:.3f} s: {leading}")
+            elif isinstance(event, (taxel.Lost, taxel.Back)):
+                print(event.text, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "sim:pat")

@@ -1,0 +1,46 @@
+"""The plug-in: a robot of LeRobot that wraps another one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import taxel
+from lerobot.robots import (  # type: ignore[import-not-found,unused-ignore]
+    Robot,
+    RobotConfig,
+    make_robot_from_config,
+)
+
+from .touch import Touch
+from .window import ROWS
+from .wrap import Wrapped
+
+
+@RobotConfig.register_subclass("taxel")
+@dataclass(kw_only=True)
+class TaxelRobotConfig(RobotConfig):  # type: ignore[misc,unused-ignore]
+    """A robot, and the garment that it wears."""
+
+    #: The robot.
+    robot: RobotConfig
+    #: Where the garment is: `usb`, `tcp:HOST:PORT`, `sim:pat` ...
+    source: str = "auto"
+    #: Frames of the baseline at the start; 0 for none.
+    tare: int = 64
+    #: Images of a window.
+    rows: int = ROWS
+
+
+class TaxelRobot(Wrapped, Robot):  # type: ignore[misc,unused-ignore]
+    """Any robot, with touch."""
+
+    config_class = TaxelRobotConfig
+    name = "taxel"
+
+    def __init__(self, config: TaxelRobotConfig) -> None:
+        Robot.__init__(self, config)
+
+        def open_garment() -> taxel.Stream:
+            return taxel.open(config.source, realtime=True, repeat=True, tare=config.tare)
+
+        Wrapped.__init__(self, make_robot_from_config(config.robot), Touch(open_garment, config.rows))

@@ -1,0 +1,127 @@
+"""The plug-in without LeRobot, and the environment."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import taxel
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from lerobot_robot_taxel import ROWS, Touch, Windows, Wrapped, schema  # noqa: E402
+
+
+class Arm:
+    """A robot as LeRobot has them."""
+
+    observation_features: dict[str, Any] = {"elbow.pos": float, "front": (480, 640, 3)}
+    action_features: dict[str, Any] = {"elbow.pos": float}
+    is_connected = False
+    is_calibrated = True
+
+    def connect(self, calibrate: bool = True) -> None:
+        self.is_connected = True
+
+    def disconnect(self) -> None:
+        self.is_connected = False
+
+    def get_observation(self) -> dict[str, Any]:
+        return {"elbow.pos": 1.5, "front": np.zeros((480, 640, 3), np.uint8)}
+
+    def send_action(self, action: dict[str, Any]) -> dict[str, Any]:
+        return action
+
+
+def test_no_image_is_lost() -> None:
+    windows = Windows()
+    images = [np.full(4, number, np.uint16) for number in range(40)]
+    seen: list[int] = []
+    for number, image in enumerate(images):
+        windows.add(number * 5128, image)
+        if number % 9 == 8:
+            window = windows.take(4)
+            assert window.values.shape == (ROWS, 4) and window.images == ROWS
+            seen += window.values[: window.images, 0].tolist()
+    while windows:
+        window = windows.take(4)
+        assert not window.values[window.images :].any()
+        numbers = window.values[: window.images, 0].tolist()
+        assert window.time_us[: window.images].tolist() == [number * 5128 for number in numbers]
+        seen += numbers
+    assert seen == list(range(40))
+
+
+def test_a_robot_has_touch() -> None:
+    robot = Wrapped(Arm(), Touch(lambda: taxel.open("sim:pat", realtime=True, repeat=True)))
+    features = robot.observation_features
+    assert not robot.is_connected
+    robot.connect()
+    assert robot.is_connected and robot.is_calibrated and robot.observation_features == features
+    times: list[int] = []
+    for _ in range(20):
+        time.sleep(1 / 30)
+        seen = robot.get_observation()
+        assert set(features) <= set(seen) and seen["elbow.pos"] == 1.5
+        assert seen["touch"].shape == (ROWS, 2048) and seen["touch"].dtype == np.float32
+        times += seen["touch_time_us"][: seen["touch_count"][0]].tolist()
+    assert times == sorted(set(times)) and len(times) > 40
+    assert robot.send_action({"elbow.pos": 2.0}) == {"elbow.pos": 2.0}
+    robot.disconnect()
+    assert not robot.is_connected
+    assert features["touch.left_arm.total"] is float and features["touch.attack"] is float
+
+
+def test_every_image_of_the_board_is_in_a_window() -> None:
+    with taxel.open("sim:pat", frames=250) as stream:
+        told = [event for event in stream if isinstance(event, taxel.Frame)]
+    touch = Touch(lambda: taxel.open("sim:pat", frames=250))
+    with touch:
+        time.sleep(1)
+        rows: list[Any] = []
+        while touch.waiting:
+            window = touch.observe().window
+            rows += list(zip(window.time_us[: window.images], window.values[: window.images], strict=True))
+    assert [row[0] for row in rows] == [event.time_us for event in told]
+    for (_, values), event in zip(rows, told, strict=True):
+        assert event.image is not None and np.array_equal(values, event.image)
+
+
+def test_rows_of_a_data_set_have_its_features() -> None:
+    with Touch(lambda: taxel.open("sim:pat", realtime=True)) as touch:
+        time.sleep(0.1)
+        row = schema.dataset_frame(touch.observe())
+    features = schema.dataset_features(ROWS, 2048)
+    assert {name: (str(value.dtype), value.shape) for name, value in row.items()} == {
+        name: (one["dtype"], one["shape"]) for name, one in features.items()
+    }
+
+
+def test_errors_of_the_stream_are_raised() -> None:
+    with pytest.raises(taxel.UsageError):
+        Touch(lambda: taxel.open("sim:nope")).connect()
+    with pytest.raises(taxel.BoardError, match="not connected"):
+        Touch(lambda: taxel.open("sim:pat")).observe()
+
+
+@pytest.mark.skipif(importlib.util.find_spec("gymnasium") is None, reason="gymnasium is not installed")
+def test_the_environment() -> None:
+    from gymnasium.utils.env_checker import check_env
+    from lerobot_robot_taxel.env import MEANINGS, TouchEnv
+
+    check_env(TouchEnv(), skip_render_check=True)
+    env = TouchEnv(render_mode="ansi")
+    assert env.render() is None
+    _, told = env.reset(seed=1, options={"scene": "lash"})
+    assert told == {"scene": "lash"}
+    steps, right, meant, over = 0, 0.0, set(), False
+    while not over:
+        _, reward, over, _, info = env.step(np.int64(MEANINGS.index("attack")))
+        steps, right = steps + 1, right + reward
+        meant.add(info["meaning"])
+    env.close()
+    assert steps > 100 and 0 < right < steps and {"none", "attack"} <= meant

@@ -1,0 +1,193 @@
+"""Touch on a robot's tactile garment: live, recorded, simulated.
+
+>>> import taxel
+>>> with taxel.open("sim:pat", frames=3) as board:
+...     frames = [event for event in board if isinstance(event, taxel.Frame)]
+>>> frames[0].panels["back"].shape
+(32, 16)
+
+``taxel.open`` iterates over the events of a board, ``taxel.Board`` is the board itself, ``taxel.read``
+reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
+docs/python.md of the project.
+"""
+
+from __future__ import annotations
+
+import os
+from types import TracebackType
+
+import numpy.typing as npt
+
+from . import _taxel, fcm
+from ._recording import Images, Message, Recording, _whole, features, moments, read
+from ._requests import Requests
+from ._taxel import (
+    CONTACT,
+    Answer,
+    Back,
+    BoardError,
+    Boot,
+    Budget,
+    Confidence,
+    Contacts,
+    Error,
+    Event,
+    Forms,
+    Frame,
+    Gesture,
+    Health,
+    HealthMap,
+    Hello,
+    Intent,
+    Log,
+    Lost,
+    Raw,
+    Reaction,
+    Reflex,
+    Refused,
+    SelfTest,
+    Shapes,
+    Symbols,
+    Sync,
+    Temperature,
+    Unsure,
+    Unusable,
+    UsageError,
+    __version__,
+)
+
+__all__ = [
+    "CONTACT",
+    "Answer",
+    "Back",
+    "Board",
+    "BoardError",
+    "Boot",
+    "Budget",
+    "Confidence",
+    "Contacts",
+    "Error",
+    "Event",
+    "Forms",
+    "Frame",
+    "Gesture",
+    "Health",
+    "HealthMap",
+    "Hello",
+    "Images",
+    "Intent",
+    "Log",
+    "Lost",
+    "Message",
+    "Raw",
+    "Reaction",
+    "Recording",
+    "Reflex",
+    "Refused",
+    "Requests",
+    "SelfTest",
+    "Shapes",
+    "Stream",
+    "Symbols",
+    "Sync",
+    "Temperature",
+    "Unsure",
+    "Unusable",
+    "UsageError",
+    "__version__",
+    "fcm",
+    "features",
+    "moments",
+    "open",
+    "read",
+]
+
+
+class Stream(_taxel.Stream, Requests):
+    """An open board: an iterator over its events, to be used with ``with``."""
+
+    def __enter__(self) -> Stream:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+class Board(_taxel.Board, Requests):
+    """The very board, stepped by hand: the codes of a scan and a time in, events out. Nothing waits.
+
+    ``garment`` is the name of a preset or a TOML file, ``scene`` a TOML file or its text; by default those
+    that ship. Requests reach it with the next step.
+
+    >>> import numpy as np, taxel
+    >>> board = taxel.Board("block-4x16")
+    >>> board.tare(frames=8)
+    >>> codes = np.full(board.taxels, 100, np.uint16)
+    >>> for frame in range(30):
+    ...     if frame == 20:
+    ...         codes[20:24] = 900
+    ...     events = board.step(codes, frame * 5000)
+    >>> [int(total) for event in events if isinstance(event, taxel.Frame)
+    ...  for total in event.contacts["total"]]
+    [3200]
+    """
+
+    def __new__(
+        cls, garment: str | os.PathLike[str] = "reference", scene: str | os.PathLike[str] | None = None
+    ) -> Board:
+        return super().__new__(cls, os.fspath(garment), None if scene is None else os.fspath(scene))
+
+    def step(self, codes: npt.ArrayLike, time_us: int) -> list[Event]:
+        """Takes one scan: the codes of all taxels by their numbers, whole numbers from 0 to 65535, and the
+        board's time in microseconds, which never goes back. Returns the events that it causes."""
+        return super().step(_whole(codes), time_us)
+
+
+def open(
+    source: str = "auto",
+    *,
+    seed: int | None = None,
+    garment: str | None = None,
+    realtime: bool = False,
+    repeat: bool = False,
+    frames: int | None = None,
+    seconds: float | None = None,
+    raw: bool = False,
+    tare: int | None = None,
+    once: bool = False,
+) -> Stream:
+    """Opens a board, and iterates over its events.
+
+    ``source`` is ``auto``, ``usb``, ``sim[:TOUCHES]``, ``serial:PATH[@BAUD]``, ``tcp:HOST:PORT``,
+    ``file:FILE`` or ``replay:FILE[@SPEED]``.
+
+    - ``seed``: of a simulation, instead of its script's
+    - ``garment``: a preset or a TOML file, for the board
+    - ``realtime``: a simulation or a replay takes its time; else it is as fast as it is read
+    - ``repeat``: a simulation repeats its script
+    - ``frames``, ``seconds``: end after so many images, or so much of the board's time
+    - ``raw``: also the raw codes of every scan
+    - ``tare``: frames of the baseline at the start; by default those that a simulated scene wants, else 0
+    - ``once``: end with an error when the board is lost, instead of waiting for it
+
+    >>> import taxel
+    >>> with taxel.open("sim:pat", seconds=2) as board:
+    ...     touched = {str(name) for event in board if isinstance(event, taxel.Contacts)
+    ...                for name in event.contacts["panel_name"]}
+    >>> touched
+    {'back'}
+    """
+    return Stream(
+        source,
+        seed=seed,
+        garment=garment,
+        realtime=realtime,
+        repeat=repeat,
+        frames=frames,
+        seconds=seconds,
+        raw=raw,
+        tare=tare,
+        once=once,
+    )

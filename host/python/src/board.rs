@@ -1,0 +1,80 @@
+//! The very board, stepped by hand.
+
+use crate::error::{raised, usage};
+use crate::event::{self, Fact, Teller};
+use crate::request;
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use taxel::files::garments;
+use taxel::stepped::Stepped;
+use taxel_core::format::Micros;
+use taxel_core::scene::Scene;
+
+/// A board without pins and without a clock.
+#[pyclass(frozen, subclass, module = "taxel")]
+pub struct Board {
+    stepped: Mutex<Hand>,
+}
+
+struct Hand {
+    board: Stepped,
+    teller: Teller,
+}
+
+impl Board {
+    fn lock(&self) -> MutexGuard<'_, Hand> {
+        self.stepped.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A board with this garment and scene.
+fn build(garment: &str, scene: Option<&str>) -> anyhow::Result<Stepped> {
+    let garment = garments::load(garment)?;
+    let scene =
+        scene.map_or_else(|| Ok(Scene::shipped()), |scene| request::scene(scene).map(|file| file.scene))?;
+    Stepped::new(garment, scene)
+}
+
+#[pymethods]
+impl Board {
+    #[new]
+    #[pyo3(signature = (garment="reference", scene=None))]
+    fn new(py: Python<'_>, garment: &str, scene: Option<&str>) -> PyResult<Board> {
+        let board = py.detach(|| build(garment, scene)).map_err(raised)?;
+        Ok(Board { stepped: Mutex::new(Hand { board, teller: Teller::default() }) })
+    }
+
+    /// Number of taxels: the length of a scan.
+    #[getter]
+    fn taxels(&self, py: Python<'_>) -> usize {
+        py.detach(|| self.lock().board.taxels())
+    }
+
+    /// Takes one scan: the codes of all taxels, `uint16` by their numbers, and the board's time in
+    /// microseconds, which never goes back. Returns the events that it causes.
+    fn step(
+        &self,
+        py: Python<'_>,
+        codes: PyReadonlyArray1<'_, u16>,
+        time_us: u64,
+    ) -> PyResult<Vec<Py<PyAny>>> {
+        let codes = codes.as_slice().map_err(|_| usage("the codes must lie side by side"))?;
+        let step = || {
+            let mut facts: Vec<Fact> = Vec::new();
+            let Hand { board, teller } = &mut *self.lock();
+            board.step(codes, Micros(time_us), &mut |client, event| {
+                facts.push(teller.fact(client, event, time_us.saturating_mul(1000)));
+                Ok(())
+            })?;
+            Ok(facts)
+        };
+        let facts = py.detach(step).map_err(raised)?;
+        facts.into_iter().map(|fact| event::object(py, fact)).collect()
+    }
+
+    /// Queues a request, by its name and its values in JSON.
+    fn _request(&self, py: Python<'_>, name: &str, values: &str) -> PyResult<()> {
+        py.detach(|| request::ask(self.lock().board.client(), name, values)).map_err(raised)
+    }
+}

@@ -1,0 +1,38 @@
+//! Errors of the library as Python exceptions, one sentence each.
+
+use pyo3::exceptions::PyException;
+use pyo3::prelude::*;
+use pyo3::{PyErr, create_exception};
+use taxel::tell::{fault, words};
+
+create_exception!(
+    taxel,
+    Error,
+    PyException,
+    "Something failed: a file, the disk, a result that is not there."
+);
+create_exception!(taxel, UsageError, Error, "Wrong use: an unknown name, or a value that is out of range.");
+create_exception!(taxel, BoardError, Error, "The board, or the link to it, is at fault.");
+
+/// The exception for an error, by its blame.
+pub fn raised(error: anyhow::Error) -> PyErr {
+    let sentence = words::sentence(&error);
+    match fault::status(&error) {
+        2 => UsageError::new_err(sentence),
+        3 => BoardError::new_err(sentence),
+        _ => Error::new_err(sentence),
+    }
+}
+
+/// An error of wrong use.
+pub fn usage(sentence: impl Into<String>) -> PyErr {
+    UsageError::new_err(sentence.into())
+}
+
+/// Adds the classes to the module.
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add("Error", py.get_type::<Error>())?;
+    module.add("UsageError", py.get_type::<UsageError>())?;
+    module.add("BoardError", py.get_type::<BoardError>())
+}

@@ -1,0 +1,154 @@
+//! Events with arrays.
+
+use super::base::Event;
+use crate::array::{self, Panels};
+use crate::contact;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+use serde_json::Value;
+
+/// Values of all taxels: by taxel, and by panel.
+struct Values {
+    all: Option<Py<PyAny>>,
+    panels: Panels,
+}
+
+impl Values {
+    fn new(py: Python<'_>, values: Option<Vec<u16>>, panels: Panels) -> PyResult<Values> {
+        let all = values.map(|values| array::frozen(py, values)).transpose()?;
+        Ok(Values { all: all.map(Bound::unbind), panels })
+    }
+
+    fn all<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
+        self.all.as_ref().map(|all| all.bind(py).clone())
+    }
+
+    fn by_panel<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        if let Some(all) = self.all(py) {
+            self.panels.iter().try_for_each(|panel| dict.set_item(&panel.name, panel.of(&all)?))?;
+        }
+        Ok(dict)
+    }
+}
+
+/// A conditioned image: the pressure of every taxel in counts, and what touches.
+#[pyclass(frozen, extends = Event, module = "taxel")]
+pub struct Frame {
+    values: Values,
+    contacts: PyOnceLock<Py<PyAny>>,
+}
+
+impl Frame {
+    /// The Python object.
+    pub fn object(
+        py: Python<'_>,
+        event: Event,
+        values: Option<Vec<u16>>,
+        panels: Panels,
+    ) -> PyResult<Py<PyAny>> {
+        let frame = Frame { values: Values::new(py, values, panels)?, contacts: PyOnceLock::new() };
+        Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(frame))?.into_any())
+    }
+}
+
+#[pymethods]
+impl Frame {
+    /// Pressure by taxel number: read-only `uint16`, never changed once it is there; None if the image could
+    /// not be decoded.
+    #[getter]
+    fn image<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
+        self.values.all(py)
+    }
+
+    /// The image by panel: views of (rows, columns) by the panel's name.
+    #[getter]
+    fn panels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.values.by_panel(py)
+    }
+
+    /// Present contacts, of dtype `taxel.CONTACT`.
+    #[getter]
+    fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let list = slf.as_super().get().value("contacts");
+        listed(slf.py(), &slf.get().contacts, list)
+    }
+
+    /// Ids of the contacts that ended with this frame.
+    #[getter]
+    fn released(slf: &Bound<'_, Self>) -> Vec<u64> {
+        let ids = slf.as_super().get().value("released").as_array();
+        ids.into_iter().flatten().filter_map(Value::as_u64).collect()
+    }
+}
+
+/// Raw codes of a scan.
+#[pyclass(frozen, extends = Event, module = "taxel")]
+pub struct Raw {
+    values: Values,
+}
+
+impl Raw {
+    /// The Python object.
+    pub fn object(
+        py: Python<'_>,
+        event: Event,
+        values: Option<Vec<u16>>,
+        panels: Panels,
+    ) -> PyResult<Py<PyAny>> {
+        let raw = Raw { values: Values::new(py, values, panels)? };
+        Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(raw))?.into_any())
+    }
+}
+
+#[pymethods]
+impl Raw {
+    /// Codes of the converter by taxel number: read-only `uint16`; None if they could not be decoded.
+    #[getter]
+    fn codes<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
+        self.values.all(py)
+    }
+
+    /// The codes by panel: views of (rows, columns) by the panel's name.
+    #[getter]
+    fn panels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.values.by_panel(py)
+    }
+}
+
+/// Contacts of a frame.
+#[pyclass(frozen, extends = Event, module = "taxel")]
+pub struct Contacts {
+    contacts: PyOnceLock<Py<PyAny>>,
+    released: PyOnceLock<Py<PyAny>>,
+}
+
+impl Contacts {
+    /// The Python object.
+    pub fn object(py: Python<'_>, event: Event) -> PyResult<Py<PyAny>> {
+        let contacts = Contacts { contacts: PyOnceLock::new(), released: PyOnceLock::new() };
+        Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(contacts))?.into_any())
+    }
+}
+
+#[pymethods]
+impl Contacts {
+    /// Present contacts, of dtype `taxel.CONTACT`.
+    #[getter]
+    fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        listed(slf.py(), &slf.get().contacts, slf.as_super().get().value("contacts"))
+    }
+
+    /// Contacts that have ended since the last list, with their last values.
+    #[getter]
+    fn released<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        listed(slf.py(), &slf.get().released, slf.as_super().get().value("released"))
+    }
+}
+
+/// The array of a list of contacts, made once.
+fn listed<'py>(py: Python<'py>, made: &PyOnceLock<Py<PyAny>>, list: &Value) -> PyResult<Bound<'py, PyAny>> {
+    let array = made.get_or_try_init(py, || contact::contacts(py, list).map(Bound::unbind))?;
+    Ok(array.bind(py).clone())
+}

@@ -1,0 +1,75 @@
+//! An event as it leaves the client, complete, so that it is independent of what the client takes next.
+
+use crate::array::{Panels, panels};
+use serde_json::{Value, json};
+use taxel::client::{Client, Event, ImageNews};
+use taxel::json;
+use taxel_core::format::Micros;
+use taxel_core::wire::Level;
+
+/// What the session itself says about its link.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Note {
+    /// The link is lost.
+    Lost,
+    /// It is back, and the board's settings are restored.
+    Back,
+}
+
+/// An event.
+pub struct Fact {
+    /// Its JSON line.
+    pub line: Value,
+    /// The host's time, ns since 1970.
+    pub host_ns: u64,
+    /// Set if it is the session's own.
+    pub note: Option<Note>,
+    /// The image of a frame, or the codes of a scan, by taxel; none if they could not be decoded.
+    pub values: Option<Vec<u16>>,
+    /// The garment's panels.
+    pub panels: Panels,
+}
+
+/// Tells facts about a client's events.
+#[derive(Debug)]
+pub struct Teller {
+    panels: Panels,
+}
+
+impl Default for Teller {
+    fn default() -> Teller {
+        Teller { panels: Panels::from([]) }
+    }
+}
+
+impl Teller {
+    /// The fact of an event that the client has just returned, at this time of the host.
+    pub fn fact(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
+        if *event == Event::Hello {
+            self.panels = client.layout().map_or_else(|| Panels::from([]), panels);
+        }
+        let mut line = json::message(client, event);
+        let board = line.get("time_us").and_then(Value::as_u64);
+        let host = board.and_then(|board| client.host_time(Micros(board)));
+        if let Some(time) = host {
+            line["host_time_us"] = json!(time.us);
+            line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
+        }
+        let values = match event {
+            Event::Frame { image: ImageNews::Whole, .. } => client.image().map(|(_, image)| image.to_vec()),
+            Event::Raw { whole: true, .. } => Some(client.raw().to_vec()),
+            _ => None,
+        };
+        let host_ns = host.map_or(now_ns, |time| time.us.saturating_mul(1000));
+        Fact { line, host_ns, note: None, values, panels: self.panels.clone() }
+    }
+
+    /// The fact of a message of the session itself.
+    pub fn note(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
+        let note = match event {
+            Event::Log { level: Level::Error, .. } => Note::Lost,
+            _ => Note::Back,
+        };
+        Fact { note: Some(note), ..self.fact(client, event, now_ns) }
+    }
+}

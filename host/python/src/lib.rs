@@ -1,0 +1,66 @@
+//! `taxel._taxel`: what the Python package `taxel` takes from Rust.
+//!
+//! In the order in which they build on each other; a module imports only modules before it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | `error` | errors as exceptions |
+//! | `value` | JSON values as Python objects |
+//! | `array` | NumPy arrays that own their buffer and that nobody can write |
+//! | `contact` | contacts as a structured array |
+//! | `event` | events as Python objects |
+//! | `request` | requests to a board |
+//! | `stream` | `Stream`: a board's stream |
+//! | `board` | `Board`: the very board, stepped by hand |
+//! | `recording` | recordings: contents, events, messages |
+//! | `features` | features of a touch, moments of an image |
+//! | `map` | fuzzy cognitive maps |
+//! | `program` | the command `taxel` (feature `cli`) |
+#![forbid(unsafe_code)]
+
+mod error;
+
+mod value;
+
+mod array;
+
+mod contact;
+
+mod event;
+
+mod request;
+
+mod stream;
+
+mod board;
+
+mod recording;
+
+mod features;
+
+mod map;
+
+#[cfg(feature = "cli")]
+mod program;
+
+use pyo3::prelude::*;
+
+/// The extension module.
+#[pymodule]
+fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    error::add(module)?;
+    event::add(module)?;
+    module.add("CONTACT", contact::dtype(module.py())?)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    #[cfg(feature = "cli")]
+    module.add_function(wrap_pyfunction!(program::run_program, module)?)?;
+    module.add_class::<stream::Stream>()?;
+    module.add_class::<board::Board>()?;
+    module.add_class::<recording::RecordedEvents>()?;
+    module.add_class::<recording::RecordedMessages>()?;
+    module.add_function(wrap_pyfunction!(recording::overview, module)?)?;
+    module.add_function(wrap_pyfunction!(recording::attachment, module)?)?;
+    module.add_function(wrap_pyfunction!(features::features, module)?)?;
+    module.add_function(wrap_pyfunction!(features::moments, module)?)?;
+    module.add_class::<map::Map>()
+}

@@ -1,0 +1,127 @@
+//! Requests to a board, as Python's `Requests` hands them over: by name, with values in JSON.
+
+use anyhow::{Context, Result, bail, ensure};
+use serde_json::Value;
+use std::path::Path;
+use taxel::client::Client;
+use taxel::session::setting;
+use taxel::source::SceneFile;
+use taxel::tell::fault::Fault;
+use taxel_core::fold::{JOINTS, JointAngle, Posture};
+use taxel_core::format::{Q15, name};
+use taxel_core::gesture::Shipped;
+use taxel_core::intent::Feed;
+use taxel_core::wire::Request;
+
+/// Values of a request.
+struct Values(Value);
+
+impl Values {
+    /// A whole number from `least` to `most`.
+    fn whole(&self, key: &str, least: i64, most: i64) -> Result<i64> {
+        let found = self.0[key].as_i64().filter(|number| (least..=most).contains(number));
+        let must = || Fault::usage(format!("{key} must be a whole number from {least} to {most}"));
+        Ok(found.ok_or_else(must)?)
+    }
+
+    /// A number from -1 to 1.
+    fn fraction(&self, key: &str) -> Result<Q15> {
+        let found = self.0[key].as_f64().filter(|number| (-1.0..=1.0).contains(number));
+        let found = found.ok_or_else(|| Fault::usage(format!("{key} must be a number from -1 to 1")))?;
+        Ok(Q15((found * f64::from(Q15::ONE.0)).round() as i32))
+    }
+
+    fn text(&self, key: &str) -> &str {
+        self.0[key].as_str().unwrap_or_default()
+    }
+
+    fn flag(&self, key: &str) -> bool {
+        self.0[key].as_bool().unwrap_or(false)
+    }
+}
+
+/// Queues the request of this name.
+pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
+    let values = Values(serde_json::from_str(values).context("the values of a request")?);
+    let request = match request {
+        "tare" => Request::Tare { frames: values.whole("frames", 1, 4096)? as u16 },
+        "key_frame" => Request::KeyFrame,
+        "self_test" => Request::SelfTest,
+        "save" => Request::Save,
+        "reset_settings" => Request::ResetSettings { undo: values.flag("undo") },
+        "budget" => Request::Budget { hz: values.whole("hz", 0, 65_535)? as u16 },
+        "set_raw" => Request::SetRaw { hz: values.whole("hz", 0, 65_535)? as u16 },
+        "set_forms" => {
+            Request::SetForms { in_frame: values.whole("in_frame", 0, 254)? as u8, ages: values.flag("ages") }
+        }
+        "set_concept" => Request::Feed(feed(&values)?),
+        "set_posture" => Request::Posture(posture(client, &values)?),
+        "set_garment" => return setting::set_garment(client, values.text("garment")),
+        "set_scene" => return setting::set_scene(client, &scene(values.text("scene"))?),
+        "set_gestures" => return gestures(client, &values),
+        _ => bail!(Fault::usage(format!("there is no request {request}"))),
+    };
+    Ok(client.request(&request)?)
+}
+
+/// A scene by its file, or by its text, which has more than one line or an assignment.
+pub fn scene(path_or_text: &str) -> Result<SceneFile> {
+    if path_or_text.contains(['\n', '=']) && !Path::new(path_or_text).is_file() {
+        return SceneFile::parse(path_or_text.into(), "the scene".into(), Path::new("."));
+    }
+    SceneFile::read(Path::new(path_or_text))
+}
+
+fn feed(values: &Values) -> Result<Feed> {
+    let concept = values.text("name");
+    let short = name(concept);
+    ensure!(
+        !short.is_empty() && short == concept,
+        Fault::usage(format!("{concept:?} is not a concept's name: 1 to 16 bytes"))
+    );
+    Ok(Feed {
+        concept: short,
+        value: values.fraction("value")?,
+        age_ms: values.whole("age_ms", 0, u32::MAX.into())? as u32,
+        lasts_ms: values.whole("lasts_ms", 0, u32::MAX.into())? as u32,
+        otherwise: values.fraction("otherwise")?,
+    })
+}
+
+/// Angles by the names of the scene's joints, degrees.
+fn posture(client: &Client, values: &Values) -> Result<Posture> {
+    let Some(worn) = client.worn() else {
+        bail!(Fault::usage("the board's joints are known once its Hello has been read"));
+    };
+    let joints = &worn.scene.joints;
+    let mut posture = Posture::default();
+    for (joint, degrees) in values.0["degrees"].as_object().into_iter().flatten() {
+        let Some(index) = joints.iter().position(|known| known == joint.as_str()) else {
+            let known: Vec<_> = joints.iter().map(|name| name.as_str()).collect();
+            let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+            bail!(Fault::usage(format!("the scene has no joint {joint}; known: {known}")));
+        };
+        let angle = degrees.as_f64().filter(|angle| (-180.0..=180.0).contains(angle));
+        let angle = angle.ok_or_else(|| Fault::usage(format!("{joint} must be -180 to 180 degrees")))?;
+        let told = JointAngle { joint: index as u8, centidegrees: (angle * 100.0).round() as i16 };
+        let too_many = || Fault::usage(format!("a posture has at most {JOINTS} joints"));
+        posture.joints.push(told).map_err(|_| too_many())?;
+    }
+    Ok(posture)
+}
+
+fn gestures(client: &mut Client, values: &Values) -> Result<()> {
+    let model = match values.0["model"].as_str() {
+        None => return Ok(client.request(&Request::SetGestures(None))?),
+        Some("gestures") => Shipped::Gestures,
+        Some("intent") => Shipped::Intent,
+        Some(other) => bail!(Fault::usage(format!(
+            "there is no gesture model {other}; known are gestures and intent, and None for no model"
+        ))),
+    };
+    let certainty = values.0["certainty"].as_f64();
+    if let Some(certainty) = certainty {
+        setting::set_certainty(client, certainty)?;
+    }
+    setting::set_gestures(client, model, values.0["gain"].as_f64(), certainty.is_some())
+}

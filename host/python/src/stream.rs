@@ -1,0 +1,201 @@
+//! A board's stream: opened, iterated, asked.
+
+use crate::error::raised;
+use crate::event::{self, Fact, Teller};
+use crate::request;
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use taxel::client::clock::SteadyTime;
+use taxel::client::passed::Passed;
+use taxel::client::{Event, ImageNews};
+use taxel::session::{Returns, Session, Turn, setting};
+use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::tell::fault::Fault;
+
+/// An open board: an iterator over its events.
+#[pyclass(frozen, subclass, module = "taxel")]
+pub struct Stream {
+    open: Mutex<Option<Open>>,
+    /// Threads that wait to ask for something, for which the reading thread makes room.
+    asking: AtomicUsize,
+}
+
+/// A session and how long it is read.
+struct Open {
+    session: Session,
+    teller: Teller,
+    clock: SteadyTime,
+    /// Images still awaited; none for no limit.
+    frames: Option<u64>,
+    /// Time limit, us of the board.
+    longest_us: Option<u64>,
+    passed: Passed,
+    over: bool,
+}
+
+/// What one look at the session brings.
+enum Look {
+    Found(Box<Fact>),
+    Nothing,
+    End,
+}
+
+impl Open {
+    fn look(&mut self) -> anyhow::Result<Look> {
+        if self.over {
+            return Ok(Look::End);
+        }
+        let now_ns = self.clock.now_us().saturating_mul(1000);
+        if let Some(event) = self.session.next_event() {
+            self.count(&event);
+            return Ok(Look::Found(Box::new(self.teller.fact(self.session.client(), &event, now_ns))));
+        }
+        if let Some(note) = self.session.note() {
+            return Ok(Look::Found(Box::new(self.teller.note(self.session.client(), &note, now_ns))));
+        }
+        match self.session.turn(&mut |_, _| Ok(()))? {
+            Turn::Bytes | Turn::Waiting => Ok(Look::Nothing),
+            Turn::End => {
+                self.over = true;
+                Ok(Look::End)
+            }
+        }
+    }
+
+    /// Counts what is awaited: whole images, and the board's time by them.
+    fn count(&mut self, event: &Event) {
+        let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return };
+        if let Some(frames) = &mut self.frames {
+            *frames = frames.saturating_sub(1);
+            self.over |= *frames == 0;
+        }
+        let passed_us = self.passed.until(time.0);
+        self.over |= self.longest_us.is_some_and(|longest| passed_us >= longest);
+    }
+}
+
+/// Opens a source.
+fn open(spec: &str, options: SourceOptions, tare: Option<u16>, returns: Returns) -> anyhow::Result<Open> {
+    let parsed: SourceSpec = spec.parse().map_err(|why| Fault::usage(format!("source {spec}: {why}")))?;
+    let source = source::open(&parsed, &options)?;
+    let (tare, listens, wears_asked) = (tare.unwrap_or(source.tare), source.listens, source.wears_asked);
+    let mut session = Session::new(source, returns);
+    let (client, _) = session.parts();
+    if let Some(garment) = options.garment.as_ref().filter(|_| !wears_asked) {
+        anyhow::ensure!(listens, Fault::usage(format!("{spec}: a recording has a garment of its own")));
+        setting::set_garment(client, garment)?;
+    }
+    client.start(tare)?;
+    if options.raw {
+        client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;
+    }
+    let longest_us = options.seconds.map(|seconds| (seconds * 1e6) as u64);
+    let (teller, clock, passed) = (Teller::default(), SteadyTime::start(), Passed::default());
+    let over = options.frames == Some(0);
+    Ok(Open { session, teller, clock, frames: options.frames, longest_us, passed, over })
+}
+
+impl Stream {
+    /// The session, once no other thread has it.
+    fn lock(&self) -> MutexGuard<'_, Option<Open>> {
+        self.open.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Looks for an event until nothing has come for a while: a second or so.
+    fn look(&self) -> anyhow::Result<Look> {
+        let until = Instant::now() + Duration::from_millis(100);
+        loop {
+            while self.asking.load(Ordering::Acquire) > 0 {
+                std::thread::sleep(Duration::from_micros(100));
+            }
+            let look = match self.lock().as_mut() {
+                Some(open) => open.look()?,
+                None => Look::End,
+            };
+            match look {
+                Look::Nothing if Instant::now() < until => {}
+                look => return Ok(look),
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Stream {
+    #[new]
+    #[pyo3(signature = (source, *, seed=None, garment=None, realtime=false, repeat=false, frames=None,
+                        seconds=None, raw=false, tare=None, once=false))]
+    #[allow(clippy::too_many_arguments)] // keywords in Python
+    fn new(
+        py: Python<'_>,
+        source: &str,
+        seed: Option<u64>,
+        garment: Option<String>,
+        realtime: bool,
+        repeat: bool,
+        frames: Option<u64>,
+        seconds: Option<f64>,
+        raw: bool,
+        tare: Option<u16>,
+        once: bool,
+    ) -> PyResult<Stream> {
+        if seconds.is_some_and(|seconds| !(0.0..=1e9).contains(&seconds)) {
+            return Err(crate::error::usage("seconds must be a time of 0 or more"));
+        }
+        let options = SourceOptions { seed, realtime, repeat, frames, seconds, raw, garment };
+        let returns = if once { Returns::Never } else { Returns::Always };
+        let open = py.detach(|| open(source, options, tare, returns)).map_err(raised)?;
+        Ok(Stream { open: Mutex::new(Some(open)), asking: AtomicUsize::new(0) })
+    }
+
+    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    /// Waits for the next event. Other threads run meanwhile, and Ctrl-C ends the wait.
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
+        loop {
+            match py.detach(|| self.look()).map_err(raised)? {
+                Look::Found(fact) => return event::object(py, *fact).map(Some),
+                Look::Nothing => py.check_signals()?,
+                Look::End => return Ok(None),
+            }
+        }
+    }
+
+    /// Closes the connection; then there are no more events.
+    fn close(&self, py: Python<'_>) {
+        py.detach(|| {
+            self.asking.fetch_add(1, Ordering::AcqRel);
+            let open = self.lock().take();
+            self.asking.fetch_sub(1, Ordering::AcqRel);
+            drop(open);
+        });
+    }
+
+    /// Short name of the source; None once it is closed.
+    #[getter]
+    fn label(&self, py: Python<'_>) -> Option<String> {
+        py.detach(|| self.lock().as_ref().map(|open| open.session.source().label.clone()))
+    }
+
+    /// Queues a request, by its name and its values in JSON.
+    fn _request(&self, py: Python<'_>, name: &str, values: &str) -> PyResult<()> {
+        let ask = || {
+            self.asking.fetch_add(1, Ordering::AcqRel);
+            let mut open = self.lock();
+            self.asking.fetch_sub(1, Ordering::AcqRel);
+            match open.as_mut() {
+                None => Err(Fault::usage("the stream is closed").into()),
+                Some(open) if !open.session.source().listens => {
+                    let label = &open.session.source().label;
+                    Err(Fault::usage(format!("{label} is a recording, whose board does not listen")).into())
+                }
+                Some(open) => request::ask(open.session.parts().0, name, values),
+            }
+        };
+        py.detach(ask).map_err(raised)
+    }
+}

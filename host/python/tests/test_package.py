@@ -1,0 +1,51 @@
+"""The package as a user finds it: examples, types, the command."""
+
+from __future__ import annotations
+
+import doctest
+import importlib.metadata
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import taxel
+from conftest import program
+
+DOCS = Path(__file__).parents[3] / "docs/python.md"
+MODULES = [taxel, taxel.fcm, sys.modules["taxel._recording"]]
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)
+def test_examples_run(module: object) -> None:
+    found = doctest.testmod(module, optionflags=doctest.ELLIPSIS)  # type: ignore[arg-type]
+    assert found.attempted > 0 and found.failed == 0
+
+
+@pytest.mark.skipif(not DOCS.exists(), reason="outside of the repository")
+def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    program("record", "--source", "sim:pat", "--seconds", "4", "-o", "pat.mcap")
+    # What stands between the code blocks is no output.
+    lines = DOCS.read_text(encoding="utf-8").splitlines()
+    text = "\n".join("" if line.startswith("```") else line for line in lines)
+    page = doctest.DocTestParser().get_doctest(text, {}, DOCS.name, str(DOCS), 0)
+    found = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(page)
+    assert found.attempted > 10 and found.failed == 0
+
+
+def test_the_command() -> None:
+    assert program("--version").strip() == f"taxel {taxel.__version__}"
+    assert importlib.metadata.version("taxel") == taxel.__version__
+    done = subprocess.run([sys.executable, "-m", "taxel", "live", "--source", "radio"], capture_output=True)
+    assert done.returncode == 2
+    script = Path(sys.executable).with_name("taxel")
+    assert subprocess.run([script, "scenes"], capture_output=True, check=True).stdout.startswith(b"pat")
+
+
+def test_all_is_documented() -> None:
+    for name in taxel.__all__:
+        if name not in ("CONTACT", "__version__"):
+            assert inspect.getdoc(getattr(taxel, name)), name
+    assert (Path(taxel.__file__).parent / "py.typed").exists()

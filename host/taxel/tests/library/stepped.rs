@@ -1,0 +1,79 @@
+//! A board stepped by hand perceives what the simulated board perceives, bit for bit.
+
+use serde_json::Value;
+use taxel::client::Event;
+use taxel::files::scripts;
+use taxel::json::message;
+use taxel::session::Session;
+use taxel::source::{self, SourceOptions, SourceSpec, scene_of};
+use taxel::stepped::Stepped;
+use taxel_core::format::Micros;
+
+/// Events that depend on codes and time alone.
+const PERCEIVED: [&str; 6] = ["frame", "contacts", "symbols", "intent", "reaction", "unsure"];
+
+/// Lines of a simulated scene, and the codes of its scans.
+fn simulated(scene: &str) -> (Vec<Value>, Vec<(Micros, Vec<u16>)>) {
+    let spec: SourceSpec = format!("sim:{scene}").parse().unwrap();
+    let options = SourceOptions { raw: true, ..SourceOptions::default() };
+    let mut session = Session::over(source::open(&spec, &options).unwrap()).unwrap();
+    let (mut lines, mut scans) = (Vec::new(), Vec::new());
+    while let Some(event) = session.wait().unwrap() {
+        lines.push(message(session.client(), &event));
+        if let Event::Raw { time, whole: true, .. } = event {
+            scans.push((time, session.client().raw().to_vec()));
+        }
+    }
+    (lines, scans)
+}
+
+/// Lines of the board stepped through these scans.
+fn stepped(scene: &str, scans: &[(Micros, Vec<u16>)]) -> Vec<Value> {
+    let script = scripts::load(scene).unwrap();
+    let mut board = Stepped::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
+    let tare = taxel_core::wire::Request::Tare { frames: script.tare_frames as u16 };
+    if script.tare_frames > 0 {
+        board.client().request(&tare).unwrap();
+    }
+    let mut lines = Vec::new();
+    for (time, codes) in scans {
+        let mut told = |client: &_, event: &_| {
+            lines.push(message(client, event));
+            Ok(())
+        };
+        board.step(codes, *time, &mut told).unwrap();
+    }
+    lines
+}
+
+fn of_kind<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
+    lines.iter().filter(|line| line["type"] == kind).collect()
+}
+
+#[test]
+fn by_hand_it_perceives_what_a_simulation_perceives() {
+    for scene in ["pat", "lash", "two-hands", "five"] {
+        let (simulated, scans) = simulated(scene);
+        let stepped = stepped(scene, &scans);
+        for kind in PERCEIVED {
+            let (have, want) = (of_kind(&stepped, kind), of_kind(&simulated, kind));
+            let differs = have.iter().zip(&want).position(|(have, want)| have != want);
+            assert_eq!(differs, None, "{scene}: {kind}");
+            assert!(have.len().abs_diff(want.len()) <= 1, "{scene}: {kind}: {} {}", have.len(), want.len());
+        }
+        assert!(of_kind(&stepped, "frame").len() > 100 && !of_kind(&stepped, "intent").is_empty(), "{scene}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let script = scripts::load("pat").unwrap();
+    let mut board = Stepped::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
+    let codes = vec![0; board.taxels()];
+    let mut quiet = |_: &_, _: &_| Ok(());
+    let why = board.step(&codes[1..], Micros(0), &mut quiet).unwrap_err().to_string();
+    assert_eq!(why, format!("{} codes for a garment of {} taxels", codes.len() - 1, codes.len()));
+    board.step(&codes, Micros(9), &mut quiet).unwrap();
+    let why = board.step(&codes, Micros(8), &mut quiet).unwrap_err().to_string();
+    assert_eq!(why, "a step at 8 us is before the last one");
+}
