@@ -27,7 +27,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 19] = [
+const RUNS: [(&str, Run, &str); 20] = [
     (
         "emulator-usb",
         Run::Image("usb"),
