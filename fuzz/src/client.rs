@@ -7,11 +7,11 @@ use ratatui::layout::Rect;
 use std::io;
 use std::sync::Arc;
 use taxel::client::{Client, Event};
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel::session::Show;
 use taxel::source::{Port, Source};
 use taxel_cli::terminal::{Lines, View};
-use taxel_cli::view::{Hub, Viewer};
+use taxel_cli::view::{PageHub, Viewer};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
@@ -66,9 +66,9 @@ impl Told {
         Told {
             client,
             shows: [
-                Box::new(Viewer::new(&source, Arc::new(Hub::default()))),
+                Box::new(Viewer::new(&source, Arc::new(PageHub::default()))),
                 Box::new(Lines::new(&source, io::sink())),
-                Box::new(Messages::new(true, io::sink())),
+                Box::new(MessagePrinter::new(true, io::sink())),
             ],
             picture: View::new(&source),
             seq: 0,

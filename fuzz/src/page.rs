@@ -3,7 +3,7 @@
 use crate::bytes::Bytes;
 use std::time::Duration;
 use taxel_cli::serve::http::{self, Sites};
-use taxel_cli::view::{Hub, Mailbox, hear};
+use taxel_cli::view::{Mailbox, PageHub, hear};
 
 /// Orders that wait at most, as the hub says.
 const ORDERS: usize = 64;
@@ -38,7 +38,7 @@ fn talk(stream: impl std::io::Read, request: http::Request) {
     http::upgrade(&mut answer, &request.key.unwrap_or_default(), None).expect("there is memory");
     let text = String::from_utf8(answer).expect("an answer is a text");
     assert_eq!(text.matches("\r\n\r\n").count(), 1, "a key adds no line of its own: {text:?}");
-    let (hub, mailbox) = (Hub::default(), Mailbox::default());
+    let (hub, mailbox) = (PageHub::default(), Mailbox::default());
     hear(stream, request.rest, &hub, &mailbox);
     assert!(std::iter::from_fn(|| hub.tare()).count() <= TARES);
     let orders = hub.orders(Duration::ZERO);

@@ -106,6 +106,18 @@ impl Layers {
         circles.collect()
     }
 
+    /// Names of types that two modules define, with these modules; arguments of commands and errors excepted.
+    pub fn twice(&self) -> Vec<String> {
+        let mut homes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+        for (module, source) in &self.sources {
+            for name in source.lines().filter_map(defined).filter(|name| !matches!(*name, "Args" | "Error")) {
+                homes.entry(name).or_default().push(module.join("/"));
+            }
+        }
+        let twice = homes.into_iter().filter(|(_, modules)| modules.len() > 1);
+        twice.map(|(name, modules)| format!("{name}: {}", modules.join(", "))).collect()
+    }
+
     /// Modules of the root in the order in which it declares them.
     pub fn order(&self) -> Vec<String> {
         let root = self.sources.get(&Vec::new()).map_or("", String::as_str);
@@ -132,6 +144,18 @@ impl Layers {
         }
         found.into_iter().collect()
     }
+}
+
+/// Name of the type that begins on this line, outside of functions and traits.
+fn defined(line: &str) -> Option<&str> {
+    let rest = line.strip_prefix("pub").map_or(line, |rest| {
+        let rest =
+            rest.strip_prefix('(').and_then(|rest| rest.split_once(')')).map_or(rest, |(_, rest)| rest);
+        rest.trim_start()
+    });
+    let kinds = ["struct ", "enum ", "trait ", "type ", "union "];
+    let rest = kinds.iter().find_map(|kind| rest.strip_prefix(kind))?;
+    rest.split(|sign: char| !(sign.is_alphanumeric() || sign == '_')).next()
 }
 
 /// True if `to` is imported by `from`, directly or through others.
@@ -253,6 +277,28 @@ mod tests {
     #[test]
     fn modules_of_the_core_import_modules_before_them() {
         assert_eq!(Layers::read(&root().join("core/src")).upward(), ["acquire imports reflex"]);
+    }
+
+    #[test]
+    fn a_type_name_stands_for_one_thing_in_a_crate() {
+        let crates = [
+            "core",
+            "firmware",
+            "firmware/store",
+            "host/sim",
+            "host/taxel",
+            "host/cli",
+            "host/python",
+            "tests/bench",
+            "tests/suite",
+        ];
+        for folder in crates {
+            let layers = Layers::read(&root().join(folder).join("src"));
+            assert_eq!(layers.twice(), Vec::<String>::new(), "{folder}");
+        }
+        assert_eq!(defined("pub(super) struct Moment<'a> {"), Some("Moment"));
+        assert_eq!(defined("pub type State = [i32; 4];"), Some("State"));
+        assert_eq!(defined("    type Item = u8;"), None);
     }
 
     #[test]

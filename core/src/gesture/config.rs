@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// A model that comes with the program; `docs/models.md` has the model cards. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Shipped {
+pub enum ShippedModel {
     /// Seven gestures: constant, notouch, pat, rub, scratch, stroke, tickle; 54 frames a second.
     #[default]
     Gestures,
@@ -17,12 +17,12 @@ pub enum Shipped {
     Intent,
 }
 
-impl Shipped {
+impl ShippedModel {
     /// Bytes of the model's file.
     pub const fn bytes(self) -> &'static [u8] {
         match self {
-            Shipped::Gestures => include_bytes!("../../models/gestures.model"),
-            Shipped::Intent => include_bytes!("../../models/intent.model"),
+            ShippedModel::Gestures => include_bytes!("../../models/gestures.model"),
+            ShippedModel::Intent => include_bytes!("../../models/intent.model"),
         }
     }
 }
@@ -32,7 +32,7 @@ impl Shipped {
 #[serde(deny_unknown_fields, default)]
 pub struct GestureConfig {
     /// The model.
-    pub model: Shipped,
+    pub model: ShippedModel,
     /// Frames a second that the model gets, equal to the rate of its training; 1 ..= 200.
     pub rate_hz: u16,
     /// Counts of the model's sheet per count of the garment, Q8: 1 ..= 4096 (16.0). Needed because levels are
@@ -52,7 +52,7 @@ pub struct GestureConfig {
 impl Default for GestureConfig {
     fn default() -> Self {
         GestureConfig {
-            model: Shipped::Gestures,
+            model: ShippedModel::Gestures,
             rate_hz: 54,
             gain: 256,
             quiet_ms: 1000,
@@ -97,7 +97,7 @@ impl From<ModelError> for GestureError {
 
 impl GestureConfig {
     /// The default settings for a model.
-    pub fn of(model: Shipped) -> GestureConfig {
+    pub fn of(model: ShippedModel) -> GestureConfig {
         GestureConfig { model, ..GestureConfig::default() }
     }
 
@@ -123,7 +123,7 @@ mod tests {
 
     #[test]
     fn both_models_are_whole_and_bad_settings_are_named() {
-        for model in [Shipped::Gestures, Shipped::Intent] {
+        for model in [ShippedModel::Gestures, ShippedModel::Intent] {
             assert!(GestureConfig::of(model).check().is_ok());
         }
         let refused = |edit: fn(&mut GestureConfig)| {

@@ -207,7 +207,7 @@ mod tests {
     use super::*;
     use crate::condition::Rows;
     use crate::garment::Garment;
-    use crate::gesture::{Sheet, Shipped};
+    use crate::gesture::{Sheet, ShippedModel};
     use std::vec::Vec;
 
     /// Frames at 195 a second.
@@ -290,7 +290,7 @@ mod tests {
         });
         let told = shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 8, 300 + 5 * (frame as u16 % 60)));
         // The same frames without a garment, one every 1/54 s.
-        let model = Model::read(Shipped::Gestures.bytes()).unwrap();
+        let model = Model::read(ShippedModel::Gestures.bytes()).unwrap();
         let (touches, mut state) = (TouchClassifier::new(model, 32, 16), TouchState::new());
         let (mut next, mut decisions) = (SCAN_US as f64, Vec::new());
         for frame in 0..195 * 3u64 {

@@ -39,7 +39,7 @@ pub use announce::{Announced, Demand};
 pub use bands::BANDS;
 pub use cells::{CELLS, Cells, SIDE, Sheet};
 pub use certainty::Certainty;
-pub use config::{GestureConfig, GestureError, Shipped};
+pub use config::{GestureConfig, GestureError, ShippedModel};
 pub use course::{COURSE, LAGS};
 pub use expert::{Expert, LEADS, LIMIT, Scores};
 pub use gestures::{Gesture, GestureState, Gestures};

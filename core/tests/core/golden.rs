@@ -12,7 +12,7 @@ use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
-use taxel_core::gesture::{GestureConfig, Shipped};
+use taxel_core::gesture::{GestureConfig, ShippedModel};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Feed, Leading, Outcome};
 use taxel_core::react::{Cause, Reaction};
@@ -213,7 +213,7 @@ fn requests() -> [(&'static str, Request<'static>); 22] {
         ("SetGain", Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() }),
         ("Budget", Request::Budget { hz: 65_535 }),
         ("Feed", Request::Feed(feed)),
-        ("SetGestures", Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))),
+        ("SetGestures", Request::SetGestures(Some(GestureConfig::of(ShippedModel::Intent)))),
         ("SetCalibration", Request::SetCalibration(certificate)),
         ("SetShapes", Request::SetShapes(&[6, 7])),
         ("AddShapes", Request::AddShapes(&[1, 0, 2])),

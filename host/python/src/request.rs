@@ -9,7 +9,7 @@ use taxel::source::SceneFile;
 use taxel::tell::fault::Fault;
 use taxel_core::fold::{JOINTS, JointAngle, Posture};
 use taxel_core::format::{Q15, name};
-use taxel_core::gesture::Shipped;
+use taxel_core::gesture::ShippedModel;
 use taxel_core::intent::Feed;
 use taxel_core::wire::Request;
 
@@ -113,8 +113,8 @@ fn posture(client: &Client, values: &Values) -> Result<Posture> {
 fn gestures(client: &mut Client, values: &Values) -> Result<()> {
     let model = match values.0["model"].as_str() {
         None => return Ok(client.request(&Request::SetGestures(None))?),
-        Some("gestures") => Shipped::Gestures,
-        Some("intent") => Shipped::Intent,
+        Some("gestures") => ShippedModel::Gestures,
+        Some("intent") => ShippedModel::Intent,
         Some(other) => bail!(Fault::usage(format!(
             "there is no gesture model {other}; known are gestures and intent, and None for no model"
         ))),

@@ -7,8 +7,8 @@ mod frames;
 mod messages;
 pub mod pins;
 
-pub use frames::{Replay, State};
-pub use messages::{Messages, message};
+pub use frames::{Replay, ReplayState};
+pub use messages::{MessagePrinter, message};
 
 use serde_json::{Map, Value, json};
 use taxel_core::body::Placed;

@@ -47,7 +47,7 @@ const NO_FLASH: &str = "a board that is stepped by hand has no flash";
 const MOST_JOBS: usize = 1000;
 
 /// Receives an event; the client already includes it.
-pub type Told<'a> = dyn FnMut(&Client, &Event) -> Result<()> + 'a;
+pub type EventSink<'a> = dyn FnMut(&Client, &Event) -> Result<()> + 'a;
 
 /// A board without pins, without a converter and without a clock.
 pub struct Stepped {
@@ -82,7 +82,7 @@ impl Stepped {
 
     /// One scan, which started and ended at this time, with the codes of all taxels by their numbers. Hands
     /// over the events that it causes. A scene with a rate of its own takes only the scans that are due.
-    pub fn step(&mut self, codes: &[u16], time: Micros, told: &mut Told<'_>) -> Result<()> {
+    pub fn step(&mut self, codes: &[u16], time: Micros, told: &mut EventSink<'_>) -> Result<()> {
         ensure!(
             self.last.is_none_or(|last| last <= time),
             Fault::usage(format!("a step at {} us is before the last one", time.0))
@@ -141,7 +141,7 @@ impl Stepped {
     }
 
     /// Takes all that the board sends.
-    fn send(&mut self, now: Micros, told: &mut Told<'_>) -> Result<()> {
+    fn send(&mut self, now: Micros, told: &mut EventSink<'_>) -> Result<()> {
         loop {
             let bytes = self.board.pending(now, &mut ());
             let count = bytes.len();

@@ -17,13 +17,13 @@ use taxel_cli::watch::Overwrite;
 struct BenchArgs {
     /// Which table; without it, `stages`
     #[command(subcommand)]
-    table: Option<Table>,
+    table: Option<TableArg>,
     #[command(flatten)]
     output: Output,
 }
 
 #[derive(Debug, Clone, Subcommand)]
-enum Table {
+enum TableArg {
     /// Each stage and each variant: time on this machine, error, contacts
     #[command(after_help = "Example:\n  cargo xtask bench stages --svg stages.svg")]
     Stages(Output),
@@ -66,12 +66,12 @@ fn main() -> ExitCode {
 }
 
 fn run(args: BenchArgs) -> Result<()> {
-    match args.table.unwrap_or(Table::Stages(args.output)) {
-        Table::Stages(output) => output.put(stages::report),
-        Table::Acquisition(output) => output.put(|| Ok(acquisition::report())),
-        Table::Amplifier(output) => output.put(|| Ok(amplifier::report())),
-        Table::Nmi(output) => output.put(nmi::report),
-        Table::Record(args) => record::run(&args),
+    match args.table.unwrap_or(TableArg::Stages(args.output)) {
+        TableArg::Stages(output) => output.put(stages::report),
+        TableArg::Acquisition(output) => output.put(|| Ok(acquisition::report())),
+        TableArg::Amplifier(output) => output.put(|| Ok(amplifier::report())),
+        TableArg::Nmi(output) => output.put(nmi::report),
+        TableArg::Record(args) => record::run(&args),
     }
 }
 

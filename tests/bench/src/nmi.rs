@@ -63,7 +63,7 @@ impl Grid {
 
 /// Mean and spread of each form.
 #[derive(Debug, Clone)]
-struct Row {
+struct FormSpread {
     grid: String,
     shape: &'static str,
     varied: &'static str,
@@ -72,7 +72,7 @@ struct Row {
     spread: [f64; 5],
 }
 
-fn row(grid: &Grid, shape: Shape, variation: usize) -> Result<Row> {
+fn row(grid: &Grid, shape: Shape, variation: usize) -> Result<FormSpread> {
     let name = format!("{} x {}", grid.rows, grid.columns);
     let mut all = Vec::new();
     for touch in Touch::varied(variation) {
@@ -92,10 +92,10 @@ fn row(grid: &Grid, shape: Shape, variation: usize) -> Result<Row> {
         *mean = values().sum::<f64>() / all.len() as f64;
         *spread = 100.0 * (high - low) / *mean;
     }
-    Ok(Row { grid: name, shape: shape.name(), varied: VARIED[variation], mean, spread })
+    Ok(FormSpread { grid: name, shape: shape.name(), varied: VARIED[variation], mean, spread })
 }
 
-fn rows() -> Result<Vec<Row>> {
+fn rows() -> Result<Vec<FormSpread>> {
     let mut rows = Vec::new();
     for grid in GRIDS {
         let grid = Grid::new(grid)?;
@@ -119,7 +119,7 @@ pub fn report() -> Result<Report> {
     Ok(Report { text: text(&rows), json, chart: chart(&rows) })
 }
 
-fn text(rows: &[Row]) -> String {
+fn text(rows: &[FormSpread]) -> String {
     let mut text = String::from(
         "Spread of the NMI and its forms: largest less smallest, per cent of the mean.\n\
          Rotation 0 to 90 degrees, scale 0.5 to 2, shift of the centre by parts of a taxel, pressure 0.2 to 0.9 of full scale;\n\
@@ -151,13 +151,13 @@ fn text(rows: &[Row]) -> String {
 }
 
 /// Grids and variations, in the order of the rows.
-fn kinds(rows: &[Row]) -> Vec<(String, &'static str)> {
+fn kinds(rows: &[FormSpread]) -> Vec<(String, &'static str)> {
     let first = rows.iter().filter(|row| row.shape == Shape::ALL[0].name());
     first.map(|row| (row.grid.clone(), row.varied)).collect()
 }
 
 /// Each form by its spread under geometry and under pressure, the worst of the shapes on each grid.
-fn chart(rows: &[Row]) -> Chart {
+fn chart(rows: &[FormSpread]) -> Chart {
     let on_grid = rows.chunks(Shape::ALL.len() * VARIED.len());
     let series = on_grid.filter_map(|rows| {
         let worst = |form: usize, pressed: bool| {
@@ -188,12 +188,12 @@ mod tests {
     const EXACT: [(Shape, f64); 3] =
         [(Shape::Disc, 0.398942280401), (Shape::Square, 0.408248290464), (Shape::Rectangle, 0.456435464588)];
 
-    fn all() -> Vec<Row> {
+    fn all() -> Vec<FormSpread> {
         rows().unwrap()
     }
 
     fn spread<'a>(
-        rows: &'a [Row],
+        rows: &'a [FormSpread],
         grid: &'a str,
         varied: &'a str,
         form: usize,

@@ -32,7 +32,7 @@ pub struct RecordBench {
 
 /// Results, microseconds per frame.
 #[derive(Debug, Clone, Copy)]
-pub struct Cost {
+pub struct RecordCost {
     /// Number of frames.
     pub frames: usize,
     /// Time between frames as sent by the board, us.
@@ -62,7 +62,7 @@ pub fn run(args: &RecordBench) -> Result<()> {
     Ok(())
 }
 
-impl Cost {
+impl RecordCost {
     fn rows(&self) -> [(&'static str, f64); 4] {
         [
             ("perceived", self.perceived),
@@ -106,7 +106,7 @@ impl Cost {
 }
 
 /// Measures, with files in a new folder.
-pub fn measure(folder: &Path) -> Result<Cost> {
+pub fn measure(folder: &Path) -> Result<RecordCost> {
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let file = |name: &str| folder.join(name);
     play(SourceSpec::Sim(SCENE.into()), &mut recorder(file("scene.mcap"), false)?)?;
@@ -124,7 +124,7 @@ pub fn measure(folder: &Path) -> Result<Cost> {
     };
     let first_and_last = images.0.first().zip(images.0.last());
     let passed = first_and_last.map_or(0, |((first, _), (last, _))| last.saturating_sub(*first));
-    Ok(Cost {
+    Ok(RecordCost {
         frames,
         period: passed as f64 / (frames.max(2) - 1) as f64,
         perceived: each(&mut || perceive(&images))?,

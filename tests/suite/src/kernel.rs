@@ -8,7 +8,7 @@ use crate::measure::Measure;
 use crate::windows::{AREA, SIDE, WINDOWS};
 use core::hint::black_box;
 use taxel_core::format::Code;
-use taxel_core::gesture::{Model, Shipped, TouchClassifier, TouchState};
+use taxel_core::gesture::{Model, ShippedModel, TouchClassifier, TouchState};
 use taxel_core::intent::{Inference, Outcome};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::shape::{DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Patch, descriptor};
@@ -56,7 +56,7 @@ pub struct Bench {
 impl Default for Bench {
     #[inline(never)] // out of line: its stack is needed only during the call
     fn default() -> Bench {
-        let model = Model::read(Shipped::Gestures.bytes()).ok();
+        let model = Model::read(ShippedModel::Gestures.bytes()).ok();
         let gestures = model.map(|model| TouchClassifier::new(model, 32, 16));
         Bench {
             dense: Dense::new(),

@@ -1,7 +1,7 @@
 //! Connects the board's thread with those of the clients.
 
-use super::protocol::{Channel, Wish};
-use super::subscriber::{Subscriber, Told};
+use super::protocol::{Channel, ClientWish};
+use super::subscriber::{ChannelMessage, Subscriber};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -10,20 +10,20 @@ const CLIENTS: usize = 16;
 
 /// State shared by all threads.
 #[derive(Debug, Default)]
-pub struct Hub {
-    shared: Mutex<Shared>,
+pub struct FoxgloveHub {
+    shared: Mutex<FoxgloveShared>,
 }
 
 #[derive(Debug, Default)]
-struct Shared {
+struct FoxgloveShared {
     clients: Vec<Arc<Subscriber>>,
     /// Last message of each channel, for later clients.
-    known: BTreeMap<Channel, Arc<Told>>,
+    known: BTreeMap<Channel, Arc<ChannelMessage>>,
 }
 
-impl Hub {
+impl FoxgloveHub {
     /// Locks the state. A panic of another thread does not invalidate it.
-    fn lock(&self) -> MutexGuard<'_, Shared> {
+    fn lock(&self) -> MutexGuard<'_, FoxgloveShared> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -47,18 +47,18 @@ impl Hub {
     }
 
     /// Handles a client's request.
-    pub fn wish(&self, client: &Subscriber, wish: Wish) {
+    pub fn wish(&self, client: &Subscriber, wish: ClientWish) {
         let shared = self.lock();
         match wish {
-            Wish::Subscribe(all) => all
+            ClientWish::Subscribe(all) => all
                 .into_iter()
                 .for_each(|(id, channel)| client.subscribe(id, channel, shared.known.get(&channel))),
-            Wish::Unsubscribe(ids) => ids.into_iter().for_each(|id| client.unsubscribe(id)),
+            ClientWish::Unsubscribe(ids) => ids.into_iter().for_each(|id| client.unsubscribe(id)),
         }
     }
 
     /// Sends a message to all subscribers.
-    pub fn tell(&self, told: Told) {
+    pub fn tell(&self, told: ChannelMessage) {
         let told = Arc::new(told);
         let mut shared = self.lock();
         shared.clients.iter().for_each(|client| client.tell(&told));

@@ -11,7 +11,7 @@ mod publisher;
 mod server;
 mod subscriber;
 
-pub use hub::Hub;
+pub use hub::FoxgloveHub;
 pub use protocol::channel;
 pub use publisher::Publisher;
 pub use server::serve;

@@ -17,7 +17,7 @@ pub type Channel = u32;
 
 /// A request of a client.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Wish {
+pub enum ClientWish {
     /// Numbers of subscriptions, each with its channel.
     Subscribe(Vec<(u32, Channel)>),
     /// Numbers of ended subscriptions.
@@ -25,18 +25,18 @@ pub enum Wish {
 }
 
 /// Parses a client's message; none if it is not supported.
-pub fn wish(text: &str) -> Option<Wish> {
+pub fn wish(text: &str) -> Option<ClientWish> {
     let said: Value = serde_json::from_str(text).ok()?;
     let number = |value: &Value| u32::try_from(value.as_u64()?).ok();
     match said["op"].as_str()? {
         "subscribe" => {
             let each = said["subscriptions"].as_array()?.iter();
             let pair = |one: &Value| Some((number(&one["id"])?, number(&one["channelId"])?));
-            Some(Wish::Subscribe(each.filter_map(pair).collect()))
+            Some(ClientWish::Subscribe(each.filter_map(pair).collect()))
         }
-        "unsubscribe" => {
-            Some(Wish::Unsubscribe(said["subscriptionIds"].as_array()?.iter().filter_map(number).collect()))
-        }
+        "unsubscribe" => Some(ClientWish::Unsubscribe(
+            said["subscriptionIds"].as_array()?.iter().filter_map(number).collect(),
+        )),
         _ => None,
     }
 }
@@ -98,10 +98,10 @@ mod tests {
     fn what_a_client_wants_is_read_and_nothing_else() {
         let wanted =
             r#"{"op":"subscribe","subscriptions":[{"id":7,"channelId":3},{"id":-1,"channelId":3},{}]}"#;
-        assert_eq!(wish(wanted), Some(Wish::Subscribe(vec![(7, 3)])));
+        assert_eq!(wish(wanted), Some(ClientWish::Subscribe(vec![(7, 3)])));
         assert_eq!(
             wish(r#"{"op":"unsubscribe","subscriptionIds":[7, "x"]}"#),
-            Some(Wish::Unsubscribe(vec![7]))
+            Some(ClientWish::Unsubscribe(vec![7]))
         );
         for other in ["", "[]", "7", "{}", r#"{"op":7}"#, r#"{"op":"subscribe"}"#, r#"{"op":"advertise"}"#] {
             assert_eq!(wish(other), None, "{other}");

@@ -1,8 +1,8 @@
 //! Passes a board's stream to the clients.
 
-use super::hub::Hub;
+use super::hub::FoxgloveHub;
 use super::protocol;
-use super::subscriber::Told;
+use super::subscriber::ChannelMessage;
 use anyhow::Result;
 use std::sync::Arc;
 use taxel::client::{Client, Event};
@@ -15,13 +15,13 @@ const LARGE: &str = "frames";
 /// Sends everything to the clients of a hub.
 #[derive(Debug)]
 pub struct Publisher {
-    hub: Arc<Hub>,
+    hub: Arc<FoxgloveHub>,
     stamps: Stamps,
 }
 
 impl Publisher {
     /// Starts now.
-    pub fn new(hub: Arc<Hub>) -> Publisher {
+    pub fn new(hub: Arc<FoxgloveHub>) -> Publisher {
         Publisher { hub, stamps: Stamps::start() }
     }
 }
@@ -36,7 +36,7 @@ impl Show for Publisher {
         };
         if topic != LARGE || self.hub.wants(channel) {
             let data = record::json_message(client, event, stamp)?;
-            self.hub.tell(Told { channel, ns: stamp.host_ns(), data });
+            self.hub.tell(ChannelMessage { channel, ns: stamp.host_ns(), data });
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The server: admits clients, and runs two threads for each.
 
-use super::hub::Hub;
+use super::hub::FoxgloveHub;
 use super::protocol::{self, PROTOCOLS};
 use super::subscriber::Subscriber;
 use crate::serve::http::{self, Refusal, Sites};
@@ -21,7 +21,7 @@ const FOXGLOVE: [&str; 2] = ["https://app.foxglove.dev", "https://studio.foxglov
 
 /// Serves a hub's channels in a thread of its own. Returns the port. Pages of these `sites` are admitted
 /// besides Foxglove's own.
-pub fn serve(listener: TcpListener, hub: Arc<Hub>, label: &str, sites: &[String]) -> Result<u16> {
+pub fn serve(listener: TcpListener, hub: Arc<FoxgloveHub>, label: &str, sites: &[String]) -> Result<u16> {
     let hello = [protocol::server_info(label), protocol::advertise()];
     let sites: Vec<String> = FOXGLOVE.into_iter().map(String::from).chain(sites.iter().cloned()).collect();
     serve::open("foxglove client", listener, CONNECTIONS, move |stream, guest| {
@@ -40,7 +40,7 @@ fn config() -> WebSocketConfig {
 fn connection(
     mut stream: TcpStream,
     guest: &Guest,
-    hub: &Hub,
+    hub: &FoxgloveHub,
     (hello, sites): (&[String], &[String]),
 ) -> Result<()> {
     let Some(request) = http::read(&mut stream, Sites::Named(sites)) else { return Ok(()) };
@@ -66,7 +66,13 @@ fn connection(
     done
 }
 
-fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber, hello: &[String]) -> Result<()> {
+fn talk(
+    stream: TcpStream,
+    rest: Vec<u8>,
+    hub: &FoxgloveHub,
+    client: &Subscriber,
+    hello: &[String],
+) -> Result<()> {
     let (end, reading) = (stream.try_clone()?, stream.try_clone()?);
     let mut socket = WebSocket::from_raw_socket(stream, Role::Server, Some(config()));
     // A client may be silent for any time.
@@ -90,7 +96,7 @@ fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber, hello:
     Ok(())
 }
 
-fn read(stream: TcpStream, rest: Vec<u8>, hub: &Hub, client: &Subscriber) {
+fn read(stream: TcpStream, rest: Vec<u8>, hub: &FoxgloveHub, client: &Subscriber) {
     let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
     // Any error ends it: the client is gone, or does not speak WebSocket.
     while let Ok(said) = socket.read() {

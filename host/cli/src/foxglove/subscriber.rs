@@ -15,7 +15,7 @@ const MOST: usize = 64;
 
 /// A message of a channel.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Told {
+pub struct ChannelMessage {
     /// Its channel.
     pub channel: Channel,
     /// Host time, ns since 1970.
@@ -26,13 +26,13 @@ pub struct Told {
 
 /// A client.
 #[derive(Debug, Default)]
-pub struct Subscriber(Shared<Waiting>);
+pub struct Subscriber(Shared<SubscriberQueue>);
 
 #[derive(Debug, Default)]
-struct Waiting {
+struct SubscriberQueue {
     /// Channels by the client's subscription number.
     subscriptions: BTreeMap<u32, Channel>,
-    messages: VecDeque<(u32, Arc<Told>)>,
+    messages: VecDeque<(u32, Arc<ChannelMessage>)>,
     bytes: usize,
     left_out: u64,
     /// A subscription was refused.
@@ -43,7 +43,7 @@ struct Waiting {
 
 impl Subscriber {
     /// Subscribes to a channel, and sends its last message; refuses too many subscriptions with a status.
-    pub fn subscribe(&self, id: u32, channel: Channel, known: Option<&Arc<Told>>) {
+    pub fn subscribe(&self, id: u32, channel: Channel, known: Option<&Arc<ChannelMessage>>) {
         self.0.change(|waiting| {
             if waiting.subscriptions.len() >= MOST && !waiting.subscriptions.contains_key(&id) {
                 waiting.full = true;
@@ -65,7 +65,7 @@ impl Subscriber {
     }
 
     /// Queues a message if the client subscribes to its channel.
-    pub fn tell(&self, told: &Arc<Told>) {
+    pub fn tell(&self, told: &Arc<ChannelMessage>) {
         self.0.change(|waiting| {
             let of = |(id, channel): (&u32, &Channel)| (*channel == told.channel).then_some(*id);
             let ids: Vec<u32> = waiting.subscriptions.iter().filter_map(of).collect();
@@ -98,8 +98,8 @@ impl Subscriber {
     }
 }
 
-impl Waiting {
-    fn put(&mut self, id: u32, told: &Arc<Told>) {
+impl SubscriberQueue {
+    fn put(&mut self, id: u32, told: &Arc<ChannelMessage>) {
         self.messages.push_back((id, told.clone()));
         self.bytes += told.data.len();
         while self.bytes > WAITING {
@@ -133,9 +133,9 @@ mod tests {
     fn nothing_grows_while_nobody_reads() {
         let slow = Subscriber::default();
         slow.subscribe(9, 2, None);
-        let told = |ns| Arc::new(Told { channel: 2, ns, data: vec![b' '; 1 << 20] });
+        let told = |ns| Arc::new(ChannelMessage { channel: 2, ns, data: vec![b' '; 1 << 20] });
         (0..20).for_each(|ns| slow.tell(&told(ns)));
-        slow.tell(&Arc::new(Told { channel: 3, ns: 0, data: Vec::new() }));
+        slow.tell(&Arc::new(ChannelMessage { channel: 3, ns: 0, data: Vec::new() }));
         assert!(slow.wants(2) && !slow.wants(3));
         let text = slow.next().unwrap().into_text().unwrap();
         assert!(text.contains("12 messages were left out"), "{text}");

@@ -1,6 +1,6 @@
 //! Number of taxels in each range of pressure.
 
-use super::scale::Scale;
+use super::scale::PageUnit;
 use super::svg::colour;
 use std::fmt::Write;
 
@@ -23,7 +23,7 @@ pub fn counts(values: &[u16], limits: &[u16]) -> Vec<usize> {
 }
 
 /// Table with a row per range: colour, and numbers of taxels at the moment and at their maxima, as bars.
-pub fn table(then: &[u16], hold: &[u16], top: u16, scale: Scale) -> String {
+pub fn table(then: &[u16], hold: &[u16], top: u16, scale: PageUnit) -> String {
     let limits = limits(top);
     let (now, held) = (counts(then, &limits), counts(hold, &limits));
     let most = now.iter().chain(&held).skip(1).copied().max().unwrap_or(0).max(1);

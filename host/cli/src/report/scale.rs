@@ -2,14 +2,14 @@
 
 /// Converts counts to the unit of the page, which uses no other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
+pub struct PageUnit {
     per_newton: Option<f64>,
 }
 
-impl Scale {
+impl PageUnit {
     /// Unit for these counts per newton, if known.
-    pub fn of(counts_per_newton: Option<f32>) -> Scale {
-        Scale { per_newton: counts_per_newton.map(f64::from).filter(|counts| *counts > 0.0) }
+    pub fn of(counts_per_newton: Option<f32>) -> PageUnit {
+        PageUnit { per_newton: counts_per_newton.map(f64::from).filter(|counts| *counts > 0.0) }
     }
 
     /// Name of the unit.

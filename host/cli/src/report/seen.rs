@@ -1,6 +1,6 @@
 //! Data of a stream collected for its report.
 
-use super::scale::Scale;
+use super::scale::PageUnit;
 use super::series::Series;
 use crate::watch::narrate::Narrator;
 use anyhow::Result;
@@ -86,8 +86,8 @@ impl Seen {
     }
 
     /// Unit of the page.
-    pub(super) fn scale(&self) -> Scale {
-        Scale::of(self.counts_per_newton)
+    pub(super) fn scale(&self) -> PageUnit {
+        PageUnit::of(self.counts_per_newton)
     }
 
     /// Panels of the garment.

@@ -1,6 +1,6 @@
 //! A panel as a surface whose height is the pressure, seen from the side and above, with its peaks.
 
-use super::scale::Scale;
+use super::scale::PageUnit;
 use super::svg::{colour, escaped};
 use std::fmt::{Result, Write};
 use taxel_core::body::Placed;
@@ -19,27 +19,27 @@ const ABOVE: f64 = 0.5;
 const REACH: f64 = 185.0;
 
 /// Draws a panel; colours and heights end at `top` counts.
-pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, scale: Scale) -> String {
+pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, scale: PageUnit) -> String {
     let mut svg = String::new();
     // Writing to a string cannot fail.
-    let _ = View::of(area, top, scale).write(&mut svg, area, values, contacts);
+    let _ = Projection::of(area, top, scale).write(&mut svg, area, values, contacts);
     svg
 }
 
 /// Projection of taxels and counts.
-struct View {
+struct Projection {
     middle: [f64; 2],
     scale: [f64; 2],
     top: u16,
-    unit: Scale,
+    unit: PageUnit,
 }
 
-impl View {
-    fn of(area: &Area, top: u16, unit: Scale) -> View {
+impl Projection {
+    fn of(area: &Area, top: u16, unit: PageUnit) -> Projection {
         let taxels = [area.columns, area.rows].map(|count| f64::from(count.max(2)) - 1.0);
         let pitch = if area.pitch_um.contains(&0) { [1.0; 2] } else { area.pitch_um.map(f64::from) };
         let long = (taxels[0] * pitch[0]).max(taxels[1] * pitch[1]);
-        View {
+        Projection {
             middle: taxels.map(|count| count / 2.0),
             scale: pitch.map(|pitch| pitch * REACH * 1.8 / long),
             top: top.max(1),

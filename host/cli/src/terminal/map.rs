@@ -106,13 +106,13 @@ impl Grid {
         for (index, area) in layout.areas().iter().enumerate() {
             let (column, row) = (index as u16 % self.across, index as u16 / self.across);
             let place = Rect::new(space.x + column * width, space.y + row * height, width - 1, height);
-            let panel = Panel { client, layout, area, index: index as u8, top, paint };
+            let panel = DrawnPanel { client, layout, area, index: index as u8, top, paint };
             panel.draw(self.zoom(area), place, buffer);
         }
     }
 }
 
-struct Panel<'a> {
+struct DrawnPanel<'a> {
     client: &'a Client,
     layout: &'a Layout,
     area: &'a Area,
@@ -121,7 +121,7 @@ struct Panel<'a> {
     paint: Paint,
 }
 
-impl Panel<'_> {
+impl DrawnPanel<'_> {
     /// Draws the name, and the map below it.
     fn draw(&self, zoom: Zoom, place: Rect, buffer: &mut Buffer) {
         let bold = Style::new().add_modifier(Modifier::BOLD);

@@ -1,7 +1,7 @@
 //! Connects the board's thread with the threads of the pages.
 
 use super::mailbox::Mailbox;
-use super::message::{self, Wish};
+use super::message::{self, PageWish};
 use super::order::Order;
 use super::recent::Recent;
 use super::said::Said;
@@ -28,8 +28,8 @@ const ORDERS: usize = 64;
 
 /// State shared by all threads.
 #[derive(Default)]
-pub struct Hub {
-    shared: Mutex<Shared>,
+pub struct PageHub {
+    shared: Mutex<PageShared>,
     recent: Mutex<Recent>,
     orders: shared::Shared<VecDeque<Order>>,
     /// One reference per recording being sent, plus the hub's own.
@@ -37,7 +37,7 @@ pub struct Hub {
 }
 
 #[derive(Default)]
-struct Shared {
+struct PageShared {
     pages: Vec<Arc<Mailbox>>,
     /// The newest message of each kind.
     known: BTreeMap<&'static str, Arc<str>>,
@@ -51,9 +51,9 @@ struct Shared {
     range: [u64; 2],
 }
 
-impl Hub {
+impl PageHub {
     /// Locks the state. A panic of another thread does not invalidate it.
-    fn lock(&self) -> MutexGuard<'_, Shared> {
+    fn lock(&self) -> MutexGuard<'_, PageShared> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -148,19 +148,19 @@ impl Hub {
     }
 
     /// Handles a page's request, or queues it for the board's thread.
-    pub fn wish(&self, page: &Mailbox, wish: Wish) {
+    pub fn wish(&self, page: &Mailbox, wish: PageWish) {
         let mut shared = self.lock();
         match wish {
-            Wish::Hover(taxel) => {
+            PageWish::Hover(taxel) => {
                 page.hover(taxel);
                 if let Some(taxel) = taxel {
                     let line = message::taxel(taxel, shared.circuit.as_deref(), None);
                     page.state("taxel", line.to_string().into());
                 }
             }
-            Wish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
-            Wish::Tare(_) => {}
-            Wish::Player(order) => self.order(order),
+            PageWish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
+            PageWish::Tare(_) => {}
+            PageWish::Player(order) => self.order(order),
         }
     }
 
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn a_page_that_comes_late_is_told_what_is_known() {
-        let hub = Hub::default();
+        let hub = PageHub::default();
         hub.state("link", &json!(1));
         hub.state("link", &json!(2));
         (0..100).for_each(|n| hub.say(&Said::note(n.to_string())));
@@ -268,10 +268,10 @@ mod tests {
 
     #[test]
     fn a_code_is_told_to_who_looks_at_it() {
-        let hub = Hub::default();
+        let hub = PageHub::default();
         let (one, other) = (hub.join().unwrap(), hub.join().unwrap());
-        hub.wish(&one, Wish::Hover(Some(1)));
-        hub.wish(&other, Wish::Hover(Some(9)));
+        hub.wish(&one, PageWish::Hover(Some(1)));
+        hub.wish(&other, PageWish::Hover(Some(9)));
         assert!(hub.is_looked_at());
         hub.codes(7, &[5, 6]);
         let told = |page: &Mailbox| {
@@ -279,7 +279,7 @@ mod tests {
             serde_json::from_str::<serde_json::Value>(&line).unwrap()["code"].clone()
         };
         assert_eq!((told(&one), told(&other)), (json!(6), json!(null)));
-        (0..9).for_each(|_| hub.wish(&one, Wish::Tare(16)));
+        (0..9).for_each(|_| hub.wish(&one, PageWish::Tare(16)));
         assert_eq!(std::iter::from_fn(|| hub.tare()).count(), TARES);
     }
 }

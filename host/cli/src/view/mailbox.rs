@@ -27,10 +27,10 @@ pub enum Parcel {
 
 /// The queue of one page.
 #[derive(Debug, Default)]
-pub struct Mailbox(Shared<Waiting>);
+pub struct Mailbox(Shared<PageQueue>);
 
 #[derive(Debug, Default)]
-struct Waiting {
+struct PageQueue {
     /// Latest message of each kind.
     states: BTreeMap<&'static str, Arc<str>>,
     lines: VecDeque<Arc<str>>,
@@ -126,7 +126,7 @@ impl Mailbox {
     }
 }
 
-impl Waiting {
+impl PageQueue {
     fn take(&mut self, shot: &Shot) {
         if self.highest.len() != shot.image.len() {
             self.highest.clear();

@@ -141,7 +141,7 @@ pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize)
 /// A request of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Wish {
+pub enum PageWish {
     /// The taxel under the pointer.
     Hover(Option<u16>),
     /// A tare over this many frames.
@@ -152,12 +152,12 @@ pub enum Wish {
 }
 
 /// Parses a message of a page; none if it is unknown.
-pub fn wish(text: &str) -> Option<Wish> {
-    let wish: Wish = serde_json::from_str(text).ok()?;
+pub fn wish(text: &str) -> Option<PageWish> {
+    let wish: PageWish = serde_json::from_str(text).ok()?;
     let known = match &wish {
-        Wish::Hover(_) => true,
-        Wish::Tare(frames) => (1..=4096).contains(frames),
-        Wish::Player(order) => order.is_sound(),
+        PageWish::Hover(_) => true,
+        PageWish::Tare(frames) => (1..=4096).contains(frames),
+        PageWish::Player(order) => order.is_sound(),
     };
     known.then_some(wish)
 }
@@ -168,13 +168,13 @@ mod tests {
 
     #[test]
     fn only_what_is_known_is_a_wish() {
-        assert_eq!(wish(r#"{"hover": 7}"#), Some(Wish::Hover(Some(7))));
-        assert_eq!(wish(r#"{"hover": null}"#), Some(Wish::Hover(None)));
-        assert_eq!(wish(r#"{"tare": 32}"#), Some(Wish::Tare(32)));
-        assert_eq!(wish(r#"{"seek": 2.5}"#), Some(Wish::Player(Order::Seek(2.5))));
-        assert_eq!(wish(r#"{"range": null}"#), Some(Wish::Player(Order::Range(None))));
-        assert_eq!(wish(r#"{"range": [1, 2]}"#), Some(Wish::Player(Order::Range(Some([1.0, 2.0])))));
-        assert_eq!(wish(r#"{"step": -1}"#), Some(Wish::Player(Order::Step(-1))));
+        assert_eq!(wish(r#"{"hover": 7}"#), Some(PageWish::Hover(Some(7))));
+        assert_eq!(wish(r#"{"hover": null}"#), Some(PageWish::Hover(None)));
+        assert_eq!(wish(r#"{"tare": 32}"#), Some(PageWish::Tare(32)));
+        assert_eq!(wish(r#"{"seek": 2.5}"#), Some(PageWish::Player(Order::Seek(2.5))));
+        assert_eq!(wish(r#"{"range": null}"#), Some(PageWish::Player(Order::Range(None))));
+        assert_eq!(wish(r#"{"range": [1, 2]}"#), Some(PageWish::Player(Order::Range(Some([1.0, 2.0])))));
+        assert_eq!(wish(r#"{"step": -1}"#), Some(PageWish::Player(Order::Step(-1))));
         for nonsense in [
             r#"{"seek": 1e999}"#,
             r#"{"seek": NaN}"#,

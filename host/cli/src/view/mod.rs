@@ -24,13 +24,13 @@ mod tape;
 mod transfer;
 mod viewer;
 
-pub use hub::Hub;
+pub use hub::PageHub;
 pub use mailbox::{Mailbox, Parcel};
 pub use order::Order;
 pub use page::hear;
 pub use recent::Recent;
 pub use recorded::Player;
-pub use said::{Kind, Said};
+pub use said::{LineKind, Said};
 pub use server::serve;
 pub use shot::Shot;
 pub use tape::Tape;

@@ -1,6 +1,6 @@
 //! The WebSocket of one page: one thread reads its requests, this one writes its messages.
 
-use super::hub::Hub;
+use super::hub::PageHub;
 use super::mailbox::{Mailbox, Parcel};
 use super::message;
 use super::past::Past;
@@ -16,7 +16,7 @@ use tungstenite::{Bytes, Message, Utf8Bytes, WebSocket};
 const LONGEST: usize = 4096;
 
 /// Serves a page until it closes, or has not read for the stream's timeout.
-pub fn talk(stream: TcpStream, rest: Vec<u8>, hub: &Hub, mailbox: &Arc<Mailbox>) -> io::Result<()> {
+pub fn talk(stream: TcpStream, rest: Vec<u8>, hub: &PageHub, mailbox: &Arc<Mailbox>) -> io::Result<()> {
     let end = stream.try_clone()?;
     let reading = stream.try_clone()?;
     // A page may be silent for any time.
@@ -42,7 +42,7 @@ fn config() -> WebSocketConfig {
         .write_buffer_size(0)
 }
 
-fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
+fn write(stream: TcpStream, hub: &PageHub, mailbox: &Mailbox) -> io::Result<()> {
     let mut socket = WebSocket::from_raw_socket(stream, Role::Server, Some(config()));
     let mut send = |parcel| {
         let message = match parcel {
@@ -69,7 +69,7 @@ fn write(stream: TcpStream, hub: &Hub, mailbox: &Mailbox) -> io::Result<()> {
 }
 
 /// Handles a page's requests until it closes. `rest` holds its first bytes, read already.
-pub fn hear(stream: impl Read, rest: Vec<u8>, hub: &Hub, mailbox: &Mailbox) {
+pub fn hear(stream: impl Read, rest: Vec<u8>, hub: &PageHub, mailbox: &Mailbox) {
     let mut socket = WebSocket::from_partially_read(Mute(stream), rest, Role::Server, Some(config()));
     // Any error ends it: the page is closed, or does not speak WebSocket.
     while let Ok(said) = socket.read() {

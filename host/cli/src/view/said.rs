@@ -11,7 +11,7 @@ use taxel_core::format::Micros;
 /// Kind of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum LineKind {
     /// A contact begins.
     Onset,
     /// A contact ends.
@@ -32,7 +32,7 @@ pub enum Kind {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Said {
     /// Kind.
-    pub kind: Kind,
+    pub kind: LineKind,
     /// Board time, us; none if it has none.
     pub time_us: Option<u64>,
     /// Sentence without its time.
@@ -42,7 +42,7 @@ pub struct Said {
 impl Said {
     /// A sentence of the host's own.
     pub fn note(text: impl Into<String>) -> Said {
-        Said { kind: Kind::Note, time_us: None, text: text.into() }
+        Said { kind: LineKind::Note, time_us: None, text: text.into() }
     }
 
     /// The sentence behind the board's time, as shown in the log.
@@ -87,7 +87,7 @@ impl Teller {
         let said = |(index, line): (usize, String)| {
             let stamp = time_us.map(|time| format!("{} ", seconds(Micros(time))));
             let text = stamp.as_deref().and_then(|stamp| line.strip_prefix(stamp));
-            let kind = kinds.get(index).or(kinds.last()).copied().unwrap_or(Kind::Note);
+            let kind = kinds.get(index).or(kinds.last()).copied().unwrap_or(LineKind::Note);
             match text {
                 Some(text) => Said { kind, time_us, text: text.into() },
                 None => Said { kind, time_us: None, text: line },
@@ -100,20 +100,22 @@ impl Teller {
 /// Line about lost messages.
 pub fn gap(lost: u64, time_us: Option<u64>) -> Said {
     let text = if lost == 1 { "1 message is missing".into() } else { format!("{lost} messages are missing") };
-    Said { kind: Kind::Gap, time_us, text }
+    Said { kind: LineKind::Gap, time_us, text }
 }
 
 /// Kind of each line of an event; the last one applies to all further lines.
-fn kinds(event: &Event) -> Vec<Kind> {
+fn kinds(event: &Event) -> Vec<LineKind> {
     match event {
         Event::Symbols(list) => {
             let told = list.events.iter().filter(|symbol| symbol.phase != Phase::Held);
-            told.map(|symbol| if symbol.phase == Phase::Released { Kind::Release } else { Kind::Onset })
-                .collect()
+            told.map(
+                |symbol| if symbol.phase == Phase::Released { LineKind::Release } else { LineKind::Onset },
+            )
+            .collect()
         }
-        Event::Intent(_) => vec![Kind::Intention],
-        Event::Reaction(_) => vec![Kind::Reaction],
-        Event::Gesture(_) => vec![Kind::Gesture],
+        Event::Intent(_) => vec![LineKind::Intention],
+        Event::Reaction(_) => vec![LineKind::Reaction],
+        Event::Gesture(_) => vec![LineKind::Gesture],
         _ => Vec::new(),
     }
 }

@@ -1,6 +1,6 @@
 //! Serves the pages and their files.
 
-use super::hub::Hub;
+use super::hub::PageHub;
 use super::said::Said;
 use super::transfer::Transfer;
 use super::{assets, page};
@@ -22,12 +22,12 @@ const BUSY: Refusal = Refusal {
 };
 
 /// Serves the pages of a hub in a thread of its own. Returns the port.
-pub fn serve(listener: TcpListener, hub: Arc<Hub>) -> Result<u16> {
+pub fn serve(listener: TcpListener, hub: Arc<PageHub>) -> Result<u16> {
     serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hub)?))
 }
 
 /// Answers one request, or serves a page until it closes.
-fn connection(mut stream: TcpStream, guest: &Guest, hub: &Hub) -> std::io::Result<()> {
+fn connection(mut stream: TcpStream, guest: &Guest, hub: &PageHub) -> std::io::Result<()> {
     let Some(request) = http::read(&mut stream, Sites::Own) else { return Ok(()) };
     let request = match request {
         Ok(request) => request,
@@ -61,7 +61,7 @@ fn connection(mut stream: TcpStream, guest: &Guest, hub: &Hub) -> std::io::Resul
 }
 
 /// Sends a recording to be saved.
-fn recording(mut stream: TcpStream, path: &str, hub: &Hub) -> std::io::Result<()> {
+fn recording(mut stream: TcpStream, path: &str, hub: &PageHub) -> std::io::Result<()> {
     let kind = "application/octet-stream";
     if path == "/recording.taxel" {
         let Some(bytes) = hub.recording() else { return http::refuse(&mut stream, MISSING) };

@@ -1,6 +1,6 @@
 //! Passes a board's stream to the pages.
 
-use super::hub::Hub;
+use super::hub::PageHub;
 use super::message;
 use super::pace::Pace;
 use super::raw::RawCodes;
@@ -26,7 +26,7 @@ const ROUND: Duration = Duration::from_secs(1);
 
 /// Shows a stream to the pages of a hub.
 pub struct Viewer {
-    hub: Arc<Hub>,
+    hub: Arc<PageHub>,
     label: String,
     counts_per_newton: Option<f32>,
     teller: Teller,
@@ -43,7 +43,7 @@ pub struct Viewer {
 
 impl Viewer {
     /// A viewer of a source.
-    pub fn new(source: &Source, hub: Arc<Hub>) -> Viewer {
+    pub fn new(source: &Source, hub: Arc<PageHub>) -> Viewer {
         let now = Instant::now();
         Viewer {
             hub,

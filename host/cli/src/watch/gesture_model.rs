@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use clap::ValueEnum;
 use taxel::client::Client;
 use taxel::session::setting;
-use taxel_core::gesture::Shipped;
+use taxel_core::gesture::ShippedModel;
 
 /// A model in the board's firmware.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -23,8 +23,8 @@ pub fn recognise(
     certainty: Option<f64>,
 ) -> Result<()> {
     let model = match model {
-        GestureModel::Gestures => Shipped::Gestures,
-        GestureModel::Intent => Shipped::Intent,
+        GestureModel::Gestures => ShippedModel::Gestures,
+        GestureModel::Intent => ShippedModel::Intent,
     };
     if let Some(certainty) = certainty {
         setting::set_certainty(client, certainty).context("--gesture-certainty")?;

@@ -9,7 +9,7 @@ use taxel::files::calibrate::{Calibration, Forces, Over, Reason, Seen, judge, pl
 use taxel::files::scripts;
 use taxel::sim::{Script, Sensor};
 use taxel::source::{self, SourceOptions};
-use taxel_cli::commands::garment::calibrate::{Task, calibrate, script};
+use taxel_cli::commands::garment::calibrate::{CalibrationTask, calibrate, script};
 use taxel_cli::watch::raw::RawBoard;
 use taxel_core::body::Placed;
 use taxel_core::condition::Filter;
@@ -32,7 +32,10 @@ fn calibrated(sensor: &Sensor, seed: u64) -> Result<Calibration> {
     let plates = plates(&Garment::block(), &layout(), Over::Panel)?;
     let session = script("block-4x16", &layout(), &plates, &weights, sensor, seed)?;
     let mut board = RawBoard::on(source::simulated(session, &RawBoard::options())?)?;
-    calibrate(&mut board, &Task { over: Over::Panel, weights, by: "a test".into(), wait: 60.0, json: true })
+    calibrate(
+        &mut board,
+        &CalibrationTask { over: Over::Panel, weights, by: "a test".into(), wait: 60.0, json: true },
+    )
 }
 
 /// Touches of 0.5 to 20 N, each at half, full, and half of its force again.
@@ -176,7 +179,8 @@ fn made(garment: &Garment, name: &str, over: Over, dead: bool) -> Calibration {
     // Last, because the simulated user does not wait.
     session.faults.dead.extend(dead.then_some(layout.taxels() as u16 - 1));
     let mut board = RawBoard::on(source::simulated(session, &RawBoard::options()).unwrap()).unwrap();
-    calibrate(&mut board, &Task { over, weights, by: "a test".into(), wait: 60.0, json: true }).unwrap()
+    calibrate(&mut board, &CalibrationTask { over, weights, by: "a test".into(), wait: 60.0, json: true })
+        .unwrap()
 }
 
 #[test]

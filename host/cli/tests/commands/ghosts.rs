@@ -2,7 +2,7 @@
 //! this one is reported as a ghost.
 
 use std::sync::atomic::{AtomicU32, Ordering};
-use taxel_cli::commands::board::health::{HealthArgs, Told, candidates, look};
+use taxel_cli::commands::board::health::{HealthArgs, HealthText, candidates, look};
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::body::Placed;
@@ -109,7 +109,7 @@ fn what_makes_no_rectangle_is_no_candidate() {
 /// Result of `taxel health` for pens on a simulated board with passive or other wiring. They press the
 /// corners of a rectangle on the first and the last row, each within its row: on four rows, wider ones would
 /// merge to two contacts.
-fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<bool>) -> Told {
+fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<bool>) -> HealthText {
     static FILES: AtomicU32 = AtomicU32::new(0);
     let pen = |(row, column): &(f64, f64)| {
         format!(

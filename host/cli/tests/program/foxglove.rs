@@ -9,7 +9,7 @@ use taxel::client::{Client, Event};
 use taxel::json::message;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
-use taxel_cli::foxglove::{Hub, Publisher, channel, serve};
+use taxel_cli::foxglove::{FoxgloveHub, Publisher, channel, serve};
 use taxel_cli::watch::{LiveArgs, watch};
 use taxel_core::format::Micros;
 use taxel_core::wire::Level;
@@ -42,7 +42,7 @@ fn line(socket: &mut WebSocket<TcpStream>) -> Value {
     serde_json::from_str(socket.read().unwrap().to_text().unwrap()).unwrap()
 }
 
-fn subscribe(socket: &mut WebSocket<TcpStream>, hub: &Hub, id: u32, topic: &str) {
+fn subscribe(socket: &mut WebSocket<TcpStream>, hub: &FoxgloveHub, id: u32, topic: &str) {
     let channel = channel(topic).unwrap();
     let wish = json!({ "op": "subscribe", "subscriptions": [{ "id": id, "channelId": channel }] });
     socket.send(Message::text(wish.to_string())).unwrap();
@@ -64,7 +64,7 @@ impl Show for Both {
     }
 }
 
-fn play(hub: Arc<Hub>) -> Vec<Value> {
+fn play(hub: Arc<FoxgloveHub>) -> Vec<Value> {
     let spec: source::SourceSpec = "sim:pat".parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let mut both = Both(Publisher::new(hub), Vec::new());
@@ -74,7 +74,7 @@ fn play(hub: Arc<Hub>) -> Vec<Value> {
 
 #[test]
 fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing() {
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(FoxgloveHub::default());
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let port = serve(listener, hub.clone(), "sim:pat", &[]).unwrap();
     let why = connected(port, "chat").unwrap_err();
@@ -125,7 +125,7 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
 
 #[test]
 fn pages_of_other_sites_are_not_let_in() {
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(FoxgloveHub::default());
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let port = serve(listener, hub, "sim:pat", &[]).unwrap();
     for origin in
@@ -141,7 +141,7 @@ fn pages_of_other_sites_are_not_let_in() {
 
 #[test]
 fn clients_that_say_nothing_shut_nobody_out_and_subscriptions_are_bounded() {
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(FoxgloveHub::default());
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let port = serve(listener, hub.clone(), "sim:pat", &[]).unwrap();
     let held: Vec<_> = (0..200).map(|_| TcpStream::connect((Ipv4Addr::LOCALHOST, port)).unwrap()).collect();

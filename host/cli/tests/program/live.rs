@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use serde_json::Value;
 use std::path::PathBuf;
 use taxel::client::{Client, Event, ImageNews};
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
 use taxel::session::Show;
@@ -34,7 +34,7 @@ fn open(args: &LiveArgs) -> Source {
 /// Output of `taxel live --json`.
 fn json(args: &LiveArgs) -> String {
     let sink = Sink::default();
-    watch(args, open(args), &mut Messages::new(args.pixels, sink.clone())).unwrap();
+    watch(args, open(args), &mut MessagePrinter::new(args.pixels, sink.clone())).unwrap();
     sink.text()
 }
 
@@ -301,7 +301,7 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
     let file = scratch("garbage");
     std::fs::write(&file, [7; 1000]).unwrap();
     let args = args(&format!("file:{}", file.display()), None);
-    let error = watch(&args, open(&args), &mut Messages::new(false, Sink::default())).unwrap_err();
+    let error = watch(&args, open(&args), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert!(error.to_string().ends_with("no Hello of a taxel board in 1000 bytes"), "{error}");
     std::fs::remove_file(file).unwrap();
 }
@@ -314,7 +314,7 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
         let mut args = args("sim:idle", Some(1));
         edit(&mut args);
         let source = open(&args);
-        format!("{:#}", watch(&args, source, &mut Messages::new(false, Vec::new())).unwrap_err())
+        format!("{:#}", watch(&args, source, &mut MessagePrinter::new(false, Vec::new())).unwrap_err())
     };
     let file = scratch("scene.toml");
     for (text, wrong) in [("colour = 3", "colour"), ("[contact]\nlow = 9\nhigh = 8", "contact.high")] {
@@ -367,11 +367,11 @@ fn gestures_are_told_where_they_are_asked_for() {
     );
     let mut refused = asked;
     refused.board.gesture_certainty = Some(-0.1);
-    let why = watch(&refused, open(&refused), &mut Messages::new(false, Sink::default())).unwrap_err();
+    let why = watch(&refused, open(&refused), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert_eq!(format!("{why:#}"), "--gesture-certainty: gestures.certainty must be at most 999 (0.999)");
     refused.board.gesture_certainty = None;
     refused.board.gesture_gain = Some(17.0);
-    let why = watch(&refused, open(&refused), &mut Messages::new(false, Sink::default())).unwrap_err();
+    let why = watch(&refused, open(&refused), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
 }
 

@@ -11,13 +11,13 @@ use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
-use taxel_cli::view::{Hub, Said, Shot, Viewer, serve};
+use taxel_cli::view::{PageHub, Said, Shot, Viewer, serve};
 use taxel_cli::watch::{LiveArgs, watch};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
-fn served() -> (Arc<Hub>, u16) {
-    let hub = Arc::new(Hub::default());
+fn served() -> (Arc<PageHub>, u16) {
+    let hub = Arc::new(PageHub::default());
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let port = serve(listener, hub.clone()).unwrap();
     (hub, port)
@@ -75,7 +75,7 @@ fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value) -> 
 }
 
 /// Watches a simulated scene for the pages of a hub.
-fn watched(hub: &Arc<Hub>, scene: &str, frames: u64, realtime: bool) -> JoinHandle<()> {
+fn watched(hub: &Arc<PageHub>, scene: &str, frames: u64, realtime: bool) -> JoinHandle<()> {
     let args = LiveArgs { frames: Some(frames), ..LiveArgs::of(scene.parse().unwrap()) };
     let options = SourceOptions { frames: Some(frames), realtime, ..SourceOptions::default() };
     let hub = hub.clone();

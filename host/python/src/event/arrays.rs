@@ -9,15 +9,15 @@ use pyo3::types::PyDict;
 use serde_json::Value;
 
 /// Values of all taxels: by taxel, and by panel.
-struct Values {
+struct ByTaxel {
     all: Option<Py<PyAny>>,
     panels: Panels,
 }
 
-impl Values {
-    fn new(py: Python<'_>, values: Option<Vec<u16>>, panels: Panels) -> PyResult<Values> {
+impl ByTaxel {
+    fn new(py: Python<'_>, values: Option<Vec<u16>>, panels: Panels) -> PyResult<ByTaxel> {
         let all = values.map(|values| array::frozen(py, values)).transpose()?;
-        Ok(Values { all: all.map(Bound::unbind), panels })
+        Ok(ByTaxel { all: all.map(Bound::unbind), panels })
     }
 
     fn all<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
@@ -36,7 +36,7 @@ impl Values {
 /// A conditioned image: the pressure of every taxel in counts, and what touches.
 #[pyclass(frozen, extends = Event, module = "taxel")]
 pub struct Frame {
-    values: Values,
+    values: ByTaxel,
     contacts: PyOnceLock<Py<PyAny>>,
 }
 
@@ -48,7 +48,7 @@ impl Frame {
         values: Option<Vec<u16>>,
         panels: Panels,
     ) -> PyResult<Py<PyAny>> {
-        let frame = Frame { values: Values::new(py, values, panels)?, contacts: PyOnceLock::new() };
+        let frame = Frame { values: ByTaxel::new(py, values, panels)?, contacts: PyOnceLock::new() };
         Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(frame))?.into_any())
     }
 }
@@ -86,7 +86,7 @@ impl Frame {
 /// Raw codes of a scan.
 #[pyclass(frozen, extends = Event, module = "taxel")]
 pub struct Raw {
-    values: Values,
+    values: ByTaxel,
 }
 
 impl Raw {
@@ -97,7 +97,7 @@ impl Raw {
         values: Option<Vec<u16>>,
         panels: Panels,
     ) -> PyResult<Py<PyAny>> {
-        let raw = Raw { values: Values::new(py, values, panels)? };
+        let raw = Raw { values: ByTaxel::new(py, values, panels)? };
         Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(raw))?.into_any())
     }
 }

@@ -51,7 +51,7 @@ pub struct RoundTrip {
 /// Model of a board's clock.
 #[derive(Debug, Default, Clone)]
 pub struct HostClock {
-    known: Option<Known>,
+    known: Option<ClockEstimate>,
 }
 
 /// Inclusive bounds.
@@ -73,7 +73,7 @@ impl Bounds {
 }
 
 #[derive(Debug, Clone)]
-struct Known {
+struct ClockEstimate {
     /// Host time minus board time in the first trip, us; the origin of offsets.
     origin: i128,
     /// Board time of the bounds.
@@ -98,7 +98,7 @@ impl HostClock {
             return;
         }
         let carried = self.known.take().and_then(|known| known.carried_on(sent, new));
-        self.known = Some(carried.unwrap_or_else(|| Known {
+        self.known = Some(carried.unwrap_or_else(|| ClockEstimate {
             origin,
             at: sent,
             offset: new,
@@ -125,7 +125,7 @@ impl HostClock {
     }
 }
 
-impl Known {
+impl ClockEstimate {
     /// Bounds of the offset at a board time, before or after the last trip.
     fn offset_at(&self, board: Micros) -> Bounds {
         let passed = span(self.at, board);
@@ -138,7 +138,7 @@ impl Known {
     }
 
     /// Adds the bounds of a new trip; none if the intersection of all bounds is empty.
-    fn carried_on(mut self, sent: Micros, new: Bounds) -> Option<Known> {
+    fn carried_on(mut self, sent: Micros, new: Bounds) -> Option<ClockEstimate> {
         let passed = span(self.at, sent);
         if passed < 0.0 {
             return None;

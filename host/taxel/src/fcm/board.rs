@@ -9,7 +9,7 @@ use taxel_core::intent::{Inference, Map, Rule, Transfer};
 /// The core's map, with room for more concepts than the board has.
 pub type HostMap = Map<Q15_CONCEPTS, Q15_EDGES>;
 /// A state of the map.
-pub type State = [i32; Q15_CONCEPTS];
+pub type MapState = [i32; Q15_CONCEPTS];
 
 /// Steps after which a map that still moves counts as unsettled.
 pub const STEPS: u16 = 1000;
@@ -33,7 +33,7 @@ impl BoardMap {
     }
 
     /// State with these activations, by concept number; all others 0.
-    pub fn state(&self, activations: impl IntoIterator<Item = (usize, Decimal)>) -> State {
+    pub fn state(&self, activations: impl IntoIterator<Item = (usize, Decimal)>) -> MapState {
         let mut state = [0; Q15_CONCEPTS];
         for (concept, value) in activations {
             if let Some(slot) = state.get_mut(concept) {
@@ -44,7 +44,7 @@ impl BoardMap {
     }
 
     /// Runs until the map settles, for at most [`STEPS`] steps.
-    pub fn infer(&self, start: &State) -> Inference<Q15_CONCEPTS> {
+    pub fn infer(&self, start: &MapState) -> Inference<Q15_CONCEPTS> {
         self.map.infer(start, STEPS)
     }
 

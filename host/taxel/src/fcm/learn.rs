@@ -1,7 +1,7 @@
 //! Improves weights by labelled touches, within the limits set by the expert.
 
 use super::map::MapFile;
-use super::search::{Judged, judge, search};
+use super::search::{Verdict, judge, search};
 use super::touches::Touches;
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
@@ -12,18 +12,18 @@ pub struct Learned {
     /// Map with its new weights.
     pub map: MapFile,
     /// Judgement of the expert's map on all touches.
-    pub before: Judged,
+    pub before: Verdict,
     /// Judgement of each touch by a map that was learnt without its fold.
-    pub cross: Judged,
+    pub cross: Verdict,
     /// Judgement of the new map on its training touches.
-    pub after: Judged,
+    pub after: Verdict,
 }
 
 /// Learns from all touches, and cross-validates.
 pub fn learn(file: &MapFile, touches: &Touches, folds: usize) -> Result<Learned> {
     let classes = &touches.classes;
     let part = touches.folds(folds);
-    let mut cross = Judged { confusion: vec![vec![0; classes.len()]; classes.len()], loss: 0.0 };
+    let mut cross = Verdict { confusion: vec![vec![0; classes.len()]; classes.len()], loss: 0.0 };
     for fold in 0..folds {
         let left_out =
             touches.touches.iter().zip(&part).filter(|(_, own)| **own == fold).map(|(touch, _)| touch);
@@ -57,7 +57,7 @@ pub fn changed<'a>(
 /// `{"touches", "classes", "before", "cross", "after", "changed"}`; the three judgements have `accuracy`,
 /// `loss` and `confusion`.
 pub fn report(file: &MapFile, touches: &Touches, learned: &Learned) -> Value {
-    let judged = |j: &Judged| json!({ "accuracy": j.accuracy(), "loss": j.loss, "confusion": j.confusion });
+    let judged = |j: &Verdict| json!({ "accuracy": j.accuracy(), "loss": j.loss, "confusion": j.confusion });
     let edge =
         |(from, to, before, after)| json!({ "from": from, "to": to, "before": before, "after": after });
     json!({
@@ -69,7 +69,7 @@ pub fn report(file: &MapFile, touches: &Touches, learned: &Learned) -> Value {
 
 /// Readable form.
 pub fn text(file: &MapFile, touches: &Touches, learned: &Learned) -> String {
-    let share = |judged: &Judged| format!("{:.1} %", 100.0 * judged.accuracy());
+    let share = |judged: &Verdict| format!("{:.1} %", 100.0 * judged.accuracy());
     let mut text = format!(
         "{} touches; right before: {}; on touches left out while learning: {}; on those learned from: {}\n",
         touches.touches.len(),

@@ -6,7 +6,7 @@
 //! divided. The rest is due to no input: thresholds, the activation of a concept at rest (0.5 with the
 //! sigmoid), and rings.
 
-use super::board::{BoardMap, State};
+use super::board::{BoardMap, MapState};
 use std::collections::BTreeMap;
 use taxel_core::intent::{Rule, Transfer, Why};
 
@@ -50,7 +50,7 @@ impl Shares {
 }
 
 /// Divides the sum of a concept in a settled state.
-pub fn shares(map: &BoardMap, state: &State, why: &Why<{ super::engine::Q15_CONCEPTS }>) -> Shares {
+pub fn shares(map: &BoardMap, state: &MapState, why: &Why<{ super::engine::Q15_CONCEPTS }>) -> Shares {
     let mut search = Search { map, state, found: Shares::default(), path: vec![why.concept.into()] };
     for part in &why.parts {
         search.follow(part.from.into(), part.value.0.into());
@@ -62,7 +62,7 @@ pub fn shares(map: &BoardMap, state: &State, why: &Why<{ super::engine::Q15_CONC
 
 struct Search<'a> {
     map: &'a BoardMap,
-    state: &'a State,
+    state: &'a MapState,
     found: Shares,
     /// Concepts from the explained one backwards.
     path: Vec<usize>,

@@ -27,14 +27,14 @@ const ROUNDS: usize = 20;
 
 /// Judgement of touches by a map.
 #[derive(Debug, Clone)]
-pub struct Judged {
+pub struct Verdict {
     /// `confusion[label][answer]`, in the order of the classes.
     pub confusion: Vec<Vec<usize>>,
     /// Mean loss.
     pub loss: f64,
 }
 
-impl Judged {
+impl Verdict {
     /// Share of right answers.
     pub fn accuracy(&self) -> f64 {
         let right: usize = self.confusion.iter().enumerate().map(|(class, row)| row[class]).sum();
@@ -47,10 +47,10 @@ pub fn judge<'a>(
     file: &MapFile,
     classes: &[String],
     touches: impl IntoIterator<Item = &'a Labelled>,
-) -> Result<Judged> {
+) -> Result<Verdict> {
     let map = BoardMap::build(file)?;
     let numbers: Vec<Option<usize>> = classes.iter().map(|class| file.find(class)).collect();
-    let mut judged = Judged { confusion: vec![vec![0; classes.len()]; classes.len()], loss: 0.0 };
+    let mut judged = Verdict { confusion: vec![vec![0; classes.len()]; classes.len()], loss: 0.0 };
     let mut count = 0usize;
     for touch in touches {
         let run = map.infer(&touch.start);

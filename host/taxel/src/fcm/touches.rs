@@ -1,6 +1,6 @@
 //! Labelled touches from a CSV file: a column for each input concept, `label`, and optionally `group`.
 
-use super::board::{BoardMap, State};
+use super::board::{BoardMap, MapState};
 use super::decimal::Decimal;
 use super::map::MapFile;
 use anyhow::{Context, Result, bail};
@@ -13,7 +13,7 @@ pub const NONE: &str = "none";
 #[derive(Debug, Clone)]
 pub struct Labelled {
     /// Initial state of its inference.
-    pub start: State,
+    pub start: MapState,
     /// Index of its class.
     pub class: usize,
     /// Group, such as a person; a cross-validation never splits a group.

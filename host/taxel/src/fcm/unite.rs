@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 /// Treatment of an edge with different weights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shared {
+pub enum EdgeConflict {
     /// The weights must be equal.
     Agree,
     /// The weights are aggregated; a map with both concepts but no edge has no vote.
@@ -68,7 +68,7 @@ pub struct United {
 }
 
 /// Unites maps under a name. Settings, notes, thresholds and inputs are those of the first map that has them.
-pub fn unite(maps: &[MapFile], name: &str, shared: Shared) -> Result<United> {
+pub fn unite(maps: &[MapFile], name: &str, shared: EdgeConflict) -> Result<United> {
     let [first, ..] = maps else { bail!("there is no map to unite") };
     let mut map = MapFile {
         name: name.into(),
@@ -128,13 +128,13 @@ fn settings(maps: &[MapFile]) -> Vec<String> {
 }
 
 /// Weights of an edge in each map.
-fn opinions(maps: &[MapFile], edge: &EdgeFile, shared: Shared) -> Result<Opinions> {
+fn opinions(maps: &[MapFile], edge: &EdgeFile, shared: EdgeConflict) -> Result<Opinions> {
     let EdgeFile { from, to, .. } = edge;
     let mut said = Vec::new();
     for map in maps {
         match map.edge(from, to) {
             Some(own) => said.push((map.name.clone(), own.weight.clone())),
-            None if matches!(shared, Shared::Vote(_))
+            None if matches!(shared, EdgeConflict::Vote(_))
                 && map.find(from).is_some()
                 && map.find(to).is_some() =>
             {
@@ -147,8 +147,10 @@ fn opinions(maps: &[MapFile], edge: &EdgeFile, shared: Shared) -> Result<Opinion
     let sets: Vec<_> = said.iter().map(|(_, weight)| weight.set()).collect();
     let weight = match shared {
         _ if same => edge.weight.clone(),
-        Shared::Combine(how) | Shared::Vote(how) => Weight::Number(hundredths(centroid(&sets, how)).to_f64()),
-        Shared::Agree => {
+        EdgeConflict::Combine(how) | EdgeConflict::Vote(how) => {
+            Weight::Number(hundredths(centroid(&sets, how)).to_f64())
+        }
+        EdgeConflict::Agree => {
             let each: Vec<String> = said.iter().map(|(map, weight)| format!("{weight} in {map}")).collect();
             bail!("edge {from} -> {to} is {}: --combine makes them one", each.join(", "));
         }

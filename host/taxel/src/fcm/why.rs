@@ -1,6 +1,6 @@
 //! Explains an activation in numbers that add up, and what would change it.
 
-use super::board::{BoardMap, State};
+use super::board::{BoardMap, MapState};
 use super::decimal::Decimal;
 use super::engine::Q15_CONCEPTS;
 use super::map::MapFile;
@@ -57,7 +57,7 @@ fn explain_run(
     Ok(Explained { map, run, why, shares })
 }
 
-fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result<State> {
+fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result<MapState> {
     let mut numbered = Vec::new();
     for (name, value) in inputs {
         let concept = file.index(name, "--input")?;
@@ -72,7 +72,7 @@ fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result
 }
 
 /// The strongest intention, else the strongest concept with causes; the first of equals.
-fn strongest(file: &MapFile, state: &State) -> Option<usize> {
+fn strongest(file: &MapFile, state: &MapState) -> Option<usize> {
     let is_intention = |name: &str| Leading::INTENTIONS.iter().any(|leading| leading.as_str() == name);
     let driven: Vec<usize> =
         (0..file.concept.len()).filter(|at| file.is_driven(&file.concept[*at].name)).collect();

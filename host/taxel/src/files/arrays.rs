@@ -49,8 +49,8 @@ impl Frames {
 /// Reads the array with this name; without a name the only array whose shape is that of frames.
 pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
     let read = || match (open(path)?, array) {
-        (Source::Archive(mut archive), Some(name)) => archive.named(name),
-        (Source::Archive(mut archive), None) => archive.only(),
+        (OpenFile::Archive(mut archive), Some(name)) => archive.named(name),
+        (OpenFile::Archive(mut archive), None) => archive.only(),
         (_, Some(name)) => {
             bail!(Fault::usage(format!("holds one array without a name, so array {name} cannot be chosen")))
         }
@@ -63,7 +63,7 @@ pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
 /// file.
 pub fn read_all(path: &Path) -> Result<Vec<(String, Frames)>> {
     let read = || match open(path)? {
-        Source::Archive(mut archive) => archive.all(),
+        OpenFile::Archive(mut archive) => archive.all(),
         single => {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();
             Ok(vec![(name.into_owned(), single.frames()?)])
@@ -90,32 +90,32 @@ pub fn texts(path: &Path, array: &str) -> Result<Option<Vec<String>>> {
 /// Reads from an archive; returns the default for other files.
 fn archive<T: Default>(path: &Path, read: impl FnOnce(&mut npz::Archive) -> Result<T>) -> Result<T> {
     let read = || match open(path)? {
-        Source::Archive(mut archive) => read(&mut archive),
+        OpenFile::Archive(mut archive) => read(&mut archive),
         _ => Ok(T::default()),
     };
     read().with_context(|| path.display().to_string())
 }
 
 /// An open file of known kind.
-enum Source {
+enum OpenFile {
     Array(File, u64),
     Archive(npz::Archive),
     Text(File),
 }
 
-impl Source {
+impl OpenFile {
     fn frames(self) -> Result<Frames> {
         match self {
             // Values are uncompressed, so they take at most twice the size of the file.
-            Source::Array(file, size) => npy::read(file, size, &mut Room::endless()),
-            Source::Archive(mut archive) => archive.only(),
-            Source::Text(file) => csv::read(file),
+            OpenFile::Array(file, size) => npy::read(file, size, &mut Room::endless()),
+            OpenFile::Archive(mut archive) => archive.only(),
+            OpenFile::Text(file) => csv::read(file),
         }
     }
 }
 
 /// Opens a file. Its kind is detected by its first bytes; by its name if they are not conclusive.
-fn open(path: &Path) -> Result<Source> {
+fn open(path: &Path) -> Result<OpenFile> {
     crate::tell::verbose::reads(path);
     let file = File::open(path).context("cannot be read")?;
     let mut start = Vec::new();
@@ -125,9 +125,9 @@ fn open(path: &Path) -> Result<Source> {
     let file = File::open(path).context("cannot be read")?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
-        _ if start.starts_with(npy::MAGIC) => Ok(Source::Array(file, size)),
-        _ if start.starts_with(b"PK") => npz::Archive::open(file).map(Source::Archive),
-        "csv" | "txt" => Ok(Source::Text(file)),
+        _ if start.starts_with(npy::MAGIC) => Ok(OpenFile::Array(file, size)),
+        _ if start.starts_with(b"PK") => npz::Archive::open(file).map(OpenFile::Archive),
+        "csv" | "txt" => Ok(OpenFile::Text(file)),
         "npy" => bail!("not a NumPy array"),
         "npz" => bail!("not a NumPy archive"),
         _ => bail!("not an array file: expected .npy, .npz or .csv"),

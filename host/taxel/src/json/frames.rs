@@ -16,7 +16,7 @@ use taxel_core::scene::Scene;
 const TAXELS: usize = 16_384;
 
 /// State of the pipeline.
-pub type State = PipelineState<TAXELS, { TAXELS / 2 }>;
+pub type ReplayState = PipelineState<TAXELS, { TAXELS / 2 }>;
 
 /// A garment and a scene on the host: takes frames of values, returns JSON objects.
 pub struct Replay {
@@ -26,7 +26,7 @@ pub struct Replay {
     /// The scene.
     pub pipeline: Pipeline,
     /// What it remembers.
-    pub state: Box<State>,
+    pub state: Box<ReplayState>,
     names: Vec<Name>,
     leading: Leading,
     concepts: Vec<Q15>,
@@ -38,7 +38,7 @@ impl Replay {
     pub fn new(garment: &Garment, scene: &Scene, full_scale: u16) -> Result<Replay> {
         let layout = Layout::build(garment, TAXELS, full_scale)?;
         let pipeline = Pipeline::build(scene, &layout)?;
-        let mut state = Box::new(State::default());
+        let mut state = Box::new(ReplayState::default());
         let falling = garment.wiring.falling;
         state.reset(&layout, falling, full_scale);
         let names = pipeline.intent().map_or_else(Vec::new, |intent| intent.map().concepts().to_vec());

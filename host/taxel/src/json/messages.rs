@@ -20,26 +20,26 @@ use taxel_core::shape::Class;
 use taxel_core::wire::{GestureReport, SelfTestReport, Temperature};
 
 /// Prints messages as JSON.
-pub struct Messages<W> {
+pub struct MessagePrinter<W> {
     pixels: bool,
     calibration: Option<Calibration>,
     out: W,
 }
 
-impl<W: Write> Messages<W> {
+impl<W: Write> MessagePrinter<W> {
     /// Output with or without the pressure of every taxel.
-    pub fn new(pixels: bool, out: W) -> Messages<W> {
-        Messages { pixels, calibration: None, out }
+    pub fn new(pixels: bool, out: W) -> MessagePrinter<W> {
+        MessagePrinter { pixels, calibration: None, out }
     }
 
     /// Adds the force on each panel (`force_n`, in the order of `panels`) and of each contact while the board
     /// uses this calibration.
-    pub fn calibrated(self, calibration: Option<Calibration>) -> Messages<W> {
-        Messages { calibration, ..self }
+    pub fn calibrated(self, calibration: Option<Calibration>) -> MessagePrinter<W> {
+        MessagePrinter { calibration, ..self }
     }
 }
 
-impl<W: Write> Show for Messages<W> {
+impl<W: Write> Show for MessagePrinter<W> {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         let mut line = message(client, event);
         if let (true, Event::Frame { image: ImageNews::Whole, .. }) = (self.pixels, event) {

@@ -14,12 +14,12 @@
 //! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata
 //! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
 
+mod counters;
 mod file;
 mod limit;
 mod message;
 mod names;
 mod play;
-mod progress;
 mod provenance;
 mod recorder;
 mod ros2;

@@ -1,9 +1,9 @@
 //! Records a board's stream, second by second, file after file.
 
+use super::counters::Counters;
 use super::file::RecordingFile;
 use super::limit::Rotate;
 use super::names::{self, beside, numbered};
-use super::progress::Progress;
 use super::provenance::Origin;
 use super::stamps::{Stamp, Stamps};
 use super::standing::Standing;
@@ -67,7 +67,7 @@ pub struct Recorder {
     /// Board time at the start of the chunk, us.
     chunk_us: u64,
     kept: Instant,
-    progress: Progress,
+    counters: Counters,
     shown: progress::Progress,
     /// Counters so far, and when the file began.
     tally: [Tally; 2],
@@ -91,7 +91,7 @@ impl Recorder {
             passed: Passed::default(),
             chunk_us: 0,
             kept: Instant::now(),
-            progress: Progress::default(),
+            counters: Counters::default(),
             shown: progress::Progress::of("recording", Unit::BoardTime, None),
             tally: [Tally::default(); 2],
             waits_for_raw: false,
@@ -107,7 +107,7 @@ impl Recorder {
     /// Progress in words.
     pub fn progress(&self) -> String {
         let bytes = self.file.as_ref().map_or(0, |file| file.bytes());
-        self.progress.line(&self.path, bytes)
+        self.counters.line(&self.path, bytes)
     }
 
     /// Writes the end of the file, unless written already.
@@ -116,7 +116,7 @@ impl Recorder {
         self.shown.clear();
         let [now, before] = self.tally;
         let counted = file.writer.metadata(COUNTS, now.words(before));
-        let ended = file.finish().map(|bytes| self.progress.ended(bytes));
+        let ended = file.finish().map(|bytes| self.counters.ended(bytes));
         ended.and(counted).with_context(|| self.incomplete())
     }
 
@@ -133,7 +133,7 @@ impl Recorder {
             let _ = file.finish();
             let scan = crate::recording::scan(&self.path).ok().filter(|scan| scan.whole);
             let bytes = std::fs::metadata(&self.path).map_or(0, |known| known.len());
-            self.progress.cut(bytes, scan.as_ref().map_or(0, |scan| scan.contents.messages(FRAMES)));
+            self.counters.cut(bytes, scan.as_ref().map_or(0, |scan| scan.contents.messages(FRAMES)));
             kept = if scan.is_some() { kept } else { self.incomplete() };
         }
         Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
@@ -144,7 +144,7 @@ impl Recorder {
         self.standing.take(client, event);
         self.rotate(client, event, stamp)?;
         self.tally[0] = Tally::of(client.counts());
-        self.progress.take(client, event, self.passed.until(stamp.board_us));
+        self.counters.take(client, event, self.passed.until(stamp.board_us));
         let Some(file) = &mut self.file else { return Ok(()) };
         if *event == Event::Hello && client.worn() != self.worn.as_ref() {
             self.worn = client.worn().cloned();
@@ -209,8 +209,8 @@ impl Recorder {
             file.flush()?;
         }
         self.kept = Instant::now();
-        let line = || self.progress.line(&self.path, self.file.as_ref().map_or(0, |file| file.bytes()));
-        self.shown.told(self.progress.board_us(), line);
+        let line = || self.counters.line(&self.path, self.file.as_ref().map_or(0, |file| file.bytes()));
+        self.shown.told(self.counters.board_us(), line);
         Ok(())
     }
 }

@@ -20,7 +20,7 @@ const LONGEST: u64 = 1 << 24;
 
 /// Place of a chunk, and the log times of its messages, ns.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct ChunkPlace {
     offset: u64,
     /// Log time of its first message; not before that of the previous chunk.
     pub start: u64,
@@ -32,7 +32,7 @@ pub struct Place {
 
 /// A message of the topic.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
+pub struct ClipMessage {
     /// Channel, order and times (ns).
     pub header: MessageHeader,
     /// Its bytes.
@@ -45,14 +45,14 @@ pub struct Clips {
     records: Records,
     path: PathBuf,
     topic: &'static str,
-    places: Vec<Place>,
+    places: Vec<ChunkPlace>,
     channels: BTreeMap<u16, Channel>,
     /// Metadata by name.
     pub words: BTreeMap<String, BTreeMap<String, String>>,
     /// Attachments by name, the newest of each.
     pub attached: BTreeMap<String, Vec<u8>>,
     plain: Vec<u8>,
-    held: Vec<(usize, Arc<[Piece]>)>,
+    held: Vec<(usize, Arc<[ClipMessage]>)>,
 }
 
 impl Clips {
@@ -80,7 +80,7 @@ impl Clips {
     }
 
     /// The chunks in order of time.
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[ChunkPlace] {
         &self.places
     }
 
@@ -128,7 +128,8 @@ impl Clips {
                 let (start, end) = (time(0).unwrap_or(0), time(8).unwrap_or(0));
                 // If a clock was set back, a chunk still begins no earlier than the one before it.
                 let start = self.places.last().map_or(start, |before| start.max(before.start));
-                let place = Place { offset: head.offset, start, end: end.max(start), channels: Vec::new() };
+                let place =
+                    ChunkPlace { offset: head.offset, start, end: end.max(start), channels: Vec::new() };
                 self.places.push(place);
             }
             op::MESSAGE_INDEX if head.length >= 2 => {
@@ -157,7 +158,7 @@ impl Clips {
     }
 
     /// Messages of a chunk. Error if it is damaged.
-    pub fn clip(&mut self, chunk: usize) -> Result<Arc<[Piece]>> {
+    pub fn clip(&mut self, chunk: usize) -> Result<Arc<[ClipMessage]>> {
         if let Some(at) = self.held.iter().position(|(number, _)| *number == chunk) {
             let known = self.held.remove(at);
             self.held.push(known);
@@ -176,10 +177,10 @@ impl Clips {
     fn held_bytes(&self) -> usize {
         let before = self.held.split_last().map_or(&[][..], |(_, before)| before);
         let pieces = before.iter().flat_map(|(_, clip)| clip.iter());
-        pieces.map(|piece| size_of::<Piece>() + piece.data.len()).sum()
+        pieces.map(|piece| size_of::<ClipMessage>() + piece.data.len()).sum()
     }
 
-    fn read(&mut self, chunk: usize) -> Result<Arc<[Piece]>> {
+    fn read(&mut self, chunk: usize) -> Result<Arc<[ClipMessage]>> {
         self.records.go_to(self.places.get(chunk).context("there is no such chunk")?.offset)?;
         let record = self.records.next_record()?.context("a chunk is cut off")?;
         let Record::Chunk { header, data } = parse_record(record.op, record.body)? else {
@@ -195,7 +196,7 @@ impl Clips {
                         continue;
                     }
                     if let Record::Message { header, data } = parse_record(record.op, record.body)? {
-                        pieces.push(Piece { header, data: data.into() });
+                        pieces.push(ClipMessage { header, data: data.into() });
                     }
                 }
                 (op::CHANNEL, body) => {

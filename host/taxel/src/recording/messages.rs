@@ -132,10 +132,10 @@ impl Messages {
     fn fill(&mut self) -> Result<bool> {
         loop {
             match self.step()? {
-                Step::Filled => return Ok(true),
-                Step::Over => return Ok(false),
-                Step::Passed => {}
-                Step::Damaged(damage) => {
+                ReadStep::Filled => return Ok(true),
+                ReadStep::Over => return Ok(false),
+                ReadStep::Passed => {}
+                ReadStep::Damaged(damage) => {
                     match damage.pass(&mut self.records, &self.path, &mut self.skipped)? {
                         Some(next) => self.records.go_to(next)?,
                         None => return Ok(false),
@@ -146,9 +146,9 @@ impl Messages {
     }
 
     /// Reads the next record of the file.
-    fn step(&mut self) -> Result<Step> {
+    fn step(&mut self) -> Result<ReadStep> {
         let offset = self.records.offset();
-        let Some(head) = self.records.next_head()? else { return Ok(Step::Damaged(Damage::at(offset))) };
+        let Some(head) = self.records.next_head()? else { return Ok(ReadStep::Damaged(Damage::at(offset))) };
         match head.op {
             op::CHUNK => return self.chunk(head),
             op::MESSAGE | op::CHANNEL if head.length > LONGEST => self.records.go_to(head.end())?,
@@ -158,17 +158,17 @@ impl Messages {
                 self.plain.extend(head.length.to_le_bytes());
                 self.plain.extend_from_slice(self.records.body(head)?.body);
                 self.next = 0;
-                return Ok(Step::Filled);
+                return Ok(ReadStep::Filled);
             }
             op::CHANNEL => channel(self.records.body(head)?.body, &mut self.channels),
             op::ATTACHMENT if self.wanted.is_some() && self.attached.is_none() && head.length <= LONGEST => {
                 self.attach(head)?;
             }
-            op::DATA_END if is_end(&self.path, &head)? => return Ok(Step::Over),
+            op::DATA_END if is_end(&self.path, &head)? => return Ok(ReadStep::Over),
             op if is_known(op) || !is_chunk_at(&self.path, &head)? => self.records.go_to(head.end())?,
-            _ => return Ok(Step::Damaged(Damage::at(offset))),
+            _ => return Ok(ReadStep::Damaged(Damage::at(offset))),
         }
-        Ok(Step::Passed)
+        Ok(ReadStep::Passed)
     }
 
     /// Keeps an attachment if it is the wanted one.
@@ -179,23 +179,23 @@ impl Messages {
         Ok(())
     }
 
-    fn chunk(&mut self, head: Head) -> Result<Step> {
+    fn chunk(&mut self, head: Head) -> Result<ReadStep> {
         let record = self.records.body(head)?;
         let mut damage = Damage { end: Some(head.end()), ..Damage::at(head.offset) };
         self.next = 0;
         if let Ok(Record::Chunk { header, data }) = parse_record(record.op, record.body) {
             if chunk::plain(&header, &data, &mut self.plain).is_ok() {
-                return Ok(Step::Filled);
+                return Ok(ReadStep::Filled);
             }
             damage.ns = header.message_end_time.saturating_sub(header.message_start_time);
         }
         self.plain.clear();
-        Ok(Step::Damaged(damage))
+        Ok(ReadStep::Damaged(damage))
     }
 }
 
 /// Result of reading a record.
-enum Step {
+enum ReadStep {
     /// It has messages.
     Filled,
     /// It has none.

@@ -56,7 +56,7 @@ mod written;
 #[cfg(test)]
 mod tests;
 
-pub use clips::{Clips, Piece, Place};
+pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
 pub use messages::{Message, Messages};
@@ -64,7 +64,7 @@ pub use overview::Overview;
 pub use records::{Head, Inside, RawRecord, Records};
 pub use renumber::{lost, renumbered, sequence};
 pub use repair::repair;
-pub use salvage::Damage;
+pub use salvage::Unreadable;
 pub use scan::{Scan, scan};
 pub use store::Store;
 pub use summary::{Summary, chunk_indexes, footer, summary};

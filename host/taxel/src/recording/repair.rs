@@ -7,7 +7,7 @@ use super::append::{append, sized};
 use super::chunk::{Closed, Index};
 use super::contents::Contents;
 use super::ending::Ending;
-use super::salvage::{Kind, Opened, Piece, Step, Walk};
+use super::salvage::{Kind, Opened, Piece, Walk, WalkStep};
 use super::scan::Scan;
 use crate::tell::progress::{Progress, Unit};
 use anyhow::Result;
@@ -23,7 +23,7 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
     let mut walk = Walk::open(path)?;
     let (schemas, channels) = (scan.contents.schemas.clone(), scan.contents.channels.clone());
     let contents = Contents { schemas, channels, ..Contents::default() };
-    let told = Told::default();
+    let told = Copied::default();
     let mut rebuilt = Rebuilt { out, length: 0, contents, told, follows_foreign: false };
     rebuilt.begin(scan)?;
     let what = format!("repairing {}", path.display());
@@ -31,8 +31,8 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
     while let Some(step) = walk.next_step()? {
         progress.at(walk.passed());
         match step {
-            Step::Piece(piece) => rebuilt.take(piece)?,
-            Step::Damage(_) => rebuilt.follows_foreign = false,
+            WalkStep::Piece(piece) => rebuilt.take(piece)?,
+            WalkStep::Unreadable(_) => rebuilt.follows_foreign = false,
         }
     }
     rebuilt.end()?;
@@ -41,7 +41,7 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
 
 /// Numbers of schemas and channels already written to the new file.
 #[derive(Debug, Default)]
-struct Told {
+struct Copied {
     schemas: BTreeSet<u16>,
     channels: BTreeSet<u16>,
 }
@@ -52,7 +52,7 @@ struct Rebuilt<'a, W> {
     length: u64,
     /// Contents of the new file; all schemas and channels of the old one.
     contents: Contents,
-    told: Told,
+    told: Copied,
     /// The previous record is a chunk that cannot be read here (compression or size), or an index of its
     /// messages.
     follows_foreign: bool,

@@ -2,7 +2,7 @@
 
 use super::chunk::Index;
 use super::contents::Contents;
-use super::salvage::{Damage, Kind, Piece, Step, Walk};
+use super::salvage::{Kind, Piece, Unreadable, Walk, WalkStep};
 use crate::tell::progress::{Progress, Unit};
 use anyhow::Result;
 use mcap::records::{Header, Metadata, Statistics};
@@ -20,7 +20,7 @@ pub struct Scan {
     /// Bytes behind the readable part of a file without its end.
     pub torn: u64,
     /// Unreadable bytes, including those behind the readable part.
-    pub damage: Vec<Damage>,
+    pub damage: Vec<Unreadable>,
     /// Number of records that are readable although their number, length or fields are wrong in the file.
     pub corrected: usize,
     /// Number of chunks that cannot be read here because of their compression or size.
@@ -51,8 +51,8 @@ pub fn scan(path: &Path) -> Result<Scan> {
     while let Some(step) = walk.next_step()? {
         progress.at(walk.passed());
         match step {
-            Step::Piece(piece) => scan.take(piece),
-            Step::Damage(damage) => scan.damage.push(damage),
+            WalkStep::Piece(piece) => scan.take(piece),
+            WalkStep::Unreadable(damage) => scan.damage.push(damage),
         }
     }
     let last = scan.damage.last().filter(|last| !ended && last.offset + last.length == walk.length());

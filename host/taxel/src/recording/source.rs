@@ -12,7 +12,7 @@ const TAIL: u64 = MAGIC.len() as u64;
 
 /// A file with random access.
 #[derive(Debug)]
-pub struct Source {
+pub struct RandomAccess {
     input: BufReader<File>,
     at: u64,
     length: u64,
@@ -20,16 +20,16 @@ pub struct Source {
 
 /// Head of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Head {
+pub struct RawHead {
     /// The record's number.
     pub op: u8,
     /// Size of its body.
     pub length: u64,
 }
 
-impl Source {
+impl RandomAccess {
     /// Opens a file.
-    pub fn open(path: &Path) -> Result<Source> {
+    pub fn open(path: &Path) -> Result<RandomAccess> {
         let place = || format!("{} cannot be read", path.display());
         crate::tell::verbose::reads(path);
         let file = File::open(path).with_context(place)?;
@@ -37,7 +37,7 @@ impl Source {
         if known.is_dir() {
             bail!("{} is a folder", path.display());
         }
-        Ok(Source { input: BufReader::with_capacity(1 << 16, file), at: 0, length: known.len() })
+        Ok(RandomAccess { input: BufReader::with_capacity(1 << 16, file), at: 0, length: known.len() })
     }
 
     /// Size of the file.
@@ -57,10 +57,10 @@ impl Source {
     }
 
     /// Head of the record at an offset; none if the file ends before.
-    pub fn head(&mut self, at: u64) -> io::Result<Option<Head>> {
+    pub fn head(&mut self, at: u64) -> io::Result<Option<RawHead>> {
         let bytes = self.read(at, HEAD as u64)?;
         Ok(bytes.split_first_chunk().and_then(|([op], length)| {
-            Some(Head { op: *op, length: u64::from_le_bytes(length.try_into().ok()?) })
+            Some(RawHead { op: *op, length: u64::from_le_bytes(length.try_into().ok()?) })
         }))
     }
 

@@ -1,7 +1,7 @@
 //! Reads the summary at a recording's end: found by the footer, without scanning the file.
 
 use super::append::HEAD;
-use super::source::{Head, Source};
+use super::source::{RandomAccess, RawHead};
 use super::texts::{LONGEST, parse_record};
 use anyhow::{Context, Result};
 use mcap::MAGIC;
@@ -36,7 +36,7 @@ pub struct End {
 impl End {
     /// Reads a file's end, and passes each record of its summary to `take`, which returns whether it is
     /// plausible.
-    pub fn read(source: &mut Source, mut take: impl FnMut(Record<'_>) -> bool) -> io::Result<End> {
+    pub fn read(source: &mut RandomAccess, mut take: impl FnMut(Record<'_>) -> bool) -> io::Result<End> {
         let mut end = End::default();
         let Some(at) = source.length().checked_sub(LAST) else { return Ok(end) };
         let last = source.read(at, LAST)?;
@@ -63,7 +63,7 @@ impl End {
 }
 
 /// Checksum of the bytes between two offsets.
-fn sum(source: &mut Source, mut from: u64, until: u64) -> io::Result<u32> {
+fn sum(source: &mut RandomAccess, mut from: u64, until: u64) -> io::Result<u32> {
     let mut sum = crc32fast::Hasher::new();
     while from < until {
         let bytes = source.read(from, PIECE.min(until - from))?;
@@ -79,13 +79,13 @@ fn sum(source: &mut Source, mut from: u64, until: u64) -> io::Result<u32> {
 
 /// Visits the records between two offsets. Returns whether all can be read and fill the range.
 fn each(
-    source: &mut Source,
+    source: &mut RandomAccess,
     mut at: u64,
     until: u64,
     take: &mut impl FnMut(Record<'_>) -> bool,
 ) -> io::Result<bool> {
     while at < until {
-        let fits = |head: &Head| head.length <= (until - at).min(LONGEST as u64);
+        let fits = |head: &RawHead| head.length <= (until - at).min(LONGEST as u64);
         let Some(head) = source.head(at)?.filter(fits) else { return Ok(false) };
         let next = at + HEAD as u64 + head.length;
         // Zeros are not a record, and a summary has no chunks.
@@ -156,6 +156,6 @@ fn records(path: &Path, mut show: impl FnMut(Record<'_>)) -> Result<End> {
         show(record);
         true
     };
-    End::read(&mut Source::open(path)?, &mut take)
+    End::read(&mut RandomAccess::open(path)?, &mut take)
         .with_context(|| format!("{} cannot be read", path.display()))
 }

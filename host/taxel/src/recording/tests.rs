@@ -74,9 +74,9 @@ fn disk(room: usize) -> Disk {
 }
 
 /// A file of this test only; removed when dropped.
-struct Scratch(PathBuf);
+struct TestFile(PathBuf);
 
-impl Deref for Scratch {
+impl Deref for TestFile {
     type Target = Path;
 
     fn deref(&self) -> &Path {
@@ -84,18 +84,18 @@ impl Deref for Scratch {
     }
 }
 
-impl Drop for Scratch {
+impl Drop for TestFile {
     fn drop(&mut self) {
         _ = std::fs::remove_file(&self.0);
     }
 }
 
-fn file(name: &str, bytes: &[u8]) -> Scratch {
+fn file(name: &str, bytes: &[u8]) -> TestFile {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let path = std::env::temp_dir().join(format!("taxel-{}-{number}-{name}.mcap", std::process::id()));
     std::fs::write(&path, bytes).unwrap();
-    Scratch(path)
+    TestFile(path)
 }
 
 /// Counts the messages of a file by its summary and by a scan, which must agree.
@@ -118,7 +118,7 @@ fn messages(path: &Path) -> u64 {
 }
 
 /// Repairs a file.
-fn repaired(path: &Path) -> Scratch {
+fn repaired(path: &Path) -> TestFile {
     let mut bytes = Vec::new();
     repair(path, &scan(path).unwrap(), &mut bytes).unwrap();
     file("repaired", &bytes)

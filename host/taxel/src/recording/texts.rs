@@ -9,7 +9,7 @@ use std::io::Cursor;
 
 /// A part of a record's fields.
 #[derive(Debug, Clone, Copy)]
-enum Part {
+enum FieldPart {
     /// This many bytes.
     Fixed(usize),
     /// A length of four bytes, and as many bytes.
@@ -20,10 +20,10 @@ enum Part {
     Numbers(usize),
 }
 
-use Part::{Fixed, Numbers, Text, Texts};
+use FieldPart::{Fixed, Numbers, Text, Texts};
 
 /// Fields of a record up to its last text.
-fn parts(number: u8) -> &'static [Part] {
+fn parts(number: u8) -> &'static [FieldPart] {
     match number {
         op::HEADER => &[Text, Text],
         op::SCHEMA => &[Fixed(2), Text, Text],

@@ -7,7 +7,7 @@ use crate::tell::fault::Blame;
 use crate::tell::verbose;
 use anyhow::{Context, Result};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
-use taxel_core::gesture::{Certainty, GestureConfig, Gestures, Shipped};
+use taxel_core::gesture::{Certainty, GestureConfig, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
@@ -48,7 +48,7 @@ pub fn set_certainty(client: &mut Client, share: f64) -> Result<()> {
 /// as soon as its confidence suffices, without a minimum time in the lead.
 pub fn set_gestures(
     client: &mut Client,
-    model: Shipped,
+    model: ShippedModel,
     gain: Option<f64>,
     by_certainty: bool,
 ) -> Result<()> {

@@ -35,7 +35,7 @@ pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
     let length = (script.duration_s * 1e6) as u64 / FRAME_PERIOD_US;
     let frames = length.max(options.frames.unwrap_or(0)).max(asked) + 1;
     let seeded = sim::Script { seed: options.seed.unwrap_or(script.seed), ..script.clone() };
-    let folder = Folder::new()?;
+    let folder = TempFolder::new()?;
     let codes = frame_codes(
         &seeded,
         &garment,
@@ -119,18 +119,18 @@ fn image(harness: &Path) -> Result<PathBuf> {
 }
 
 /// A folder that is deleted with its owner.
-struct Folder(PathBuf);
+struct TempFolder(PathBuf);
 
-impl Folder {
-    fn new() -> io::Result<Folder> {
+impl TempFolder {
+    fn new() -> io::Result<TempFolder> {
         let stamp = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |d| d.as_nanos());
         let path = std::env::temp_dir().join(format!("taxel-emulator-{}-{stamp}", std::process::id()));
         std::fs::create_dir_all(&path)?;
-        Ok(Folder(path))
+        Ok(TempFolder(path))
     }
 }
 
-impl Drop for Folder {
+impl Drop for TempFolder {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir_all(&self.0);
     }
@@ -140,11 +140,11 @@ impl Drop for Folder {
 struct Emulator {
     child: Child,
     tcp: Tcp,
-    _folder: Folder,
+    _folder: TempFolder,
 }
 
 impl Emulator {
-    fn start(mut node: Command, folder: Folder) -> Result<Emulator> {
+    fn start(mut node: Command, folder: TempFolder) -> Result<Emulator> {
         let spawned = node.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child =
             spawned.map_err(|error| anyhow!("node, which runs the emulator, cannot be started: {error}"))?;

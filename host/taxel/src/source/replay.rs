@@ -65,14 +65,14 @@ pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source
     let progress =
         || Progress::of(format!("playing {}", path.display()), Unit::Bytes, Some(wire.passed()[1]));
     let progress = (!io::stdout().is_terminal()).then(progress);
-    let replay = Replay { wire, speed, began: None, next: Vec::new(), due: None, progress };
+    let replay = Player { wire, speed, began: None, next: Vec::new(), due: None, progress };
     let label = format!("replay:{}", path.display());
     Ok(Source { counts_per_newton: scale, listens: false, ..Source::new(label, replay) })
 }
 
 /// A recording being played.
 #[derive(Debug)]
-struct Replay {
+struct Player {
     wire: WireReader,
     speed: Option<f64>,
     /// When the first message was played, and its log time, ns.
@@ -84,7 +84,7 @@ struct Replay {
     progress: Option<Progress>,
 }
 
-impl Replay {
+impl Player {
     /// Loads the bytes of the next message. Returns false at the end.
     fn fetch(&mut self) -> Result<bool> {
         if let Some(message) = self.wire.next_frame()? {
@@ -104,7 +104,7 @@ impl Replay {
     }
 }
 
-impl Port for Replay {
+impl Port for Player {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
         let mut count = 0;
         loop {

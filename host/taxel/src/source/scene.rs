@@ -13,7 +13,7 @@ use taxel_core::scene::Scene;
 pub fn scene_of(script: &Script) -> Result<Scene> {
     let said = serde_json::to_value(&script.scene)?;
     filled(said, Path::new("."))
-        .map_err(|Wrong { key, why }| anyhow!("script {}: `scene.{key}`: {why}", script.name))
+        .map_err(|SceneFault { key, why }| anyhow!("script {}: `scene.{key}`: {why}", script.name))
 }
 
 /// A scene's file and its contents.
@@ -39,8 +39,8 @@ impl SceneFile {
         let said: toml::Table =
             toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
         let said = serde_json::to_value(said)?;
-        let scene =
-            filled(said, folder).map_err(|Wrong { key, why }| toml_key::error(&name, &text, &key, why))?;
+        let scene = filled(said, folder)
+            .map_err(|SceneFault { key, why }| toml_key::error(&name, &text, &key, why))?;
         Ok(SceneFile { scene, name, text })
     }
 
@@ -61,18 +61,18 @@ pub fn read_scene(path: &Path) -> Result<Scene> {
 }
 
 /// What is wrong with a scene's values, and under which key.
-struct Wrong {
+struct SceneFault {
     key: String,
     why: String,
 }
 
 /// Merges values into the shipped scene. Paths of maps are relative to `folder`.
-fn filled(mut said: Value, folder: &Path) -> Result<Scene, Wrong> {
-    fcm::scene::resolve(&mut said, folder).map_err(|error| Wrong {
+fn filled(mut said: Value, folder: &Path) -> Result<Scene, SceneFault> {
+    fcm::scene::resolve(&mut said, folder).map_err(|error| SceneFault {
         key: "intent.map".into(),
         why: error.chain().skip(1).map(words::cause).collect::<Vec<_>>().join(": "),
     })?;
-    scene_as(&said).map_err(|why| Wrong { key: key_of(&why, &said), why })
+    scene_as(&said).map_err(|why| SceneFault { key: key_of(&why, &said), why })
 }
 
 /// Parses a scene, or returns the parser's message.

@@ -27,7 +27,7 @@ const LINK: u32 = 1_000_000;
 const LAG: Duration = Duration::from_millis(250);
 
 /// What to play, and for how long.
-struct Play {
+struct Playing {
     script: Script,
     garment: Garment,
     /// Scene of the board at its start.
@@ -57,7 +57,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         board_scene.stream.raw_hz = u16::MAX;
     }
     let tare = script.tare_frames.min(4096) as u16;
-    let play = Play {
+    let play = Playing {
         seed: options.seed.unwrap_or(script.seed),
         realtime: options.realtime,
         repeat: options.repeat,
@@ -142,7 +142,7 @@ pub fn info(garment: &Garment) -> BoardInfo {
     }
 }
 
-impl Play {
+impl Playing {
     /// A board as after power-up.
     fn board(&self) -> Result<Shipped> {
         let mut board = Shipped::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;

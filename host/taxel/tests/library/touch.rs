@@ -1,10 +1,10 @@
 //! Models of touches: refused bytes, decisions of a trained model in the board's arithmetic, and its size.
 
 use proptest::prelude::*;
-use taxel::learn::touches::{Head, Provenance, Ridge, Trained, export};
+use taxel::learn::touches::{ModelHead, Provenance, Ridge, Trained, export};
 use taxel_core::format::Q15;
 use taxel_core::gesture::{
-    FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, Shipped, TouchClassifier, TouchState,
+    FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, ShippedModel, TouchClassifier, TouchState,
     checksum,
 };
 
@@ -31,7 +31,7 @@ fn trained() -> (Ridge, Vec<u8>) {
     let ridge = Ridge::fit(&examples, 2, 10.0, 0.0);
     let names = ["fast".to_string(), "slow".to_string()];
     let alone = Trained { from: 0, ridge: ridge.clone(), rows: vec![(0, [0.75; LEADS])] };
-    let head = Head { names: &names, pressed: 12, concludes: false, notes: "{}" };
+    let head = ModelHead { names: &names, pressed: 12, concludes: false, notes: "{}" };
     let bytes = export(&[alone], head).unwrap();
     (ridge, bytes)
 }
@@ -69,7 +69,7 @@ fn the_board_scores_as_the_planes_do() {
 
 #[test]
 fn the_shipped_models_fit_a_board_and_name_their_data() {
-    for (bytes, classes) in [(Shipped::Gestures.bytes(), 7), (Shipped::Intent.bytes(), 3)] {
+    for (bytes, classes) in [(ShippedModel::Gestures.bytes(), 7), (ShippedModel::Intent.bytes(), 3)] {
         let model = Model::read(bytes).unwrap();
         assert_eq!(model.classes(), classes);
         assert!(model.experts().count() > 1 && model.experts().all(|e| e.confidence(0, 9).is_some()));
@@ -92,7 +92,7 @@ fn of_experts(experts: &[(usize, usize)], concludes: bool) -> Vec<u8> {
         })
         .collect();
     let names = ["fast".to_string(), "slow".to_string()];
-    export(&experts, Head { names: &names, pressed: 12, concludes, notes: "{}" }).unwrap()
+    export(&experts, ModelHead { names: &names, pressed: 12, concludes, notes: "{}" }).unwrap()
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn a_model_of_version_2_is_read_and_knows_no_confidence() {
 
 #[test]
 fn bad_models_are_refused_with_a_sentence() {
-    let good = Shipped::Gestures.bytes();
+    let good = ShippedModel::Gestures.bytes();
     let with = |at: usize, byte: u8| {
         let mut bytes = good[..good.len() - 4].to_vec();
         bytes[at] = byte;
@@ -190,7 +190,7 @@ proptest! {
         frames in proptest::collection::vec(proptest::collection::vec(any::<u16>(), 0..200), 1..60),
         rows in any::<u16>(), columns in any::<u16>(),
     ) {
-        let mut bytes = Shipped::Gestures.bytes()[..Shipped::Gestures.bytes().len() - 4].to_vec();
+        let mut bytes = ShippedModel::Gestures.bytes()[..ShippedModel::Gestures.bytes().len() - 4].to_vec();
         flips.into_iter().for_each(|(at, byte)| bytes[at] = byte);
         let sum = checksum(&bytes);
         bytes.extend(sum.to_le_bytes());

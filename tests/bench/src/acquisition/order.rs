@@ -23,7 +23,7 @@ const BREADTH: f32 = 4.0;
 type Order = Vec<usize>;
 
 /// Errors of a scene by settling, counts: rms and largest.
-pub struct Row {
+pub struct OrderRow {
     settle_ns: u32,
     source_kohm: f64,
     scene: &'static str,
@@ -32,7 +32,7 @@ pub struct Row {
 }
 
 /// Both orders, over settling times, sources, and two scenes.
-pub fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<OrderRow> {
     let garment = Garment::reference();
     let Some((layout, circuit)) = built(&garment) else { return Vec::new() };
     let scenes = [("touch", touch(&layout)), ("texture", texture(layout.taxels()))];
@@ -40,7 +40,7 @@ pub fn rows() -> Vec<Row> {
     let settings = SETTLING.into_iter().flat_map(|settle| SOURCES.map(|source| (settle, source)));
     let row = |(settle_ns, source_kohm)| {
         let errors = |order: &Order, signals: &[f32]| errors(settle_ns, source_kohm, order, signals);
-        scenes.each_ref().map(|(scene, signals)| Row {
+        scenes.each_ref().map(|(scene, signals)| OrderRow {
             settle_ns,
             source_kohm,
             scene,
@@ -114,7 +114,7 @@ fn errors(settle_ns: u32, source_kohm: f64, order: &Order, signals: &[f32]) -> [
 }
 
 /// Readable form.
-pub fn table(rows: &[Row], text: &mut String) -> std::fmt::Result {
+pub fn table(rows: &[OrderRow], text: &mut String) -> std::fmt::Result {
     writeln!(
         text,
         "\nThe order of the addresses, an ideal converter: rms error / largest error, row by row and interlaced"
@@ -124,7 +124,7 @@ pub fn table(rows: &[Row], text: &mut String) -> std::fmt::Result {
         "{:>6} {:>8} {:<8} {:>16} {:>16}",
         "asked", "source", "scene", "row by row", "interlaced"
     )?;
-    for Row { settle_ns, source_kohm, scene, progressive, interlaced } in rows {
+    for OrderRow { settle_ns, source_kohm, scene, progressive, interlaced } in rows {
         let both = |[rms, largest]: &[f64; 2]| format!("{rms:.1} /{:>6.0}", largest.ceil());
         let source = format!("{source_kohm} kOhm");
         writeln!(
@@ -139,9 +139,9 @@ pub fn table(rows: &[Row], text: &mut String) -> std::fmt::Result {
 }
 
 /// JSON form.
-pub fn json(rows: &[Row]) -> Value {
+pub fn json(rows: &[OrderRow]) -> Value {
     let both = |[rms, largest]: &[f64; 2]| json!({ "rms": rms, "largest": largest });
-    let row = |row: &Row| {
+    let row = |row: &OrderRow| {
         json!({
             "settle_us": f64::from(row.settle_ns) / 1000.0, "source_kohm": row.source_kohm, "scene": row.scene,
             "progressive": both(&row.progressive), "interlaced": both(&row.interlaced),
@@ -174,7 +174,7 @@ mod tests {
         let rows = rows();
         let slow =
             rows.iter().find(|row| row.settle_ns == 2_000 && row.source_kohm == 10.0 && row.scene == "touch");
-        let Row { progressive, interlaced, .. } = slow.unwrap();
+        let OrderRow { progressive, interlaced, .. } = slow.unwrap();
         assert!(interlaced[0] > 2.0 * progressive[0], "{progressive:?} {interlaced:?}");
     }
 }

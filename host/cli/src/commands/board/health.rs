@@ -48,7 +48,7 @@ pub struct HealthArgs {
 
 /// Health of a board, in both forms that the command prints.
 #[derive(Debug)]
-pub struct Told {
+pub struct HealthText {
     /// `{"self_test", "taxels", "ghosts"}`; ghosts are null unless the blocks are passive matrices.
     pub json: Value,
     /// A line for each finding.
@@ -73,7 +73,7 @@ pub fn run(args: HealthArgs) -> Result<()> {
 }
 
 /// Watches a board for the time that the arguments give.
-pub fn look(args: &HealthArgs) -> Result<Told> {
+pub fn look(args: &HealthArgs) -> Result<HealthText> {
     let options = SourceOptions { frames: Some(args.frames), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)?;
     let asked = BoardArgs { tare: args.tare, ..BoardArgs::of(args.source.clone()) };
@@ -88,7 +88,7 @@ pub fn look(args: &HealthArgs) -> Result<Told> {
     let places = places(&garment, &found.ill)?;
     let pins = found.pins.as_ref();
     let ghosts = passive.then(|| found.ghosts.report(&garment));
-    Ok(Told {
+    Ok(HealthText {
         json: json!({ "self_test": pins::report(&garment, pins), "taxels": report(&places), "ghosts": ghosts }),
         text: pins::table(&garment, pins) + &table(&garment, &places) + &found.ghosts.table(&garment),
         faults: pins.map_or(0, |findings| findings.faults.len()),

@@ -6,7 +6,7 @@ use taxel::fcm::{load, wrong};
 
 /// Arguments of `taxel fcm check`.
 #[derive(Debug, Clone, clap::Args)]
-pub struct CheckArgs {
+pub struct MapCheckArgs {
     /// TOML file, or the name of a shipped map
     pub map: String,
     /// Print JSON instead of sentences
@@ -15,7 +15,7 @@ pub struct CheckArgs {
 }
 
 /// Runs the command.
-pub fn run(args: CheckArgs) -> Result<()> {
+pub fn run(args: MapCheckArgs) -> Result<()> {
     let text = load::text(&args.map)?;
     let map = load::parse(&text, &args.map)?;
     let found = check(&map).map_err(|error| wrong::located(error, &text, &args.map))?;

@@ -9,7 +9,7 @@ use taxel::fcm::board::BoardMap;
 use taxel::fcm::combine::{report, table};
 use taxel::fcm::load;
 use taxel::fcm::map::MapFile;
-use taxel::fcm::unite::{Shared, unite};
+use taxel::fcm::unite::{EdgeConflict, unite};
 use taxel::files::output::Output;
 
 /// Arguments of `taxel fcm combine`.
@@ -73,7 +73,7 @@ impl From<How> for Aggregation {
 /// Runs `combine`: a map with both concepts but no edge votes `none`.
 pub fn combine(args: CombineArgs) -> Result<()> {
     let output = Output::stream(&args.output, args.force, &args.maps)?;
-    write(&args.maps, output, Shared::Vote(args.how.into()), args.json)
+    write(&args.maps, output, EdgeConflict::Vote(args.how.into()), args.json)
 }
 
 /// Runs `merge`: a map without an edge has no vote.
@@ -82,12 +82,12 @@ pub fn merge(args: MergeArgs) -> Result<()> {
     write(
         &args.maps,
         output,
-        args.combine.map_or(Shared::Agree, |how| Shared::Combine(how.into())),
+        args.combine.map_or(EdgeConflict::Agree, |how| EdgeConflict::Combine(how.into())),
         args.json,
     )
 }
 
-fn write(paths: &[String], output: Output, shared: Shared, as_json: bool) -> Result<()> {
+fn write(paths: &[String], output: Output, shared: EdgeConflict, as_json: bool) -> Result<()> {
     // Distinguished by file name: maps of one subject mostly have the same name.
     let named = |path: &String| Ok(MapFile { name: path.clone(), ..load::map(path)? });
     let maps = paths.iter().map(named).collect::<Result<Vec<_>>>()?;

@@ -11,7 +11,7 @@ use taxel::files::output::Output;
 
 /// Arguments of `taxel fcm learn`.
 #[derive(Debug, Clone, clap::Args)]
-pub struct LearnArgs {
+pub struct MapLearnArgs {
     /// TOML file, or the name of a shipped map
     pub map: String,
     /// CSV file: a column for each input concept (activations), `label` (an intention, or none), optionally
@@ -33,7 +33,7 @@ pub struct LearnArgs {
 }
 
 /// Runs the command.
-pub fn run(args: LearnArgs) -> Result<()> {
+pub fn run(args: MapLearnArgs) -> Result<()> {
     let inputs = [PathBuf::from(&args.map), args.touches.clone()];
     let output = Output::stream(&args.output, args.force, inputs)?;
     let is_standard = output.is_standard();

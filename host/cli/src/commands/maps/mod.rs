@@ -19,15 +19,15 @@ use taxel::tell::fault::Fault;
 pub struct FcmArgs {
     /// What to do with maps [default: run one]
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<MapCommand>,
     #[command(flatten)]
     run: Option<run::RunArgs>,
 }
 
 #[derive(Debug, Clone, clap::Subcommand)]
-enum Command {
+enum MapCommand {
     /// Check a map: its numbers, unreachable concepts, whether it settles and fits the board
-    Check(check::CheckArgs),
+    Check(check::MapCheckArgs),
     /// Combine the maps of several experts into one; report where they disagree
     Combine(combine::CombineArgs),
     /// Merge maps that share concepts into one
@@ -37,7 +37,7 @@ enum Command {
     /// Write a new map in four steps, by answering questions
     New(new::NewArgs),
     /// Learn weights from labelled touches; the expert's signs stay
-    Learn(learn::LearnArgs),
+    Learn(learn::MapLearnArgs),
     /// Draw a map as SVG
     Draw(draw::DrawArgs),
     /// Time one inference, beside other programs
@@ -47,14 +47,14 @@ enum Command {
 /// Runs the command.
 pub fn run(args: FcmArgs) -> Result<()> {
     match (args.command, args.run) {
-        (Some(Command::Check(args)), _) => check::run(args),
-        (Some(Command::Combine(args)), _) => combine::combine(args),
-        (Some(Command::Merge(args)), _) => combine::merge(args),
-        (Some(Command::Why(args)), _) => why::run(args),
-        (Some(Command::New(args)), _) => new::run(args),
-        (Some(Command::Learn(args)), _) => learn::run(args),
-        (Some(Command::Draw(args)), _) => draw::run(args),
-        (Some(Command::Bench(args)), _) => bench::run(args),
+        (Some(MapCommand::Check(args)), _) => check::run(args),
+        (Some(MapCommand::Combine(args)), _) => combine::combine(args),
+        (Some(MapCommand::Merge(args)), _) => combine::merge(args),
+        (Some(MapCommand::Why(args)), _) => why::run(args),
+        (Some(MapCommand::New(args)), _) => new::run(args),
+        (Some(MapCommand::Learn(args)), _) => learn::run(args),
+        (Some(MapCommand::Draw(args)), _) => draw::run(args),
+        (Some(MapCommand::Bench(args)), _) => bench::run(args),
         (None, Some(args)) => run::run(args),
         (None, None) => bail!(Fault::usage("a map or a command is missing: see taxel fcm --help")),
     }

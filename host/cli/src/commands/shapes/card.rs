@@ -3,7 +3,7 @@
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 use taxel::learn::confusion::Confusion;
-use taxel::learn::shapes::base::{Base, Source};
+use taxel::learn::shapes::base::{Base, ImagesFile};
 
 /// Arguments of `taxel shapes card`.
 #[derive(Debug, Clone, clap::Args)]
@@ -20,7 +20,7 @@ pub fn run(args: CardArgs) -> Result<()> {
 
 fn text(path: &Path, base: &Base) -> String {
     let gallery = &base.gallery;
-    let source = |source: &Source| {
+    let source = |source: &ImagesFile| {
         let sets =
             if source.sets.is_empty() { String::new() } else { format!(", sets {}", source.sets.join(" ")) };
         match source.fingerprint.as_str() {

@@ -15,7 +15,7 @@ use taxel_core::shape::Recognised;
 
 /// Arguments of `taxel shapes eval`.
 #[derive(Debug, Clone, clap::Args)]
-pub struct EvalArgs {
+pub struct ShapesEvalArgs {
     /// Images to recognise.
     #[command(flatten)]
     pub images: ImagesArgs,
@@ -45,7 +45,7 @@ struct Outcome {
 }
 
 /// Runs the command.
-pub fn run(args: EvalArgs) -> Result<()> {
+pub fn run(args: ShapesEvalArgs) -> Result<()> {
     if let (Some(base), Some(_)) = (&args.base, args.cross) {
         eprintln!("note: --cross trains on the images; {} is not used", base.display());
     }
@@ -67,7 +67,7 @@ pub fn run(args: EvalArgs) -> Result<()> {
 }
 
 /// Evaluates galleries trained on the other folds.
-fn crossed(args: &EvalArgs, folds: u16) -> Result<(Examples, Outcome)> {
+fn crossed(args: &ShapesEvalArgs, folds: u16) -> Result<(Examples, Outcome)> {
     let examples = args.images.images().read(None)?;
     check(&examples)?;
     let list: Vec<&Example> = examples.list.iter().collect();
@@ -81,7 +81,7 @@ fn crossed(args: &EvalArgs, folds: u16) -> Result<(Examples, Outcome)> {
 }
 
 /// Evaluates an existing base.
-fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
+fn applied(args: &ShapesEvalArgs) -> Result<(Examples, Outcome)> {
     let (name, base) = match &args.base {
         Some(path) => (path.display().to_string(), Base::open(path)?),
         None => {
@@ -111,7 +111,7 @@ fn applied(args: &EvalArgs) -> Result<(Examples, Outcome)> {
     Ok((examples, Outcome { confusion, found, right, base: json!(name), trained_on }))
 }
 
-fn report(args: &EvalArgs, examples: &Examples, outcome: &Outcome) -> Value {
+fn report(args: &ShapesEvalArgs, examples: &Examples, outcome: &Outcome) -> Value {
     let mut report = outcome.confusion.figures();
     let mut add = |key: &str, value: Value| report.insert(key.into(), value);
     add("images", json!(outcome.found.len()));

@@ -23,13 +23,13 @@ pub struct Hold<'a> {
     wanted: usize,
     contacts: Box<ContactState<CONTACTS, RUNS>>,
     /// Present contacts.
-    open: Vec<Open>,
+    open: Vec<HeldContact>,
     /// A point for each held touch.
     pub held: Vec<Point>,
 }
 
 /// A present contact.
-struct Open {
+struct HeldContact {
     id: u32,
     duration_ms: u32,
     /// Total and description by frame.
@@ -63,10 +63,10 @@ impl<'a> Hold<'a> {
         Ok(())
     }
 
-    fn open(&mut self, contact: &Contact) -> &mut Open {
+    fn open(&mut self, contact: &Contact) -> &mut HeldContact {
         let known = self.open.iter().position(|open| open.id == contact.id);
         let at = known.unwrap_or_else(|| {
-            self.open.push(Open { id: contact.id, duration_ms: 0, course: Vec::new() });
+            self.open.push(HeldContact { id: contact.id, duration_ms: 0, course: Vec::new() });
             self.open.len() - 1
         });
         let open = &mut self.open[at];
@@ -76,7 +76,7 @@ impl<'a> Hold<'a> {
 
     /// Adds a held touch as one point: the mean over the time of firm contact, because its onset and release
     /// look different.
-    fn end(&mut self, open: &Open) {
+    fn end(&mut self, open: &HeldContact) {
         if self.held.len() >= self.wanted {
             return;
         }

@@ -22,12 +22,12 @@ pub struct ImagesArgs {
     pub classes: Classes,
     /// Which part of an image is the touch.
     #[command(flatten)]
-    pub view: ViewArgs,
+    pub view: SheetArgs,
 }
 
 /// Options of the command line.
 #[derive(Debug, Default, Clone, clap::Args)]
-pub struct ViewArgs {
+pub struct SheetArgs {
     /// Smallest value of a touched taxel, counts [default: that of the base, or 1/32 of the full scale]
     #[arg(long, value_name = "COUNTS")]
     pub threshold: Option<u16>,
@@ -58,7 +58,7 @@ impl From<Which> for view::Which {
 impl ImagesArgs {
     /// The images that the arguments name.
     pub fn images(&self) -> Images {
-        let ViewArgs { threshold, touch } = self.view;
+        let SheetArgs { threshold, touch } = self.view;
         Images {
             images: self.images.clone(),
             labels: self.labels.clone(),

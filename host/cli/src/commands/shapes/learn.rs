@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use taxel::files::arrays;
 use taxel::files::output::{Force, Output, is_same};
 use taxel::learn::fingerprint::Fingerprint;
-use taxel::learn::shapes::base::{Base, LEFT_OUT, Source};
+use taxel::learn::shapes::base::{Base, ImagesFile, LEFT_OUT};
 use taxel::learn::shapes::extend::{check_name, extend};
 use taxel::learn::shapes::view::Choice;
 use taxel::source::{SourceOptions, SourceSpec};
@@ -16,7 +16,7 @@ use taxel_core::shape::Point;
 
 /// Arguments of `taxel shapes learn`.
 #[derive(Debug, Clone, clap::Args)]
-pub struct LearnArgs {
+pub struct ShapesLearnArgs {
     /// Name of the class, at most 16 bytes
     pub name: String,
     /// Learn from images or frames (.npz, .npy or .csv) [default: from touches of the board]
@@ -50,7 +50,7 @@ pub struct LearnArgs {
 }
 
 /// Runs the command.
-pub fn run(args: LearnArgs) -> Result<()> {
+pub fn run(args: ShapesLearnArgs) -> Result<()> {
     check_name(&args.name)?;
     let output = output(&args)?;
     let mut base = match &args.base {
@@ -75,7 +75,7 @@ pub fn run(args: LearnArgs) -> Result<()> {
 }
 
 /// The output file. A base that is extended is read first, and may be replaced.
-fn output(args: &LearnArgs) -> Result<Output> {
+fn output(args: &ShapesLearnArgs) -> Result<Output> {
     let extends = args.base.as_ref().is_none_or(|base| is_same(base, &args.output));
     let force = Force { force: args.force.force || extends };
     let base = args.base.iter().filter(|_| !extends);
@@ -84,7 +84,7 @@ fn output(args: &LearnArgs) -> Result<Output> {
 }
 
 /// A point for each image with a touch.
-fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, Source)> {
+fn shown(args: &ShapesLearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, ImagesFile)> {
     let view = Choice::default().build(Some(base.view), 0);
     let frames = arrays::read(images, args.array.as_deref())?;
     let touched = frames.iter().filter(|image| image.iter().any(|value| *value >= view.threshold));
@@ -92,7 +92,7 @@ fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, So
     let points: Vec<Point> = touched.map(place).collect();
     let file = images.display();
     ensure!(!points.is_empty(), "{file}: there is no touch: no value reaches {} counts", view.threshold);
-    let source = Source {
+    let source = ImagesFile {
         file: images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         fingerprint: Fingerprint::of(images)?.to_string(),
         sets: args.array.iter().cloned().collect(),
@@ -102,7 +102,7 @@ fn shown(args: &LearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, So
 }
 
 /// A point for each touch that was held against a board.
-fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
+fn held(args: &ShapesLearnArgs, base: &Base) -> Result<(Vec<Point>, ImagesFile)> {
     let options = SourceOptions { seconds: args.seconds, ..SourceOptions::default() };
     let (source, _) = args.board.open(options)?;
     let (label, wanted) = (source.label.clone(), usize::from(args.touches));
@@ -123,5 +123,5 @@ fn held(args: &LearnArgs, base: &Base) -> Result<(Vec<Point>, Source)> {
         _ => String::new(),
     };
     let images = points.len();
-    Ok((points, Source { file: label, fingerprint, sets: Vec::new(), images }))
+    Ok((points, ImagesFile { file: label, fingerprint, sets: Vec::new(), images }))
 }

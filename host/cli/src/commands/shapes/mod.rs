@@ -17,17 +17,17 @@ pub mod train;
 #[derive(Debug, Clone, clap::Args)]
 pub struct ShapesArgs {
     #[command(subcommand)]
-    command: Command,
+    command: ShapesCommand,
 }
 
 #[derive(Debug, Clone, Subcommand)]
-enum Command {
+enum ShapesCommand {
     /// Train a base on labelled images
-    Train(train::TrainArgs),
+    Train(train::ShapesTrainArgs),
     /// Evaluate a base on labelled images
-    Eval(eval::EvalArgs),
+    Eval(eval::ShapesEvalArgs),
     /// Add a class, or more examples of one, by touching a board or from images
-    Learn(Box<learn::LearnArgs>),
+    Learn(Box<learn::ShapesLearnArgs>),
     /// Send a base to a board
     Install(install::InstallArgs),
     /// Remove prototypes that do not affect decisions
@@ -41,12 +41,12 @@ enum Command {
 /// Runs the command.
 pub fn run(args: ShapesArgs) -> Result<()> {
     match args.command {
-        Command::Train(args) => train::run(args),
-        Command::Eval(args) => eval::run(args),
-        Command::Learn(args) => learn::run(*args),
-        Command::Install(args) => install::run(args),
-        Command::Prune(args) => prune::run(args),
-        Command::List(args) => list::run(args),
-        Command::Card(args) => card::run(args),
+        ShapesCommand::Train(args) => train::run(args),
+        ShapesCommand::Eval(args) => eval::run(args),
+        ShapesCommand::Learn(args) => learn::run(*args),
+        ShapesCommand::Install(args) => install::run(args),
+        ShapesCommand::Prune(args) => prune::run(args),
+        ShapesCommand::List(args) => list::run(args),
+        ShapesCommand::Card(args) => card::run(args),
     }
 }

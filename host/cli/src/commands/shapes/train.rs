@@ -11,7 +11,7 @@ use taxel_core::shape::GALLERY_PROTOTYPES;
 
 /// Arguments of `taxel shapes train`.
 #[derive(Debug, Clone, clap::Args)]
-pub struct TrainArgs {
+pub struct ShapesTrainArgs {
     /// Training images.
     #[command(flatten)]
     pub images: ImagesArgs,
@@ -64,7 +64,7 @@ impl RecipeArgs {
 }
 
 /// Runs the command.
-pub fn run(args: TrainArgs) -> Result<()> {
+pub fn run(args: ShapesTrainArgs) -> Result<()> {
     let inputs = [Some(&args.images.images), args.images.labels.as_ref()];
     let output = Output::stream(&args.output, args.force, inputs.into_iter().flatten())?;
     eprintln!("reading {}", args.images.images.display());

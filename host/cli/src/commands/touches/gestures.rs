@@ -1,14 +1,14 @@
 //! `taxel gestures`: recognises gestures by a model that fits the board.
 
-use super::task::{EvalArgs, Task, TrainArgs};
+use super::task::{Task, TouchesEvalArgs, TouchesTrainArgs};
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use taxel::learn::touches::gestures::{SETTINGS, load, times};
 use taxel::learn::touches::{self, grid};
-use taxel_core::gesture::Shipped;
+use taxel_core::gesture::ShippedModel;
 
 const TASK: Task = Task {
-    shipped: Shipped::Gestures,
+    shipped: ShippedModel::Gestures,
     settings: SETTINGS,
     candidates: || grid(SETTINGS, &[3.0, 10.0, 40.0, 160.0, 640.0], &[0.0, 0.5]),
 };
@@ -17,17 +17,17 @@ const TASK: Task = Task {
 #[derive(Debug, Clone, Args)]
 pub struct GesturesArgs {
     #[command(subcommand)]
-    command: Command,
+    command: GesturesCommand,
 }
 
 #[derive(Debug, Clone, Subcommand)]
-enum Command {
+enum GesturesCommand {
     /// Train a model
-    Train(TrainArgs),
+    Train(TouchesTrainArgs),
     /// Evaluate a model; with --cross, train on all groups but one and test on that one, in turn
     Eval {
         #[command(flatten)]
-        eval: EvalArgs<Cross>,
+        eval: TouchesEvalArgs<LeftOutPeople>,
         /// Frames per second of the recordings
         #[arg(long, value_name = "HZ", default_value_t = 54.0)]
         rate: f64,
@@ -38,7 +38,7 @@ enum Command {
 
 /// Groups that are left out in turn.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum Cross {
+enum LeftOutPeople {
     /// Each participant
     Participant,
 }
@@ -46,12 +46,12 @@ enum Cross {
 /// Runs the command.
 pub fn run(args: GesturesArgs) -> Result<()> {
     match args.command {
-        Command::Train(args) => {
+        GesturesCommand::Train(args) => {
             let output = args.output()?;
             TASK.train(&load(&args.files.files())?, output)
         }
-        Command::Eval { eval, rate } => TASK.eval(&eval, load(&eval.files.files())?, &times(rate)?),
-        Command::Card => {
+        GesturesCommand::Eval { eval, rate } => TASK.eval(&eval, load(&eval.files.files())?, &times(rate)?),
+        GesturesCommand::Card => {
             print!("{}", touches::CARDS);
             Ok(())
         }

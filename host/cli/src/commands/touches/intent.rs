@@ -1,14 +1,14 @@
 //! `taxel intent`: recognises the intention of a touch by a model that fits the board.
 
-use super::task::{EvalArgs, Task, TrainArgs};
+use super::task::{Task, TouchesEvalArgs, TouchesTrainArgs};
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use taxel::learn::touches::intent::{Apart, SETTINGS, load, times};
 use taxel::learn::touches::{self, grid};
-use taxel_core::gesture::Shipped;
+use taxel_core::gesture::ShippedModel;
 
 const TASK: Task = Task {
-    shipped: Shipped::Intent,
+    shipped: ShippedModel::Intent,
     settings: SETTINGS,
     candidates: || grid(SETTINGS, &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
 };
@@ -17,22 +17,22 @@ const TASK: Task = Task {
 #[derive(Debug, Clone, Args)]
 pub struct IntentArgs {
     #[command(subcommand)]
-    command: Command,
+    command: IntentCommand,
 }
 
 #[derive(Debug, Clone, Subcommand)]
-enum Command {
+enum IntentCommand {
     /// Train a model
-    Train(TrainArgs),
+    Train(TouchesTrainArgs),
     /// Evaluate a model; with --cross, train on all groups but one and test on that one, in turn
-    Eval(EvalArgs<Cross>),
+    Eval(TouchesEvalArgs<LeftOutDays>),
     /// Print the card of the shipped models: data, split, figures, where they fail
     Card,
 }
 
 /// Groups that are left out in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Cross {
+enum LeftOutDays {
     /// Each recording
     Recording,
     /// The recordings of each day, which is in their names
@@ -42,26 +42,26 @@ enum Cross {
 /// Runs the command.
 pub fn run(args: IntentArgs) -> Result<()> {
     match args.command {
-        Command::Train(args) => {
+        IntentCommand::Train(args) => {
             let output = args.output()?;
             TASK.train(&load(&args.files.files(), Apart::Day)?, output)
         }
-        Command::Eval(args) => {
+        IntentCommand::Eval(args) => {
             let data = load(&args.files.files(), args.cross.map_or(Apart::Day, Apart::from))?;
             TASK.eval(&args, data, &times())
         }
-        Command::Card => {
+        IntentCommand::Card => {
             print!("{}", touches::CARDS);
             Ok(())
         }
     }
 }
 
-impl From<Cross> for Apart {
-    fn from(cross: Cross) -> Apart {
+impl From<LeftOutDays> for Apart {
+    fn from(cross: LeftOutDays) -> Apart {
         match cross {
-            Cross::Recording => Apart::Recording,
-            Cross::Day => Apart::Day,
+            LeftOutDays::Recording => Apart::Recording,
+            LeftOutDays::Day => Apart::Day,
         }
     }
 }

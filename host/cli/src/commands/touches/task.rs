@@ -6,10 +6,10 @@ use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use taxel::files::output::Output;
 use taxel::learn::touches::{
-    Data, Files, Provenance, Report, Settings, Times, as_it_is, courses, cross, example, nested, read,
+    Data, Files, Provenance, Report, Times, TrainSettings, as_it_is, courses, cross, example, nested, read,
     saturation, train, units,
 };
-use taxel_core::gesture::{Model, Shipped};
+use taxel_core::gesture::{Model, ShippedModel};
 
 /// Recorded touches.
 #[derive(Debug, Clone, Args)]
@@ -32,7 +32,7 @@ impl FilesArgs {
 
 /// Arguments of `train`.
 #[derive(Debug, Clone, Args)]
-pub struct TrainArgs {
+pub struct TouchesTrainArgs {
     /// What to learn from
     #[command(flatten)]
     pub files: FilesArgs,
@@ -44,7 +44,7 @@ pub struct TrainArgs {
     pub force: Overwrite,
 }
 
-impl TrainArgs {
+impl TouchesTrainArgs {
     /// The output file of the model.
     pub fn output(&self) -> Result<Output> {
         let inputs = [Some(&self.files.frames), self.files.labels.as_ref()];
@@ -54,7 +54,7 @@ impl TrainArgs {
 
 /// Arguments of `eval`; `C` names the groups that may be left out.
 #[derive(Debug, Clone, Args)]
-pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
+pub struct TouchesEvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
     /// What to recognise
     #[command(flatten)]
     pub files: FilesArgs,
@@ -76,11 +76,11 @@ pub struct EvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
 #[derive(Debug, Clone, Copy)]
 pub struct Task {
     /// The shipped model.
-    pub shipped: Shipped,
+    pub shipped: ShippedModel,
     /// Its training settings.
-    pub settings: Settings,
+    pub settings: TrainSettings,
     /// Settings that `--nested` chooses from.
-    pub candidates: fn() -> Vec<Settings>,
+    pub candidates: fn() -> Vec<TrainSettings>,
 }
 
 impl Task {
@@ -101,7 +101,7 @@ impl Task {
     }
 
     /// Evaluates as asked, and prints the report.
-    pub fn eval<C>(&self, args: &EvalArgs<C>, data: Data, times: &Times) -> Result<()>
+    pub fn eval<C>(&self, args: &TouchesEvalArgs<C>, data: Data, times: &Times) -> Result<()>
     where
         C: ValueEnum + Clone + Send + Sync + 'static,
     {
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn labels_may_name_fewer_classes_than_the_model_knows() {
-        let model = Model::read(Shipped::Intent.bytes()).unwrap();
+        let model = Model::read(ShippedModel::Intent.bytes()).unwrap();
         let data = |classes: &[&str]| Data {
             rows: 8,
             columns: 8,

@@ -1,6 +1,6 @@
 //! `taxel foxglove`: serves a board's stream to Foxglove and other programs with its WebSocket protocol.
 
-use crate::foxglove::{Hub, Publisher, serve};
+use crate::foxglove::{FoxgloveHub, Publisher, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -30,7 +30,7 @@ pub fn run(args: FoxgloveArgs) -> Result<()> {
     })?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let (source, _) = args.board.open(options)?;
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(FoxgloveHub::default());
     let port = serve(listener, hub.clone(), &source.label, &args.allow_origin)?;
     println!("{} at ws://127.0.0.1:{port} (Ctrl-C ends)", source.label);
     watch::watch(&LiveArgs::on(args.board), source, &mut Publisher::new(hub))?;

@@ -5,7 +5,7 @@ use crate::watch::{LiveArgs, watch};
 use anyhow::Result;
 use std::io::{IsTerminal, stdout};
 use taxel::files::output::Output;
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel::session::Show;
 use taxel::source::SourceOptions;
 
@@ -29,7 +29,7 @@ pub fn run(args: LiveArgs) -> Result<()> {
     } else if let Some(place) = &args.taxel {
         Box::new(TaxelLines::new(place.clone(), args.json, out))
     } else if args.json {
-        Box::new(Messages::new(args.pixels, out).calibrated(calibration))
+        Box::new(MessagePrinter::new(args.pixels, out).calibrated(calibration))
     } else if terminal {
         Box::new(Screen::open(View::new(&source))?)
     } else {

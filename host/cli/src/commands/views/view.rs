@@ -1,6 +1,6 @@
 //! `taxel view`: shows a board's stream or a recording in the browser.
 
-use crate::view::{Hub, Player, Tape, Viewer, browser, serve};
+use crate::view::{PageHub, Player, Tape, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result};
 use std::net::{Ipv4Addr, TcpListener};
@@ -56,7 +56,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let listener = bind(args.port)?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let (source, calibration) = args.board.open(options)?;
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(PageHub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     announce(&source.label, listener, &hub, args.open)?;
@@ -72,14 +72,14 @@ pub fn run(args: ViewArgs) -> Result<()> {
 fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
     args.board.check_recorded(&file.display().to_string())?;
     let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(PageHub::default());
     let player = Player::open(file, speed, calibration, hub.clone())?;
     announce(&file.display().to_string(), bind(args.port)?, &hub, args.open)?;
     player.run()
 }
 
 /// Serves the pages, and prints their address.
-fn announce(what: &str, listener: TcpListener, hub: &Arc<Hub>, open: bool) -> Result<()> {
+fn announce(what: &str, listener: TcpListener, hub: &Arc<PageHub>, open: bool) -> Result<()> {
     let port = serve(listener, hub.clone())?;
     let url = format!("http://127.0.0.1:{port}/");
     println!("{what} at {url} (Ctrl-C ends)");

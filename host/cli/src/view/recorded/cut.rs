@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use std::sync::Arc;
 use taxel::client::{Client, Event};
 use taxel::record::{NS, Origin, Stamp};
-use taxel::recording::{Clips, Piece, Store, renumbered, sequence};
+use taxel::recording::{ClipMessage, Clips, Store, renumbered, sequence};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Frame, Report, encode, encode_image, frame_bound, image_bound, image_sum};
 
@@ -59,7 +59,7 @@ impl Saved for Cut {
 }
 
 /// Recorded times of a message.
-fn stamp(piece: &Piece) -> Stamp {
+fn stamp(piece: &ClipMessage) -> Stamp {
     let header = &piece.header;
     Stamp { board_us: header.publish_time / NS, host_us: header.log_time / NS, uncertainty_us: None }
 }

@@ -28,12 +28,12 @@ mod told;
 use crate::view::Order;
 pub use cut::Cut;
 
-use super::hub::Hub;
+use super::hub::PageHub;
 use super::tape::Tape;
 use anyhow::{Context, Result, bail};
 use deck::{Deck, Go};
 use reel::Reel;
-use screen::Screen;
+use screen::PageScreen;
 use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
@@ -53,16 +53,21 @@ const BEHIND: u64 = 300_000;
 
 /// Plays a recording to the pages of a hub.
 pub struct Player {
-    hub: Arc<Hub>,
+    hub: Arc<PageHub>,
     deck: Deck,
     reel: Reel,
-    screen: Screen,
+    screen: PageScreen,
     told: Instant,
 }
 
 impl Player {
     /// Opens a recording and shows its first image. `calibration` replaces the attached one.
-    pub fn open(path: &Path, speed: f64, calibration: Option<Calibration>, hub: Arc<Hub>) -> Result<Player> {
+    pub fn open(
+        path: &Path,
+        speed: f64,
+        calibration: Option<Calibration>,
+        hub: Arc<PageHub>,
+    ) -> Result<Player> {
         let mut clips = Clips::open(path, WIRE)?;
         if !clips.has_topic() && !clips.places().is_empty() {
             // Channels may be declared in the first chunk.
@@ -80,7 +85,7 @@ impl Player {
         let mut player = Player {
             deck: Deck::new(clock.duration(), speed, Instant::now()),
             reel: Reel::new(clips, survey),
-            screen: Screen::new(hub.clone(), path.display().to_string(), scale),
+            screen: PageScreen::new(hub.clone(), path.display().to_string(), scale),
             told: Instant::now(),
             hub,
         };

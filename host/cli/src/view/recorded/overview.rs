@@ -1,6 +1,6 @@
 //! Summary of a whole recording: total force, intentions, and log lines with their times.
 
-use crate::view::said::{Kind, Said};
+use crate::view::said::{LineKind, Said};
 use serde_json::{Value, json};
 use taxel_core::intent::Leading;
 
@@ -70,7 +70,7 @@ impl Overview {
 
     /// Adds a log line.
     pub fn say(&mut self, at: u64, said: Said) {
-        let touches = matches!(said.kind, Kind::Onset | Kind::Release);
+        let touches = matches!(said.kind, LineKind::Onset | LineKind::Release);
         if self.said.len() < LINES || (!touches && self.said.len() < 2 * LINES) {
             self.said.push((at, said));
         } else {
@@ -120,8 +120,8 @@ mod tests {
         let mut overview = Overview::new(36_000_000_000);
         assert!(overview.totals.len() as u64 <= PLACES + 1);
         for at in 0..3 * LINES as u64 {
-            overview.say(at, Said { kind: Kind::Onset, time_us: None, text: String::new() });
-            overview.say(at, Said { kind: Kind::Reaction, time_us: None, text: String::new() });
+            overview.say(at, Said { kind: LineKind::Onset, time_us: None, text: String::new() });
+            overview.say(at, Said { kind: LineKind::Reaction, time_us: None, text: String::new() });
             overview.lead(at, if at % 2 == 0 { Leading::Attack } else { Leading::None });
         }
         assert_eq!((overview.said.len(), overview.intentions.len()), (2 * LINES, CHANGES));

@@ -6,7 +6,7 @@ use super::told::with_report;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use taxel::client::{Client, Event};
-use taxel::recording::{Clips, Piece};
+use taxel::recording::{ClipMessage, Clips};
 use taxel_core::wire::Report;
 
 /// Most chunks to search backwards for the key frame of an image; a board sends one each second.
@@ -63,12 +63,12 @@ impl Reel {
     }
 
     /// Messages of a chunk; none if it is damaged, which the survey reports.
-    fn clip(&mut self, chunk: usize) -> Arc<[Piece]> {
+    fn clip(&mut self, chunk: usize) -> Arc<[ClipMessage]> {
         self.clips.clip(chunk).unwrap_or_default()
     }
 
     /// Next message with its time, us; none at the end.
-    pub fn peek(&mut self) -> Option<(u64, Piece)> {
+    pub fn peek(&mut self) -> Option<(u64, ClipMessage)> {
         while self.next.chunk < self.clips.places().len() {
             if let Some(piece) = self.clip(self.next.chunk).get(self.next.index) {
                 return Some((self.clock.at(piece.header.log_time), piece.clone()));
@@ -156,13 +156,13 @@ impl Reel {
     }
 
     /// Message of the current image.
-    pub fn shown(&mut self) -> Option<Piece> {
+    pub fn shown(&mut self) -> Option<ClipMessage> {
         let Cursor { chunk, index } = self.shown?;
         self.clip(chunk).get(index).cloned()
     }
 
     /// Shows the key frame before the current image, or the image itself if it is one.
-    pub fn show_key(&mut self) -> Option<Piece> {
+    pub fn show_key(&mut self) -> Option<ClipMessage> {
         let key = self.key_of(self.shown?);
         self.show(key);
         self.shown()
@@ -204,7 +204,7 @@ impl Reel {
     }
 
     /// Messages from the beginning of the chunk of `key` up to an image, without unneeded images.
-    fn between(&mut self, key: Cursor, image: Cursor) -> Vec<(u64, Piece)> {
+    fn between(&mut self, key: Cursor, image: Cursor) -> Vec<(u64, ClipMessage)> {
         let mut pieces = Vec::new();
         for chunk in key.chunk..=image.chunk {
             for (index, piece) in self.clip(chunk).iter().enumerate() {
@@ -235,7 +235,8 @@ impl Reel {
         let end = self.clips.places().partition_point(|place| clock.at(place.start) <= to);
         (0..end).rev().find_map(|chunk| {
             let clip = self.clip(chunk);
-            let due = |piece: &Piece| clock.at(piece.header.log_time) <= to && is_image(piece).is_some();
+            let due =
+                |piece: &ClipMessage| clock.at(piece.header.log_time) <= to && is_image(piece).is_some();
             clip.iter().rposition_of(due).map(|index| Cursor { chunk, index })
         })
     }
@@ -272,7 +273,7 @@ impl<I: Iterator> LastPosition for I {
 }
 
 /// True for a key frame; none if the message is not an image.
-fn is_image(piece: &Piece) -> Option<bool> {
+fn is_image(piece: &ClipMessage) -> Option<bool> {
     let alone = |_, report: &Report<'_>| match report {
         Report::Frame(frame) => Some(frame.base.is_none()),
         _ => None,

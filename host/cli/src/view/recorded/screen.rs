@@ -1,6 +1,6 @@
 //! Shows moments of a recording to the pages of a hub.
 
-use crate::view::hub::Hub;
+use crate::view::hub::PageHub;
 use crate::view::message;
 use crate::view::shot::Shot;
 use crate::watch::rate::Rate;
@@ -12,17 +12,17 @@ use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Pins};
 
 /// Messages to the pages.
-pub struct Screen {
-    hub: Arc<Hub>,
+pub struct PageScreen {
+    hub: Arc<PageHub>,
     label: String,
     scale: Option<f32>,
     rate: Rate,
 }
 
-impl Screen {
+impl PageScreen {
     /// Shows a recording with this label.
-    pub fn new(hub: Arc<Hub>, label: String, scale: Option<f32>) -> Screen {
-        Screen { hub, label, scale, rate: Rate::default() }
+    pub fn new(hub: Arc<PageHub>, label: String, scale: Option<f32>) -> PageScreen {
+        PageScreen { hub, label, scale, rate: Rate::default() }
     }
 
     /// Shows another moment and its afterglow; earlier messages are no longer valid.

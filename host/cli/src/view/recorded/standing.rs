@@ -8,14 +8,14 @@ use taxel_core::format::Name;
 use taxel_core::wire::Report;
 
 /// A frame of the wire, and its position in the order.
-type Part = (u64, Arc<[u8]>);
+type WireFrame = (u64, Arc<[u8]>);
 
 /// Frames of the wire with lasting state, including their 0x00.
 #[derive(Debug, Default, Clone)]
 pub struct Standing {
     /// Frames by the report's number and, for a map of health, its first taxel; for an intention, whether it
     /// led.
-    parts: BTreeMap<(u32, u16), Part>,
+    parts: BTreeMap<(u32, u16), WireFrame>,
     taken: u64,
     /// Number of the next message; none before the first.
     next: Option<u32>,

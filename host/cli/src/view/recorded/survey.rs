@@ -3,13 +3,13 @@
 use super::overview::Overview;
 use super::standing::Standing;
 use super::told::with_report;
-use crate::view::hub::Hub;
-use crate::view::said::{Kind, Said, Teller, gap};
+use crate::view::hub::PageHub;
+use crate::view::said::{LineKind, Said, Teller, gap};
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
-use taxel::recording::{Clips, HELLO, Piece, lost};
+use taxel::recording::{ClipMessage, Clips, HELLO, lost};
 use taxel::source::shared::Shared;
 use taxel_core::wire::{self, Report};
 
@@ -19,12 +19,12 @@ const TOLD: Duration = Duration::from_millis(500);
 /// State at the beginning of each chunk.
 #[derive(Debug, Default)]
 pub struct Survey {
-    found: Shared<Found>,
+    found: Shared<Surveyed>,
     beginning: Standing,
 }
 
 #[derive(Debug, Default)]
-struct Found {
+struct Surveyed {
     standing: Vec<Standing>,
     done: bool,
 }
@@ -35,7 +35,7 @@ impl Survey {
         mut clips: Clips,
         clock: RecordedTime,
         scale: Option<f32>,
-        hub: Arc<Hub>,
+        hub: Arc<PageHub>,
     ) -> anyhow::Result<Arc<Survey>> {
         let beginning = beginning(&mut clips);
         let survey = Arc::new(Survey { beginning: beginning.clone(), ..Survey::default() });
@@ -91,7 +91,7 @@ fn beginning(clips: &mut Clips) -> Standing {
     if let (Some(first), Some(hello)) = (first, clips.attached.get(HELLO))
         && let Some(frame) = lost(hello, &first.data)
     {
-        let piece = Piece { data: frame.into(), ..first };
+        let piece = ClipMessage { data: frame.into(), ..first };
         with_report(&piece, |seq, report| _ = standing.take(seq, report, &piece.data));
     }
     standing
@@ -133,7 +133,7 @@ struct Surveyor {
 }
 
 impl Surveyor {
-    fn go(&mut self, survey: &Survey, hub: &Hub) {
+    fn go(&mut self, survey: &Survey, hub: &PageHub) {
         let mut told = Instant::now();
         for chunk in 0..self.clips.places().len() {
             survey.found.change(|found| found.standing.push(self.standing.clone()));
@@ -142,7 +142,7 @@ impl Surveyor {
                 Ok(clip) => clip.iter().for_each(|piece| self.take(piece)),
                 Err(error) => {
                     let text = format!("a part of the recording cannot be read: {}", error.root_cause());
-                    self.overview.say(at, Said { kind: Kind::Gap, time_us: None, text });
+                    self.overview.say(at, Said { kind: LineKind::Gap, time_us: None, text });
                 }
             }
             self.overview.reach(at);
@@ -156,7 +156,7 @@ impl Surveyor {
     }
 
     /// Images are only counted; decoding them would take most of the time.
-    fn take(&mut self, piece: &Piece) {
+    fn take(&mut self, piece: &ClipMessage) {
         let at = self.clock.at(piece.header.log_time);
         let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
         let message = wire::open(&mut bytes).ok();

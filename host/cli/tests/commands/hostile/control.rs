@@ -3,7 +3,7 @@
 use super::stage::{events, frame, hello};
 use crate::sink::Sink;
 use taxel::client::Client;
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::terminal::Lines;
@@ -78,7 +78,7 @@ fn control_codes_of_a_board_never_reach_a_terminal() {
     let source = source::open(&"sim:idle".parse().unwrap(), &SourceOptions::default()).unwrap();
     let (mut client, lines, json) = (Client::new(), Sink::default(), Sink::default());
     let mut shows: [Box<dyn Show>; 2] =
-        [Box::new(Lines::new(&source, lines.clone())), Box::new(Messages::new(false, json.clone()))];
+        [Box::new(Lines::new(&source, lines.clone())), Box::new(MessagePrinter::new(false, json.clone()))];
     for event in events(&mut client, &says()) {
         shows.iter_mut().for_each(|show| show.event(&client, &event).unwrap());
     }

@@ -6,11 +6,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use std::sync::Arc;
 use taxel::client::{Client, Event};
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel::session::Show;
 use taxel::source::{self, Source, SourceOptions};
 use taxel_cli::terminal::{Lines, View};
-use taxel_cli::view::{Hub, Viewer};
+use taxel_cli::view::{PageHub, Viewer};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -28,14 +28,14 @@ fn a_map_with_an_edge_to_a_concept_that_is_not_there_is_refused() {
     let [Event::Unusable(why)] = heard.as_slice() else { panic!("{heard:?}") };
     assert!(why.starts_with("scene in Hello: "), "{why}");
     assert!(client.worn().is_none());
-    Viewer::new(&idle(), Arc::new(Hub::default())).event(&client, &heard[0]).unwrap();
+    Viewer::new(&idle(), Arc::new(PageHub::default())).event(&client, &heard[0]).unwrap();
 }
 
 /// All ways to show a board.
 struct Shows {
     page: Viewer,
     lines: Lines<Sink>,
-    json: Messages<Sink>,
+    json: MessagePrinter<Sink>,
     picture: View,
 }
 
@@ -43,9 +43,9 @@ struct Shows {
 fn whatever_a_hello_says_the_page_and_the_terminal_stand_it() {
     let source = idle();
     let mut shows = Shows {
-        page: Viewer::new(&source, Arc::new(Hub::default())),
+        page: Viewer::new(&source, Arc::new(PageHub::default())),
         lines: Lines::new(&source, Sink::default()),
-        json: Messages::new(true, Sink::default()),
+        json: MessagePrinter::new(true, Sink::default()),
         picture: View::new(&source),
     };
     let good = [

@@ -5,14 +5,14 @@ use crate::sink::Sink;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel::client::Client;
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel::record::{Origin, Plan, Recorder};
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::commands::recordings::export::{self, ExportArgs, Form};
 use taxel_cli::report::{self, Seen};
 use taxel_cli::terminal::{Lines, View};
-use taxel_cli::view::{Hub, Player, Viewer};
+use taxel_cli::view::{PageHub, Player, Viewer};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -95,13 +95,15 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
     };
     let recorder = Recorder::create(plan).unwrap();
     let mut shows: Vec<Box<dyn Show>> = vec![
-        Box::new(Viewer::new(&source, Arc::new(Hub::default()))),
+        Box::new(Viewer::new(&source, Arc::new(PageHub::default()))),
         Box::new(Lines::new(&source, Sink::default())),
-        Box::new(Messages::new(true, Sink::default())),
+        Box::new(MessagePrinter::new(true, Sink::default())),
         Box::new(recorder),
     ];
     #[cfg(feature = "foxglove")]
-    shows.push(Box::new(taxel_cli::foxglove::Publisher::new(Arc::new(taxel_cli::foxglove::Hub::default()))));
+    shows.push(Box::new(taxel_cli::foxglove::Publisher::new(Arc::new(
+        taxel_cli::foxglove::FoxgloveHub::default(),
+    ))));
     let (mut client, mut view) = (Client::new(), View::new(&source));
     let mut seen = Seen::new("it".into(), Some(1000.0));
     // A host that requests the time, so that answers count as round trips.
@@ -126,7 +128,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
 #[test]
 fn times_up_to_the_last_overflow_nowhere() {
     let path = shown("all", true);
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(PageHub::default());
     Player::open(&path, 1.0, None, hub.clone()).unwrap();
     for form in [Form::Csv, Form::Npz, Form::Png] {
         let output = path.with_extension(format!("{form:?}"));

@@ -3,7 +3,7 @@
 use super::rig::{Rig, source};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use taxel::json::Messages;
+use taxel::json::MessagePrinter;
 use taxel_cli::watch::{LiveArgs, watch};
 
 #[test]
@@ -21,7 +21,7 @@ fn a_limited_watch_goes_on_over_a_restart_and_prints_the_gap() {
         }
     });
     let begun = Instant::now();
-    watch(&args, source(&rig), &mut Messages::new(false, &mut out)).unwrap();
+    watch(&args, source(&rig), &mut MessagePrinter::new(false, &mut out)).unwrap();
     restarts.join().unwrap();
     // Three seconds of board time, although its clock restarted twice.
     assert!((3.0..6.0).contains(&begun.elapsed().as_secs_f64()), "{:?}", begun.elapsed());

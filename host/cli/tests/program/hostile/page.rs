@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
-use taxel_cli::view::{Hub, serve};
+use taxel_cli::view::{PageHub, serve};
 use taxel_cli::watch::{LiveArgs, watch};
 
 /// Keeps the bytes of a board for the pages.
-struct Keeper(Arc<Hub>);
+struct Keeper(Arc<PageHub>);
 
 impl Show for Keeper {
     fn bytes(&mut self, bytes: &[u8]) {
@@ -25,7 +25,7 @@ impl Show for Keeper {
 
 /// A page with a recording of some megabytes behind it.
 fn page() -> u16 {
-    let hub = Arc::new(Hub::default());
+    let hub = Arc::new(PageHub::default());
     let spec: source::SourceSpec = "sim:five".parse().unwrap();
     let options = SourceOptions { raw: true, seconds: Some(25.0), ..SourceOptions::default() };
     let source = source::open(&spec, &options).unwrap();

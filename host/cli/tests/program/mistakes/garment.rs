@@ -1,7 +1,7 @@
 //! Mistakes in a garment's file.
 
 use super::{Mistake, each, file, keys};
-use taxel_cli::commands::garment::config::{Kind, check};
+use taxel_cli::commands::garment::config::{FileKind, check};
 use taxel_core::garment::Garment;
 
 /// A garment with every key.
@@ -308,7 +308,7 @@ fn each_key_of_a_garment_has_a_mistake_that_is_told_with_its_line() {
     let said = check(good.to_str().unwrap(), None).unwrap();
     assert!(said.ends_with("garment mine, 128 taxels in 2 panels and 2 blocks: fits."), "{said}");
     each(BASE, MISTAKES, refused);
-    assert_eq!(keys::of(Kind::Garment.schema()), keys::of_mistakes(MISTAKES));
+    assert_eq!(keys::of(FileKind::Garment.schema()), keys::of_mistakes(MISTAKES));
 }
 
 #[test]
@@ -330,5 +330,5 @@ fn a_preset_is_checked_by_its_name() {
 #[test]
 fn the_schema_has_the_keys_of_a_garment_and_no_others() {
     let all: Garment = toml::from_str(BASE).unwrap();
-    keys::assert_all(&all, Kind::Garment.schema());
+    keys::assert_all(&all, FileKind::Garment.schema());
 }

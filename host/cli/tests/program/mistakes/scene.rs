@@ -1,7 +1,7 @@
 //! Mistakes in a scene's file.
 
 use super::{Mistake, each, file, keys};
-use taxel_cli::commands::garment::config::{Kind, check};
+use taxel_cli::commands::garment::config::{FileKind, check};
 
 /// A scene with every key except for an inline map, which `taxel fcm check` checks.
 const BASE: &str = r#"name = "calm"
@@ -225,7 +225,7 @@ fn each_key_of_a_scene_has_a_mistake_that_is_told_with_its_line() {
     assert!(said.ends_with("fits; scene calm can be played on it."), "{said}");
     each(BASE, MISTAKES, |text| format!("{:#}", checked("reference", text).expect_err("it is refused")));
     // Inline maps are checked by `taxel fcm check`.
-    let schema: Vec<String> = keys::of(Kind::Scene.schema());
+    let schema: Vec<String> = keys::of(FileKind::Scene.schema());
     assert_eq!(schema, keys::of_mistakes(MISTAKES));
 }
 

@@ -2,7 +2,7 @@
 
 use super::keys;
 use taxel::files::scripts;
-use taxel_cli::commands::garment::config::Kind;
+use taxel_cli::commands::garment::config::FileKind;
 
 /// A script with every key.
 const BASE: &str = r#"
@@ -82,14 +82,14 @@ fall_s = 0.5
 
 #[test]
 fn the_schema_has_the_keys_of_a_script_and_no_others() {
-    keys::assert_all(&scripts::parse(BASE, "all.toml").unwrap(), Kind::Touches.schema());
+    keys::assert_all(&scripts::parse(BASE, "all.toml").unwrap(), FileKind::Touches.schema());
 }
 
 /// The document explains each key of the schema.
 #[test]
 fn the_document_names_every_key() {
     let document = include_str!("../../../../../docs/touches.md");
-    for key in keys::of(Kind::Touches.schema()) {
+    for key in keys::of(FileKind::Touches.schema()) {
         let key = key.rsplit('/').next().unwrap();
         assert!(document.contains(&format!("`{key}`")) || document.contains(&format!("[{key}]")), "{key}");
     }

@@ -14,7 +14,7 @@ pub fn read(mut file: File) -> Result<Frames> {
 
 /// Parses the frames of a text.
 pub fn parse(text: &str) -> Result<Frames> {
-    let mut table = Table::default();
+    let mut table = ParsedFrames::default();
     for (line, text) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         match text.trim() {
             "" => table.end_frame(),
@@ -29,7 +29,7 @@ pub fn parse(text: &str) -> Result<Frames> {
 
 /// Frames parsed so far.
 #[derive(Default)]
-struct Table {
+struct ParsedFrames {
     values: Vec<u16>,
     /// Columns of the first row.
     columns: usize,
@@ -41,7 +41,7 @@ struct Table {
     row: usize,
 }
 
-impl Table {
+impl ParsedFrames {
     fn push(&mut self, text: &str) -> Result<()> {
         let start = self.values.len();
         for (column, cell) in text.split(',').map(str::trim).enumerate() {

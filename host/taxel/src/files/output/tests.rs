@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A test's folder, deleted at its end. It has `in.mcap` and `old.csv`.
-struct Scratch(PathBuf);
+struct TestFolder(PathBuf);
 
-impl Scratch {
-    fn new() -> Scratch {
+impl TestFolder {
+    fn new() -> TestFolder {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("taxel-writer-{}-{number}", std::process::id()));
         fs::create_dir_all(folder.join("sub")).unwrap();
-        let scratch = Scratch(folder);
+        let scratch = TestFolder(folder);
         fs::write(scratch.at("in.mcap"), "recorded").unwrap();
         fs::write(scratch.at("old.csv"), "old").unwrap();
         scratch
@@ -46,7 +46,7 @@ impl Scratch {
     }
 }
 
-impl Drop for Scratch {
+impl Drop for TestFolder {
     fn drop(&mut self) {
         fs::remove_dir_all(&self.0).unwrap();
     }
@@ -54,7 +54,7 @@ impl Drop for Scratch {
 
 #[test]
 fn an_input_is_no_output_by_any_spelling() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let spellings = ["in.mcap", "./in.mcap", "sub/../in.mcap", "sub/.././/in.mcap"];
     for (name, force) in spellings.iter().flat_map(|name| [(name, false), (name, true)]) {
         let error = scratch.refused(name, force);
@@ -67,7 +67,7 @@ fn an_input_is_no_output_by_any_spelling() {
 #[test]
 fn an_input_is_no_output_by_any_link() {
     use std::os::unix::fs::symlink;
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     symlink("in.mcap", scratch.at("soft")).unwrap();
     symlink("soft", scratch.at("softer")).unwrap();
     symlink(&scratch.0, scratch.at("sub/up")).unwrap();
@@ -83,7 +83,7 @@ fn an_input_is_no_output_by_any_link() {
 
 #[test]
 fn what_is_no_file_name_is_refused_in_one_sentence() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     for (name, words) in [
         ("sub", "is a folder: name a file"),
         ("new/", "names no file"),
@@ -103,7 +103,7 @@ fn what_is_no_file_name_is_refused_in_one_sentence() {
 
 #[test]
 fn another_file_is_replaced_only_with_force() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     scratch.output("old.csv", true).unwrap().write(b"new").unwrap();
     scratch.output("sub/../new.csv", false).unwrap().write(b"first").unwrap();
     assert_eq!((scratch.read("old.csv"), scratch.read("new.csv")), ("new".into(), "first".into()));
@@ -112,7 +112,7 @@ fn another_file_is_replaced_only_with_force() {
 
 #[test]
 fn what_is_not_kept_leaves_no_trace() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let mut draft = scratch.output("old.csv", true).unwrap().draft().unwrap();
     draft.write_all(&[b'x'; 100_000]).unwrap();
     drop(draft);
@@ -122,7 +122,7 @@ fn what_is_not_kept_leaves_no_trace() {
 
 #[test]
 fn a_file_that_appears_meanwhile_is_not_replaced() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let output = scratch.output("new.csv", false).unwrap();
     let begun = scratch.output("new.csv", false).unwrap();
     let mut draft = output.draft().unwrap();
@@ -140,7 +140,7 @@ fn a_file_that_appears_meanwhile_is_not_replaced() {
 #[test]
 fn a_link_that_changes_meanwhile_does_not_lead_to_an_input() {
     use std::os::unix::fs::symlink;
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     symlink("old.csv", scratch.at("link")).unwrap();
     let (by_link, by_name) =
         (scratch.output("link", true).unwrap(), scratch.output("old.csv", true).unwrap());
@@ -159,7 +159,7 @@ fn a_link_that_changes_meanwhile_does_not_lead_to_an_input() {
 
 #[test]
 fn a_recording_has_its_name_once_it_is_begun() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let begin = |name: &str, force: bool| scratch.output(name, force).unwrap().begin().unwrap();
     let ((mut new, new_begun), (mut file, begun)) = (begin("new.mcap", false), begin("old.csv", true));
     new.write_all(b"ha").unwrap();
@@ -181,7 +181,7 @@ fn a_recording_has_its_name_once_it_is_begun() {
 #[test]
 fn modes_are_kept_and_read_only_files_are_left_alone() {
     use std::os::unix::fs::PermissionsExt;
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let mode =
         |mode: u32| fs::set_permissions(scratch.at("old.csv"), fs::Permissions::from_mode(mode)).unwrap();
     mode(0o640);
@@ -210,7 +210,7 @@ fn images(inside: &Path) -> bool {
 
 #[test]
 fn a_folder_gets_its_content_when_it_is_complete() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let begin = |name: &str, force: bool| {
         Folder::begin(&scratch.at(name), Force { force }, [scratch.at("in.mcap")], images)
     };
@@ -234,7 +234,7 @@ fn a_folder_gets_its_content_when_it_is_complete() {
 
 #[test]
 fn a_folder_of_other_files_is_never_replaced() {
-    let scratch = Scratch::new();
+    let scratch = TestFolder::new();
     let begin = |name: &Path, force: bool| {
         let input = scratch.at("in.mcap");
         Folder::begin(name, Force { force }, [input], images).unwrap_err().to_string()

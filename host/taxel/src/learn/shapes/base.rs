@@ -57,7 +57,7 @@ pub struct Base {
     /// Which part of an image is the touch.
     pub view: View,
     /// Training data.
-    pub trained_on: Vec<Source>,
+    pub trained_on: Vec<ImagesFile>,
     /// Results on data left out of training.
     pub card: Card,
     /// The gallery.
@@ -67,7 +67,7 @@ pub struct Base {
 /// A file of training data.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct ImagesFile {
     /// Name without folders.
     pub file: String,
     /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint); empty for touches on a board.
@@ -92,7 +92,7 @@ pub struct Card {
 
 impl Base {
     /// A new base.
-    pub fn new(view: View, trained_on: Source, card: Card, gallery: Known) -> Base {
+    pub fn new(view: View, trained_on: ImagesFile, card: Card, gallery: Known) -> Base {
         let measures = MEASURE_NAMES.map(String::from).to_vec();
         Base { kind: KIND.into(), measures, view, trained_on: vec![trained_on], card, gallery }
     }

@@ -76,7 +76,7 @@ impl Examples {
 }
 
 /// Images with the names of their labels.
-struct Labelled {
+struct LabelledImages {
     set: String,
     frames: Frames,
     names: Vec<String>,
@@ -114,7 +114,7 @@ impl Images {
             set,
         };
         let list = kept.into_iter().map(example).collect();
-        let grid = |set: &Labelled| (set.frames.rows, set.frames.columns);
+        let grid = |set: &LabelledImages| (set.frames.rows, set.frames.columns);
         let first = sets.first().map(grid).filter(|first| sets.iter().all(|set| grid(set) == *first));
         Ok(Examples {
             list,
@@ -126,11 +126,11 @@ impl Images {
         })
     }
 
-    fn sets(&self) -> Result<Vec<Labelled>> {
+    fn sets(&self) -> Result<Vec<LabelledImages>> {
         if let Some(labels) = &self.labels {
             let frames = arrays::read(&self.images, None)?;
             let names = crate::learn::shapes::labels::read(labels, frames.count)?;
-            return Ok(vec![Labelled { set: String::new(), frames, names }]);
+            return Ok(vec![LabelledImages { set: String::new(), frames, names }]);
         }
         let file = self.images.display();
         let known: Vec<String> = arrays::names(&self.images)?;
@@ -149,7 +149,7 @@ impl Images {
         sets.into_iter().map(|set| self.labelled(set, classes.as_deref())).collect()
     }
 
-    fn labelled(&self, set: &str, classes: Option<&[String]>) -> Result<Labelled> {
+    fn labelled(&self, set: &str, classes: Option<&[String]>) -> Result<LabelledImages> {
         let file = self.images.display();
         let frames = arrays::read(&self.images, Some(&format!("{set}_img")))?;
         let labels = arrays::list(&self.images, &format!("{set}_label"))?;
@@ -167,7 +167,7 @@ impl Images {
                 .cloned()
                 .with_context(|| format!("{file}: {set}: there is no class {label}")),
         };
-        Ok(Labelled { set: set.into(), names: labels.iter().map(name).collect::<Result<_>>()?, frames })
+        Ok(LabelledImages { set: set.into(), names: labels.iter().map(name).collect::<Result<_>>()?, frames })
     }
 }
 

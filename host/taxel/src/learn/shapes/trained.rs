@@ -1,6 +1,6 @@
 //! Trains a complete gallery.
 
-use super::base::{Base, Card, Source};
+use super::base::{Base, Card, ImagesFile};
 use super::calibrate::calibrate;
 use super::cross::{FOLDS, SEED, deal, predict};
 use super::data::{Example, Examples, Images};
@@ -27,7 +27,7 @@ pub fn train(images: &Images, examples: &Examples, recipe: &Recipe) -> Result<Ba
     eprintln!("learning {} classes from {} images, and in {FOLDS} folds", examples.names.len(), list.len());
     let (gallery, found) = trained(&list, &examples.names, recipe);
     let confusion = counted(&list, &examples.names, &found);
-    let source = Source {
+    let source = ImagesFile {
         file: images.images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         fingerprint: Fingerprint::of(&images.images)?.to_string(),
         sets: images.set.clone(),

@@ -18,7 +18,7 @@ pub struct Judged {
 /// Logarithm of the odds as a function of the lead and of the logarithm of the age: constant, lead, age, lead
 /// times age.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Calibration([f64; 4]);
+pub struct ConfidenceFit([f64; 4]);
 
 /// Prior towards even odds, with the weight of this many touches.
 const PENALTY: f64 = 1.0;
@@ -26,9 +26,9 @@ const PENALTY: f64 = 1.0;
 /// Steps of Newton's method; it converges within ten.
 const STEPS: usize = 25;
 
-impl Calibration {
+impl ConfidenceFit {
     /// Penalised maximum-likelihood fit to the decisions.
-    pub fn fit(judged: &[Judged]) -> Calibration {
+    pub fn fit(judged: &[Judged]) -> ConfidenceFit {
         let mut weights = [0.0; 4];
         for _ in 0..STEPS {
             let mut slope = weights.map(|w| -PENALTY * w).to_vec();
@@ -45,7 +45,7 @@ impl Calibration {
             let step = back(&lower, &forward(&lower, &slope));
             weights.iter_mut().zip(step).for_each(|(weight, step)| *weight += step);
         }
-        Calibration(weights)
+        ConfidenceFit(weights)
     }
 
     /// Share of right decisions at each lead of a row; non-decreasing in the lead.
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn it_finds_the_odds_by_which_the_decisions_were_drawn() {
-        let truth = Calibration([-1.0, 1.5, 0.2, 0.1]);
+        let truth = ConfidenceFit([-1.0, 1.5, 0.2, 0.1]);
         let mut random = fastrand::Rng::with_seed(7);
         let judged: Vec<Judged> = (0..20_000)
             .map(|_| {
@@ -86,7 +86,7 @@ mod tests {
                 Judged { lead, frames, right }
             })
             .collect();
-        let fitted = Calibration::fit(&judged);
+        let fitted = ConfidenceFit::fit(&judged);
         for frames in [2, 30, 150] {
             for (have, want) in fitted.row(frames).into_iter().zip(truth.row(frames)) {
                 assert!((have - want).abs() < 0.03, "{frames} frames: {have:.3} of {want:.3}");
@@ -99,7 +99,7 @@ mod tests {
         // Right decisions become rarer with the lead: such a random result must not be believed.
         let judged: Vec<Judged> =
             (0..100).map(|n| Judged { lead: f64::from(n) / 50.0, frames: 9, right: n < 30 }).collect();
-        let row = Calibration::fit(&judged).row(9);
+        let row = ConfidenceFit::fit(&judged).row(9);
         assert!(row.is_sorted(), "{row:?}");
     }
 }

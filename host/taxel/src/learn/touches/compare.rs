@@ -4,12 +4,12 @@ use super::apply::{Applied, Taken, apply};
 use super::certainty::{Prediction, reliability, waits};
 use super::course::{Course, courses};
 use super::data::{Data, Touch};
-use super::experts::Example;
+use super::experts::TouchExample;
 use super::knn::nearest;
 use super::map::mapped;
 use super::model::train;
 use super::report::{Outcome, Report, accuracy};
-use super::settings::{EARLY, Settings};
+use super::settings::{EARLY, TrainSettings};
 use crate::tell::progress::{Progress, Unit};
 use anyhow::{Result, ensure};
 use serde_json::{Value, json};
@@ -144,7 +144,7 @@ pub fn as_it_is(model: &Model<'_>, data: &Data, times: &Times) -> Result<Report>
 
 /// Leave-one-group-out: trains on all other groups and applies to each group in turn. For comparison also
 /// nearest neighbours and a cognitive map, on the same features.
-pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> {
+pub fn cross(data: &Data, settings: &TrainSettings, times: &Times) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 2, "there is only one group: it cannot be left out");
     let courses = courses(data, settings);
@@ -177,8 +177,8 @@ pub fn cross(data: &Data, settings: &Settings, times: &Times) -> Result<Report> 
 }
 
 /// A touch with its training data.
-pub fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
-    Example { course, class: touch.class, group: &touch.group }
+pub fn example<'a>(touch: &'a Touch, course: &'a Course) -> TouchExample<'a> {
+    TouchExample { course, class: touch.class, group: &touch.group }
 }
 
 /// Trains on the touches of the known groups and applies to those of another group as a whole. These are
@@ -187,16 +187,16 @@ pub fn example<'a>(touch: &'a Touch, course: &'a Course) -> Example<'a> {
 pub(super) fn apart(
     data: &Data,
     courses: &[Course],
-    settings: &Settings,
+    settings: &TrainSettings,
     known: &[&str],
     group: &str,
 ) -> Result<Vec<Outcome>> {
     let touches = || data.touches.iter().zip(courses);
     let examples: Vec<_> = touches()
         .filter(|(touch, _)| known.contains(&touch.group.as_str()))
-        .map(|(touch, course)| Example { group: "", ..example(touch, course) })
+        .map(|(touch, course)| TouchExample { group: "", ..example(touch, course) })
         .collect();
-    let bytes = train(data, &examples, &Settings { early: [None; EARLY], ..*settings })?;
+    let bytes = train(data, &examples, &TrainSettings { early: [None; EARLY], ..*settings })?;
     let asked: Vec<&Touch> = data.touches.iter().filter(|touch| touch.group == group).collect();
     let applied = apply(&Model::read(&bytes)?, data, &asked, &[])?;
     Ok(asked.iter().zip(applied).map(|(touch, applied)| (touch.class, applied.last.class)).collect())

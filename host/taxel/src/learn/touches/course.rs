@@ -1,7 +1,7 @@
 //! Training data of a touch: features of the whole, of its parts, of its mirror images and of its beginnings.
 
 use super::data::{Data, Touch};
-use super::settings::{EARLY, Settings};
+use super::settings::{EARLY, TrainSettings};
 use super::windows::{Windows, ladder};
 use crate::tell::progress::{Progress, Unit};
 use taxel_core::gesture::{Cells, Features, SIDE, Sheet, TouchState};
@@ -26,7 +26,7 @@ pub struct Course {
 
 impl Course {
     /// Training data of this touch.
-    pub fn of(data: &Data, touch: &Touch, settings: &Settings) -> Course {
+    pub fn of(data: &Data, touch: &Touch, settings: &TrainSettings) -> Course {
         let sheet = Sheet::new(data.rows, data.columns);
         let cells: Vec<Cells> = data.frames(touch).map(|frame| sheet.cells(frame)).collect();
         let learnt = |cells: &[Cells]| features(cells, settings.pressed);
@@ -49,7 +49,7 @@ impl Course {
 }
 
 /// Training data of all touches.
-pub fn courses(data: &Data, settings: &Settings) -> Vec<Course> {
+pub fn courses(data: &Data, settings: &TrainSettings) -> Vec<Course> {
     let count = data.touches.len() as u64;
     let mut progress = Progress::of("finding features", Unit::Steps("touches"), Some(count));
     let course = |(done, touch)| {
@@ -60,7 +60,7 @@ pub fn courses(data: &Data, settings: &Settings) -> Vec<Course> {
 }
 
 /// Features of the windows of a touch.
-fn cut(cells: &[Cells], windows: &Windows, settings: &Settings) -> Vec<Features> {
+fn cut(cells: &[Cells], windows: &Windows, settings: &TrainSettings) -> Vec<Features> {
     let lengths = windows.lengths();
     let from = |start: usize| growing(&cells[start..], &lengths, settings.pressed);
     windows.starts(cells.len()).into_iter().flat_map(from).collect()
@@ -112,7 +112,7 @@ mod tests {
     fn windows_are_the_touches_that_they_would_be_alone() {
         let cells: Vec<Cells> =
             (0..60).map(|n| std::array::from_fn(|i| ((n * 37 + i * 11) % 300) as u16)).collect();
-        let settings = Settings { pressed: 12, ..Settings::default() };
+        let settings = TrainSettings { pressed: 12, ..TrainSettings::default() };
         let windows = Windows { shortest: 5, longest: 10, every: 25 };
         let have = cut(&cells, &windows, &settings);
         // Lengths 5, 7, 10 from 0, 25, 50.

@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// A file of training data.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Source {
+pub struct TouchesFile {
     /// Name without folders.
     pub file: String,
     /// Size.
@@ -16,12 +16,12 @@ pub struct Source {
     pub fnv1a: String,
 }
 
-impl Source {
+impl TouchesFile {
     /// Reads a file and hashes it.
-    pub fn of(path: &Path) -> Result<Source> {
+    pub fn of(path: &Path) -> Result<TouchesFile> {
         let Fingerprint { bytes, fnv1a } = Fingerprint::of(path)?;
         let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Source { file, bytes, fnv1a })
+        Ok(TouchesFile { file, bytes, fnv1a })
     }
 }
 
@@ -54,7 +54,7 @@ pub struct Data {
     /// Warnings about the recordings.
     pub doubts: Vec<String>,
     /// The files.
-    pub sources: Vec<Source>,
+    pub sources: Vec<TouchesFile>,
 }
 
 impl Data {

@@ -2,16 +2,16 @@
 //!
 //! Hand-over and confidence are fitted to decisions about groups left out of the training data.
 
-use super::calibration::{Calibration, Judged};
+use super::calibration::{ConfidenceFit, Judged};
 use super::course::Course;
 use super::ridge::Ridge;
-use super::settings::{EARLY, Settings};
+use super::settings::{EARLY, TrainSettings};
 use std::ops::Range;
 use taxel_core::gesture::{Features, LEADS};
 
 /// A training example.
 #[derive(Debug, Clone, Copy)]
-pub struct Example<'a> {
+pub struct TouchExample<'a> {
     /// Training data of the touch.
     pub course: &'a Course,
     /// Its class.
@@ -38,7 +38,11 @@ const PARTS: usize = 7;
 const FEWEST: usize = 50;
 
 /// Trains the experts, ordered by age.
-pub fn train_experts(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Trained> {
+pub fn train_experts(
+    examples: &[TouchExample<'_>],
+    classes: usize,
+    settings: &TrainSettings,
+) -> Vec<Trained> {
     let trials = trials(examples, classes, settings);
     let ridges = fit(examples, classes, settings);
     let ages = ages(&trials);
@@ -60,20 +64,20 @@ struct Trial {
 }
 
 /// Decisions about each fold by experts trained on the others; none for a single group.
-fn trials(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Trial> {
+fn trials(examples: &[TouchExample<'_>], classes: usize, settings: &TrainSettings) -> Vec<Trial> {
     let mut groups: Vec<&str> = examples.iter().map(|example| example.group).collect();
     groups.sort();
     groups.dedup();
     if groups.len() < 2 {
         return Vec::new();
     }
-    let part = |example: &Example<'_>| groups.binary_search(&example.group).unwrap_or(0) % PARTS;
+    let part = |example: &TouchExample<'_>| groups.binary_search(&example.group).unwrap_or(0) % PARTS;
     let mut trials = Vec::new();
     for apart in 0..groups.len().min(PARTS) {
-        let (asked, known): (Vec<Example<'_>>, Vec<_>) =
+        let (asked, known): (Vec<TouchExample<'_>>, Vec<_>) =
             examples.iter().partition(|example| part(example) == apart);
         let ridges = fit(&known, classes, settings);
-        for Example { course, class, .. } in asked {
+        for TouchExample { course, class, .. } in asked {
             let decided = |features: &Features| ridges.iter().map(|r| judge(r, features, class)).collect();
             trials.extend(course.beginnings.iter().map(|(frames, features)| Trial {
                 frames: *frames,
@@ -87,7 +91,7 @@ fn trials(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<
 }
 
 /// Classifier of each expert, by age.
-fn fit(examples: &[Example<'_>], classes: usize, settings: &Settings) -> Vec<Ridge> {
+fn fit(examples: &[TouchExample<'_>], classes: usize, settings: &TrainSettings) -> Vec<Ridge> {
     let learn = |of: &dyn Fn(&Course) -> Vec<Features>| {
         let windows: Vec<(Features, usize)> = examples
             .iter()
@@ -163,7 +167,7 @@ fn best(right: &[Vec<usize>], start: usize) -> (usize, Vec<usize>) {
 
 /// Ages without left-out groups: each expert from the shortest of its windows on, the last one after all
 /// others'.
-fn assumed(settings: &Settings) -> Vec<usize> {
+fn assumed(settings: &TrainSettings) -> Vec<usize> {
     let early: Vec<_> = settings.early.iter().flatten().collect();
     let mut from: Vec<usize> = early.iter().map(|windows| windows.shortest).collect();
     from.extend(early.last().map(|windows| windows.longest + 1).or(Some(0)));
@@ -192,7 +196,7 @@ fn confidence(
     if judged.len() < FEWEST {
         return Vec::new();
     }
-    let calibration = Calibration::fit(&judged);
+    let calibration = ConfidenceFit::fit(&judged);
     ages.iter().filter(|age| span.contains(age)).map(|age| (*age, calibration.row(*age))).collect()
 }
 

@@ -6,7 +6,7 @@ use taxel_core::gesture::{MAGIC, Model, checksum};
 
 /// Parts of a model besides its experts.
 #[derive(Debug, Clone, Copy)]
-pub struct Head<'a> {
+pub struct ModelHead<'a> {
     /// Names of the classes.
     pub names: &'a [String],
     /// Value above which a cell counts as touched.
@@ -18,7 +18,7 @@ pub struct Head<'a> {
 }
 
 /// Encodes a model in the layout of [`Model`].
-pub fn export(experts: &[Trained], head: Head<'_>) -> Result<Vec<u8>> {
+pub fn export(experts: &[Trained], head: ModelHead<'_>) -> Result<Vec<u8>> {
     let mut bytes = MAGIC.to_vec();
     bytes.extend(u32::try_from(head.notes.len())?.to_le_bytes());
     bytes.extend(head.notes.as_bytes());

@@ -44,7 +44,7 @@ pub fn units(data: &Data, model: &Model<'_>) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel_core::gesture::Shipped;
+    use taxel_core::gesture::ShippedModel;
 
     /// Touches of two classes with these values in all taxels and frames.
     fn data(first: u16, second: u16) -> Data {
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn another_unit_is_told() {
-        let model = Model::read(Shipped::Gestures.bytes()).unwrap();
+        let model = Model::read(ShippedModel::Gestures.bytes()).unwrap();
         let (middle, _) = model.experts().last().unwrap().known(LEVEL).unwrap();
         // A sheet with the total of the training.
         let cell = (2f64.powf(f64::from(middle) / 256.0) / 64.0).round() as u16;

@@ -1,6 +1,6 @@
 //! Recorded gestures, and the settings with which their model is trained.
 
-use super::{Data, Files, Report, Settings, Source, Table, Times, Touch, Windows, cross, labels};
+use super::{Data, Files, Report, Table, Times, Touch, TouchesFile, TrainSettings, Windows, cross, labels};
 use crate::files::arrays;
 use crate::learn::doubts::start_ups;
 use crate::tell::fault::Fault;
@@ -9,7 +9,7 @@ use taxel_core::gesture::CLASSES;
 
 /// Chosen by cross-validation by participant. Recordings are cut from ongoing touches, so windows may begin
 /// anywhere.
-pub const SETTINGS: Settings = Settings {
+pub const SETTINGS: TrainSettings = TrainSettings {
     pressed: 12,
     halves: true,
     penalty: 40.0,
@@ -74,7 +74,7 @@ pub fn load(files: &Files) -> Result<Data> {
     let named = touches.iter().enumerate();
     let named = named.map(|(n, touch)| (format!("recording {n}"), touch.values.chunks_exact(area)));
     let doubts = start_ups(named).into_iter().collect();
-    let sources = vec![Source::of(path)?, Source::of(labels)?];
+    let sources = vec![TouchesFile::of(path)?, TouchesFile::of(labels)?];
     let (rows, columns, idle) = (frames.rows, frames.columns, Vec::new());
     Ok(Data { rows, columns, classes, touches, idle, doubts, sources })
 }

@@ -1,12 +1,12 @@
 //! Recorded intentions, and the settings with which their model is trained.
 
-use super::{Data, Files, Report, Settings, Source, Table, Times, Touch, Windows, cross, labels};
+use super::{Data, Files, Report, Table, Times, Touch, TouchesFile, TrainSettings, Windows, cross, labels};
 use crate::files::arrays;
 use crate::learn::doubts::start_ups;
 use anyhow::{Context, Result, bail, ensure};
 
 /// Chosen by cross-validation by day.
-pub const SETTINGS: Settings = Settings {
+pub const SETTINGS: TrainSettings = TrainSettings {
     pressed: 200,
     halves: true,
     penalty: 10.0,
@@ -80,7 +80,7 @@ pub fn load(files: &Files, apart: Apart) -> Result<Data> {
     });
     let doubts = start_ups(named).into_iter().collect();
     let classes = MEANINGS.iter().map(|(name, _)| name.to_string()).collect();
-    let sources = vec![Source::of(path)?, Source::of(labels)?];
+    let sources = vec![TouchesFile::of(path)?, TouchesFile::of(labels)?];
     Ok(Data { rows: frames.rows, columns: frames.columns, classes, touches, idle, doubts, sources })
 }
 

@@ -1,9 +1,9 @@
 //! Trains a model of touches.
 
-use super::data::{Data, Source};
-use super::experts::{Example, train_experts};
-use super::export::{Head, export};
-use super::settings::Settings;
+use super::data::{Data, TouchesFile};
+use super::experts::{TouchExample, train_experts};
+use super::export::{ModelHead, export};
+use super::settings::TrainSettings;
 use crate::tell::date::today;
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
@@ -16,11 +16,11 @@ pub struct Provenance {
     /// Date of the training.
     pub date: String,
     /// Training files.
-    pub data: Vec<Source>,
+    pub data: Vec<TouchesFile>,
     /// Number of training touches.
     pub touches: usize,
     /// Training settings.
-    pub settings: Settings,
+    pub settings: TrainSettings,
 }
 
 impl Provenance {
@@ -30,13 +30,13 @@ impl Provenance {
     }
 
     /// True if one of the files is a training file.
-    pub fn knows(&self, sources: &[Source]) -> bool {
+    pub fn knows(&self, sources: &[TouchesFile]) -> bool {
         sources.iter().any(|source| self.data.iter().any(|known| known.fnv1a == source.fnv1a))
     }
 }
 
 /// Trains on touches. Returns the bytes of a model.
-pub fn train(data: &Data, examples: &[Example<'_>], settings: &Settings) -> Result<Vec<u8>> {
+pub fn train(data: &Data, examples: &[TouchExample<'_>], settings: &TrainSettings) -> Result<Vec<u8>> {
     ensure!(data.classes.len() >= 2, "touches of one class only: at least two are needed");
     let experts = train_experts(examples, data.classes.len(), settings);
     let notes = Provenance {
@@ -46,8 +46,8 @@ pub fn train(data: &Data, examples: &[Example<'_>], settings: &Settings) -> Resu
         settings: *settings,
     };
     let notes = serde_json::to_string(&notes)?;
-    let Settings { pressed, concludes, .. } = *settings;
-    export(&experts, Head { names: &data.classes, pressed, concludes, notes: &notes })
+    let TrainSettings { pressed, concludes, .. } = *settings;
+    export(&experts, ModelHead { names: &data.classes, pressed, concludes, notes: &notes })
 }
 
 /// Reads the bytes of a model. Errors name the file.

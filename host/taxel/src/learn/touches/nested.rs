@@ -4,18 +4,19 @@ use super::compare::apart;
 use super::course::courses;
 use super::data::Data;
 use super::report::{Outcome, Report, accuracy};
-use super::settings::Settings;
+use super::settings::TrainSettings;
 use crate::tell::progress::{Progress, Unit};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
 /// For each group: chooses the settings that perform best in cross-validation on the other groups, trains
 /// with them on all the others, and applies to the group.
-pub fn nested(data: &Data, candidates: &[Settings]) -> Result<Report> {
+pub fn nested(data: &Data, candidates: &[TrainSettings]) -> Result<Report> {
     let groups = data.groups();
     ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());
-    let same =
-        |a: &Settings, b: &Settings| (a.pressed, a.halves, a.mirrored) == (b.pressed, b.halves, b.mirrored);
+    let same = |a: &TrainSettings, b: &TrainSettings| {
+        (a.pressed, a.halves, a.mirrored) == (b.pressed, b.halves, b.mirrored)
+    };
     let first = candidates.first().context("there are no settings to choose from")?;
     ensure!(
         candidates.iter().all(|other| same(first, other)),

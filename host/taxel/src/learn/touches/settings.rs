@@ -9,7 +9,7 @@ pub const EARLY: usize = EXPERTS - 1;
 
 /// Training settings, specific to a task and chosen by cross-validation.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
+pub struct TrainSettings {
     /// Value above which a cell counts as touched.
     pub pressed: u16,
     /// Also train on each half of a touch.
@@ -30,11 +30,11 @@ pub struct Settings {
 }
 
 /// Settings that differ from `one` in the values chosen by trial.
-pub fn grid(one: Settings, penalties: &[f64], balances: &[f64]) -> Vec<Settings> {
+pub fn grid(one: TrainSettings, penalties: &[f64], balances: &[f64]) -> Vec<TrainSettings> {
     let mut all = Vec::new();
     for penalty in penalties {
         for balance in balances {
-            all.push(Settings { penalty: *penalty, balance: *balance, ..one });
+            all.push(TrainSettings { penalty: *penalty, balance: *balance, ..one });
         }
     }
     all

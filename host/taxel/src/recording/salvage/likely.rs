@@ -1,7 +1,7 @@
 //! Judges by its fields whether a record begins at an offset.
 
 use super::super::append::HEAD;
-use super::super::source::Source;
+use super::super::source::RandomAccess;
 use super::marks::Marks;
 use super::opened;
 use super::piece::{Kind, parse};
@@ -32,7 +32,7 @@ enum Trust {
 #[derive(Debug)]
 pub struct Judge<'a> {
     /// The file.
-    pub source: &'a mut Source,
+    pub source: &'a mut RandomAccess,
     /// Places listed by the file's end.
     pub marks: &'a Marks,
     /// Channels declared so far.

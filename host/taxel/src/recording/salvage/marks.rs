@@ -1,6 +1,6 @@
 //! Places of records listed by the end of a file.
 
-use super::super::source::Source;
+use super::super::source::RandomAccess;
 use super::super::summary::End;
 use mcap::records::{Channel, Record, SchemaHeader, Statistics};
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +27,7 @@ pub struct Marks {
 
 impl Marks {
     /// Reads the end of a file.
-    pub fn read(source: &mut Source) -> io::Result<Marks> {
+    pub fn read(source: &mut RandomAccess) -> io::Result<Marks> {
         let mut marks = Marks::default();
         let end = End::read(source, |record| marks.take(record))?;
         (marks.has_end, marks.is_sound) = (end.is_there, end.is_sound);

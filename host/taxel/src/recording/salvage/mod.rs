@@ -18,4 +18,4 @@ mod piece;
 mod walk;
 
 pub use piece::{Kind, Opened, Piece};
-pub use walk::{Damage, Step, Walk};
+pub use walk::{Unreadable, Walk, WalkStep};

@@ -2,7 +2,7 @@
 
 use super::super::append::HEAD;
 use super::super::chunk::{Index, LARGEST, is_known};
-use super::super::source::{Head, Source};
+use super::super::source::{RandomAccess, RawHead};
 use super::super::texts::fields;
 use super::likely::Judge;
 use super::marks::Marks;
@@ -21,7 +21,7 @@ const LARGE: u64 = 1 << 26;
 /// Iterates over the records.
 #[derive(Debug)]
 pub struct Walk {
-    source: Source,
+    source: RandomAccess,
     path: PathBuf,
     /// Places listed by the file's end.
     pub marks: Marks,
@@ -36,16 +36,16 @@ pub struct Walk {
 
 /// Next part of a file.
 #[derive(Debug)]
-pub enum Step {
+pub enum WalkStep {
     /// A record.
     Piece(Piece),
     /// Bytes that are not a record.
-    Damage(Damage),
+    Unreadable(Unreadable),
 }
 
 /// Unreadable bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Damage {
+pub struct Unreadable {
     /// Offset of the first.
     pub offset: u64,
     /// Their number.
@@ -57,7 +57,7 @@ pub struct Damage {
 impl Walk {
     /// Opens a file at its first record.
     pub fn open(path: &Path) -> Result<Walk> {
-        let mut source = Source::open(path)?;
+        let mut source = RandomAccess::open(path)?;
         let place = || format!("{} cannot be read", path.display());
         let marks = Marks::read(&mut source).with_context(place)?;
         let (index, channels) = (Index::new(), BTreeSet::new());
@@ -73,7 +73,7 @@ impl Walk {
     }
 
     fn begins_with_header(&mut self, at: u64) -> io::Result<bool> {
-        let Some(Head { op: op::HEADER, length }) = self.source.head(at)? else { return Ok(false) };
+        let Some(RawHead { op: op::HEADER, length }) = self.source.head(at)? else { return Ok(false) };
         let body = self.source.read(at + HEAD as u64, length)?;
         Ok(matches!(parse(op::HEADER, &body), Some((Kind::Header(_), true))))
     }
@@ -89,11 +89,11 @@ impl Walk {
     }
 
     /// Next record, or bytes that are not a record; none at the end.
-    pub fn next_step(&mut self) -> Result<Option<Step>> {
+    pub fn next_step(&mut self) -> Result<Option<WalkStep>> {
         self.step().with_context(|| format!("{} cannot be read", self.path.display()))
     }
 
-    fn step(&mut self) -> io::Result<Option<Step>> {
+    fn step(&mut self) -> io::Result<Option<WalkStep>> {
         let at = self.at;
         if at >= self.length() || self.source.is_tail(at)? {
             return Ok(None);
@@ -108,7 +108,7 @@ impl Walk {
         };
         let piece = match found {
             Some(piece) if !matches!(piece.kind, Kind::BadChunk) => piece,
-            _ => return self.damage(at).map(|damage| Some(Step::Damage(damage))),
+            _ => return self.damage(at).map(|damage| Some(WalkStep::Unreadable(damage))),
         };
         match &piece.kind {
             Kind::Chunk(_, Some(inside)) => {
@@ -119,19 +119,19 @@ impl Walk {
             Kind::Index(_) => {}
             _ => self.index.clear(),
         }
-        Ok(Some(Step::Piece(piece)))
+        Ok(Some(WalkStep::Piece(piece)))
     }
 
     fn judge(&mut self) -> Judge<'_> {
         Judge { source: &mut self.source, marks: &self.marks, channels: &self.channels }
     }
 
-    fn damage(&mut self, offset: u64) -> io::Result<Damage> {
+    fn damage(&mut self, offset: u64) -> io::Result<Unreadable> {
         self.index.clear();
         let told = self.marks.chunks.range(offset..self.at).count();
         let is_chunk = self.source.head(offset)?.is_some_and(|head| head.op == op::CHUNK);
         let chunks = if self.marks.chunks.is_empty() { usize::from(is_chunk) } else { told };
-        Ok(Damage { offset, length: self.at - offset, chunks })
+        Ok(Unreadable { offset, length: self.at - offset, chunks })
     }
 
     /// Record at an offset, if there is one.
@@ -167,7 +167,7 @@ impl Walk {
 
     /// Reads a chunk. If the record's length is wrong, that of its fields may be right; if the record's
     /// number is wrong, it is a chunk if the summary lists one at its offset.
-    fn chunk(&mut self, at: u64, head: Head) -> io::Result<Option<Piece>> {
+    fn chunk(&mut self, at: u64, head: RawHead) -> io::Result<Option<Piece>> {
         if head.op != op::CHUNK && !self.marks.chunks.contains(&at) {
             return Ok(None);
         }
@@ -178,7 +178,7 @@ impl Walk {
         let by_fields = (used as u64).saturating_add(told.compressed_size);
         let piece = |length, body, kind| {
             let is_corrected = match &kind {
-                Kind::Chunk(header, _) => *header != told || head != Head { op: op::CHUNK, length },
+                Kind::Chunk(header, _) => *header != told || head != RawHead { op: op::CHUNK, length },
                 _ => false,
             };
             Some(Piece { offset: at, end: from + length, op: op::CHUNK, body, kind, is_corrected })

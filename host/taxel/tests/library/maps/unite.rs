@@ -5,7 +5,7 @@ use taxel::fcm::aggregate::Aggregation;
 use taxel::fcm::combine::table;
 use taxel::fcm::load;
 use taxel::fcm::map::MapFile;
-use taxel::fcm::unite::{Shared, unite};
+use taxel::fcm::unite::{EdgeConflict, unite};
 
 /// A map of concepts and edges: `a>b: strong +; b>c: -0.5`, with an input for each concept in `inputs`.
 fn of(name: &str, concepts: &[&str], edges: &[(&str, &str, &str)], inputs: &[&str]) -> MapFile {
@@ -41,7 +41,7 @@ fn experts() -> [MapFile; 3] {
 
 #[test]
 fn experts_are_combined_and_their_disagreement_is_named() {
-    let united = unite(&experts(), "ours", Shared::Vote(Aggregation::Sum)).unwrap();
+    let united = unite(&experts(), "ours", EdgeConflict::Vote(Aggregation::Sum)).unwrap();
     // Equal triangles: the centroid of the sum is the mean of 0.75, 0.25, 0.75; and of -0.25, 0.75, 0.
     let weights: Vec<f64> = united.map.edge.iter().map(|edge| edge.weight.value()).collect();
     assert_eq!(weights, [0.58, 0.17]);
@@ -54,10 +54,10 @@ fn experts_are_combined_and_their_disagreement_is_named() {
     // Edges are sorted by disagreement.
     assert!(text.find("shape -> attack").unwrap() < text.find("press -> attack").unwrap());
     // Maximum of the memberships: a repeated statement counts once.
-    let max = unite(&experts(), "ours", Shared::Vote(Aggregation::Max)).unwrap();
+    let max = unite(&experts(), "ours", EdgeConflict::Vote(Aggregation::Max)).unwrap();
     assert_eq!(max.map.edge[0].weight.value(), 0.5);
     assert_eq!(
-        unite(&experts(), "ours", Shared::Vote(Aggregation::Sum)).unwrap().map,
+        unite(&experts(), "ours", EdgeConflict::Vote(Aggregation::Sum)).unwrap().map,
         united.map,
         "the same again"
     );
@@ -67,7 +67,9 @@ fn experts_are_combined_and_their_disagreement_is_named() {
 fn what_all_say_stays_as_it_is_written() {
     let shipped = load::map("tactile").unwrap();
     let all = [shipped.clone(), shipped.clone()];
-    for shared in [Shared::Agree, Shared::Combine(Aggregation::Sum), Shared::Vote(Aggregation::Max)] {
+    for shared in
+        [EdgeConflict::Agree, EdgeConflict::Combine(Aggregation::Sum), EdgeConflict::Vote(Aggregation::Max)]
+    {
         let united = unite(&all, "tactile", shared).unwrap();
         assert_eq!(united.map, shipped);
         assert!(united.conflicts.is_empty() && united.edges.iter().all(|edge| edge.spread() == 0.0));
@@ -83,7 +85,7 @@ fn maps_that_share_concepts_merge() {
         &[("vision", "attack", "-0.5"), ("vision", "press", "0.25")],
         &["vision"],
     );
-    let united = unite(&[touch.clone(), seen], "both", Shared::Agree).unwrap();
+    let united = unite(&[touch.clone(), seen], "both", EdgeConflict::Agree).unwrap();
     let names: Vec<&str> = united.map.concept.iter().map(|concept| concept.name.as_str()).collect();
     assert_eq!((names, united.map.edge.len()), (vec!["press", "attack", "vision"], 3));
     assert_eq!(united.map.input.len(), 1, "press has a cause now");
@@ -94,9 +96,9 @@ fn maps_that_share_concepts_merge() {
     let mut other = touch.clone();
     (other.name, other.lambda, other.input[0].rise) = ("other".into(), 2.0, Some([0, 50]));
     other.edge[0].weight = taxel::fcm::weight::Weight::Number(0.25);
-    let error = unite(&[touch.clone(), other.clone()], "both", Shared::Agree).unwrap_err().to_string();
+    let error = unite(&[touch.clone(), other.clone()], "both", EdgeConflict::Agree).unwrap_err().to_string();
     assert_eq!(error, "edge press -> attack is 0.5 in touch, 0.25 in other: --combine makes them one");
-    let united = unite(&[touch, other], "both", Shared::Combine(Aggregation::Sum)).unwrap();
+    let united = unite(&[touch, other], "both", EdgeConflict::Combine(Aggregation::Sum)).unwrap();
     assert_eq!(united.map.edge[0].weight.value(), 0.38);
     assert_eq!(
         united.conflicts,

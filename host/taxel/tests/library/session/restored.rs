@@ -11,7 +11,7 @@ use taxel::session::{Poll, Returns, Session};
 use taxel_core::condition::Certificate;
 use taxel_core::format::{Q15, name};
 use taxel_core::garment::Garment;
-use taxel_core::gesture::{GestureConfig, Shipped};
+use taxel_core::gesture::{GestureConfig, ShippedModel};
 use taxel_core::intent::{Feed, MapInput, Source as From};
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
@@ -50,7 +50,7 @@ fn set(session: &mut Session) -> usize {
     client.request(&Request::SetGarment(&postcard::to_allocvec(&garment()).unwrap())).unwrap();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
     client.request(&Request::SetCertainty(700)).unwrap();
-    client.request(&Request::SetGestures(Some(GestureConfig::of(Shipped::Gestures)))).unwrap();
+    client.request(&Request::SetGestures(Some(GestureConfig::of(ShippedModel::Gestures)))).unwrap();
     let feed = Feed { concept: name("warmth"), value: Q15(9), age_ms: 5, lasts_ms: 0, otherwise: Q15(0) };
     client.request(&Request::Feed(feed)).unwrap();
     client.request(&Request::Concept { slot: 1, value: Q15(7) }).unwrap();
@@ -144,7 +144,7 @@ fn what_was_replaced_or_taken_back_is_not_set_again() {
     let mut session = Session::new(source(&rig), Returns::Always);
     let (client, _) = session.parts();
     client.start(4).unwrap();
-    client.request(&Request::SetGestures(Some(GestureConfig::of(Shipped::Intent)))).unwrap();
+    client.request(&Request::SetGestures(Some(GestureConfig::of(ShippedModel::Intent)))).unwrap();
     client.request(&Request::SetGestures(None)).unwrap();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
     // The scene is too large: a refused setting is not remembered, and the one before stays.

@@ -48,13 +48,13 @@ fn name_of(garment: &Garment, panel: u8) -> &str {
 }
 
 /// Part of a contact within a block.
-struct Part<'a> {
+struct ContactPart<'a> {
     placed: &'a Placed,
     rows: Range<u16>,
     columns: Range<u16>,
 }
 
-impl Part<'_> {
+impl ContactPart<'_> {
     fn peak(&self) -> u16 {
         self.placed.contact.peak
     }
@@ -67,7 +67,7 @@ pub fn candidates<'a>(garment: &Garment, present: &'a [Placed]) -> Vec<&'a Place
         return found;
     }
     for block in &garment.blocks {
-        let parts: Vec<Part<'_>> = present.iter().filter_map(|placed| part(block, placed)).collect();
+        let parts: Vec<ContactPart<'_>> = present.iter().filter_map(|placed| part(block, placed)).collect();
         let ghosts = parts.iter().filter(|part| is_candidate(part, &parts)).map(|part| part.placed);
         for placed in ghosts {
             if !found.iter().any(|known| known.contact.id == placed.contact.id) {
@@ -78,7 +78,7 @@ pub fn candidates<'a>(garment: &Garment, present: &'a [Placed]) -> Vec<&'a Place
     found
 }
 
-fn part<'a>(block: &Block, placed: &'a Placed) -> Option<Part<'a>> {
+fn part<'a>(block: &Block, placed: &'a Placed) -> Option<ContactPart<'a>> {
     let (mut height, mut width) = (u16::from(block.rows), u16::from(block.columns));
     if block.orientation.transposed {
         std::mem::swap(&mut height, &mut width);
@@ -87,11 +87,11 @@ fn part<'a>(block: &Block, placed: &'a Placed) -> Option<Part<'a>> {
     let rows = bounds.top.max(block.row)..bounds.bottom.saturating_add(1).min(block.row + height);
     let columns = bounds.left.max(block.column)..bounds.right.saturating_add(1).min(block.column + width);
     let inside = bounds.panel == block.panel && !rows.is_empty() && !columns.is_empty();
-    inside.then_some(Part { placed, rows, columns })
+    inside.then_some(ContactPart { placed, rows, columns })
 }
 
-fn is_candidate(ghost: &Part<'_>, parts: &[Part<'_>]) -> bool {
-    let stronger: Vec<&Part<'_>> = parts.iter().filter(|part| part.peak() > ghost.peak()).collect();
+fn is_candidate(ghost: &ContactPart<'_>, parts: &[ContactPart<'_>]) -> bool {
+    let stronger: Vec<&ContactPart<'_>> = parts.iter().filter(|part| part.peak() > ghost.peak()).collect();
     let meet = |a: &Range<u16>, b: &Range<u16>| a.start < b.end && b.start < a.end;
     stronger.iter().filter(|a| meet(&a.rows, &ghost.rows) && !meet(&a.columns, &ghost.columns)).any(|a| {
         stronger

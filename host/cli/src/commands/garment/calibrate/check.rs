@@ -16,7 +16,7 @@ use taxel_core::garment::Layout;
 
 /// Arguments of `taxel calibrate check`.
 #[derive(Debug, Clone, Args)]
-pub struct CheckArgs {
+pub struct CalibrationCheckArgs {
     /// Calibration file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
@@ -41,7 +41,7 @@ pub struct CheckArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &CheckArgs) -> Result<()> {
+pub fn run(args: &CalibrationCheckArgs) -> Result<()> {
     let above = |value: Option<f64>| value.is_none_or(|value| value.is_finite() && value > 0.0);
     ensure!(above(args.press), Fault::usage("--press must be a force above 0"));
     ensure!(above(args.every), Fault::usage("--every must be a time above 0"));
@@ -67,7 +67,7 @@ pub fn run(args: &CheckArgs) -> Result<()> {
 }
 
 /// Checks the garment once.
-fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
+fn reasons(args: &CalibrationCheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let mut board = RawBoard::open(&args.source)?;
     let worn = board.worn().context("the board has not sent its garment").board()?;
     let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
@@ -92,7 +92,7 @@ fn reasons(args: &CheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     Ok(judge(calibration, &seen))
 }
 
-fn tell(args: &CheckArgs, calibration: &Calibration, reasons: &[Reason]) {
+fn tell(args: &CalibrationCheckArgs, calibration: &Calibration, reasons: &[Reason]) {
     if args.json {
         let why: Vec<String> = reasons.iter().map(ToString::to_string).collect();
         let line = json!({ "type": "check", "id": calibration.id, "holds": why.is_empty(), "why": why });

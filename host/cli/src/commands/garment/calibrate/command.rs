@@ -1,7 +1,7 @@
 //! The command `taxel calibrate`.
 
-use super::check::{self, CheckArgs};
-use super::task::{Task, calibrate};
+use super::check::{self, CalibrationCheckArgs};
+use super::task::{CalibrationTask, calibrate};
 use super::{install, operator};
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
@@ -97,7 +97,7 @@ enum Also {
     #[command(
         after_help = "Examples:\n  taxel calibrate check calibration.toml\n  taxel calibrate check calibration.toml --press 20"
     )]
-    Check(CheckArgs),
+    Check(CalibrationCheckArgs),
 }
 
 /// Runs the command.
@@ -113,7 +113,13 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
     if let (Some(garment), None) = (&args.garment, args.simulate) {
         board.wear(&taxel::files::garments::load(garment)?)?;
     }
-    let task = Task { over: Over::from(args.over), weights, by: by(args), wait: args.wait, json: args.json };
+    let task = CalibrationTask {
+        over: Over::from(args.over),
+        weights,
+        by: by(args),
+        wait: args.wait,
+        json: args.json,
+    };
     let made = calibrate(&mut board, &task)?;
     keep(&made, output)?;
     install(&mut board, &made)?;

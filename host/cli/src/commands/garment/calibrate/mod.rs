@@ -11,4 +11,4 @@ mod task;
 pub use command::{CalibrateArgs, run};
 pub use install::install;
 pub use operator::script;
-pub use task::{Task, calibrate};
+pub use task::{CalibrationTask, calibrate};

@@ -13,7 +13,7 @@ const TARE: u16 = 64;
 
 /// What to calibrate, and how.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Task {
+pub struct CalibrationTask {
     /// What the plate covers.
     pub over: Over,
     /// The weights, N, ascending.
@@ -27,7 +27,7 @@ pub struct Task {
 }
 
 /// Tares the board, asks for the weights and fits. The board's own calibration is not changed.
-pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
+pub fn calibrate(board: &mut RawBoard, task: &CalibrationTask) -> Result<Calibration> {
     let worn = board.worn().context("the board has not sent its garment").board()?;
     let (garment, firmware) = (worn.garment.clone(), worn.firmware.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
@@ -47,7 +47,7 @@ pub fn calibrate(board: &mut RawBoard, task: &Task) -> Result<Calibration> {
     Ok(Calibration { celsius: board.celsius(), ..Calibration::of(fitted, &layout, &rest, about) })
 }
 
-fn how(task: &Task, plates: usize) -> String {
+fn how(task: &CalibrationTask, plates: usize) -> String {
     let weights: Vec<_> = task.weights.iter().map(|weight| format!("{weight:.3}")).collect();
     let over = match task.over {
         Over::Panel => "panel",

@@ -15,7 +15,7 @@ use taxel::files::{garments, schemas};
 
 /// Kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
+pub enum FileKind {
     /// panels, blocks, pins, links of the body
     Garment,
     /// limits, map, reactions, stream of a deployment
@@ -24,22 +24,22 @@ pub enum Kind {
     Touches,
 }
 
-impl Kind {
+impl FileKind {
     /// JSON schema of such a file.
     pub fn schema(self) -> &'static str {
         match self {
-            Kind::Garment => schemas::GARMENT,
-            Kind::Scene => schemas::SCENE,
-            Kind::Touches => schemas::TOUCHES,
+            FileKind::Garment => schemas::GARMENT,
+            FileKind::Scene => schemas::SCENE,
+            FileKind::Touches => schemas::TOUCHES,
         }
     }
 
     /// Name of the schema's file beside such a file.
     fn schema_file(self) -> &'static str {
         match self {
-            Kind::Garment => "taxel-garment.schema.json",
-            Kind::Scene => "taxel-scene.schema.json",
-            Kind::Touches => "taxel-touches.schema.json",
+            FileKind::Garment => "taxel-garment.schema.json",
+            FileKind::Scene => "taxel-scene.schema.json",
+            FileKind::Touches => "taxel-touches.schema.json",
         }
     }
 }
@@ -88,8 +88,8 @@ enum What {
     #[command(after_help = "Example:\n  taxel config schema scene > taxel-scene.schema.json")]
     Schema {
         /// Kind of file
-        #[arg(value_enum, default_value_t = Kind::Garment)]
-        of: Kind,
+        #[arg(value_enum, default_value_t = FileKind::Garment)]
+        of: FileKind,
     },
 }
 
@@ -100,14 +100,14 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
             let text = garments::read(like)?.text;
             let begun = format!("# Like {like}. {}\n", next(file, ""));
             let output = Output::file(file, *force, [like])?;
-            begin(output, (*force).into(), Kind::Garment, &(begun + without_schema(&text)))
+            begin(output, (*force).into(), FileKind::Garment, &(begun + without_schema(&text)))
         }
         What::Scene { file, force } => {
             let next = next(Path::new("GARMENT.toml"), &format!(" --scene {}", file.display()));
             let comment = format!("# The shipped scene; missing keys keep these values. {next}\n");
             let none: [&Path; 0] = [];
             let output = Output::file(file, *force, none)?;
-            begin(output, (*force).into(), Kind::Scene, &(comment + &scene::text()?))
+            begin(output, (*force).into(), FileKind::Scene, &(comment + &scene::text()?))
         }
         What::Check { garment, scene } => {
             println!("{}", check(garment, scene.as_deref())?);
@@ -133,7 +133,7 @@ fn next(file: &Path, more: &str) -> String {
 }
 
 /// Writes a file, and its schema beside it.
-fn begin(output: Output, force: Force, kind: Kind, text: &str) -> Result<()> {
+fn begin(output: Output, force: Force, kind: FileKind, text: &str) -> Result<()> {
     let file = output.name().to_path_buf();
     let schema = file.with_file_name(kind.schema_file());
     let is_known = fs::read(&schema).is_ok_and(|known| known == kind.schema().as_bytes());

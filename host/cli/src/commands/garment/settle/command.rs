@@ -47,12 +47,12 @@ pub struct SettleArgs {
 }
 
 /// A board whose garment is sent again with each settling time.
-struct Worn<'a> {
+struct SettledBoard<'a> {
     board: &'a mut RawBoard,
     garment: Garment,
 }
 
-impl Scanner for Worn<'_> {
+impl Scanner for SettledBoard<'_> {
     fn scan(&mut self, settle_ns: u32, frames: u32) -> Result<Vec<f64>> {
         self.garment.wiring.settle_ns = settle_ns;
         self.board.wear(&self.garment)?;
@@ -86,7 +86,8 @@ pub fn run(args: &SettleArgs) -> Result<()> {
             board.label()
         );
     }
-    let settled = settle(&mut Worn { board: &mut board, garment: garment.clone() }, &garment, args.error)?;
+    let settled =
+        settle(&mut SettledBoard { board: &mut board, garment: garment.clone() }, &garment, args.error)?;
     let before_ns = garment.wiring.settle_ns;
     garment.wiring.settle_ns = settled.settle_ns;
     board.leave(&garment)?;

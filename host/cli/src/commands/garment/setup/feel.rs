@@ -1,6 +1,6 @@
 //! Finds touches in raw frames: learns the rest codes first; each departure from them is one touch.
 
-use super::touch::{Moment, Touch};
+use super::touch::{Touch, TouchFrame};
 
 /// Frames from which the rest codes are learnt.
 const REST: u32 = 16;
@@ -58,7 +58,7 @@ impl Feeler {
             .map(|(address, signal, _)| (address, signal))
             .collect();
         if !felt.is_empty() {
-            self.touch.moments.push(Moment { time, felt });
+            self.touch.moments.push(TouchFrame { time, felt });
             return None;
         }
         for (rest, code) in self.rest.iter_mut().zip(codes) {

@@ -31,5 +31,5 @@ pub use command::{SetupArgs, run};
 pub use feel::Feeler;
 pub use reading::{Blocks, Felt, Reading};
 pub use solver::{Found, Next, Solver};
-pub use touch::{Moment, Touch, Trace};
+pub use touch::{Touch, TouchFrame, Trace};
 pub use user::User;

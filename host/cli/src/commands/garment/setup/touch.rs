@@ -8,7 +8,7 @@ const FAINT: f64 = 0.1;
 
 /// One frame of a touch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Moment {
+pub struct TouchFrame {
     /// Time of the board, s.
     pub time: f64,
     /// Touched addresses and their signals, counts above rest.
@@ -19,7 +19,7 @@ pub struct Moment {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Touch {
     /// The frames in which something was felt.
-    pub moments: Vec<Moment>,
+    pub moments: Vec<TouchFrame>,
 }
 
 /// Signal of one address during a touch.
@@ -58,7 +58,7 @@ impl Touch {
     }
 }
 
-impl Moment {
+impl TouchFrame {
     /// Addresses under the finger itself.
     pub fn strong(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let most = self.felt.iter().map(|(_, signal)| *signal).fold(0.0, f32::max);

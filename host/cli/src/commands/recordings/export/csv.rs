@@ -13,7 +13,7 @@
 //! Rows are assembled from texts that are formatted once: the beginning of a taxel's rows, each voltage, each
 //! pressure.
 
-use super::frames::{self, Frame, Frames, Worn};
+use super::frames::{self, Frame, Frames, RecordedGarment};
 use anyhow::Result;
 use std::io::Write;
 use std::rc::Rc;
@@ -26,14 +26,14 @@ const PIECE: usize = 1 << 16;
 
 /// Options of the table.
 #[derive(Debug, Clone, Copy)]
-pub struct Table {
+pub struct ContactTable {
     /// Only taxels with pressure.
     pub touched: bool,
     /// Reference voltage of the converter, V.
     pub reference: f64,
 }
 
-impl Table {
+impl ContactTable {
     /// Writes the table. Returns the number of frames, and of those with voltages.
     pub fn write(&self, frames: &Frames<'_>, out: &mut impl Write) -> Result<[u64; 2]> {
         let mut texts = Texts::default();
@@ -54,10 +54,10 @@ impl Table {
             let values = frames::panel(area, &frame.values);
             let codes = frames::panel(area, &frame.codes);
             if texts.panels.len() == panel {
-                texts.panels.push(Panel::of(area));
+                texts.panels.push(PanelRows::of(area));
             }
             let Texts { buffer, panels, volts } = texts;
-            let Panel { heads, tails } = &mut panels[panel];
+            let PanelRows { heads, tails } = &mut panels[panel];
             for (index, (counts, head)) in values.iter().zip(heads).enumerate() {
                 if self.touched && *counts == 0 {
                     continue;
@@ -81,7 +81,7 @@ impl Table {
 }
 
 /// End of a row: pressure and unit.
-fn tail(worn: &Rc<Worn>, panel: usize, counts: u16) -> String {
+fn tail(worn: &Rc<RecordedGarment>, panel: usize, counts: u16) -> String {
     let (unit, value) = (worn.units.name(panel), worn.units.value(panel, counts));
     let pressure = if unit == "counts" { value.to_string() } else { format!("{value:.4}") };
     format!(",{pressure},{unit}\n")
@@ -91,18 +91,18 @@ fn tail(worn: &Rc<Worn>, panel: usize, counts: u16) -> String {
 #[derive(Default)]
 struct Texts {
     buffer: Vec<u8>,
-    panels: Vec<Panel>,
+    panels: Vec<PanelRows>,
     volts: Memo,
 }
 
 /// Beginnings of the rows of each taxel after the time, and ends of the rows by pressure.
-struct Panel {
+struct PanelRows {
     heads: Vec<String>,
     tails: Memo,
 }
 
-impl Panel {
-    fn of(area: &Area) -> Panel {
+impl PanelRows {
+    fn of(area: &Area) -> PanelRows {
         let [x, y] = area.pitch_um.map(|um| f64::from(um) / 1000.0);
         let place = |index: u16, pitch: f64| {
             if pitch > 0.0 { format!("{:.3}", f64::from(index) * pitch) } else { String::new() }
@@ -112,7 +112,7 @@ impl Panel {
         let head = |(row, column)| {
             format!(",{name},{row},{column},{},{},{link},,,,", place(column, x), place(row, y))
         };
-        Panel { heads: cells.map(head).collect(), tails: Memo::default() }
+        PanelRows { heads: cells.map(head).collect(), tails: Memo::default() }
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Frames<'a> {
 
 /// Properties that hold for all images.
 #[derive(Debug)]
-pub struct Worn {
+pub struct RecordedGarment {
     /// Geometry of the garment.
     pub layout: Layout,
     /// Units of its panels.
@@ -48,7 +48,7 @@ pub struct Frame {
     /// Host time of the start, us since 1970.
     pub host_us: u64,
     /// Properties of the board.
-    pub worn: Rc<Worn>,
+    pub worn: Rc<RecordedGarment>,
     /// Pressure by taxel number, counts.
     pub values: Vec<u16>,
     /// Raw code by taxel number; empty if none were recorded for this scan.
@@ -118,7 +118,12 @@ impl<'a> Frames<'a> {
         Ok(count)
     }
 
-    fn worn(&self, client: &Client, known: Option<&Rc<Worn>>, frame: u32) -> Result<Option<Rc<Worn>>> {
+    fn worn(
+        &self,
+        client: &Client,
+        known: Option<&Rc<RecordedGarment>>,
+        frame: u32,
+    ) -> Result<Option<Rc<RecordedGarment>>> {
         let Some(now) = client.worn() else { return Ok(None) };
         match known {
             Some(known) if known.layout != now.layout => bail!("the garment changes at frame {frame}"),
@@ -132,7 +137,7 @@ impl<'a> Frames<'a> {
                 let units = scale.unwrap_or_else(|| Ok(Units::counts(&now.layout)))?;
                 let concepts = client.concepts().to_vec();
                 let (layout, calibration) = (now.layout.clone(), now.calibration.clone());
-                Ok(Some(Rc::new(Worn { layout, units, concepts, calibration })))
+                Ok(Some(Rc::new(RecordedGarment { layout, units, concepts, calibration })))
             }
         }
     }
@@ -147,7 +152,7 @@ struct Current {
 }
 
 impl Current {
-    fn worn(&self) -> Option<&Rc<Worn>> {
+    fn worn(&self) -> Option<&Rc<RecordedGarment>> {
         self.image.as_ref().map(|image| &image.worn)
     }
 
@@ -161,7 +166,13 @@ impl Current {
         self.image.as_ref().filter(|_| waits).map_or(Ok(()), take)
     }
 
-    fn put(&mut self, client: &Client, worn: Rc<Worn>, number: u32, [board_us, host_us]: [u64; 2]) {
+    fn put(
+        &mut self,
+        client: &Client,
+        worn: Rc<RecordedGarment>,
+        number: u32,
+        [board_us, host_us]: [u64; 2],
+    ) {
         let image = self.image.get_or_insert_with(|| Frame {
             number,
             board_us,

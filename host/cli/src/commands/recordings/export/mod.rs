@@ -86,7 +86,7 @@ fn png(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
 /// Writes the table of taxels, and reports missing voltages.
 fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Result<u64> {
     let [count, with_volts] =
-        csv::Table { touched: args.touched, reference: args.reference }.write(frames, out)?;
+        csv::ContactTable { touched: args.touched, reference: args.reference }.write(frames, out)?;
     if with_volts == 0 {
         eprintln!(
             "No raw codes were recorded, so the column of volts is empty: `taxel record --raw` records them."

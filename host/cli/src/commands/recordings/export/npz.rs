@@ -13,7 +13,7 @@
 
 use super::archive::Archive;
 use super::entries::Entries;
-use super::frames::{self, Frame, Frames, Worn};
+use super::frames::{self, Frame, Frames, RecordedGarment};
 use super::npy::{Array, Number};
 use anyhow::{Context, Result};
 use std::io::{Seek, Write};
@@ -22,17 +22,17 @@ use std::rc::Rc;
 use taxel_core::body::Placed;
 
 /// Name of an array, and its value for a contact.
-type Column<T> = (&'static str, fn(&Placed) -> T);
+type ContactArray<T> = (&'static str, fn(&Placed) -> T);
 
 /// Arrays of contacts, with integers and with floats.
-const WHOLE: [Column<u32>; 5] = [
+const WHOLE: [ContactArray<u32>; 5] = [
     ("contact_id", |placed| placed.contact.id),
     ("contact_panel", |placed| placed.contact.panel.into()),
     ("contact_total", |placed| placed.contact.total),
     ("contact_peak", |placed| placed.contact.peak.into()),
     ("contact_area", |placed| placed.contact.area.into()),
 ];
-const REAL: [Column<f64>; 4] = [
+const REAL: [ContactArray<f64>; 4] = [
     ("contact_x", |placed| placed.contact.x.to_f64()),
     ("contact_y", |placed| placed.contact.y.to_f64()),
     ("contact_azimuth", |placed| placed.contact.azimuth.map_or(f64::NAN, |turn| turn.to_radians())),
@@ -75,7 +75,7 @@ struct Arrays {
 
 impl Arrays {
     /// Arrays for this many frames and contacts.
-    fn begin(output: &Path, worn: &Rc<Worn>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
+    fn begin(output: &Path, worn: &Rc<RecordedGarment>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
         let list = |name: &str, kind: &str, size: u64| Array::begin(output, name, kind, &[size]);
         let mut taken =
             Entries::of(OWN.into_iter().chain(WHOLE.map(|(name, _)| name)).chain(REAL.map(|(name, _)| name)));
@@ -129,7 +129,7 @@ impl Arrays {
 }
 
 /// Names of the concepts as NumPy texts: all of one length, four bytes per character.
-fn names(output: &Path, worn: &Worn) -> Result<Array> {
+fn names(output: &Path, worn: &RecordedGarment) -> Result<Array> {
     let names = worn.concepts.iter().map(|name| name.chars().map(u32::from).collect::<Vec<_>>());
     let longest = names.clone().map(|name| name.len()).max().unwrap_or(0).max(1);
     let mut array = Array::begin(output, "concepts", &format!("<U{longest}"), &[worn.concepts.len() as u64])?;

@@ -15,7 +15,7 @@ const SMALL: u64 = 8 << 20;
 const FRAMES: &str = "/taxel/frames";
 
 /// Contents and state of a file.
-pub struct Found<'a> {
+pub struct Contents<'a> {
     file: &'a Path,
     bytes: u64,
     overview: Overview,
@@ -27,15 +27,15 @@ pub struct Found<'a> {
     repaired: bool,
 }
 
-impl Found<'_> {
+impl Contents<'_> {
     /// Inspects a file by its summary. Reads all of it if `check` is set or the file is small.
-    pub fn of(file: &Path, check: bool, repaired: bool) -> Result<Found<'_>> {
+    pub fn of(file: &Path, check: bool, repaired: bool) -> Result<Contents<'_>> {
         let bytes = std::fs::metadata(file).map_or(0, |known| known.len());
         let read = check || bytes <= SMALL || footer(file)?.is_none();
         let scan = read.then(|| scan(file)).transpose()?;
         let overview =
             scan.as_ref().map_or_else(|| Overview::of(file), |scan| Ok(Overview::found(file, scan)))?;
-        let mut found = Found {
+        let mut found = Contents {
             file,
             bytes,
             frames: overview.messages(FRAMES),

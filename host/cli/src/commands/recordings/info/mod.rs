@@ -5,7 +5,7 @@ mod found;
 use super::repair::RepairArgs;
 use anyhow::Result;
 use clap::Args;
-use found::Found;
+use found::Contents;
 use std::path::PathBuf;
 use taxel::tell::words::printable_json;
 
@@ -29,7 +29,7 @@ pub struct InfoArgs {
 pub fn run(args: InfoArgs) -> Result<()> {
     let repaired = args.repair.repair;
     let file = if repaired { args.repair.run(&args.file)? } else { args.file };
-    let found = Found::of(&file, args.check, repaired)?;
+    let found = Contents::of(&file, args.check, repaired)?;
     if args.json {
         println!("{}", printable_json(&found.json().to_string()));
     } else {

@@ -21,12 +21,12 @@ pub struct Episode<'a> {
     first: u64,
     fps: f64,
     sampler: Sampler,
-    open: Option<Open>,
+    open: Option<EpisodeState>,
     length: u64,
 }
 
 /// State from the first image on.
-struct Open {
+struct EpisodeState {
     table: Table,
     names: Vec<String>,
     /// Values of each feature of the last image, and its time.
@@ -47,7 +47,7 @@ impl Episode<'_> {
         &mut self,
         frame: &Frame,
         known: &mut Option<Features>,
-        stats: &mut stats::Table,
+        stats: &mut stats::Statistics,
     ) -> Result<()> {
         let rows = self.sampler.passed(frame.board_us, false);
         self.put(rows, stats)?;
@@ -59,7 +59,7 @@ impl Episode<'_> {
                 "its garment, units or concepts differ from those of the first recording"
             );
             let columns = features.columns();
-            self.open = Some(Open {
+            self.open = Some(EpisodeState {
                 names: columns.iter().map(|column| column.name.clone()).collect(),
                 waiting: columns.iter().map(|column| column.kind.none()).collect(),
                 table: Table::create(self.folder, &self.path, columns, None)?,
@@ -74,7 +74,7 @@ impl Episode<'_> {
     }
 
     /// Writes the last image to these rows.
-    fn put(&mut self, rows: std::ops::Range<u64>, stats: &mut stats::Table) -> Result<()> {
+    fn put(&mut self, rows: std::ops::Range<u64>, stats: &mut stats::Statistics) -> Result<()> {
         let Some(open) = &mut self.open else { return Ok(()) };
         for row in rows {
             let time = (row as f64 / self.fps) as f32;
@@ -97,7 +97,7 @@ impl Episode<'_> {
     }
 
     /// Writes the rest. Returns the number of rows, and of leaps in time.
-    pub fn finish(mut self, stats: &mut stats::Table) -> Result<[u64; 2]> {
+    pub fn finish(mut self, stats: &mut stats::Statistics) -> Result<[u64; 2]> {
         let end = self.open.as_ref().map_or(0, |open| open.last.1);
         let rows = self.sampler.passed(end, true);
         self.put(rows, stats)?;
@@ -109,7 +109,7 @@ impl Episode<'_> {
     }
 }
 
-impl Open {
+impl EpisodeState {
     fn flush(&mut self) -> Result<()> {
         if self.rows > 0 {
             self.table.rows(&self.waiting)?;

@@ -1,7 +1,7 @@
 //! Features of a data set: the contents of a row.
 
-use super::parquet::{Column, Kind};
-use crate::commands::recordings::export::frames::{self, Frame, Worn};
+use super::parquet::{Column, ColumnType};
+use crate::commands::recordings::export::frames::{self, Frame, RecordedGarment};
 use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taxel_core::garment::Area;
@@ -25,7 +25,7 @@ pub struct Features {
 
 impl Features {
     /// Features of a garment with its scene. Error if two panels' features would have the same name.
-    pub fn of(worn: &Worn) -> Result<Features> {
+    pub fn of(worn: &RecordedGarment) -> Result<Features> {
         let areas = worn.layout.areas().to_vec();
         let units = (0..areas.len()).map(|panel| worn.units.name(panel)).collect();
         let concepts = worn.concepts.iter().map(ToString::to_string).collect();
@@ -51,9 +51,10 @@ impl Features {
 
     /// Columns of a file, with LeRobot's own at the end.
     pub fn columns(&self) -> Vec<Column> {
-        let ours = self.shapes().into_iter().map(|(name, shape)| Column { name, kind: Kind::Floats(shape) });
+        let ours =
+            self.shapes().into_iter().map(|(name, shape)| Column { name, kind: ColumnType::Floats(shape) });
         let own = OWN.map(|(name, whole)| {
-            let kind = if whole { Kind::Whole } else { Kind::Floats(vec![1]) };
+            let kind = if whole { ColumnType::Whole } else { ColumnType::Floats(vec![1]) };
             Column { name: name.into(), kind }
         });
         ours.chain(own).collect()

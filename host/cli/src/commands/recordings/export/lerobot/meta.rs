@@ -1,7 +1,7 @@
 //! Metadata of the data set.
 
 use super::features::Features;
-use super::parquet::{Column, Kind, Table, Values};
+use super::parquet::{Column, ColumnType, Table, Values};
 use super::{CHUNK, Choices, stats};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
@@ -20,14 +20,14 @@ pub fn data_path(episode: usize) -> String {
 pub fn write(
     folder: &Folder,
     features: &Features,
-    stats: &stats::Table,
+    stats: &stats::Statistics,
     episodes: &[u64],
     choices: &Choices<'_>,
 ) -> Result<()> {
     tasks(folder, choices.task)?;
     list(folder, episodes, choices.task)?;
     let shapes = features.columns().into_iter().map(|column| match column.kind {
-        Kind::Floats(shape) => (column.name, shape),
+        ColumnType::Floats(shape) => (column.name, shape),
         _ => (column.name, vec![1]),
     });
     let all: serde_json::Map<_, _> =
@@ -64,7 +64,7 @@ fn put(folder: &Folder, path: &str, value: &Value) -> Result<()> {
 /// The single task. LeRobot reads it with pandas, by its index.
 fn tasks(folder: &Folder, task: &str) -> Result<()> {
     let column = |name: &str, kind| Column { name: name.into(), kind };
-    let columns = vec![column("task_index", Kind::Whole), column("task", Kind::Text)];
+    let columns = vec![column("task_index", ColumnType::Whole), column("task", ColumnType::Text)];
     let described = |name: &str, pandas: &str, numpy: &str| json!({ "name": name, "field_name": name, "pandas_type": pandas, "numpy_type": numpy, "metadata": null });
     let pandas = json!({
         "index_columns": ["task"],
@@ -98,8 +98,8 @@ fn list(folder: &Folder, episodes: &[u64], task: &str) -> Result<()> {
         ("length", lengths),
     ];
     let mut columns: Vec<_> =
-        whole.iter().map(|(name, _)| Column { name: name.to_string(), kind: Kind::Whole }).collect();
-    columns.push(Column { name: "tasks".into(), kind: Kind::Texts });
+        whole.iter().map(|(name, _)| Column { name: name.to_string(), kind: ColumnType::Whole }).collect();
+    columns.push(Column { name: "tasks".into(), kind: ColumnType::Texts });
     let mut values: Vec<_> = whole.into_iter().map(|(_, numbers)| Values::Whole(numbers)).collect();
     values.push(Values::Texts(vec![task.into(); count]));
     let mut table = Table::create(folder, "meta/episodes/chunk-000/file-000.parquet", columns, None)?;

@@ -46,7 +46,7 @@ pub struct Choices<'a> {
 /// Writes the data set of these recordings. Returns the number of rows.
 pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: Folder) -> Result<u64> {
     let mut known: Option<Features> = None;
-    let mut stats = stats::Table::default();
+    let mut stats = stats::Statistics::default();
     let mut episodes = Vec::new();
     let mut rows = 0;
     for (index, frames) in recordings.iter().enumerate() {

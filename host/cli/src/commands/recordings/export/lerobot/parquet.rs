@@ -14,7 +14,7 @@ use taxel::files::output::Folder;
 
 /// Type of a column.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnType {
     /// Floats in this shape; one number for shape \[1\].
     Floats(Vec<usize>),
     /// An integer.
@@ -31,26 +31,26 @@ pub struct Column {
     /// Name.
     pub name: String,
     /// Type.
-    pub kind: Kind,
+    pub kind: ColumnType,
 }
 
 /// Rows of a column, one after the other.
 #[derive(Debug, Clone)]
 pub enum Values {
-    /// Of [`Kind::Floats`].
+    /// Of [`ColumnType::Floats`].
     Floats(Vec<f32>),
-    /// Of [`Kind::Whole`].
+    /// Of [`ColumnType::Whole`].
     Whole(Vec<i64>),
-    /// Of [`Kind::Text`] and [`Kind::Texts`].
+    /// Of [`ColumnType::Text`] and [`ColumnType::Texts`].
     Texts(Vec<String>),
 }
 
-impl Kind {
+impl ColumnType {
     /// Shape of a row.
     fn shape(&self) -> &[usize] {
         match self {
-            Kind::Floats(shape) if shape[..] != [1] => shape,
-            Kind::Texts => &[1],
+            ColumnType::Floats(shape) if shape[..] != [1] => shape,
+            ColumnType::Texts => &[1],
             _ => &[],
         }
     }
@@ -58,17 +58,17 @@ impl Kind {
     /// No rows.
     pub fn none(&self) -> Values {
         match self {
-            Kind::Floats(_) => Values::Floats(Vec::new()),
-            Kind::Whole => Values::Whole(Vec::new()),
-            Kind::Text | Kind::Texts => Values::Texts(Vec::new()),
+            ColumnType::Floats(_) => Values::Floats(Vec::new()),
+            ColumnType::Whole => Values::Whole(Vec::new()),
+            ColumnType::Text | ColumnType::Texts => Values::Texts(Vec::new()),
         }
     }
 
     fn leaf(&self) -> (Physical, Option<LogicalType>) {
         match self {
-            Kind::Floats(_) => (Physical::FLOAT, None),
-            Kind::Whole => (Physical::INT64, None),
-            Kind::Text | Kind::Texts => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+            ColumnType::Floats(_) => (Physical::FLOAT, None),
+            ColumnType::Whole => (Physical::INT64, None),
+            ColumnType::Text | ColumnType::Texts => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         }
     }
 

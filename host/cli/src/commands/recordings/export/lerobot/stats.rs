@@ -34,9 +34,9 @@ struct Feature {
 
 /// Statistics of all features.
 #[derive(Debug, Default)]
-pub struct Table(BTreeMap<String, Feature>);
+pub struct Statistics(BTreeMap<String, Feature>);
 
-impl Table {
+impl Statistics {
     /// Adds a row of a feature.
     pub fn take(&mut self, name: &str, values: impl ExactSizeIterator<Item = f64>) {
         if !self.0.contains_key(name) {
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn sums_are_those_of_the_book() {
-        let mut table = Table::default();
+        let mut table = Statistics::default();
         for row in [[1.0, 5.0], [2.0, 5.0], [6.0, 5.0]] {
             table.take("a", row.into_iter());
         }

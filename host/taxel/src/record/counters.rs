@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Counters shown while recording.
 #[derive(Debug, Default)]
-pub struct Progress {
+pub struct Counters {
     frames: u64,
     earlier_frames: u64,
     lost: u64,
@@ -17,7 +17,7 @@ pub struct Progress {
     files: u32,
 }
 
-impl Progress {
+impl Counters {
     /// Handles an event, `passed_us` after the start of the file.
     pub fn take(&mut self, client: &Client, event: &Event, passed_us: u64) {
         self.frames += u64::from(matches!(event, Event::Frame { .. }));
