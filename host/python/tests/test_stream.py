@@ -11,6 +11,7 @@ import threading
 import time
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 import taxel
 from conftest import program
@@ -42,7 +43,7 @@ def test_images_are_the_pixels_of_the_program() -> None:
 
 
 def test_arrays_stay_as_they_were() -> None:
-    kept: list[tuple[np.ndarray, bytes]] = []
+    kept: list[tuple[npt.NDArray[np.uint16], bytes]] = []
     with taxel.open("sim:five", frames=400) as board:
         for event in board:
             if isinstance(event, taxel.Frame) and event.image is not None:

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from .touch import INTENTIONS, Seen
 
@@ -48,7 +49,7 @@ def dataset_features(rows: int, taxels: int) -> dict[str, dict[str, Any]]:
     }
 
 
-def dataset_frame(seen: Seen) -> dict[str, np.ndarray]:
+def dataset_frame(seen: Seen) -> dict[str, npt.NDArray[Any]]:
     """The row of a window, to be added to a data set's row. Counts of 16 bits are exact in ``float32``."""
     window = seen.window
     return {

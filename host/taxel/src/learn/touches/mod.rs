@@ -38,5 +38,5 @@ pub use settings::{EARLY, TrainSettings, grid};
 pub use table::Table;
 pub use windows::Windows;
 
-/// Cards of the shipped models.
+/// Cards of the shipped models: the page of the docs, by a link within the package.
 pub const CARDS: &str = include_str!("../../../models.md");
