@@ -13,7 +13,6 @@ use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
-use heapless::Vec;
 
 /// Most contacts tracked at a time.
 pub const CONTACTS: usize = 32;
@@ -23,9 +22,7 @@ pub const CONTACTS: usize = 32;
 pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     /// Baseline, gains, images.
     pub condition: ConditionState<TAXELS>,
-    pub(super) contact: ContactState<CONTACTS, RUNS, PARTS>,
-    pub(super) present: Vec<Placed, CONTACTS>,
-    pub(super) released: Vec<Placed, CONTACTS>,
+    pub(super) contact: ContactState<CONTACTS, RUNS, PARTS, Placed>,
     pub(super) unsure: UnsureState<CONTACTS>,
     pub(super) symbol: SymbolState<CONTACTS>,
     pub(super) gesture: GestureState,
@@ -47,9 +44,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
         PipelineState {
             // Constants: written in place, without a copy on the stack.
             condition: const { ConditionState::new() },
-            contact: const { ContactState::new() },
-            present: Vec::new(),
-            released: Vec::new(),
+            contact: const { ContactState::with_slots() },
             unsure: const { UnsureState::new() },
             symbol: SymbolState::default(),
             gesture: const { GestureState::new() },
@@ -106,7 +101,17 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
 
     /// True if there was a contact in the last frame.
     pub fn is_touched(&self) -> bool {
-        !self.present.is_empty()
+        !self.contact.present().is_empty()
+    }
+
+    /// Present contacts of the last frame.
+    pub(crate) fn present(&self) -> &[Placed] {
+        self.contact.present()
+    }
+
+    /// Age of their forms, frames.
+    pub(crate) fn form_ages(&self) -> &[u8] {
+        self.contact.form_ages()
     }
 
     /// Which contacts of the last frame may be drift.
@@ -126,7 +131,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
 
     /// Forgets all classes of shapes after a change of the base; recognition resumes with the next frame.
     pub fn recognise_shapes_anew(&mut self) {
-        self.present.iter_mut().for_each(|placed| placed.shape.forget_class());
+        self.contact.slots().iter_mut().for_each(|placed| placed.shape.forget_class());
         self.symbol.forget_classes();
     }
 

@@ -12,7 +12,7 @@ use super::seen::seen;
 use super::space::Space;
 use super::stage::Shape;
 use crate::condition::Image;
-use crate::contact::{Contact, ContactState};
+use crate::contact::{Contact, ContactState, Slot};
 use crate::format::{Invalid, Name, Q15};
 use crate::garment::Layout;
 use heapless::Vec;
@@ -126,9 +126,9 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
     }
 
     /// Describes and recognises a contact, number `index` of those in `contacts`; see [`seen`].
-    pub fn look<const RUNS: usize, const PARTS: usize>(
+    pub fn look<const RUNS: usize, const PARTS: usize, S: Slot>(
         &mut self,
-        contacts: &ContactState<CONTACTS, RUNS, PARTS>,
+        contacts: &ContactState<CONTACTS, RUNS, PARTS, S>,
         layout: &Layout,
         image: &Image<'_>,
         (index, contact): (usize, &Contact),

@@ -4,6 +4,7 @@
 //! [`reunite`] keeps what has hardly parted together; [`tracks`] updates, merges, splits and releases.
 //! [`motion`] follows the centroid or the [`pattern`] inside a contact, by the optical [`flow`] of its
 //! [`gradient`]; [`slip`] reports when it slips.
+//! [`slot`] is an entry of the table of contacts.
 
 pub(crate) mod assign;
 pub(crate) mod flow;
@@ -13,4 +14,5 @@ pub(crate) mod pattern;
 pub(crate) mod point;
 pub(crate) mod reunite;
 pub(crate) mod slip;
+pub(crate) mod slot;
 pub(crate) mod tracks;

@@ -1,0 +1,215 @@
+//! The list of contacts that waits for the link. Present contacts are told from the table of contacts; only
+//! those that have left it are copied.
+
+use crate::body::Placed;
+use crate::contact::{Contact, Phase};
+use crate::format::Micros;
+use crate::pipeline::{CONTACTS, Percept};
+use crate::wire::{Health, LISTED};
+use heapless::Vec;
+use serde::ser::{Serialize, SerializeSeq, SerializeStruct, Serializer};
+
+/// What is to be told of the newest frame, and of what ended since the last list was sent.
+pub(super) struct ContactQueue {
+    /// True if the list is to be sent.
+    pub waits: bool,
+    /// Number of the newest frame.
+    pub frame: u32,
+    /// Its time.
+    pub time: Micros,
+    dropped: u16,
+    /// Number of present contacts that have a place in the list: the first ones.
+    listed: u16,
+    /// Present contacts whose onset was not told yet.
+    begun: Vec<Begun, CONTACTS>,
+    /// Contacts that ended, in the order of the list.
+    ended: Vec<Ended, CONTACTS>,
+}
+
+/// A contact whose onset was not told yet, in the last frame in which it was present.
+#[derive(Clone, Copy)]
+struct Begun {
+    id: u32,
+    total: u32,
+    duration_ms: u32,
+}
+
+/// A contact that ended.
+struct Ended {
+    placed: Placed,
+    /// Number of the frame with which it ended.
+    frame: u32,
+    /// Set if its onset was not told yet either.
+    begun: Option<Begun>,
+}
+
+impl Begun {
+    fn of(placed: &Placed) -> Begun {
+        let contact = &placed.contact;
+        Begun { id: contact.id, total: contact.total, duration_ms: contact.duration_ms }
+    }
+}
+
+impl Ended {
+    /// Number of its entries in the list.
+    fn entries(&self) -> usize {
+        if self.begun.is_some() { 2 } else { 1 }
+    }
+}
+
+impl ContactQueue {
+    pub const fn new() -> Self {
+        ContactQueue {
+            waits: false,
+            frame: 0,
+            time: Micros(0),
+            dropped: 0,
+            listed: 0,
+            begun: Vec::new(),
+            ended: Vec::new(),
+        }
+    }
+
+    /// Drops everything.
+    pub fn clear(&mut self) {
+        self.waits = false;
+        self.begun.clear();
+        self.ended.clear();
+    }
+
+    /// Resets the classes of the contacts that ended: those of another base of shapes.
+    pub fn forget_classes(&mut self) {
+        self.ended.iter_mut().for_each(|ended| ended.placed.shape.forget_class());
+    }
+
+    /// Takes the newest frame; `due` if the rate of the stream allows a list of it. Onsets and ends are
+    /// always sent.
+    pub fn take(
+        &mut self,
+        (frame, time): (u32, Micros),
+        percept: &Percept<'_>,
+        due: bool,
+        health: &mut Health,
+    ) {
+        if self.waits {
+            health.thinned_contacts += u32::from(due);
+        } else {
+            self.clear();
+        }
+        (self.frame, self.time, self.dropped) = (frame, time, percept.dropped);
+        if self.ended.is_empty() && percept.released.is_empty() {
+            self.listed = percept.present.len() as u16;
+        } else {
+            self.end(percept, health);
+        }
+        self.begun.retain_mut(|begun| {
+            let present = percept.present.iter().find(|placed| placed.contact.id == begun.id);
+            present.is_some_and(|placed| {
+                *begun = Begun::of(placed);
+                true
+            })
+        });
+        let mut news = false;
+        let is_onset = |placed: &Placed| placed.contact.phase == Phase::Onset;
+        for (index, placed) in percept.present.iter().enumerate().filter(|(_, placed)| is_onset(placed)) {
+            news = true;
+            if index < self.listed.into() {
+                // Always room: as many places as contacts.
+                let _ = self.begun.push(Begun::of(placed));
+            }
+        }
+        self.waits |= due || news || !percept.released.is_empty();
+    }
+
+    /// Keeps the contacts that ended with the frame, and counts those that have no place in the list: the
+    /// present ones come first.
+    #[inline(never)] // M0+: out of line
+    fn end(&mut self, percept: &Percept<'_>, health: &mut Health) {
+        let onsets = percept.released.iter().filter(|placed| self.begun_of(placed).is_some()).count();
+        let entries = self.ended.iter().map(Ended::entries).sum::<usize>();
+        let room = LISTED.saturating_sub(entries + onsets);
+        let listed = percept.present.len().min(room);
+        health.lost += (percept.present.len() - listed) as u32;
+        self.listed = listed as u16;
+        for (index, placed) in percept.released.iter().enumerate() {
+            let begun = self.begun_of(placed);
+            let ended = Ended { placed: placed.clone(), frame: self.frame, begun };
+            let fits = index < room - listed && self.ended.push(ended).is_ok();
+            health.lost += u32::from(!fits);
+        }
+    }
+
+    fn begun_of(&self, placed: &Placed) -> Option<Begun> {
+        self.begun.iter().find(|begun| begun.id == placed.contact.id).copied()
+    }
+
+    /// The present contacts that have a place in the list.
+    pub fn listed<'a>(&self, present: &'a [Placed]) -> impl Iterator<Item = &'a Placed> + use<'a> {
+        present.iter().take(self.listed.into())
+    }
+
+    /// Fills in the entries of the list. The present contacts stand between the onsets and the ends of those
+    /// that ended with the newest frame.
+    #[inline(never)] // M0+: out of line
+    fn list<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
+        let mut rest = self.ended.as_slice();
+        let mut is_newest = false;
+        // There is room: `end` has counted.
+        while !(rest.is_empty() && is_newest) {
+            let frame = rest.first().map_or(self.frame, |first| first.frame);
+            let count = rest.iter().take_while(|ended| ended.frame == frame).count();
+            let group = rest.get(..count).unwrap_or(&[]);
+            rest = rest.get(count..).unwrap_or(&[]);
+            for ended in group.iter().filter(|ended| ended.begun.is_some()) {
+                let _ = entries.push((&ended.placed, ended.begun));
+            }
+            is_newest = frame == self.frame;
+            for placed in self.listed(present).filter(|_| is_newest) {
+                let _ = entries.push((placed, self.begun_of(placed)));
+            }
+            for ended in group {
+                let _ = entries.push((&ended.placed, None));
+            }
+        }
+    }
+}
+
+/// A contact; if its onset is told, with total and duration of then. With the end only these change.
+type Entry<'a> = (&'a Placed, Option<Begun>);
+
+/// A [`ContactList`](crate::wire::ContactList) of what waits and of the table's present contacts.
+pub(super) struct List<'a> {
+    pub queue: &'a ContactQueue,
+    pub present: &'a [Placed],
+}
+
+impl Serialize for List<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let List { queue, present } = self;
+        let mut entries = Vec::new();
+        queue.list(present, &mut entries);
+        let mut list = serializer.serialize_struct("ContactList", 4)?;
+        list.serialize_field("frame", &queue.frame)?;
+        list.serialize_field("time", &queue.time)?;
+        list.serialize_field("dropped", &queue.dropped)?;
+        list.serialize_field("contacts", &Entries(&entries))?;
+        list.end()
+    }
+}
+
+struct Entries<'a>(&'a [Entry<'a>]);
+
+impl Serialize for Entries<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut entries = serializer.serialize_seq(Some(self.0.len()))?;
+        for (placed, begun) in self.0 {
+            let mut onset = None;
+            if let Some(Begun { total, duration_ms, .. }) = *begun {
+                let contact = Contact { phase: Phase::Onset, total, duration_ms, ..placed.contact.clone() };
+                onset = Some(Placed { contact, ..**placed });
+            }
+            entries.serialize_element(onset.as_ref().unwrap_or(placed))?;
+        }
+        entries.end()
+    }
+}
