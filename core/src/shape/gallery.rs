@@ -63,12 +63,12 @@ impl<const PROTOTYPES: usize> Default for Gallery<PROTOTYPES> {
 }
 
 impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
-    /// An empty gallery, which recognises nothing.
+    /// An empty gallery, which recognises nothing. All bytes are 0.
     pub const fn new() -> Self {
         let space = Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 };
         let confidence =
             ConfidenceTable { shares: [0; STEPS - 1], distances: [0; STEPS - 1], right: [[0; STEPS]; STEPS] };
-        Gallery { names: Vec::new(), space, k: 1, reject: 0, confidence, prototypes: Vec::new() }
+        Gallery { names: Vec::new(), space, k: 0, reject: 0, confidence, prototypes: Vec::new() }
     }
 
     /// Checks a gallery from outside. Error if a parameter is out of range.

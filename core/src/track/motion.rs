@@ -1,5 +1,6 @@
 //! State of a track beside its public record, and the update of motion.
 
+use super::album::Album;
 use super::pattern::{Pattern, Way};
 use super::point::{PanelPoint, nearest_way};
 use super::slip::{SLIP_STEPS, Slip};
@@ -21,7 +22,7 @@ pub(crate) struct Trail {
     pub looked: u32,
     /// Frames since its form was measured; saturates at 255.
     pub age: u8,
-    pattern: Pattern,
+    pub pattern: Pattern,
     slip: Slip,
 }
 
@@ -40,7 +41,13 @@ impl Trail {
 
     /// Updates displacement, velocity and slip from the contact's component; the other measures follow later.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn follow(&mut self, contact: &mut Contact, component: &Component, scenery: &Scenery) {
+    pub fn follow(
+        &mut self,
+        contact: &mut Contact,
+        component: &Component,
+        album: &mut Album,
+        scenery: &Scenery,
+    ) {
         let Scenery { config, layout, image, pace } = scenery;
         let from = PanelPoint::of(contact.panel, contact.x, contact.y);
         let to = PanelPoint::of(component.bounds.panel, component.x, component.y);
@@ -57,9 +64,9 @@ impl Trail {
         let step = match area {
             Some(area) if config.slip_speed != NO_SLIP => {
                 if leaps {
-                    self.pattern.forget();
+                    self.pattern.forget(album);
                 }
-                self.pattern.follow(component, area, image, config.low, step)
+                self.pattern.follow(component, (album, area, image), config.low, step)
             }
             _ => step,
         };

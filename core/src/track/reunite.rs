@@ -131,7 +131,7 @@ mod tests {
     fn at(column: u16) -> Run {
         let taxels = 1 << (column % WORD);
         let (row, label, area, peak, sums) = (0, 0, 1, 1, RunSums::NONE);
-        Run { taxels, all: taxels, row, label, left: column, right: column, area, peak, sums }
+        Run { taxels, row, label, left: column, right: column, area, peak, sums }
     }
 
     #[test]

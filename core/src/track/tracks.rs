@@ -1,5 +1,6 @@
 //! Track management: update, merge, split, release.
 
+use super::album::Album;
 use super::motion::{FrameTimes, Scenery, Trail};
 use super::slot::Slot;
 use crate::format::{Fixed16, Micros, Q15};
@@ -19,6 +20,7 @@ use heapless::Vec;
 pub(crate) struct Tracks<const CONTACTS: usize, S = Contact> {
     pub contacts: Vec<S, CONTACTS>,
     pub trails: Vec<Trail, CONTACTS>,
+    album: Album,
     released: Vec<S, CONTACTS>,
     /// Age of the form of each contact, frames; saturates at 255.
     ages: Vec<u8, CONTACTS>,
@@ -35,6 +37,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         Tracks {
             contacts: Vec::new(),
             trails: Vec::new(),
+            album: Album::new(),
             released: Vec::new(),
             ages: Vec::new(),
             quartics: Vec::new(),
@@ -47,6 +50,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
     pub fn clear(&mut self) {
         self.contacts.clear();
         self.trails.clear();
+        self.album.clear();
         self.released.clear();
         self.ages.clear();
         self.quartics.clear();
@@ -129,7 +133,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
             let contact = slot.contact_mut();
             match components.get(usize::from(trail.component)) {
                 Some(component) => {
-                    trail.follow(contact, component, &scenery);
+                    trail.follow(contact, component, &mut self.album, &scenery);
                     describe(contact, component);
                     contact.phase = Phase::Held;
                     contact.duration_ms = now.millis_since(contact.onset);
@@ -139,6 +143,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
                     contact.duration_ms = now.millis_since(contact.onset);
                     // Always room: as many places as contacts.
                     let _ = self.released.push(slot.clone());
+                    trail.pattern.drop_picture(&mut self.album);
                 }
             }
         }
