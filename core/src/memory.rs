@@ -19,7 +19,7 @@ use crate::unsure::UnsureState;
 /// Of each type: the file that tells its RAM, bytes on the board, bytes on a host.
 macro_rules! states {
     ($($state:ty, $file:literal, $board:literal, $host:literal;)*) => {
-        #[cfg(target_arch = "arm")]
+                #[cfg(target_arch = "arm")]
         const _: () = { $(assert!(size_of::<$state>() == $board, "{}", stringify!($state));)* };
 
         #[cfg(all(test, target_pointer_width = "64"))]

@@ -402,4 +402,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 type Sentence = String<112>;
 
 /// Raw codes to be sent, kept until the link has room.
+#[cfg(feature = "raw")]
 type CodeVec<const TAXELS: usize> = Vec<Code, TAXELS>;
+#[cfg(not(feature = "raw"))]
+type CodeVec<const TAXELS: usize> = Vec<Code, 0>;

@@ -1,7 +1,7 @@
 //! The stage: segmentation and tracking of a frame.
 
 use crate::baseline::feedback::Feedback;
-use crate::format::{Invalid, Micros};
+use crate::format::{Invalid, LEFT_OUT, Micros};
 use crate::garment::Layout;
 use crate::image::view::Image;
 use crate::measure::component::{Component, Components};
@@ -10,7 +10,7 @@ use crate::measure::forms::Forms;
 use crate::measure::moments::Moments;
 use crate::measure::quartic::Quartic;
 use crate::measure::sight::Sight;
-use crate::segment::config::ContactConfig;
+use crate::segment::config::{ContactConfig, NO_SLIP};
 use crate::segment::labeller::Labeller;
 use crate::segment::seams::Joins;
 use crate::track::assign::Matching;
@@ -166,6 +166,9 @@ impl ContactConfig {
         }
         if self.slip_speed == 0 {
             return refuse("contact.slip_speed", "must be at least 1 (1/16 cm/s)");
+        }
+        if !cfg!(feature = "slip") && self.slip_speed != NO_SLIP {
+            return refuse("contact.slip_speed", LEFT_OUT);
         }
         Ok(Contacts { config: *self, forms: Forms::default() })
     }

@@ -44,13 +44,16 @@ impl Pipeline {
         let unsure = &*unsure;
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, layout, present, released, now);
+        #[cfg(feature = "gesture")]
         let gesture = self.gestures.as_ref().and_then(|stage| {
             let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
             let told = stage.process(&mut state.gesture, layout, &image, totals, self.certainty, now)?;
             Some((told, stage.name(told.class)))
         });
+        #[cfg(not(feature = "gesture"))]
+        let gesture = None;
         probe.begin(Stage::Intent);
-        let meaning = self.intent.as_ref().and_then(|stage| {
+        let meaning = self.intent().and_then(|stage| {
             let press = |placed: &Placed| placed.contact.peak_total;
             let sure = || present.iter().enumerate().filter(|(index, _)| !unsure.is_unsure(*index));
             let strongest = sure()
@@ -132,7 +135,7 @@ impl Pipeline {
 
     /// Area of a taxel at the contact, mm2; 0 if the map does not use hardness.
     fn cell_mm2(&self, layout: &Layout, placed: &Placed) -> u32 {
-        if !self.intent.as_ref().is_some_and(Intent::feels) {
+        if !self.intent().is_some_and(Intent::feels) {
             return 0;
         }
         let area = layout.areas().get(usize::from(placed.contact.panel));

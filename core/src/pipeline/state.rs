@@ -7,6 +7,7 @@ use crate::contact::ContactState;
 use crate::fold::FoldState;
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
+#[cfg(feature = "gesture")]
 use crate::gesture::GestureState;
 use crate::intent::{Fed, IntentState};
 use crate::react::{ReactState, Reaction, Reactions};
@@ -25,6 +26,7 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: us
     pub(super) contact: ContactState<CONTACTS, RUNS, PARTS, Placed>,
     pub(super) unsure: UnsureState<CONTACTS>,
     pub(super) symbol: SymbolState<CONTACTS>,
+    #[cfg(feature = "gesture")]
     pub(super) gesture: GestureState,
     pub(super) intent: IntentState,
     pub(super) react: ReactState,
@@ -47,6 +49,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
             contact: const { ContactState::with_slots() },
             unsure: const { UnsureState::new() },
             symbol: SymbolState::default(),
+            #[cfg(feature = "gesture")]
             gesture: const { GestureState::new() },
             intent: IntentState::default(),
             react: ReactState::default(),
@@ -68,7 +71,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     /// Forgets results that belong to a scene; the baseline stays.
     pub fn forget(&mut self) {
         self.symbol = SymbolState::default();
-        self.gesture.forget();
+        self.recognise_anew();
         self.intent = IntentState::default();
         self.react = ReactState::default();
     }
@@ -126,6 +129,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
 
     /// Forgets the present touch after a change of the gesture model; the next touch is recognised.
     pub fn recognise_anew(&mut self) {
+        #[cfg(feature = "gesture")]
         self.gesture.forget();
     }
 

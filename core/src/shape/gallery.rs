@@ -7,10 +7,10 @@ use crate::format::{Invalid, Name, Q15, root};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Greatest number of classes of a gallery.
-pub const GALLERY_CLASSES: usize = 32;
-/// Greatest number of prototypes of a gallery on a board.
-pub const GALLERY_PROTOTYPES: usize = 200;
+/// Greatest number of classes of a gallery; none without the feature `gallery`.
+pub const GALLERY_CLASSES: usize = if cfg!(feature = "gallery") { 32 } else { 0 };
+/// Greatest number of prototypes of a gallery on a board; none without the feature `gallery`.
+pub const GALLERY_PROTOTYPES: usize = if cfg!(feature = "gallery") { 200 } else { 0 };
 /// Greatest number of neighbours that vote.
 const VOTERS: usize = 9;
 

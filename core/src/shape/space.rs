@@ -4,8 +4,8 @@ use super::descriptor::{Descriptor, MEASURES};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Greatest number of dimensions of a space.
-pub const DIMENSIONS: usize = 12;
+/// Greatest number of dimensions of a space; none without the feature `gallery`.
+pub const DIMENSIONS: usize = if cfg!(feature = "gallery") { 12 } else { 0 };
 
 /// A position in a space, in 1/256 of the spread that the trainer found within a class; 0 in unused
 /// dimensions.

@@ -44,7 +44,7 @@ struct Known {
     confidence: Q15,
 }
 
-/// A gallery on the board, and its results.
+/// A gallery on the board, and its results. Without the feature `gallery` it has no room for any.
 #[derive(Debug, Clone)]
 pub struct Taught<const CONTACTS: usize> {
     gallery: Gallery<GALLERY_PROTOTYPES>,
@@ -69,7 +69,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
 
     /// The gallery, if it is in force.
     pub fn gallery(&self) -> Option<&Gallery<GALLERY_PROTOTYPES>> {
-        self.in_force.then_some(&self.gallery)
+        (cfg!(feature = "gallery") && self.in_force).then_some(&self.gallery)
     }
 
     /// Drops the gallery: the built-in base is in force.

@@ -7,7 +7,7 @@ use crate::garment::Rect;
 
 /// Most pictures: a garment has no more contacts that are large enough. Only contacts that have shrunk since
 /// their picture was taken may hold more; a contact that finds no place then has no pattern.
-const PICTURES: usize = TAXELS / LEAST_AREA as usize;
+const PICTURES: usize = if cfg!(feature = "slip") { TAXELS / LEAST_AREA as usize } else { 0 };
 
 /// A picture of the middle of a contact.
 #[derive(Debug, Clone)]

@@ -9,7 +9,7 @@ use crate::garment::{Area, Layout, Transform};
 use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::Contact;
-use crate::segment::config::{ContactConfig, NO_SLIP};
+use crate::segment::config::ContactConfig;
 
 /// State of a track beside its [`Contact`].
 #[derive(Debug, Clone)]
@@ -62,7 +62,7 @@ impl Trail {
         let step = if leaps { [0; 2] } else { step };
         let area = layout.areas().get(usize::from(component.bounds.panel));
         let step = match area {
-            Some(area) if config.slip_speed != NO_SLIP => {
+            Some(area) if config.slips() => {
                 if leaps {
                     self.pattern.forget(album);
                 }
@@ -77,7 +77,7 @@ impl Trail {
         contact.vy = pace.velocity(contact.vy, step[1]);
         // If the pressure changes by more than a sixteenth, the outline changes too and moves the centroid.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
-        let slides = |area| config.slip_speed != NO_SLIP && self.slips(contact, sliding, area, scenery);
+        let slides = |area| config.slips() && self.slips(contact, sliding, area, scenery);
         contact.slip = area.is_some_and(slides);
     }
 

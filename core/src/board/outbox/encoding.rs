@@ -75,7 +75,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some((frame, time)) = self.image.due.take() {
             self.put_image(frame, time, &setup.layout, image, health)
-        } else if let Some((frame, time)) = self.raw.take() {
+        } else if let Some((frame, time)) = self.raw.take().filter(|_| cfg!(feature = "raw")) {
             self.put_raw(frame, time)
         } else {
             true

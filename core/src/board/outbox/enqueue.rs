@@ -52,7 +52,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         if waits || (due && !late) {
             self.image.due = Some((frame, time));
         }
-        if self.rates.raw.due(time) || self.raw.is_some() {
+        if cfg!(feature = "raw") && (self.rates.raw.due(time) || self.raw.is_some()) {
             self.raw = Some((frame, time));
         }
     }

@@ -274,7 +274,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     /// Stores the codes of a frame that is to be sent raw.
     pub fn raw(&mut self, codes: &[Code], taxels: usize) {
-        if self.raw.is_some() {
+        if cfg!(feature = "raw") && self.raw.is_some() {
             self.codes.clear();
             let _ = self.codes.extend_from_slice(codes.get(..taxels).unwrap_or(codes));
         }
