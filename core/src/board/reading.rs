@@ -2,7 +2,7 @@
 //! stack has no room for several maps of 64 concepts.
 
 use super::refusal::Refusal;
-use crate::format::{Invalid, LEFT_OUT};
+use crate::format::LEFT_OUT;
 use crate::intent::{IntentConfig, MapConfig};
 use crate::scene::Scene;
 use heapless::Vec;
@@ -63,7 +63,7 @@ pub(super) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
     to.intent = None;
     if from.next("intent")? {
         if !cfg!(feature = "intent") {
-            return Err(Refusal::of(Invalid { parameter: "intent", must: LEFT_OUT }));
+            return Err(format_args!("scene: intent {LEFT_OUT}").into());
         }
         intent(from, to.intent.get_or_insert_with(|| IntentConfig::new(MapConfig::default())))?;
     }

@@ -285,6 +285,7 @@ impl Component {
     }
 
     /// Runs in the rows of its box, with their indices; all runs if it lies on several panels.
+    #[inline]
     pub(crate) fn runs<'l, const RUNS: usize, const LABELS: usize>(
         &self,
         labeller: &'l Labeller<RUNS, LABELS>,

@@ -22,7 +22,16 @@ pub(crate) struct Trail {
     pub looked: u32,
     /// Frames since its form was measured; saturates at 255.
     pub age: u8,
-    pub pattern: Pattern,
+    /// Nothing in a build without the feature `slip`.
+    sliding: [Sliding; SLIDING],
+}
+
+const SLIDING: usize = if cfg!(feature = "slip") { 1 } else { 0 };
+
+/// What shows that a contact slides.
+#[derive(Debug, Clone)]
+struct Sliding {
+    pattern: Pattern,
     slip: Slip,
 }
 
@@ -36,7 +45,13 @@ pub(crate) struct Scenery<'a> {
 
 impl Trail {
     pub const fn new(component: u16) -> Self {
-        Trail { component, leaps: false, looked: 0, age: 0, pattern: Pattern::new(), slip: Slip::new() }
+        const NEW: Sliding = Sliding { pattern: Pattern::new(), slip: Slip::new() };
+        Trail { component, leaps: false, looked: 0, age: 0, sliding: [NEW; SLIDING] }
+    }
+
+    /// Gives the picture of its pattern back.
+    pub fn drop_picture(&mut self, album: &mut Album) {
+        self.sliding.iter_mut().for_each(|sliding| sliding.pattern.drop_picture(album));
     }
 
     /// Updates displacement, velocity and slip from the contact's component; the other measures follow later.
@@ -61,12 +76,12 @@ impl Trail {
         let leaps = self.leaps || change > contact.total / 4;
         let step = if leaps { [0; 2] } else { step };
         let area = layout.areas().get(usize::from(component.bounds.panel));
-        let step = match area {
-            Some(area) if config.slips() => {
+        let step = match (area, self.sliding.first_mut()) {
+            (Some(area), Some(Sliding { pattern, .. })) if config.slips() => {
                 if leaps {
-                    self.pattern.forget(album);
+                    pattern.forget(album);
                 }
-                self.pattern.follow(component, (album, area, image), config.low, step)
+                pattern.follow(component, (album, area, image), config.low, step)
             }
             _ => step,
         };
@@ -89,7 +104,7 @@ impl Trail {
             square(contact.vx) + square(contact.vy) >= least
         };
         let limit = area.taxels(scenery.pace.limit.min(LONGEST_WAY));
-        self.slip.begins(step, limit) || (contact.slip && is_fast())
+        self.sliding.iter_mut().any(|sliding| sliding.slip.begins(step, limit)) || (contact.slip && is_fast())
     }
 }
 

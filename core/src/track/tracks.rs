@@ -143,7 +143,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
                     contact.duration_ms = now.millis_since(contact.onset);
                     // Always room: as many places as contacts.
                     let _ = self.released.push(slot.clone());
-                    trail.pattern.drop_picture(&mut self.album);
+                    trail.drop_picture(&mut self.album);
                 }
             }
         }

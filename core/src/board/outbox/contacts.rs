@@ -148,29 +148,53 @@ impl ContactQueue {
         present.iter().take(self.listed.into())
     }
 
-    /// Fills in the entries of the list. The present contacts stand between the onsets and the ends of those
-    /// that ended with the newest frame.
+    /// Fills in the entries of the list. The present contacts stand before the ends of the newest frame. An
+    /// onset stands where its contact was while it was present: before the ends of the frame before its own.
     #[inline(never)] // M0+: out of line
     fn list<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
-        let mut rest = self.ended.as_slice();
-        let mut is_newest = false;
-        // There is room: `end` has counted.
-        while !(rest.is_empty() && is_newest) {
-            let frame = rest.first().map_or(self.frame, |first| first.frame);
-            let count = rest.iter().take_while(|ended| ended.frame == frame).count();
-            let group = rest.get(..count).unwrap_or(&[]);
-            rest = rest.get(count..).unwrap_or(&[]);
-            for ended in group.iter().filter(|ended| ended.begun.is_some()) {
-                let _ = entries.push((&ended.placed, ended.begun));
+        let (mut group, mut rest) = first_group(&self.ended);
+        onsets(group, entries);
+        while !group.is_empty() {
+            let frame = group.first().map_or(0, |ended| ended.frame);
+            let (next, after) = first_group(rest);
+            let follows = next.first().is_some_and(|next| next.frame == frame.wrapping_add(1));
+            if follows {
+                onsets(next, entries);
             }
-            is_newest = frame == self.frame;
-            for placed in self.listed(present).filter(|_| is_newest) {
-                let _ = entries.push((placed, self.begun_of(placed)));
+            if frame == self.frame {
+                self.list_present(present, entries);
             }
             for ended in group {
                 let _ = entries.push((&ended.placed, None));
             }
+            if !follows {
+                onsets(next, entries);
+            }
+            (group, rest) = (next, after);
         }
+        if self.ended.last().is_none_or(|last| last.frame != self.frame) {
+            self.list_present(present, entries);
+        }
+    }
+
+    fn list_present<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
+        for placed in self.listed(present) {
+            let _ = entries.push((placed, self.begun_of(placed)));
+        }
+    }
+}
+
+/// The contacts that ended with the same frame as the first, and the rest.
+fn first_group(ended: &[Ended]) -> (&[Ended], &[Ended]) {
+    let frame = ended.first().map_or(0, |first| first.frame);
+    let count = ended.iter().take_while(|ended| ended.frame == frame).count();
+    (ended.get(..count).unwrap_or(&[]), ended.get(count..).unwrap_or(&[]))
+}
+
+/// Adds the onsets that were not told. There is room: `ContactQueue::end` has counted, here and elsewhere.
+fn onsets<'a>(group: &'a [Ended], entries: &mut Vec<Entry<'a>, LISTED>) {
+    for ended in group.iter().filter(|ended| ended.begun.is_some()) {
+        let _ = entries.push((&ended.placed, ended.begun));
     }
 }
 
@@ -211,5 +235,129 @@ impl Serialize for Entries<'_> {
             entries.serialize_element(onset.as_ref().unwrap_or(placed))?;
         }
         entries.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::condition::Tare;
+    use crate::format::{Fixed16, Q15};
+    use crate::garment::{Place, Rect};
+    use crate::react::ReactState;
+    use crate::symbol::SymbolState;
+    use crate::unsure::UnsureState;
+    use crate::wire::ContactList;
+
+    fn placed(id: u32, phase: Phase, total: u32) -> Placed {
+        let contact = Contact {
+            id,
+            phase,
+            panel: 0,
+            total,
+            peak: 9,
+            peak_at: Place { panel: 0, row: 1, column: 2 },
+            area: 9,
+            perimeter: 8,
+            edge: 0,
+            bounds: Rect { panel: 0, top: 0, bottom: 2, left: 0, right: 2 },
+            x: Fixed16(1 << 16),
+            y: Fixed16(1 << 16),
+            azimuth: None,
+            anisotropy: Q15(0),
+            breadth: 300,
+            peak_breadth: 300,
+            dx: Fixed16(0),
+            dy: Fixed16(0),
+            vx: Fixed16(0),
+            vy: Fixed16(0),
+            slip: false,
+            onset: Micros(0),
+            duration_ms: total / 7,
+            peak_total: total,
+        };
+        contact.into()
+    }
+
+    /// The list as a copy of every contact, in which onsets and ends stay until they are sent.
+    fn copied(list: &mut std::vec::Vec<Placed>, present: &[Placed], released: &[Placed]) {
+        let untold: std::vec::Vec<u32> =
+            list.iter().filter(|p| p.contact.phase == Phase::Onset).map(|p| p.contact.id).collect();
+        let is_present = |id| present.iter().any(|p| p.contact.id == id);
+        list.retain(|old| match old.contact.phase {
+            Phase::Onset => !is_present(old.contact.id),
+            Phase::Held => false,
+            Phase::Released => true,
+        });
+        for placed in present {
+            let mut placed = placed.clone();
+            if untold.contains(&placed.contact.id) {
+                placed.contact.phase = Phase::Onset;
+            }
+            list.push(placed);
+        }
+        list.extend(released.iter().cloned());
+    }
+
+    #[test]
+    fn the_list_is_that_of_a_copy_however_long_it_waits() {
+        let mut rng = fastrand::Rng::with_seed(7);
+        let (unsure, symbols, reactions) =
+            (UnsureState::new(), SymbolState::default(), ReactState::default());
+        let mut queue = ContactQueue::new();
+        let (mut list, mut present, mut id) = (std::vec::Vec::new(), std::vec::Vec::<Placed>::new(), 0);
+        let mut waited = 0;
+        for frame in 1..4000u32 {
+            let mut released = std::vec::Vec::new();
+            present.retain_mut(|placed| {
+                let contact = &mut placed.contact;
+                let ends = rng.u8(..8) == 0 && waited < 8;
+                (contact.phase, contact.duration_ms) = (Phase::Held, contact.duration_ms + 5);
+                contact.total = if ends { 0 } else { rng.u32(100..9000) };
+                if ends {
+                    contact.phase = Phase::Released;
+                    released.push(placed.clone());
+                }
+                !ends
+            });
+            if rng.bool() && present.len() < 5 {
+                id += 1;
+                present.push(placed(id, Phase::Onset, rng.u32(100..9000)));
+            }
+            let percept = Percept {
+                image: &[],
+                present: &present,
+                form_ages: &[],
+                released: &released,
+                dropped: 0,
+                unsure: &unsure,
+                symbols: &symbols,
+                meaning: None,
+                gesture: None,
+                reactions: &reactions,
+                tare: Tare::Idle,
+            };
+            if !queue.waits {
+                list.clear();
+            }
+            copied(&mut list, &present, &released);
+            let mut health = Health::default();
+            queue.take((frame, Micros(frame.into())), &percept, rng.bool(), &mut health);
+            assert_eq!(health.lost, 0);
+            let copy = ContactList {
+                frame,
+                time: Micros(frame.into()),
+                dropped: 0,
+                contacts: list.iter().cloned().collect(),
+            };
+            let told = List { queue: &queue, present: &present };
+            assert_eq!(postcard::to_allocvec(&told).unwrap(), postcard::to_allocvec(&copy).unwrap());
+            waited = if queue.waits { waited + 1 } else { 0 };
+            if rng.u8(..6) == 0 {
+                (queue.waits, waited) = (false, 0);
+            }
+        }
+        assert!(id > 500);
     }
 }
