@@ -1,6 +1,6 @@
 //! Place of a contact on the robot: the region of the body that its panel covers.
 
-use crate::contact::{Contact, tenths};
+use crate::contact::{Contact, Slot, tenths};
 use crate::format::wide;
 use crate::garment::Layout;
 use crate::shape::Shape;
@@ -23,10 +23,9 @@ impl Placed {
         Placed { region: region(layout, &contact), contact, shape }
     }
 
-    /// Replaces the contact and its region, for another contact or a later frame; the shape stays.
-    pub(crate) fn follow(&mut self, layout: &Layout, contact: &Contact) {
-        self.contact = contact.clone();
-        self.region = region(layout, contact);
+    /// Sets the region, after the contact has come to another panel.
+    pub(crate) fn place(&mut self, layout: &Layout) {
+        self.region = region(layout, &self.contact);
     }
 
     /// Speed over the surface, 0.1 mm/s. The pitch is truncated to 0.1 mm; it is 10 mm for panels that give
@@ -40,6 +39,25 @@ impl Placed {
         let x = along(self.contact.vx.0, pitch[0]);
         let y = along(self.contact.vy.0, pitch[1]);
         x.max(y) + x.min(y) / 2
+    }
+}
+
+/// The entry of a new contact: without a shape, and not placed yet.
+impl From<Contact> for Placed {
+    fn from(contact: Contact) -> Placed {
+        Placed { contact, shape: Shape::default(), region: 0 }
+    }
+}
+
+impl Slot for Placed {
+    #[inline(always)]
+    fn contact(&self) -> &Contact {
+        &self.contact
+    }
+
+    #[inline(always)]
+    fn contact_mut(&mut self) -> &mut Contact {
+        &mut self.contact
     }
 }
 

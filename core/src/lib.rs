@@ -80,5 +80,12 @@ pub mod board;
 
 pub mod run;
 
-#[cfg(any(test, target_arch = "arm"))]
+// Of a build that leaves nothing out.
+#[cfg(all(
+    any(test, target_arch = "arm"),
+    feature = "gallery",
+    feature = "gesture",
+    feature = "intent",
+    feature = "slip"
+))]
 mod memory;

@@ -1,6 +1,7 @@
 //! RAM of the states, as the docs of their modules tell it: for the board that ships. Asserted wherever the
 //! core is built for an RP2040, and on a 64-bit host, where the lengths of lists are longer.
 
+use crate::body::Placed;
 use crate::capacity::{PARTS, RUNS, TAXELS};
 use crate::condition::ConditionState;
 use crate::contact::{ContactState, HardnessCue};
@@ -18,7 +19,7 @@ use crate::unsure::UnsureState;
 /// Of each type: the file that tells its RAM, bytes on the board, bytes on a host.
 macro_rules! states {
     ($($state:ty, $file:literal, $board:literal, $host:literal;)*) => {
-        #[cfg(target_arch = "arm")]
+                #[cfg(target_arch = "arm")]
         const _: () = { $(assert!(size_of::<$state>() == $board, "{}", stringify!($state));)* };
 
         #[cfg(all(test, target_pointer_width = "64"))]
@@ -34,7 +35,7 @@ macro_rules! states {
 
 states! {
     ConditionState<TAXELS>, "condition/mod.rs", 21592, 21592;
-    ContactState<CONTACTS, RUNS, PARTS>, "contact/mod.rs", 76600, 76656;
+    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 65304, 65360;
     HardnessCue, "measure/hardness.rs", 20, 20;
     FoldState, "fold.rs", 96, 96;
     TouchState, "gesture/mod.rs", 3712, 3720;

@@ -4,9 +4,9 @@ use crate::acquire::{Depth, Plan};
 use crate::condition::{ConditionConfig, Filter};
 use crate::contact::ContactConfig;
 use crate::fold::JOINTS;
-use crate::format::{Invalid, InvalidRow, Name, name};
+use crate::format::{Invalid, InvalidRow, LEFT_OUT, Name, name};
 use crate::garment::{Layout, Line, PANELS};
-use crate::intent::{IntentConfig, MapInput, Source, tactile};
+use crate::intent::{IntentConfig, Leading, MapInput, Source, tactile};
 use crate::react::{Cause, REACTIONS, ReactionConfig};
 use crate::reflex::Agree;
 use crate::shape::ShapeConfig;
@@ -61,6 +61,9 @@ impl Default for StreamConfig {
 impl StreamConfig {
     /// Checks the limits that hold on every board.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
+        if !cfg!(feature = "raw") && self.raw_hz > 0 {
+            return Err(Invalid { parameter: "stream.raw_hz", must: LEFT_OUT });
+        }
         match self.key_ms {
             1..=1000 => Ok(()),
             _ => Err(Invalid { parameter: "stream.key_ms", must: "must be 1 to 1000" }),
@@ -123,7 +126,7 @@ impl Scene {
         }
     }
 
-    /// The shipped scene: every stage on, limits for 12 bits and 1000 counts per newton.
+    /// The shipped scene: every stage on that this build has, limits for 12 bits and 1000 counts per newton.
     pub fn shipped() -> Scene {
         let reaction = |text, cause, level, hysteresis, pin| ReactionConfig {
             name: name(text),
@@ -143,17 +146,19 @@ impl Scene {
             contact: ContactConfig { low: 16, high: 40, ..ContactConfig::default() },
             shape: Some(ShapeConfig::default()),
             symbol: SymbolConfig::default(),
-            intent: Some(IntentConfig::new(tactile())),
+            intent: cfg!(feature = "intent").then(|| IntentConfig::new(tactile())),
             friendliness: USUAL_REGIONS
                 .into_iter()
                 .map(|(region, percent)| Friendliness { region: name(region), percent })
                 .collect(),
             joints: [name("left_elbow"), name("right_elbow")].into_iter().collect(),
             react: [
-                reaction("over-pressure", Cause::Pressure, 3_600, 400, 18),
-                reaction("flinch", Cause::Leading(crate::intent::Leading::Attack), 1, 0, 19),
+                Some(reaction("over-pressure", Cause::Pressure, 3_600, 400, 18)),
+                cfg!(feature = "intent")
+                    .then(|| reaction("flinch", Cause::Leading(Leading::Attack), 1, 0, 19)),
             ]
             .into_iter()
+            .flatten()
             .collect(),
             stream: StreamConfig::default(),
         }

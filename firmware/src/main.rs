@@ -24,7 +24,7 @@ mod watchdog;
 use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
-use taxel_core::acquire::{Lines, MuxScan};
+use taxel_core::acquire::{Lines, Mux};
 use taxel_core::board::{SetupError, Shipped};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -71,7 +71,7 @@ fn scanner(
 ) -> &'static mut scan::Scanner {
     let lines = LINES.init_with(|| Lines::new(lines));
     SCANNER.init_with(|| {
-        let processor = MuxScan::new(lines, platform::Settle::new(), converter, platform::Timer);
+        let processor = Mux::new(lines, platform::Settle::new(), converter, platform::Timer);
         scan::Scanner::new(processor, chain)
     })
 }

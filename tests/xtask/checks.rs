@@ -7,7 +7,7 @@ use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
 use crate::targets::{End, WHOLE};
 use crate::{
-    browser, firmware, locks, no_panic, package, paths, process, python, recordings, sizes, targets,
+    browser, features, firmware, locks, no_panic, package, paths, process, python, recordings, sizes, targets,
 };
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -23,6 +23,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("test", test),
     ("firmware", build_firmware),
     ("sizes", compare_sizes),
+    ("features", build_features),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
     ("firmware-clippy", firmware_clippy),
@@ -220,6 +221,13 @@ fn build_firmware(log: &Path) -> End {
 fn compare_sizes(log: &Path) -> End {
     let image = firmware::image(&Toolchain::find()?, log);
     Ok(image.and_then(|image| sizes::check(&image)).map(|beside| print!("{beside}")))
+}
+
+/// Tests what a core without features refuses, and builds each image that leaves features out.
+fn build_features(log: &Path) -> End {
+    let args = ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out"];
+    let refusals = process::run_into(&mut cargo(&args, paths::root()), log);
+    Ok(refusals.and_then(|()| features::check(log)).map(|table| print!("{table}")))
 }
 
 fn firmware_clippy(log: &Path) -> End {

@@ -75,15 +75,31 @@ pub fn bench_elf(toolchain: &Toolchain) -> PathBuf {
 /// Writes the UF2 beside the built ELF, and measures both.
 pub fn measure(toolchain: &Toolchain) -> Result<Image, String> {
     let elf = toolchain.folder().join(crate::cross::TARGET).join("release/taxel-firmware");
-    let read = |error: std::io::Error| format!("{}: {error}", elf.display());
-    let file = std::fs::read(&elf).map_err(read)?;
+    let file = read(&elf)?;
     let segments = elf::segments(&file).ok_or(format!("{} is not an ELF file", elf.display()))?;
     let uf2 = elf.with_extension("uf2");
     std::fs::write(&uf2, uf2::file(&segments)?).map_err(|error| format!("{}: {error}", uf2.display()))?;
-    let flash = segments.iter().map(|s| s.bytes.len() as u64).sum();
-    let ram = segments.iter().filter(|s| RAM.contains(&s.runs)).map(|s| u64::from(s.memory)).sum();
+    let [flash, ram] = sizes(&segments);
     let compiler = compiler(&elf, toolchain)?;
     Ok(Image { elf, uf2, flash, ram, compiler })
+}
+
+fn read(elf: &Path) -> Result<Vec<u8>, String> {
+    std::fs::read(elf).map_err(|error| format!("{}: {error}", elf.display()))
+}
+
+/// Flash and RAM of an image, bytes.
+fn sizes(segments: &[elf::Segment<'_>]) -> [u64; 2] {
+    let flash = segments.iter().map(|s| s.bytes.len() as u64).sum();
+    let ram = segments.iter().filter(|s| RAM.contains(&s.runs)).map(|s| u64::from(s.memory)).sum();
+    [flash, ram]
+}
+
+/// Flash and RAM of a built ELF, bytes.
+pub fn sizes_of(elf: &Path) -> Result<[u64; 2], String> {
+    let file = read(elf)?;
+    let segments = elf::segments(&file).ok_or(format!("{} is not an ELF file", elf.display()))?;
+    Ok(sizes(&segments))
 }
 
 /// Compiler of an image, as stored in it, and origin of its library.

@@ -8,6 +8,7 @@ mod cross;
 mod docs;
 mod elf;
 mod excerpt;
+mod features;
 mod firmware;
 mod fuzz;
 mod install;
@@ -35,7 +36,7 @@ const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   firmware [--write]    build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive;
-                        --write: also write its sizes to docs/bench/sizes.txt
+                        --write: also write its sizes, and those of images that leave features out, to docs/bench/sizes.txt
   core-thumb            build the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   cycles [--json|--write]
@@ -76,7 +77,7 @@ fn build_firmware(args: &[String]) -> Result<(), String> {
     };
     let built = firmware::build()?;
     print!("{built}");
-    if write { sizes::write(&built) } else { Ok(()) }
+    if write { sizes::write(&built, &features::check(&paths::log("features")?)?) } else { Ok(()) }
 }
 
 fn main() -> ExitCode {

@@ -32,9 +32,9 @@ fn file() -> PathBuf {
     paths::root().join("docs/bench/sizes.txt")
 }
 
-/// Writes the table of an image.
-pub fn write(image: &Image) -> Result<(), String> {
-    let table = read(image)?;
+/// Writes the table of an image, and that of images that leave features out.
+pub fn write(image: &Image, features: &str) -> Result<(), String> {
+    let table = format!("{}\n{features}", read(image)?);
     let file = file();
     let folder = file.parent().map_or(Ok(()), std::fs::create_dir_all);
     folder.and_then(|()| std::fs::write(&file, table)).map_err(|error| format!("{}: {error}", file.display()))

@@ -51,6 +51,9 @@ impl Fields {
     /// Computes the sub-fields of an interlaced plan. Error if a DMA chain cannot read them.
     #[inline(never)] // own frame: its stack is free again on return
     pub fn of(circuit: &Circuit, plan: &Plan) -> Result<Fields, Unfit> {
+        if !cfg!(feature = "reflex") {
+            return Err(Unfit::LeftOut);
+        }
         let inputs = addresses::inputs(circuit, plan)?;
         let address_ns = Rounds::of(inputs.len(), circuit.settle_ns()).address_ns();
         let mut fields = Fields { inputs, ..Fields::none() };

@@ -20,7 +20,7 @@ pub use duration::{
 };
 pub use fields::{FIELDS, Fields};
 pub use lines::{Lines, ProbePin, Pull, PulledAdc};
-pub use mux::{Adc, Clock, MuxScan};
+pub use mux::{Adc, Clock, Mux, MuxScan};
 pub use plan::{Depth, Plan};
 pub use ring::{Lent, PLACES, Ring, TURN_PLACES};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};

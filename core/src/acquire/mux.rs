@@ -42,21 +42,27 @@ impl<C: Clock> Clock for &C {
 }
 
 /// Selects every address, waits for the line to settle, and reads every converter input that has a block
-/// there: by select code, then row, then column. Drives only lines whose level changes.
+/// there: by select code, then row, then column. Drives only lines whose level changes. The codes are stored
+/// in memory of the caller; [`MuxScan`] has its own.
 ///
 /// Cost per address: driving the changed lines, the garment's settling time, and per input as many
 /// conversions as samples are averaged.
-pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
+pub struct Mux<'l, P, D, A, C, const PINS: usize> {
     lines: &'l mut Lines<P, PINS>,
     delay: D,
     adc: A,
     clock: C,
-    codes: [Code; TAXELS],
     /// By bit of the circuit's word: index into `lines`, and GPIO number. Then the levels driven last.
     slots: heapless::Vec<u8, 32>,
     wired: heapless::Vec<u8, 32>,
     driven: Option<u32>,
     posed: u32,
+}
+
+/// A [`Mux`] with memory for the codes of a frame.
+pub struct MuxScan<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> {
+    mux: Mux<'l, P, D, A, C, PINS>,
+    codes: [Code; TAXELS],
 }
 
 impl<'l, P, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'l, P, D, A, C, PINS, TAXELS>
@@ -68,17 +74,57 @@ where
 {
     /// Takes the board's pins, delay, converter and clock.
     pub fn new(lines: &'l mut Lines<P, PINS>, delay: D, adc: A, clock: C) -> Self {
-        MuxScan {
+        MuxScan { mux: Mux::new(lines, delay, adc, clock), codes: [Code(0); TAXELS] }
+    }
+
+    /// The scan without its memory.
+    pub fn mux(&mut self) -> &mut Mux<'l, P, D, A, C, PINS> {
+        &mut self.mux
+    }
+}
+
+impl<'l, P, D, A, C, const PINS: usize> Mux<'l, P, D, A, C, PINS>
+where
+    P: OutputPin,
+    D: DelayNs,
+    A: Adc,
+    C: Clock,
+{
+    /// Takes the board's pins, delay, converter and clock.
+    pub fn new(lines: &'l mut Lines<P, PINS>, delay: D, adc: A, clock: C) -> Self {
+        Mux {
             lines,
             delay,
             adc,
             clock,
-            codes: [Code(0); TAXELS],
             slots: heapless::Vec::new(),
             wired: heapless::Vec::new(),
             driven: None,
             posed: 0,
         }
+    }
+
+    /// Scans a circuit by a plan into `codes`, by taxel number. Codes that are not read stay, unless the lines
+    /// have changed: then they become 0.
+    pub fn scan(
+        &mut self,
+        circuit: &Circuit,
+        plan: &Plan,
+        codes: &mut [Code],
+    ) -> Result<ScanReport, ScanError> {
+        if self.rewire(circuit)? {
+            codes.fill(Code(0));
+        }
+        let start = self.clock.now();
+        self.sweep(circuit, plan, codes)?;
+        let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
+        Ok(ScanReport { start, duration_us, overruns: 0, temperature: None })
+    }
+
+    /// Sets the level of a pin.
+    pub fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
+        let driven = self.lines.drive(pin, level).ok_or(ScanError::NoPin(pin))?;
+        driven.map_err(|_| ScanError::Output(pin))
     }
 
     /// Lends lines, delay, converter and clock for other uses than a scan. The next scan drives all lines.
@@ -87,21 +133,20 @@ where
         (self.lines, &mut self.delay, &mut self.adc, &self.clock)
     }
 
-    /// Looks up the pins of the circuit's lines if these have changed.
-    fn rewire(&mut self, circuit: &Circuit) -> Result<(), ScanError> {
+    /// Looks up the pins of the circuit's lines if these have changed, and returns true then.
+    fn rewire(&mut self, circuit: &Circuit) -> Result<bool, ScanError> {
         if self.wired.as_slice() == circuit.lines() && !self.slots.is_empty() {
-            return Ok(());
+            return Ok(false);
         }
         self.slots.clear();
         self.wired.clear();
         self.driven = None;
-        self.codes.fill(Code(0));
         for pin in circuit.lines() {
             let slot = self.lines.pins.iter().position(|(n, _)| n == pin).ok_or(ScanError::NoPin(*pin))?;
             let _ = self.slots.push(slot as u8);
             let _ = self.wired.push(*pin);
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Drives the lines whose levels differ from those of `word`. The error is the number of a failed pin.
@@ -122,18 +167,18 @@ where
 
     /// Reads all addresses. Own frame: its stack is free again on return.
     #[inline(never)]
-    fn sweep(&mut self, circuit: &Circuit, plan: &Plan) -> Result<(), ScanError> {
+    fn sweep(&mut self, circuit: &Circuit, plan: &Plan, codes: &mut [Code]) -> Result<(), ScanError> {
         let columns = column_changes(circuit);
-        circuit.selects().try_for_each(|sites| self.scan_select(circuit, plan, &columns, sites))
+        circuit.selects().try_for_each(|sites| self.scan_select((circuit, plan), &columns, sites, codes))
     }
 
     /// Reads all addresses of the blocks that share one select code.
     fn scan_select(
         &mut self,
-        circuit: &Circuit,
-        plan: &Plan,
+        (circuit, plan): (&Circuit, &Plan),
         columns: &Columns,
         sites: &[Site],
+        codes: &mut [Code],
     ) -> Result<(), ScanError> {
         let mut cursors = Cursors::new();
         for site in sites.iter().filter(|s| plan.reads(s.panel, s.block)) {
@@ -147,7 +192,7 @@ where
             for (column, change) in (0..width).zip(columns) {
                 self.apply(word ^ change).map_err(|pin| lost(pin, &cursors, column))?;
                 self.delay.delay_ns(circuit.settle_ns());
-                self.read(&mut cursors, column, plan.depth)?;
+                self.read(&mut cursors, column, plan.depth, codes)?;
             }
             self.clock.progressed();
         }
@@ -155,7 +200,13 @@ where
     }
 
     /// Reads every block that has a taxel at the present column.
-    fn read(&mut self, cursors: &mut Cursors, column: u8, depth: Depth) -> Result<(), ScanError> {
+    fn read(
+        &mut self,
+        cursors: &mut Cursors,
+        column: u8,
+        depth: Depth,
+        codes: &mut [Code],
+    ) -> Result<(), ScanError> {
         for cursor in cursors.iter_mut().filter(|c| column < c.columns_here) {
             let Cursor { input, taxel, .. } = *cursor;
             let mut sum = 0;
@@ -163,7 +214,7 @@ where
                 let code = self.adc.read(input);
                 sum += code.map_err(|_| ScanError::Converter { input, taxel: taxel as u16 })?.min(4095);
             }
-            if let Some(slot) = self.codes.get_mut(taxel as usize) {
+            if let Some(slot) = codes.get_mut(taxel as usize) {
                 *slot = Code(depth.mean(sum));
             }
             cursor.taxel += cursor.column_step;
@@ -172,7 +223,7 @@ where
     }
 }
 
-impl<P: ProbePin, D, A, C, const PINS: usize, const TAXELS: usize> MuxScan<'_, P, D, A, C, PINS, TAXELS>
+impl<P: ProbePin, D, A, C, const PINS: usize> Mux<'_, P, D, A, C, PINS>
 where
     D: DelayNs,
     A: Adc,
@@ -274,16 +325,11 @@ where
     C: Clock,
 {
     async fn scan(&mut self, circuit: &Circuit, plan: &Plan) -> Result<Scan<'_>, ScanError> {
-        self.rewire(circuit)?;
-        let start = self.clock.now();
-        self.sweep(circuit, plan)?;
-        let duration_us = self.clock.now().since(start).min(u64::from(u32::MAX)) as u32;
-        let report = ScanReport { start, duration_us, overruns: 0, temperature: None };
+        let report = self.mux.scan(circuit, plan, &mut self.codes)?;
         Ok(Scan { codes: &self.codes, report })
     }
 
     fn drive(&mut self, pin: u8, level: bool) -> Result<(), ScanError> {
-        let driven = self.lines.drive(pin, level).ok_or(ScanError::NoPin(pin))?;
-        driven.map_err(|_| ScanError::Output(pin))
+        self.mux.drive(pin, level)
     }
 }

@@ -1,5 +1,6 @@
 //! Why a plan cannot be read by a free-running converter.
 
+use crate::format::LEFT_OUT;
 use core::fmt;
 
 /// Most converter inputs of a sweep.
@@ -20,6 +21,8 @@ pub enum Unfit {
     Stretches(usize),
     /// The whole frame is shorter than two sub-fields may be: interlacing it gains nothing.
     Short,
+    /// This build leaves interlaced scans out.
+    LeftOut,
 }
 
 impl fmt::Display for Unfit {
@@ -31,6 +34,7 @@ impl fmt::Display for Unfit {
             Unfit::Addresses(room) => write!(f, "more than {room} addresses are read"),
             Unfit::Stretches(room) => write!(f, "the taxels jump more than {room} times"),
             Unfit::Short => write!(f, "a frame of less than 200 us is not interlaced"),
+            Unfit::LeftOut => write!(f, "it {LEFT_OUT}"),
         }
     }
 }

@@ -362,7 +362,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
         let (boot, unsure, taught) = (*boot, state.unsure(), &state.taught);
-        let about = About { info, boot, setup, monitor, examined, certificate, unsure, taught };
+        let (present, form_ages) = (state.present(), state.form_ages());
+        let about =
+            About { info, boot, setup, monitor, examined, certificate, present, form_ages, unsure, taught };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();
@@ -400,4 +402,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 type Sentence = String<112>;
 
 /// Raw codes to be sent, kept until the link has room.
+#[cfg(feature = "raw")]
 type CodeVec<const TAXELS: usize> = Vec<Code, TAXELS>;
+#[cfg(not(feature = "raw"))]
+type CodeVec<const TAXELS: usize> = Vec<Code, 0>;

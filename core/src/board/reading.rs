@@ -2,6 +2,7 @@
 //! stack has no room for several maps of 64 concepts.
 
 use super::refusal::Refusal;
+use crate::format::LEFT_OUT;
 use crate::intent::{IntentConfig, MapConfig};
 use crate::scene::Scene;
 use heapless::Vec;
@@ -61,6 +62,9 @@ pub(super) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
     from.put("symbol", &mut to.symbol)?;
     to.intent = None;
     if from.next("intent")? {
+        if !cfg!(feature = "intent") {
+            return Err(format_args!("scene: intent {LEFT_OUT}").into());
+        }
         intent(from, to.intent.get_or_insert_with(|| IntentConfig::new(MapConfig::default())))?;
     }
     from.list("friendliness", &mut to.friendliness)?;

@@ -5,7 +5,7 @@ use super::refusal::Refusal;
 use super::{Board, Work, reading};
 use crate::condition::Certificate;
 use crate::contact::Forms;
-use crate::format::{Invalid, Micros};
+use crate::format::{Invalid, LEFT_OUT, Micros};
 use crate::garment::Garment;
 use crate::gesture::{Certainty, GestureConfig, Gestures};
 use crate::pipeline::CONTACTS;
@@ -43,6 +43,11 @@ pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Resul
     })
 }
 
+/// Refuses what this build leaves out.
+fn left_out(parameter: &'static str) -> Refusal {
+    Refusal::of(Invalid { parameter, must: LEFT_OUT })
+}
+
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     pub(super) fn receive(&mut self, now: Micros, bytes: &[u8]) {
         for byte in bytes {
@@ -74,6 +79,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.rebuilds.charge(now);
         }
         let result = match request {
+            Request::Concept { .. } | Request::Feed(_) if !cfg!(feature = "intent") => {
+                Err(left_out("intent"))
+            }
+            Request::SetRaw { hz: 1.. } if !cfg!(feature = "raw") => Err(left_out("raw")),
             Request::SetGarment(bytes) => self.take_garment(bytes, now),
             Request::SetScene(bytes) => self.take_scene(bytes, now),
             Request::Tare { frames } => match self.tare(frames) {
@@ -173,6 +182,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 
     pub(super) fn set_gestures(&mut self, config: Option<&GestureConfig>) -> Result<(), Refusal> {
+        if config.is_some() && !cfg!(feature = "gesture") {
+            return Err(left_out("gestures"));
+        }
         self.setup.pipeline.gestures = config.map(Gestures::build).transpose().map_err(Refusal::of)?;
         self.state.recognise_anew();
         Ok(())
@@ -185,6 +197,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     #[inline(never)]
     fn set_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        if !bytes.is_empty() && !cfg!(feature = "gallery") {
+            return Err(left_out("shapes"));
+        }
         if bytes.is_empty() {
             self.state.taught.clear();
             self.shapes_changed();
@@ -196,6 +211,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     #[inline(never)]
     fn add_shapes(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        if !cfg!(feature = "gallery") {
+            return Err(left_out("shapes"));
+        }
         let prototypes = read::<Vec<Exemplar, SHAPES_ADDED>>("prototypes", bytes)?;
         self.teach(|taught| taught.add(&prototypes))
     }

@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
-//! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship: 76,600 bytes |
+//! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship, with what later stages keep in its table: 65,304 bytes |
 //! | M0+ cycles | reference garment: 2 k where nothing touches; 21 k with one contact of 29 taxels, 61 k with five, 231 k with forty of 4 to 9; 185 k if all 2,048 taxels are touched, 222 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
@@ -26,7 +26,8 @@
 //! Motion is that of the centroid or, where the pressure inside a contact has a pattern, that of the pattern
 //! (`track::pattern`): a flat object that slides under a constant outline moves and slips. A pattern needs 36
 //! taxels that are two taxels clear of the outline (a contact of 10 x 10), structures of at least five
-//! taxels, and a step of less than half a structure (in an outline just as large, less than one taxel). A
+//! taxels, and a step of less than half a structure (in an outline just as large, less than one taxel). There
+//! is memory for 20 patterns, as many contacts of 10 x 10 as 2,048 taxels hold (`track::album`). A
 //! slip begins when three steps in a row go the same way, and together are at least as fast as the slip speed
 //! and three times the contact's own jitter (`track::slip`). It lasts as long as the velocity is above the
 //! slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`] and saves up to 16 k M0+ cycles for each
@@ -50,4 +51,5 @@ pub use crate::measure::hardness::{self, Hardness, HardnessCue};
 pub use crate::measure::moments::{Central, Moments};
 pub use crate::measure::quartic::Quartic;
 pub use crate::segment::config::{ContactConfig, NO_SLIP};
+pub use crate::track::slot::Slot;
 pub use stage::{ContactState, Contacts, Touches};

@@ -1,20 +1,21 @@
 //! The stage: segmentation and tracking of a frame.
 
 use crate::baseline::feedback::Feedback;
-use crate::format::{Invalid, Micros};
+use crate::format::{Invalid, LEFT_OUT, Micros};
 use crate::garment::Layout;
 use crate::image::view::Image;
-use crate::measure::carried::CarriedLabels;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
 use crate::measure::forms::Forms;
 use crate::measure::moments::Moments;
 use crate::measure::quartic::Quartic;
 use crate::measure::sight::Sight;
-use crate::segment::config::ContactConfig;
+use crate::segment::config::{ContactConfig, NO_SLIP};
 use crate::segment::labeller::Labeller;
 use crate::segment::seams::Joins;
 use crate::track::assign::Matching;
+use crate::track::motion::Trail;
+use crate::track::slot::Slot;
 use crate::track::tracks::Tracks;
 
 /// Finds and follows contacts; see the [module](super).
@@ -29,29 +30,26 @@ pub struct Contacts {
 /// (connected taxels of one panel; at most 65534). If the columns are even in number, half as many runs as
 /// taxels suffice. Labels never exceed the runs, nor the squares of two by two taxels.
 #[derive(Debug, Clone)]
-pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const LABELS: usize = RUNS> {
+pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const LABELS: usize = RUNS, S = Contact> {
     labeller: Labeller<RUNS, LABELS>,
     joins: Joins,
-    carried: CarriedLabels,
     components: Components<CONTACTS>,
     matching: Matching<CONTACTS>,
-    tracks: Tracks<CONTACTS>,
+    tracks: Tracks<CONTACTS, S>,
     feedback: Feedback<CONTACTS>,
 }
 
 /// Result of a frame.
 #[derive(Debug, Clone, Copy)]
-pub struct Touches<'a> {
+pub struct Touches<'a, S = Contact> {
     /// Contacts that are present, in the order of their onset.
-    pub present: &'a [Contact],
-    /// Their moments in the frame of the home panel, in the same order.
-    pub moments: &'a [Moments],
+    pub present: &'a [S],
     /// Age of their forms in the same order, frames; saturates at 255. See [`Contact`].
     pub ages: &'a [u8],
     /// Ratios of the fourth order of those whose form is of this frame, in the same order; 0 for the others.
     pub quartics: &'a [Quartic],
     /// Contacts that ended with this frame.
-    pub released: &'a [Contact],
+    pub released: &'a [S],
     /// Number of contacts that did not fit into this frame: those with the smallest totals.
     pub dropped: u16,
     /// Panels with a component that is nearly a contact, one bit each: its peak is at least three quarters of
@@ -60,15 +58,34 @@ pub struct Touches<'a> {
     /// Number of runs and of joins across seams that did not fit: parts of contacts may be missing or
     /// separate.
     pub overflow: u16,
+    trails: &'a [Trail],
+    components: &'a [Component],
 }
 
 impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize> ContactState<CONTACTS, RUNS, LABELS> {
     /// No contacts; the next id is 1.
     pub const fn new() -> Self {
+        ContactState::with_slots()
+    }
+}
+
+impl<'a, S> Touches<'a, S> {
+    /// Moments of the contacts that are present, in the frame of the home panel, in the same order.
+    pub fn moments(&self) -> impl Iterator<Item = &'a Moments> + use<'a, S> {
+        let components = self.components;
+        let of = |trail: &Trail| components.get(usize::from(trail.component));
+        self.trails.iter().filter_map(of).map(|component| &component.moments)
+    }
+}
+
+impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
+    ContactState<CONTACTS, RUNS, LABELS, S>
+{
+    /// No contacts; the next id is 1. The table has entries of any kind.
+    pub const fn with_slots() -> Self {
         ContactState {
             labeller: Labeller::new(),
             joins: Joins::new(),
-            carried: CarriedLabels::new(),
             components: Components::new(),
             matching: Matching::new(),
             tracks: Tracks::new(),
@@ -88,6 +105,32 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize> ContactState
         &self.feedback
     }
 
+    /// Contacts of the last frame, in the order of their onset.
+    pub fn present(&self) -> &[S] {
+        self.tracks.contacts()
+    }
+
+    /// Contacts that ended with the last frame.
+    pub fn released(&self) -> &[S] {
+        self.tracks.released()
+    }
+
+    /// The entries of the present contacts, for what later stages keep there.
+    pub(crate) fn slots(&mut self) -> &mut [S] {
+        &mut self.tracks.contacts
+    }
+
+    /// The entries of the present contacts, each with moments and ratios of the fourth order if its form is
+    /// of the last frame.
+    pub(crate) fn looked(&mut self) -> impl Iterator<Item = (&mut S, Option<(&Moments, &Quartic)>)> {
+        let components = &self.components.list;
+        let Tracks { contacts, trails, quartics, .. } = &mut self.tracks;
+        contacts.iter_mut().zip(trails.iter().zip(&*quartics)).map(|(slot, (trail, quartic))| {
+            let looked = components.get(usize::from(trail.component)).filter(|_| trail.age == 0);
+            (slot, looked.map(|component| (&component.moments, quartic)))
+        })
+    }
+
     /// Age of the forms of the last frame's contacts, frames, in the order of their onset.
     pub fn form_ages(&self) -> &[u8] {
         self.tracks.ages()
@@ -100,11 +143,11 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize> ContactState
     }
 }
 
-impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize> Default
-    for ContactState<CONTACTS, RUNS, LABELS>
+impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot> Default
+    for ContactState<CONTACTS, RUNS, LABELS, S>
 {
     fn default() -> Self {
-        ContactState::new()
+        ContactState::with_slots()
     }
 }
 
@@ -124,6 +167,9 @@ impl ContactConfig {
         if self.slip_speed == 0 {
             return refuse("contact.slip_speed", "must be at least 1 (1/16 cm/s)");
         }
+        if !cfg!(feature = "slip") && self.slip_speed != NO_SLIP {
+            return refuse("contact.slip_speed", LEFT_OUT);
+        }
         Ok(Contacts { config: *self, forms: Forms::default() })
     }
 }
@@ -135,13 +181,13 @@ impl Contacts {
     }
 
     /// Processes one frame that was scanned at `now`: [`Contacts::segment`], then [`Contacts::track`].
-    pub fn process<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize>(
+    pub fn process<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS, LABELS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, LABELS, S>,
         layout: &Layout,
         image: &Image,
         now: Micros,
-    ) -> Touches<'a> {
+    ) -> Touches<'a, S> {
         self.segment(state, layout, image);
         self.track(state, layout, image, now)
     }
@@ -149,31 +195,31 @@ impl Contacts {
     /// Returns the components of a frame that are contacts, measured, in the order of their first taxels.
     /// This suffices if you need no ids and no velocities. Of earlier contacts it uses only the positions,
     /// which keep faint ones.
-    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize>(
+    pub fn segment<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS, LABELS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, LABELS, S>,
         layout: &Layout,
         image: &Image,
     ) -> &'a [Component] {
-        let ContactState { labeller, joins, carried, components, feedback, .. } = state;
+        let ContactState { labeller, joins, components, feedback, .. } = state;
         labeller.scan(layout, image, self.config.low);
         labeller.mark_held(layout, feedback, self.config.high);
         joins.find(labeller, layout);
         components.select(&self.config, labeller);
         components.number(labeller);
-        components.measure(labeller, (joins, carried), layout, image);
+        components.measure(labeller, joins, layout, image);
         components.feed_back(feedback);
         &components.list
     }
 
     /// Follows contacts from the last frame to the components that [`Contacts::segment`] found in this image.
-    pub fn track<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize>(
+    pub fn track<'a, const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
         &self,
-        state: &'a mut ContactState<CONTACTS, RUNS, LABELS>,
+        state: &'a mut ContactState<CONTACTS, RUNS, LABELS, S>,
         layout: &Layout,
         image: &Image,
         now: Micros,
-    ) -> Touches<'a> {
+    ) -> Touches<'a, S> {
         let ContactState { labeller, joins, components, matching, tracks, .. } = state;
         matching.assign(&self.config, tracks, &components.list, layout, now);
         components.reunite(labeller, layout, tracks);
@@ -182,13 +228,14 @@ impl Contacts {
         tracks.update(&self.config, &components.list, &sight, (now, self.forms));
         Touches {
             present: tracks.contacts(),
-            moments: tracks.moments(),
             ages: tracks.ages(),
             quartics: tracks.quartics(),
             released: tracks.released(),
             dropped: components.dropped,
             faint: components.faint,
             overflow: labeller.overflow.saturating_add(joins.overflow),
+            trails: &tracks.trails,
+            components: &components.list,
         }
     }
 }

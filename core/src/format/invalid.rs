@@ -11,6 +11,9 @@ pub struct Invalid {
     pub must: &'static str,
 }
 
+/// What an [`Invalid`] says of a part that this build leaves out: a feature of the crate.
+pub const LEFT_OUT: &str = "is left out of this firmware";
+
 impl fmt::Display for Invalid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.parameter, self.must)

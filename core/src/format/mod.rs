@@ -28,7 +28,7 @@ mod scaled;
 mod shift;
 
 pub(crate) use extremes::Extremes;
-pub use invalid::{Invalid, InvalidRow};
+pub use invalid::{Invalid, InvalidRow, LEFT_OUT};
 pub use inverse::Inverse;
 pub(crate) use product::{product, signed_wide, wide};
 pub use root::root;

@@ -16,6 +16,7 @@ const fn from_halves(a: u32, b: u32) -> u64 {
 }
 
 /// Product of a signed number and a word below 2^31.
+#[inline(always)] // M0+: its callers know the sign of the word
 pub(crate) const fn signed_wide(a: i32, b: u32) -> i64 {
     let size = wide(a.unsigned_abs(), b) as i64;
     if a < 0 { -size } else { size }

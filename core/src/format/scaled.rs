@@ -40,6 +40,7 @@ impl Scaled {
     }
 
     /// Converts an integer, rounded to the nearest.
+    #[inline]
     pub const fn from_u64(value: u64) -> Scaled {
         if value == 0 {
             return Scaled::ZERO;
@@ -64,6 +65,7 @@ impl Scaled {
     }
 
     /// Product.
+    #[inline]
     pub const fn times(self, other: Scaled) -> Scaled {
         if self.mantissa == 0 || other.mantissa == 0 {
             return Scaled::ZERO;

@@ -19,7 +19,7 @@ pub struct Demand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Announced {
     class: Option<u8>,
-    candidate: u8,
+    candidate: Option<u8>,
     since: Micros,
 }
 
@@ -32,7 +32,7 @@ impl Default for Announced {
 impl Announced {
     /// State without an announcement.
     pub const fn new() -> Announced {
-        Announced { class: None, candidate: u8::MAX, since: Micros(0) }
+        Announced { class: None, candidate: None, since: Micros(0) }
     }
 
     /// The class that was announced.
@@ -43,8 +43,8 @@ impl Announced {
     /// Takes a decision at `now`. Returns the class if this decision is announced.
     pub fn take(&mut self, decision: &Decision, now: Micros, demand: &Demand) -> Option<u8> {
         let class = decision.class as u8;
-        if class != self.candidate {
-            (self.candidate, self.since) = (class, now);
+        if self.candidate != Some(class) {
+            (self.candidate, self.since) = (Some(class), now);
         }
         let new = self.class != Some(class);
         let clear = self.class.is_none() || decision.lead >= demand.lead;

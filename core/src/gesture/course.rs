@@ -31,17 +31,17 @@ impl Default for Course {
 }
 
 impl Course {
-    /// State before the first frame.
+    /// State before the first frame. All bytes are 0.
     pub const fn new() -> Course {
         let changes = [0; LAGS.len()];
-        Course { squares: 0, sum: 0, moment: 0, least: u16::MAX, most: 0, changes, spread: Histogram::new() }
+        Course { squares: 0, sum: 0, moment: 0, least: 0, most: 0, changes, spread: Histogram::new() }
     }
 
     /// Adds the value of a frame, at most 4095. `frame` is its number, from 0. `back` gives the values
     /// [`LAGS`] frames ago; those before the first frame are ignored.
     pub fn add(&mut self, value: u16, frame: u32, back: impl Iterator<Item = u16>) {
         let wide = u32::from(value);
-        self.least = self.least.min(value);
+        self.least = if frame == 0 { value } else { self.least.min(value) };
         self.most = self.most.max(value);
         self.sum = self.sum.wrapping_add(wide);
         self.squares = self.squares.wrapping_add((wide * wide).into());

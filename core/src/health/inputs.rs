@@ -21,7 +21,8 @@ const FAR: u16 = 8;
 /// Input that is checked next.
 #[derive(Debug, Clone)]
 pub(super) struct InputCheck {
-    input: u8,
+    /// None before the first.
+    input: Option<u8>,
     round: u8,
     /// Frame counter.
     turn: u8,
@@ -30,7 +31,7 @@ pub(super) struct InputCheck {
 impl InputCheck {
     /// Starts at the first input.
     pub const fn new() -> InputCheck {
-        InputCheck { input: u8::MAX, round: 0, turn: 0 }
+        InputCheck { input: None, round: 0, turn: 0 }
     }
 
     /// Checks an input in every fourth frame; true if it seems faulty. `travel` is the median travel of a
@@ -50,7 +51,7 @@ impl InputCheck {
         let part = self.round.wrapping_mul(157);
         let sites = circuit.sites().iter();
         let lines = sites
-            .filter(|site| site.input == self.input && plan.reads(site.panel, site.block))
+            .filter(|site| Some(site.input) == self.input && plan.reads(site.panel, site.block))
             .map(|site| TaxelLine::of(site, part, first, shift));
         let mut tally = Tally { far, ..Tally::default() };
         for line in lines.clone() {
@@ -65,11 +66,11 @@ impl InputCheck {
     /// Advances to the next input; after the last one, to the first in another round.
     fn go_on(&mut self, circuit: &Circuit) {
         let inputs = || circuit.sites().iter().map(|site| site.input);
-        let next = inputs().filter(|input| *input > self.input).min();
+        let next = inputs().filter(|input| Some(*input) > self.input).min();
         if next.is_none() {
             self.round = self.round.wrapping_add(1);
         }
-        self.input = next.or_else(|| inputs().min()).unwrap_or(u8::MAX);
+        self.input = next.or_else(|| inputs().min());
     }
 }
 

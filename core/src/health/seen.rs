@@ -14,6 +14,10 @@ pub(super) struct Seen {
 }
 
 impl Seen {
+    /// All bytes are 0.
+    pub const BLANK: Seen = Seen { course: 0, low: 0, high: 0 };
+
+    /// Statistics without a code.
     pub const NOTHING: Seen = Seen { course: 0, low: u16::MAX, high: 0 };
 
     /// Takes the first code.

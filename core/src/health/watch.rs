@@ -23,9 +23,9 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// State before the first frame.
+    /// State before the first frame. All bytes are 0.
     pub const fn new() -> Self {
-        Watch { seen: [Seen::NOTHING; GROUP * FRAMES], group: 0, slot: 0, begun: 0, groups: 0 }
+        Watch { seen: [Seen::BLANK; GROUP * FRAMES], group: 0, slot: 0, begun: 0, groups: 0 }
     }
 
     /// Restarts the watch with the next frame.
@@ -37,6 +37,7 @@ impl Watch {
     /// `FRAMES - 1`.
     pub fn take(&mut self, codes: &[Code], taxels: usize) -> bool {
         if self.begun == 0 {
+            self.seen.fill(Seen::NOTHING);
             (self.group, self.slot) = (0, 0);
             self.groups = taxels.div_ceil(GROUP).max(FRAMES) as u16;
         } else {

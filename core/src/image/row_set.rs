@@ -58,6 +58,7 @@ impl RowSet {
     }
 
     /// First run of consecutive rows of the range that may be non-zero.
+    #[inline]
     pub fn run(&self, rows: Range<u16>) -> Option<Range<u16>> {
         let start = self.next(rows.clone())?;
         let mut end = start;

@@ -6,10 +6,10 @@ use crate::format::Name;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Default capacity for the concepts of a map.
-pub const CONCEPTS: usize = 64;
-/// Default capacity for the edges of a map.
-pub const EDGES: usize = 256;
+/// Default capacity for the concepts of a map; none without the feature `intent`.
+pub const CONCEPTS: usize = if cfg!(feature = "intent") { 64 } else { 0 };
+/// Default capacity for the edges of a map; none without the feature `intent`.
+pub const EDGES: usize = if cfg!(feature = "intent") { 256 } else { 0 };
 /// Greatest number of decimals: with steps of 10^-4, products of weight and state fit in 32 bits.
 pub const DECIMALS: u8 = 4;
 

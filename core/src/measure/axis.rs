@@ -33,6 +33,7 @@ struct AxisSpread {
 }
 
 impl Normal {
+    #[inline]
     fn of(central: &Central) -> Normal {
         let Central { a, b, c } = *central;
         let spare = a.wrapping_add(b).leading_zeros();
@@ -50,6 +51,7 @@ impl Normal {
         AxisSpread { difference, mixed, d }
     }
 
+    #[inline]
     fn axis(&self, spread: &AxisSpread, area: u32) -> Axis {
         let anisotropy = Q15::ratio(spread.d.into(), self.a.wrapping_add(self.b).into());
         // Tests share >= floor(32768 / area) without the division. Without any spread the share is 0.

@@ -34,11 +34,6 @@ impl CarriedLabels {
         CarriedLabels { list: Vec::new() }
     }
 
-    /// Empties the list.
-    pub fn clear(&mut self) {
-        self.list.clear();
-    }
-
     /// Returns the home panel of a joined contact, the one with most of its mass, and places all its labels.
     pub fn settle<const RUNS: usize, const LABELS: usize>(
         &mut self,

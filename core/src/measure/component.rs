@@ -149,11 +149,23 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     pub fn measure<const RUNS: usize, const LABELS: usize>(
         &mut self,
         labeller: &Labeller<RUNS, LABELS>,
-        (joins, carried): (&Joins, &mut CarriedLabels),
+        joins: &Joins,
         layout: &Layout,
         image: &Image,
     ) {
-        carried.clear();
+        // On the stack, because nothing of it outlasts the call.
+        let mut carried = CarriedLabels::new();
+        self.measure_with(&mut carried, (labeller, joins), layout, image);
+    }
+
+    #[inline(never)] // own frame: locals stay within short SP offsets
+    fn measure_with<const RUNS: usize, const LABELS: usize>(
+        &mut self,
+        carried: &mut CarriedLabels,
+        (labeller, joins): (&Labeller<RUNS, LABELS>, &Joins),
+        layout: &Layout,
+        image: &Image,
+    ) {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = carried.settle(labeller, joins, layout, index);
         }
@@ -273,6 +285,7 @@ impl Component {
     }
 
     /// Runs in the rows of its box, with their indices; all runs if it lies on several panels.
+    #[inline]
     pub(crate) fn runs<'l, const RUNS: usize, const LABELS: usize>(
         &self,
         labeller: &'l Labeller<RUNS, LABELS>,

@@ -300,7 +300,6 @@ mod tests {
             let peak = sums.take(&values);
             let run = |row| Run {
                 taxels: 0xffff,
-                all: 0xffff,
                 row: 100 + row,
                 label: 0,
                 left: 0,

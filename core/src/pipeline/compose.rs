@@ -3,7 +3,7 @@
 use super::error::SceneError;
 use crate::condition::Condition;
 use crate::contact::{Contacts, Forms};
-use crate::format::{Invalid, InvalidRow};
+use crate::format::{Invalid, InvalidRow, LEFT_OUT};
 use crate::garment::{Layout, PANELS};
 use crate::gesture::{Certainty, Gestures};
 use crate::intent::Intent;
@@ -57,7 +57,7 @@ impl Pipeline {
     #[inline(never)]
     pub fn fit(&mut self, scene: &Scene, layout: &Layout) -> Result<(), SceneError> {
         let friendliness = friendliness(scene, layout)?;
-        self.react = Reactions::build(&scene.react, layout, self.intent.as_ref().map(Intent::map))?;
+        self.react = Reactions::build(&scene.react, layout, self.intent().map(Intent::map))?;
         self.friendliness = friendliness;
         Ok(())
     }
@@ -71,6 +71,9 @@ impl Pipeline {
     #[inline(never)]
     fn build_intent(&mut self, scene: &Scene) -> Result<(), SceneError> {
         match &scene.intent {
+            Some(_) if !cfg!(feature = "intent") => {
+                return Err(Invalid { parameter: "intent", must: LEFT_OUT }.into());
+            }
             Some(intent) => self.intent.get_or_insert_default().fill(intent)?,
             None => self.intent = None,
         }
@@ -84,7 +87,7 @@ impl Pipeline {
 
     /// The stage that infers the intention.
     pub fn intent(&self) -> Option<&Intent> {
-        self.intent.as_ref()
+        self.intent.as_ref().filter(|_| cfg!(feature = "intent"))
     }
 
     /// The table of reactions.

@@ -6,12 +6,11 @@ use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
 use crate::body::Placed;
 use crate::condition::{Image, Sampled};
-use crate::contact::{Contact, ContactState, Touches};
+use crate::contact::ContactState;
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
 use crate::intent::{Felt, Intent, Touch};
 use crate::shape::{Shape, Taught};
-use heapless::Vec;
 
 impl Pipeline {
     /// Processes one frame of codes, scanned at `now`.
@@ -24,18 +23,7 @@ impl Pipeline {
         now: Micros,
         probe: &mut impl Probe,
     ) -> Percept<'s> {
-        let PipelineState {
-            condition,
-            contact,
-            present,
-            released,
-            unsure,
-            symbol,
-            intent,
-            react,
-            taught,
-            ..
-        } = state;
+        let PipelineState { condition, contact, unsure, symbol, intent, react, taught, .. } = state;
         probe.begin(Stage::Condition);
         let sampled = Sampled { codes, falling, panels: self.panels, now };
         self.condition.process(condition, layout, &sampled, contact.feedback());
@@ -46,21 +34,26 @@ impl Pipeline {
         probe.begin(Stage::Shape);
         let dropped = touches.dropped.saturating_add(touches.overflow);
         let faint = touches.faint;
-        self.place(&touches, layout, present, released);
+        self.place(contact, layout);
         if taught.gallery().is_some() {
-            look(taught, present, contact, layout, &image);
+            look(taught, contact, layout, &image);
         }
+        let contact = &*contact;
+        let (present, released) = (contact.present(), contact.released());
         unsure.process(present, faint, |panel| condition.drifted(panel), now);
         let unsure = &*unsure;
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, layout, present, released, now);
+        #[cfg(feature = "gesture")]
         let gesture = self.gestures.as_ref().and_then(|stage| {
             let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
             let told = stage.process(&mut state.gesture, layout, &image, totals, self.certainty, now)?;
             Some((told, stage.name(told.class)))
         });
+        #[cfg(not(feature = "gesture"))]
+        let gesture = None;
         probe.begin(Stage::Intent);
-        let meaning = self.intent.as_ref().and_then(|stage| {
+        let meaning = self.intent().and_then(|stage| {
             let press = |placed: &Placed| placed.contact.peak_total;
             let sure = || present.iter().enumerate().filter(|(index, _)| !unsure.is_unsure(*index));
             let strongest = sure()
@@ -90,42 +83,24 @@ impl Pipeline {
         }
     }
 
-    /// Sets shape and place of each contact. Released ones, and those whose form was not computed in this
-    /// frame, keep their shape.
-    #[inline(always)] // one call; its iterators use the caller's values in place
-    fn place(
+    /// Sets the place of each contact, and the shape of those whose form was measured in this frame. The
+    /// others, and released ones, keep their shape.
+    #[inline(always)] // one call; its iterator uses the caller's values in place
+    fn place<const RUNS: usize, const PARTS: usize>(
         &self,
-        touches: &Touches<'_>,
+        contact: &mut ContactState<CONTACTS, RUNS, PARTS, Placed>,
         layout: &Layout,
-        present: &mut Vec<Placed, CONTACTS>,
-        released: &mut Vec<Placed, CONTACTS>,
     ) {
-        let gone = |contact: &Contact| Placed::new(layout, contact.clone(), shape_in(present, contact.id));
-        replace(released, touches.released.iter().map(gone));
-        let forms = touches.moments.iter().zip(touches.quartics).zip(touches.ages);
-        for (index, (contact, ((moments, quartic), age))) in touches.present.iter().zip(forms).enumerate() {
-            let shape = match &self.shape {
-                Some(stage) if *age == 0 => stage.process(moments, quartic, contact),
-                Some(_) => match present.get_mut(index) {
-                    // The usual case: the entry already is this contact's.
-                    Some(placed) if placed.contact.id == contact.id => {
-                        placed.follow(layout, contact);
-                        continue;
-                    }
-                    _ => shape_in(present.get(index..).unwrap_or(&[]), contact.id),
-                },
-                None => Shape::default(),
-            };
-            match present.get_mut(index) {
-                Some(placed) => {
-                    placed.shape = shape;
-                    placed.follow(layout, contact);
+        for (placed, looked) in contact.looked() {
+            match (&self.shape, looked) {
+                (Some(stage), Some((moments, quartic))) => {
+                    placed.shape = stage.process(moments, quartic, &placed.contact);
                 }
-                // There are as many places as contacts.
-                None => _ = present.push(Placed::new(layout, contact.clone(), shape)),
+                (Some(_), None) => {}
+                (None, _) => placed.shape = Shape::default(),
             }
+            placed.place(layout);
         }
-        present.truncate(touches.present.len());
     }
 
     /// Inputs of the map from one contact.
@@ -160,7 +135,7 @@ impl Pipeline {
 
     /// Area of a taxel at the contact, mm2; 0 if the map does not use hardness.
     fn cell_mm2(&self, layout: &Layout, placed: &Placed) -> u32 {
-        if !self.intent.as_ref().is_some_and(Intent::feels) {
+        if !self.intent().is_some_and(Intent::feels) {
             return 0;
         }
         let area = layout.areas().get(usize::from(placed.contact.panel));
@@ -172,30 +147,14 @@ impl Pipeline {
 /// it.
 fn look<const RUNS: usize, const PARTS: usize>(
     taught: &mut Taught<CONTACTS>,
-    present: &mut [Placed],
-    contact: &ContactState<CONTACTS, RUNS, PARTS>,
+    contact: &mut ContactState<CONTACTS, RUNS, PARTS, Placed>,
     layout: &Layout,
     image: &Image<'_>,
 ) {
+    let present = contact.present();
     let chosen = taught.choose(present.iter().map(|placed| placed.contact.id));
     if let Some((index, placed)) = chosen.and_then(|index| Some((index, present.get(index)?))) {
         taught.look(contact, layout, image, (index, &placed.contact));
     }
-    present.iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
-}
-
-/// Returns the shape that a contact had in `list`. Lists of contacts are in the order of onset, so entries
-/// before the search can be overwritten.
-fn shape_in(list: &[Placed], id: u32) -> Shape {
-    list.iter().find(|placed| placed.contact.id == id).map_or_else(Shape::default, |placed| placed.shape)
-}
-
-/// Replaces the content of a list; items without room are left out.
-fn replace<T, const N: usize>(list: &mut Vec<T, N>, items: impl Iterator<Item = T>) {
-    list.clear();
-    for item in items {
-        if list.push(item).is_err() {
-            break;
-        }
-    }
+    contact.slots().iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
 }

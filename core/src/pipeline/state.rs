@@ -7,13 +7,13 @@ use crate::contact::ContactState;
 use crate::fold::FoldState;
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
+#[cfg(feature = "gesture")]
 use crate::gesture::GestureState;
 use crate::intent::{Fed, IntentState};
 use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
-use heapless::Vec;
 
 /// Most contacts tracked at a time.
 pub const CONTACTS: usize = 32;
@@ -23,11 +23,10 @@ pub const CONTACTS: usize = 32;
 pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
     /// Baseline, gains, images.
     pub condition: ConditionState<TAXELS>,
-    pub(super) contact: ContactState<CONTACTS, RUNS, PARTS>,
-    pub(super) present: Vec<Placed, CONTACTS>,
-    pub(super) released: Vec<Placed, CONTACTS>,
+    pub(super) contact: ContactState<CONTACTS, RUNS, PARTS, Placed>,
     pub(super) unsure: UnsureState<CONTACTS>,
     pub(super) symbol: SymbolState<CONTACTS>,
+    #[cfg(feature = "gesture")]
     pub(super) gesture: GestureState,
     pub(super) intent: IntentState,
     pub(super) react: ReactState,
@@ -47,11 +46,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
         PipelineState {
             // Constants: written in place, without a copy on the stack.
             condition: const { ConditionState::new() },
-            contact: const { ContactState::new() },
-            present: Vec::new(),
-            released: Vec::new(),
+            contact: const { ContactState::with_slots() },
             unsure: const { UnsureState::new() },
             symbol: SymbolState::default(),
+            #[cfg(feature = "gesture")]
             gesture: const { GestureState::new() },
             intent: IntentState::default(),
             react: ReactState::default(),
@@ -73,7 +71,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     /// Forgets results that belong to a scene; the baseline stays.
     pub fn forget(&mut self) {
         self.symbol = SymbolState::default();
-        self.gesture.forget();
+        self.recognise_anew();
         self.intent = IntentState::default();
         self.react = ReactState::default();
     }
@@ -106,7 +104,17 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
 
     /// True if there was a contact in the last frame.
     pub fn is_touched(&self) -> bool {
-        !self.present.is_empty()
+        !self.contact.present().is_empty()
+    }
+
+    /// Present contacts of the last frame.
+    pub(crate) fn present(&self) -> &[Placed] {
+        self.contact.present()
+    }
+
+    /// Age of their forms, frames.
+    pub(crate) fn form_ages(&self) -> &[u8] {
+        self.contact.form_ages()
     }
 
     /// Which contacts of the last frame may be drift.
@@ -121,12 +129,13 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
 
     /// Forgets the present touch after a change of the gesture model; the next touch is recognised.
     pub fn recognise_anew(&mut self) {
+        #[cfg(feature = "gesture")]
         self.gesture.forget();
     }
 
     /// Forgets all classes of shapes after a change of the base; recognition resumes with the next frame.
     pub fn recognise_shapes_anew(&mut self) {
-        self.present.iter_mut().for_each(|placed| placed.shape.forget_class());
+        self.contact.slots().iter_mut().for_each(|placed| placed.shape.forget_class());
         self.symbol.forget_classes();
     }
 

@@ -23,13 +23,25 @@ pub struct ContactConfig {
     pub slip_speed: u16,
 }
 
-/// The [`slip_speed`](ContactConfig::slip_speed) of a scene without slip.
+/// The [`slip_speed`](ContactConfig::slip_speed) of a scene without slip; the only one of a build without the
+/// feature `slip`.
 pub const NO_SLIP: u16 = u16::MAX;
+
+/// The default: 4 cm/s.
+const SLIP: u16 = if cfg!(feature = "slip") { 64 } else { NO_SLIP };
+
+impl ContactConfig {
+    /// True if the scene looks for slip.
+    #[inline(always)]
+    pub(crate) const fn slips(&self) -> bool {
+        cfg!(feature = "slip") && self.slip_speed != NO_SLIP
+    }
+}
 
 impl Default for ContactConfig {
     /// The velocity of a still finger of 2 x 2 taxels at 1000 counts with a noise of 3 counts stays below 0.3
     /// taxel/s, so 4 cm/s are clear of noise at 10 mm pitch, and below the stroke of a hand (about 10 cm/s).
     fn default() -> Self {
-        ContactConfig { low: 60, high: 120, min_area: 1, gate: 4, smoothing_ms: 40, slip_speed: 64 }
+        ContactConfig { low: 60, high: 120, min_area: 1, gate: 4, smoothing_ms: 40, slip_speed: SLIP }
     }
 }

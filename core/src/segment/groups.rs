@@ -37,15 +37,15 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     #[inline(never)] // M0+: out of line
     pub(crate) fn scan_groups(&mut self, all: u32, values: &[u16], line: &ScanLine) -> u16 {
         if let Some(label) = self.only_label(all, line) {
-            return self.push_groups(all, all, label, values, line);
+            return self.push_groups(all, label, values, line);
         }
         let mut found = GroupLabels::new();
         self.find_labels(&mut found, all, line);
         for &(taxels, label) in &found {
             if is_run(taxels) {
-                self.push_group(taxels, all, label, values, line);
+                self.push_group(taxels, label, values, line);
             } else {
-                self.push_groups(taxels, all, label, values, line);
+                self.push_groups(taxels, label, values, line);
             }
         }
         NONE

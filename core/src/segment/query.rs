@@ -26,33 +26,35 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         if row <= area.first_row || row >= last {
             return 0;
         }
-        let above = self.all_before(number, key(row - 1, column));
-        let below = self.all_after(number, key(row + 1, column));
+        let above = self.before(number, key(row - 1, column), taxels);
+        let below = self.after(number, key(row + 1, column), taxels);
         let mut left = taxels << 1;
         if column > 0 {
-            left |= self.all_before(number, key(row, column - 1)) >> (WORD - 1);
+            left |= self.before(number, key(row, column - 1), 1 << (WORD - 1)) >> (WORD - 1);
         }
         let mut right = taxels >> 1;
         if taxels >> (WORD - 1) != 0 && column < u16::MAX - WORD {
-            right |= self.all_after(number, key(row, column + WORD)) << (WORD - 1);
+            right |= self.after(number, key(row, column + WORD), 1) << (WORD - 1);
         }
         taxels & above & below & left & right
     }
 
-    /// Returns all touched taxels of a word that comes before run `number`.
+    /// Returns which of the `wanted` taxels of a word that comes before run `number` are touched; bits of
+    /// others may be set.
     #[inline(never)] // M0+: out of line
-    fn all_before(&self, number: usize, word: u32) -> u32 {
-        let runs = self.runs.get(..number).unwrap_or(&[]);
-        let last = runs.iter().rev().find(|run| run.key() <= word);
-        last.filter(|run| run.key() == word).map_or(0, |run| run.all)
+    fn before(&self, number: usize, word: u32, wanted: u32) -> u32 {
+        let mut runs = self.runs.get(..number).unwrap_or(&[]).iter().rev();
+        let last = runs.find(|run| run.key() <= word);
+        union(last, runs, word, wanted)
     }
 
-    /// Returns all touched taxels of a word that comes after run `number`.
+    /// Returns which of the `wanted` taxels of a word that comes after run `number` are touched; bits of
+    /// others may be set.
     #[inline(never)] // M0+: out of line
-    fn all_after(&self, number: usize, word: u32) -> u32 {
-        let runs = self.runs.get(number + 1..).unwrap_or(&[]);
-        let first = runs.iter().find(|run| run.key() >= word);
-        first.filter(|run| run.key() == word).map_or(0, |run| run.all)
+    fn after(&self, number: usize, word: u32, wanted: u32) -> u32 {
+        let mut runs = self.runs.get(number + 1..).unwrap_or(&[]).iter();
+        let first = runs.find(|run| run.key() >= word);
+        union(first, runs, word, wanted)
     }
 
     /// Contact of a taxel; valid once contacts are numbered.
@@ -68,4 +70,15 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         let label = self.labels.get(usize::from(run.label))?;
         (label.contact != NONE).then_some(label.contact)
     }
+}
+
+/// The taxels of the runs of a word, `first` and those that follow, until they hold all `wanted` ones.
+#[inline(always)]
+fn union<'a>(first: Option<&Run>, rest: impl Iterator<Item = &'a Run>, word: u32, wanted: u32) -> u32 {
+    let Some(first) = first.filter(|run| run.key() == word) else { return 0 };
+    let mut all = first.taxels;
+    if wanted & !all != 0 {
+        all = rest.take_while(|run| run.key() == word).fold(all, |all, run| all | run.taxels);
+    }
+    all
 }

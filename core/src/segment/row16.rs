@@ -23,7 +23,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
             } else if taxels & !line.reach != 0 {
                 self.scan_groups(taxels, values, line)
             } else if taxels != 0 {
-                self.push_groups(taxels, taxels, line.label, values, line)
+                self.push_groups(taxels, line.label, values, line)
             } else {
                 NONE
             };
@@ -40,25 +40,18 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
     #[inline(never)] // M0+: out of line
     fn scan_group(&mut self, group: u32, values: &[u16], line: &ScanLine) -> u16 {
         let label = if line.reach & group != 0 { line.label } else { self.meet(group, line) };
-        self.push_group(group, group, label, values, line)
+        self.push_group(group, label, values, line)
     }
 
-    /// Appends one group of adjacent taxels; `all` is every touched taxel of the row.
+    /// Appends one group of adjacent taxels.
     #[inline(always)]
-    pub(crate) fn push_group(
-        &mut self,
-        taxels: u32,
-        all: u32,
-        label: u16,
-        values: &[u16],
-        line: &ScanLine,
-    ) -> u16 {
+    pub(crate) fn push_group(&mut self, taxels: u32, label: u16, values: &[u16], line: &ScanLine) -> u16 {
         let Range { start, end } = run_of(taxels);
         // Always: the row has as many values.
         let Some(values) = values.get(start..end) else { return label };
         let (left, right, area) = (start as u16, end as u16 - 1, values.len() as u16);
         let (sums, peak) = (RunSums::NONE, 0);
-        let run = Run { taxels, all, row: line.row, label, left, right, area, peak, sums };
+        let run = Run { taxels, row: line.row, label, left, right, area, peak, sums };
         let (label, run) = self.push(run, line.panel);
         if let Some(run) = run {
             // Summed in place: nothing is copied.
@@ -82,20 +75,13 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
         label
     }
 
-    /// Appends groups of a row as one run; `all` is every touched taxel of the row.
+    /// Appends groups of a row as one run.
     #[inline(never)] // M0+: out of line
-    pub(crate) fn push_groups(
-        &mut self,
-        taxels: u32,
-        all: u32,
-        label: u16,
-        values: &[u16],
-        line: &ScanLine,
-    ) -> u16 {
+    pub(crate) fn push_groups(&mut self, taxels: u32, label: u16, values: &[u16], line: &ScanLine) -> u16 {
         let (start, area) = (taxels.trailing_zeros(), taxels.count_ones() as u16);
         let (left, right) = (start as u16, highest(taxels));
         let (sums, peak) = (RunSums::NONE, 0);
-        let run = Run { taxels, all, row: line.row, label, left, right, area, peak, sums };
+        let run = Run { taxels, row: line.row, label, left, right, area, peak, sums };
         let (label, run) = self.push(run, line.panel);
         if let Some(run) = run {
             let values = values.get(start as usize..).unwrap_or(&[]);

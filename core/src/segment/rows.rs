@@ -75,7 +75,7 @@ impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
             let mut sums = RunSums::NONE;
             let peak = sums.take(values);
             let (taxels, row, right) = (rest & !after, line.row, end - 1);
-            let run = Run { taxels, all, row, label, left, right, area, peak, sums };
+            let run = Run { taxels, row, label, left, right, area, peak, sums };
             if let (label, Some(_)) = self.push(run, line.panel)
                 && let Some(label) = self.labels.get_mut(usize::from(label))
             {

@@ -10,8 +10,6 @@ use super::sums::RunSums;
 pub(crate) struct Run {
     /// Bit `i` stands for column `column + i`; not 0.
     pub taxels: u32,
-    /// All touched taxels of the word.
-    pub all: u32,
     /// Row, counted over all panels.
     pub row: u16,
     /// Label under which it was found; the parent of that is the label that it belongs to.

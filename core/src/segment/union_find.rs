@@ -74,6 +74,7 @@ pub(crate) fn first_of(labels: &mut [Label], mut label: u16) -> u16 {
 }
 
 /// Joins two labels; returns their root.
+#[inline]
 pub(crate) fn unite(labels: &mut [Label], a: u16, b: u16) -> u16 {
     let (a, b) = (first_of(labels, a), first_of(labels, b));
     if let Some(label) = labels.get_mut(usize::from(a.max(b))) {

@@ -26,7 +26,7 @@ mod lines;
 
 pub use findings::{FAULTS, Fault, Findings, PinFault};
 
-use crate::acquire::{Clock, MuxScan, ProbePin, PulledAdc, ScanError};
+use crate::acquire::{Clock, Mux, MuxScan, ProbePin, PulledAdc, ScanError};
 use crate::garment::Circuit;
 use embedded_hal::delay::DelayNs;
 
@@ -58,6 +58,26 @@ impl<E: Examine> Examine for &mut E {
 }
 
 impl<P, D, A, C, const PINS: usize, const TAXELS: usize> Examine for MuxScan<'_, P, D, A, C, PINS, TAXELS>
+where
+    P: ProbePin,
+    D: DelayNs,
+    A: PulledAdc,
+    C: Clock,
+{
+    fn examine(&mut self, circuit: &Circuit) -> Result<Findings, ScanError> {
+        self.mux().examine(circuit)
+    }
+
+    fn pose(&mut self, circuit: &Circuit) {
+        self.mux().pose(circuit);
+    }
+
+    fn is_misled(&mut self) -> bool {
+        self.mux().is_misled()
+    }
+}
+
+impl<P, D, A, C, const PINS: usize> Examine for Mux<'_, P, D, A, C, PINS>
 where
     P: ProbePin,
     D: DelayNs,

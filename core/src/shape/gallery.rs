@@ -7,10 +7,10 @@ use crate::format::{Invalid, Name, Q15, root};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Greatest number of classes of a gallery.
-pub const GALLERY_CLASSES: usize = 32;
-/// Greatest number of prototypes of a gallery on a board.
-pub const GALLERY_PROTOTYPES: usize = 200;
+/// Greatest number of classes of a gallery; none without the feature `gallery`.
+pub const GALLERY_CLASSES: usize = if cfg!(feature = "gallery") { 32 } else { 0 };
+/// Greatest number of prototypes of a gallery on a board; none without the feature `gallery`.
+pub const GALLERY_PROTOTYPES: usize = if cfg!(feature = "gallery") { 200 } else { 0 };
 /// Greatest number of neighbours that vote.
 const VOTERS: usize = 9;
 
@@ -63,12 +63,12 @@ impl<const PROTOTYPES: usize> Default for Gallery<PROTOTYPES> {
 }
 
 impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
-    /// An empty gallery, which recognises nothing.
+    /// An empty gallery, which recognises nothing. All bytes are 0.
     pub const fn new() -> Self {
         let space = Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 };
         let confidence =
             ConfidenceTable { shares: [0; STEPS - 1], distances: [0; STEPS - 1], right: [[0; STEPS]; STEPS] };
-        Gallery { names: Vec::new(), space, k: 1, reject: 0, confidence, prototypes: Vec::new() }
+        Gallery { names: Vec::new(), space, k: 0, reject: 0, confidence, prototypes: Vec::new() }
     }
 
     /// Checks a gallery from outside. Error if a parameter is out of range.

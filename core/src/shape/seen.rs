@@ -4,15 +4,15 @@ use super::descriptor::{Descriptor, descriptor};
 use super::patch::Patch;
 use crate::capacity::TAXELS;
 use crate::condition::Image;
-use crate::contact::{Contact, ContactState};
+use crate::contact::{Contact, ContactState, Slot};
 use crate::garment::{Layout, Place};
 
 /// Returns the descriptor of a contact, number `index` of those in `contacts`, from its own taxels. Of one
 /// that crosses a seam, only the part on its home panel counts; of a box of more than [`TAXELS`] taxels, the
 /// last rows are left out. None if there is no such panel.
 #[inline(never)] // its buffer of 4 KB is on the stack only during the call
-pub fn seen<const CONTACTS: usize, const RUNS: usize, const PARTS: usize>(
-    contacts: &ContactState<CONTACTS, RUNS, PARTS>,
+pub fn seen<const CONTACTS: usize, const RUNS: usize, const PARTS: usize, S: Slot>(
+    contacts: &ContactState<CONTACTS, RUNS, PARTS, S>,
     layout: &Layout,
     image: &Image<'_>,
     (index, contact): (usize, &Contact),

@@ -4,8 +4,8 @@ use super::descriptor::{Descriptor, MEASURES};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// Greatest number of dimensions of a space.
-pub const DIMENSIONS: usize = 12;
+/// Greatest number of dimensions of a space; none without the feature `gallery`.
+pub const DIMENSIONS: usize = if cfg!(feature = "gallery") { 12 } else { 0 };
 
 /// A position in a space, in 1/256 of the spread that the trainer found within a class; 0 in unused
 /// dimensions.
@@ -45,6 +45,7 @@ impl Space {
 
 /// Returns the squared distance. The difference in each dimension is limited to 16383, so that twelve squares
 /// fit.
+#[inline]
 pub fn distance2(a: &Point, b: &Point) -> u32 {
     let square = |(a, b): (&i16, &i16)| u32::from(a.abs_diff(*b).min(16_383)).pow(2);
     a.iter().zip(b).map(square).sum()

@@ -12,7 +12,7 @@ use super::seen::seen;
 use super::space::Space;
 use super::stage::Shape;
 use crate::condition::Image;
-use crate::contact::{Contact, ContactState};
+use crate::contact::{Contact, ContactState, Slot};
 use crate::format::{Invalid, Name, Q15};
 use crate::garment::Layout;
 use heapless::Vec;
@@ -44,7 +44,7 @@ struct Known {
     confidence: Q15,
 }
 
-/// A gallery on the board, and its results.
+/// A gallery on the board, and its results. Without the feature `gallery` it has no room for any.
 #[derive(Debug, Clone)]
 pub struct Taught<const CONTACTS: usize> {
     gallery: Gallery<GALLERY_PROTOTYPES>,
@@ -69,7 +69,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
 
     /// The gallery, if it is in force.
     pub fn gallery(&self) -> Option<&Gallery<GALLERY_PROTOTYPES>> {
-        self.in_force.then_some(&self.gallery)
+        (cfg!(feature = "gallery") && self.in_force).then_some(&self.gallery)
     }
 
     /// Drops the gallery: the built-in base is in force.
@@ -126,9 +126,9 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
     }
 
     /// Describes and recognises a contact, number `index` of those in `contacts`; see [`seen`].
-    pub fn look<const RUNS: usize, const PARTS: usize>(
+    pub fn look<const RUNS: usize, const PARTS: usize, S: Slot>(
         &mut self,
-        contacts: &ContactState<CONTACTS, RUNS, PARTS>,
+        contacts: &ContactState<CONTACTS, RUNS, PARTS, S>,
         layout: &Layout,
         image: &Image<'_>,
         (index, contact): (usize, &Contact),

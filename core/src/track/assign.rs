@@ -1,6 +1,7 @@
 //! Assignment of this frame's components to the last frame's contacts: the nearest pairs first.
 
 use super::point::{LONGEST, PanelPoint, PointImages};
+use super::slot::Slot;
 use super::tracks::Tracks;
 use crate::format::{Fixed16, Micros, signed_wide, wide};
 use crate::garment::{Layout, PANELS};
@@ -40,10 +41,10 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
 
     /// Assigns to each track the index of its component, or [`NONE`].
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn assign(
+    pub fn assign<S: Slot>(
         &mut self,
         config: &ContactConfig,
-        tracks: &mut Tracks<CONTACTS>,
+        tracks: &mut Tracks<CONTACTS, S>,
         components: &[Component],
         layout: &Layout,
         now: Micros,
@@ -65,8 +66,8 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
             at.list_images(layout, images);
             nearest(images, points, &crowds, reach, taken)
         };
-        for (least, contact) in self.least.iter_mut().zip(&*contacts) {
-            *least = look(contact, taken);
+        for (least, slot) in self.least.iter_mut().zip(&*contacts) {
+            *least = look(slot.contact(), taken);
         }
         let least = self.least.get_mut(..contacts.len()).unwrap_or(&mut []);
         for (trail, least) in trails.iter_mut().zip(&*least) {
@@ -85,11 +86,11 @@ impl<const CONTACTS: usize> Matching<CONTACTS> {
             if let Some(taken) = taken.get_mut(usize::from(component)) {
                 *taken = true;
             }
-            for (index, (least, contact)) in least.iter_mut().zip(&*contacts).enumerate() {
+            for (index, (least, slot)) in least.iter_mut().zip(&*contacts).enumerate() {
                 if index == track {
                     *least = (FAR, 0);
                 } else if least.1 == component && least.0 < FAR {
-                    *least = look(contact, taken);
+                    *least = look(slot.contact(), taken);
                 }
             }
         }

@@ -3,8 +3,10 @@
 //! [`assign`] pairs this frame's components with the last frame's contacts by the distances of [`point`];
 //! [`reunite`] keeps what has hardly parted together; [`tracks`] updates, merges, splits and releases.
 //! [`motion`] follows the centroid or the [`pattern`] inside a contact, by the optical [`flow`] of its
-//! [`gradient`]; [`slip`] reports when it slips.
+//! [`gradient`], from pictures in an [`album`]; [`slip`] reports when it slips.
+//! [`slot`] is an entry of the table of contacts.
 
+pub(crate) mod album;
 pub(crate) mod assign;
 pub(crate) mod flow;
 pub(crate) mod gradient;
@@ -13,4 +15,5 @@ pub(crate) mod pattern;
 pub(crate) mod point;
 pub(crate) mod reunite;
 pub(crate) mod slip;
+pub(crate) mod slot;
 pub(crate) mod tracks;

@@ -1,5 +1,6 @@
 //! State of a track beside its public record, and the update of motion.
 
+use super::album::Album;
 use super::pattern::{Pattern, Way};
 use super::point::{PanelPoint, nearest_way};
 use super::slip::{SLIP_STEPS, Slip};
@@ -8,7 +9,7 @@ use crate::garment::{Area, Layout, Transform};
 use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::Contact;
-use crate::segment::config::{ContactConfig, NO_SLIP};
+use crate::segment::config::ContactConfig;
 
 /// State of a track beside its [`Contact`].
 #[derive(Debug, Clone)]
@@ -21,6 +22,15 @@ pub(crate) struct Trail {
     pub looked: u32,
     /// Frames since its form was measured; saturates at 255.
     pub age: u8,
+    /// Nothing in a build without the feature `slip`.
+    sliding: [Sliding; SLIDING],
+}
+
+const SLIDING: usize = if cfg!(feature = "slip") { 1 } else { 0 };
+
+/// What shows that a contact slides.
+#[derive(Debug, Clone)]
+struct Sliding {
     pattern: Pattern,
     slip: Slip,
 }
@@ -35,12 +45,24 @@ pub(crate) struct Scenery<'a> {
 
 impl Trail {
     pub const fn new(component: u16) -> Self {
-        Trail { component, leaps: false, looked: 0, age: 0, pattern: Pattern::new(), slip: Slip::new() }
+        const NEW: Sliding = Sliding { pattern: Pattern::new(), slip: Slip::new() };
+        Trail { component, leaps: false, looked: 0, age: 0, sliding: [NEW; SLIDING] }
+    }
+
+    /// Gives the picture of its pattern back.
+    pub fn drop_picture(&mut self, album: &mut Album) {
+        self.sliding.iter_mut().for_each(|sliding| sliding.pattern.drop_picture(album));
     }
 
     /// Updates displacement, velocity and slip from the contact's component; the other measures follow later.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn follow(&mut self, contact: &mut Contact, component: &Component, scenery: &Scenery) {
+    pub fn follow(
+        &mut self,
+        contact: &mut Contact,
+        component: &Component,
+        album: &mut Album,
+        scenery: &Scenery,
+    ) {
         let Scenery { config, layout, image, pace } = scenery;
         let from = PanelPoint::of(contact.panel, contact.x, contact.y);
         let to = PanelPoint::of(component.bounds.panel, component.x, component.y);
@@ -54,12 +76,12 @@ impl Trail {
         let leaps = self.leaps || change > contact.total / 4;
         let step = if leaps { [0; 2] } else { step };
         let area = layout.areas().get(usize::from(component.bounds.panel));
-        let step = match area {
-            Some(area) if config.slip_speed != NO_SLIP => {
+        let step = match (area, self.sliding.first_mut()) {
+            (Some(area), Some(Sliding { pattern, .. })) if config.slips() => {
                 if leaps {
-                    self.pattern.forget();
+                    pattern.forget(album);
                 }
-                self.pattern.follow(component, area, image, config.low, step)
+                pattern.follow(component, (album, area, image), config.low, step)
             }
             _ => step,
         };
@@ -70,7 +92,7 @@ impl Trail {
         contact.vy = pace.velocity(contact.vy, step[1]);
         // If the pressure changes by more than a sixteenth, the outline changes too and moves the centroid.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
-        let slides = |area| config.slip_speed != NO_SLIP && self.slips(contact, sliding, area, scenery);
+        let slides = |area| config.slips() && self.slips(contact, sliding, area, scenery);
         contact.slip = area.is_some_and(slides);
     }
 
@@ -82,7 +104,7 @@ impl Trail {
             square(contact.vx) + square(contact.vy) >= least
         };
         let limit = area.taxels(scenery.pace.limit.min(LONGEST_WAY));
-        self.slip.begins(step, limit) || (contact.slip && is_fast())
+        self.sliding.iter_mut().any(|sliding| sliding.slip.begins(step, limit)) || (contact.slip && is_fast())
     }
 }
 

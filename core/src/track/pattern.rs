@@ -4,6 +4,7 @@
 //! ([`Flow`]). Because displacement is measured from a fixed picture, the noise of the frames does not add
 //! up, and slow creep is found. After half a taxel of displacement, a new picture is taken.
 
+use super::album::{Album, Leaf, Picture};
 use super::flow::{Flow, Pictures};
 use super::gradient::SIDE;
 use crate::garment::{Area, Rect};
@@ -15,7 +16,7 @@ pub(crate) type Way = [i32; 2];
 
 /// Smallest contact whose pattern is followed: in a square of ten, six by six taxels are clear of the
 /// outline. With fewer, a wave of pressure cannot be distinguished from a slope.
-const LEAST_AREA: u16 = 100;
+pub(crate) const LEAST_AREA: u16 = 100;
 const LEAST_INNER: u32 = 36;
 /// Frames for which a contact without a pattern is not examined.
 const PAUSE: u8 = 8;
@@ -27,17 +28,12 @@ const FAR: i32 = 1 << 15;
 /// A row in which nothing touches.
 const NOTHING: [u16; SIDE] = [0; SIDE];
 
-/// A picture of the middle of a contact.
+/// The pattern of a contact.
 #[derive(Debug, Clone)]
 pub(crate) struct Pattern {
-    anchor: [[u16; SIDE]; SIDE],
-    /// Bit mask of the columns of each row that are compared: two taxels clear of the contact's outline.
-    inner: [u16; SIDE],
-    /// Position of the picture.
-    window: Rect,
-    /// Total and peak of the contact when the picture was taken; none without a picture.
-    taken: Option<(u32, u16)>,
-    /// Displacement since then.
+    /// Place of its picture; none without one.
+    taken: Option<Leaf>,
+    /// Displacement since it was taken.
     moved: Way,
     /// Last step.
     step: Way,
@@ -48,21 +44,19 @@ pub(crate) struct Pattern {
 
 impl Pattern {
     pub const fn new() -> Self {
-        Pattern {
-            anchor: [[0; SIDE]; SIDE],
-            inner: [0; SIDE],
-            window: Rect { panel: 0, top: 0, bottom: 0, left: 0, right: 0 },
-            taken: None,
-            moved: [0; 2],
-            step: [0; 2],
-            pause: 0,
-            lost: 0,
+        Pattern { taken: None, moved: [0; 2], step: [0; 2], pause: 0, lost: 0 }
+    }
+
+    /// Gives its picture back.
+    pub fn drop_picture(&mut self, album: &mut Album) {
+        if let Some(leaf) = self.taken.take() {
+            album.free(leaf);
         }
     }
 
     /// Drops the picture, so that the next frame is compared with nothing.
-    pub fn forget(&mut self) {
-        self.taken = None;
+    pub fn forget(&mut self, album: &mut Album) {
+        self.drop_picture(album);
         self.pause = 0;
         self.lost = 0;
         self.step = [0; 2];
@@ -70,26 +64,33 @@ impl Pattern {
 
     /// Returns the displacement of the pattern since the last frame; without a pattern that of the contact's
     /// centroid, `step`.
-    pub fn follow(&mut self, component: &Component, area: &Area, image: &Image, low: u16, step: Way) -> Way {
+    pub fn follow(
+        &mut self,
+        component: &Component,
+        (album, area, image): (&mut Album, &Area, &Image),
+        low: u16,
+        step: Way,
+    ) -> Way {
         if self.pause > 0 {
             self.pause -= 1;
             self.step = step;
             return step;
         }
-        let flow = self.compare(component, area, image, step);
+        let flow = self.compare(component, (album, area, image), step);
         if let Some(Flow::Moved(moved)) = flow {
             self.step = [moved[0] - self.moved[0], moved[1] - self.moved[1]];
             (self.moved, self.lost) = (moved, 0);
             if moved.iter().any(|way| way.abs() > FAR) {
-                self.take(component, area, image, low);
+                self.take(component, (album, area, image), low);
             }
             return self.step;
         }
         self.lost = if flow.is_some() { self.lost + 1 } else { 0 };
         if flow == Some(Flow::Flat) || self.lost > PATIENCE {
-            (self.taken, self.pause, self.lost) = (None, PAUSE, 0);
+            self.drop_picture(album);
+            (self.pause, self.lost) = (PAUSE, 0);
         } else {
-            self.take(component, area, image, low);
+            self.take(component, (album, area, image), low);
         }
         if self.lost != 1 {
             // A first mismatch may be due to the picture; a second one is due to the prediction.
@@ -100,11 +101,14 @@ impl Pattern {
 
     /// Displacement since the picture was taken. Returns none if there is no picture, or if the contact's
     /// total or panel has changed: more pressure raises the pattern, which must not be taken for motion.
-    fn compare(&self, component: &Component, area: &Area, image: &Image, step: Way) -> Option<Flow> {
-        let (total, peak) = self.taken?;
-        let same =
-            total.abs_diff(component.total) <= total / 16 && self.window.panel == component.bounds.panel;
-        let window = &self.window;
+    fn compare(
+        &self,
+        component: &Component,
+        (album, area, image): (&Album, &Area, &Image),
+        step: Way,
+    ) -> Option<Flow> {
+        let Picture { anchor, inner, window, total, peak } = album.picture(self.taken?)?;
+        let same = total.abs_diff(component.total) <= total / 16 && window.panel == component.bounds.panel;
         if !same {
             return None;
         }
@@ -130,12 +134,12 @@ impl Pattern {
             *now = cut.row(top.wrapping_add(row));
         }
         let pictures = Pictures {
-            before: &self.anchor,
+            before: anchor,
             now,
             rows: rows.into(),
             columns,
-            inner: &self.inner,
-            peak: peak.max(component.peak),
+            inner,
+            peak: (*peak).max(component.peak),
         };
         let shift = [x << 16, y << 16];
         let expected = [outline[0].saturating_sub(shift[0]), outline[1].saturating_sub(shift[1])];
@@ -145,13 +149,25 @@ impl Pattern {
         })
     }
 
-    /// Takes a new picture.
-    fn take(&mut self, component: &Component, area: &Area, image: &Image, low: u16) {
-        self.taken = None;
+    /// Takes a new picture, if the contact is large enough and clear of its outline.
+    fn take(&mut self, component: &Component, (album, area, image): (&mut Album, &Area, &Image), low: u16) {
         self.moved = [0; 2];
-        if component.area < LEAST_AREA {
-            return;
+        if component.area >= LEAST_AREA {
+            let leaf = self.taken.take().or_else(|| album.take());
+            let picture = leaf.and_then(|leaf| album.picture_mut(leaf));
+            self.taken = leaf;
+            if picture.is_some_and(|picture| picture.take(component, area, image, low)) {
+                return;
+            }
+            self.pause = PAUSE;
         }
+        self.drop_picture(album);
+    }
+}
+
+impl Picture {
+    /// Takes the picture of a contact; returns true if enough of it is clear of the outline.
+    fn take(&mut self, component: &Component, area: &Area, image: &Image, low: u16) -> bool {
         let bounds = &component.bounds;
         let (left, right) = middle(component.x.0, bounds.left, bounds.right);
         let (top, bottom) = middle(component.y.0, bounds.top, bounds.bottom);
@@ -184,11 +200,8 @@ impl Pattern {
             // information.
             *inner = if number % 2 == 1 { clear } else { 0 };
         }
-        if count >= LEAST_INNER {
-            self.taken = Some((component.total, component.peak));
-        } else {
-            self.pause = PAUSE;
-        }
+        (self.total, self.peak) = (component.total, component.peak);
+        count >= LEAST_INNER
     }
 }
 

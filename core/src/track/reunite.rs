@@ -1,10 +1,10 @@
 //! Keeps parts of one former contact together while no more than a taxel has opened between them: a hand that
 //! lies on ribs, or an arm on a crease, keeps its id.
 
+use super::slot::Slot;
 use super::tracks::Tracks;
 use crate::garment::{Layout, Place, Rect};
 use crate::measure::component::Components;
-use crate::measure::contact::Contact;
 use crate::segment::labeller::Labeller;
 use crate::segment::run::Run;
 use crate::segment::union_find::NONE;
@@ -13,11 +13,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     /// Adds each unassigned component to the component of the contact that it has just come off: it peaks
     /// where that contact was, and hardly a gap has opened.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn reunite<const RUNS: usize, const LABELS: usize>(
+    pub fn reunite<const RUNS: usize, const LABELS: usize, S: Slot>(
         &mut self,
         labeller: &mut Labeller<RUNS, LABELS>,
         layout: &Layout,
-        tracks: &mut Tracks<CONTACTS>,
+        tracks: &mut Tracks<CONTACTS, S>,
     ) {
         if tracks.trails.iter().filter(|trail| trail.component != NONE).count() == self.list.len() {
             // The usual case: each component is assigned.
@@ -36,12 +36,12 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
     }
 
     /// Returns the component that `lost` belongs to, if hardly a gap separates it from a contact.
-    fn whole_of<const RUNS: usize, const LABELS: usize>(
+    fn whole_of<const RUNS: usize, const LABELS: usize, S: Slot>(
         &self,
         lost: usize,
         labeller: &Labeller<RUNS, LABELS>,
         layout: &Layout,
-        tracks: &Tracks<CONTACTS>,
+        tracks: &Tracks<CONTACTS, S>,
     ) -> Option<u16> {
         let part = self.list.get(lost)?;
         let whole = tracks.component_of(only_at(tracks.contacts(), part.peak_at?)?)?;
@@ -67,11 +67,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 }
 
 /// Index of the contact that covered a place, if only one did.
-fn only_at(contacts: &[Contact], at: Place) -> Option<usize> {
+fn only_at(contacts: &[impl Slot], at: Place) -> Option<usize> {
     let mut there = contacts
         .iter()
         .enumerate()
-        .filter(|(_, contact)| contact.bounds.holds(at.panel, at.row, at.column, 0))
+        .filter(|(_, slot)| slot.contact().bounds.holds(at.panel, at.row, at.column, 0))
         .map(|(index, _)| index);
     let only = there.next()?;
     there.next().is_none().then_some(only)
@@ -85,7 +85,7 @@ fn are_near(a: &Rect, b: &Rect) -> bool {
         && near([a.top, a.bottom], [b.top, b.bottom])
 }
 
-impl<const CONTACTS: usize> Tracks<CONTACTS> {
+impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
     /// Component of a contact.
     fn component_of(&self, contact: usize) -> Option<u16> {
         self.trails.get(contact).map(|trail| trail.component).filter(|component| *component != NONE)
@@ -131,7 +131,7 @@ mod tests {
     fn at(column: u16) -> Run {
         let taxels = 1 << (column % WORD);
         let (row, label, area, peak, sums) = (0, 0, 1, 1, RunSums::NONE);
-        Run { taxels, all: taxels, row, label, left: column, right: column, area, peak, sums }
+        Run { taxels, row, label, left: column, right: column, area, peak, sums }
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! Track management: update, merge, split, release.
 
+use super::album::Album;
 use super::motion::{FrameTimes, Scenery, Trail};
+use super::slot::Slot;
 use crate::format::{Fixed16, Micros, Q15};
 use crate::garment::{Layout, Place, Rect};
 use crate::measure::component::Component;
 use crate::measure::contact::{Contact, Phase};
 use crate::measure::forms::Forms;
-use crate::measure::moments::Moments;
 use crate::measure::quartic::Quartic;
 use crate::measure::sight::Sight;
 use crate::segment::config::ContactConfig;
@@ -16,27 +17,27 @@ use heapless::Vec;
 
 /// All contacts, in the order of their onset.
 #[derive(Debug, Clone)]
-pub(crate) struct Tracks<const CONTACTS: usize> {
-    pub contacts: Vec<Contact, CONTACTS>,
+pub(crate) struct Tracks<const CONTACTS: usize, S = Contact> {
+    pub contacts: Vec<S, CONTACTS>,
     pub trails: Vec<Trail, CONTACTS>,
-    moments: Vec<Moments, CONTACTS>,
-    released: Vec<Contact, CONTACTS>,
+    album: Album,
+    released: Vec<S, CONTACTS>,
     /// Age of the form of each contact, frames; saturates at 255.
     ages: Vec<u8, CONTACTS>,
     /// Ratios of the fourth order of each contact whose form is of this frame; 0 for the others.
-    quartics: Vec<Quartic, CONTACTS>,
+    pub quartics: Vec<Quartic, CONTACTS>,
     /// Index of the first contact whose form is measured in this frame.
     turn: usize,
     id: u32,
     pub clock: FrameTimes,
 }
 
-impl<const CONTACTS: usize> Tracks<CONTACTS> {
+impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
     pub const fn new() -> Self {
         Tracks {
             contacts: Vec::new(),
             trails: Vec::new(),
-            moments: Vec::new(),
+            album: Album::new(),
             released: Vec::new(),
             ages: Vec::new(),
             quartics: Vec::new(),
@@ -49,21 +50,17 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     pub fn clear(&mut self) {
         self.contacts.clear();
         self.trails.clear();
-        self.moments.clear();
+        self.album.clear();
         self.released.clear();
         self.ages.clear();
         self.quartics.clear();
     }
 
-    pub fn contacts(&self) -> &[Contact] {
+    pub fn contacts(&self) -> &[S] {
         &self.contacts
     }
 
-    pub fn moments(&self) -> &[Moments] {
-        &self.moments
-    }
-
-    pub fn released(&self) -> &[Contact] {
+    pub fn released(&self) -> &[S] {
         &self.released
     }
 
@@ -90,10 +87,10 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
     ) {
         for index in 0..self.contacts.len() {
             let lost = self.trails.get(index).is_some_and(|trail| trail.component == NONE);
-            let Some(contact) = self.contacts.get(index).filter(|_| lost) else { continue };
+            let Some(contact) = self.contacts.get(index).filter(|_| lost).map(S::contact) else { continue };
             let Some(component) = beside(labeller, layout, contact.peak_at) else { continue };
             let owner = self.index_of(component);
-            let rival = owner.and_then(|owner| self.contacts.get(owner));
+            let rival = owner.and_then(|owner| self.contacts.get(owner)).map(S::contact);
             let stays = rival.is_some_and(|rival| rival.total >= contact.total);
             match owner {
                 Some(owner) if stays => self.leap(owner),
@@ -132,19 +129,21 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         let known = self.known();
         self.part(config, components, &known);
         self.released.clear();
-        for (contact, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
+        for (slot, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
+            let contact = slot.contact_mut();
             match components.get(usize::from(trail.component)) {
                 Some(component) => {
-                    trail.follow(contact, component, &scenery);
+                    trail.follow(contact, component, &mut self.album, &scenery);
                     describe(contact, component);
                     contact.phase = Phase::Held;
                     contact.duration_ms = now.millis_since(contact.onset);
                 }
                 None => {
-                    let duration_ms = now.millis_since(contact.onset);
-                    let gone = Contact { phase: Phase::Released, total: 0, duration_ms, ..contact.clone() };
+                    (contact.phase, contact.total) = (Phase::Released, 0);
+                    contact.duration_ms = now.millis_since(contact.onset);
                     // Always room: as many places as contacts.
-                    let _ = self.released.push(gone);
+                    let _ = self.released.push(slot.clone());
+                    trail.drop_picture(&mut self.album);
                 }
             }
         }
@@ -162,12 +161,6 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             }
         }
         self.look(held, forms, components, sight);
-        self.moments.clear();
-        for trail in &self.trails {
-            if let Some(component) = components.get(usize::from(trail.component)) {
-                let _ = self.moments.push(component.moments);
-            }
-        }
     }
 
     /// Measures the form of new contacts, and of as many of the `held` older ones as have their turn.
@@ -182,7 +175,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         self.turn = if next < held { next } else { 0 };
         self.ages.clear();
         self.quartics.clear();
-        for (index, (contact, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
+        for (index, (slot, trail)) in self.contacts.iter_mut().zip(&mut self.trails).enumerate() {
             let due = index.wrapping_sub(self.turn) < count || index >= held;
             trail.age = if due { 0 } else { trail.age.saturating_add(1) };
             // Always room: as many places as contacts.
@@ -191,6 +184,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
                 let _ = self.quartics.push(Quartic::default());
                 continue;
             };
+            let contact = slot.contact_mut();
             let _ = self.quartics.push(sight.look(contact, trail.component, component));
             if contact.total >= trail.looked {
                 (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
@@ -215,8 +209,8 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
             let Some(at) = component.peak_at.filter(|_| is_new(config, known, index, component)) else {
                 continue;
             };
-            for (contact, trail) in self.contacts.iter().zip(&mut self.trails) {
-                trail.leaps |= contact.bounds.holds(at.panel, at.row, at.column, 0);
+            for (slot, trail) in self.contacts.iter().zip(&mut self.trails) {
+                trail.leaps |= slot.contact().bounds.holds(at.panel, at.row, at.column, 0);
             }
         }
     }
@@ -251,7 +245,7 @@ impl<const CONTACTS: usize> Tracks<CONTACTS> {
         };
         describe(&mut contact, component);
         // There are no more contacts than components, and both lists have the same capacity.
-        if self.contacts.push(contact).is_ok() {
+        if self.contacts.push(S::from(contact)).is_ok() {
             let _ = self.trails.push(Trail::new(index));
         }
     }

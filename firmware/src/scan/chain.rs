@@ -105,7 +105,7 @@ impl DmaChain {
     }
 
     /// Starts to read a plan in a loop. Error if the chain cannot read it.
-    pub fn start(&mut self, circuit: &Circuit, plan: &Plan, frames: &Frames) -> Result<(), Unfit> {
+    pub fn start(&mut self, circuit: &Circuit, plan: &Plan, frames: &mut Frames) -> Result<(), Unfit> {
         self.stop();
         let fields = if plan.depth == Depth::Interlaced {
             self.interlace(circuit, plan, frames)?

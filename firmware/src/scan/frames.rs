@@ -100,7 +100,14 @@ impl Handler<PIO0_IRQ_0> for Begun {
 }
 
 /// Memory of all frames, which the chain fills and [`Frames::next`] lends.
-pub struct Frames(*mut [CodeFrame; PLACES]);
+pub struct Frames {
+    places: *mut [CodeFrame; PLACES],
+    /// True if the processor has filled a frame since the chain began last.
+    still: bool,
+}
+
+/// Place that the processor fills.
+const STILL: u8 = 0;
 
 impl Frames {
     /// Takes the static memory. Must be called once.
@@ -109,13 +116,13 @@ impl Frames {
             ConstStaticCell::new([[Code(0); TAXELS]; PLACES]);
         let frames = FRAMES.take();
         FRAMES_AT.store(frames, Ordering::Relaxed);
-        Frames(frames)
+        Frames { places: frames, still: false }
     }
 
     /// Address of a taxel's code in a place.
     pub fn address(&self, place: usize, taxel: u16) -> u32 {
         let offset = place * size_of::<CodeFrame>() + usize::from(taxel) * size_of::<Code>();
-        self.0 as u32 + offset as u32
+        self.places as u32 + offset as u32
     }
 
     /// Address of a code of an interlaced scan until its sub-field is complete, by the order of the scan: in
@@ -124,12 +131,14 @@ impl Frames {
         self.address(TURN_PLACES, index as u16)
     }
 
-    /// Fills all places before the chain starts: with a copy of the frame lent last if `keep`, else with 0.
+    /// Fills all places while the chain stands still: with a copy of the frame lent last if `keep`, else with
+    /// 0.
     pub fn reset(&mut self, keep: bool) {
-        let last = BEAT.lock(|beat| beat.borrow().ring.lent()).filter(|_| keep);
+        let lent = BEAT.lock(|beat| beat.borrow().ring.lent());
+        let last = if self.still { Some(STILL) } else { lent }.filter(|_| keep);
         #[allow(unsafe_code)]
         // SAFETY: the memory is that of a static, taken once, and the chain stands still.
-        let codes = unsafe { &mut *self.0 }.as_flattened_mut();
+        let codes = unsafe { &mut *self.places }.as_flattened_mut();
         let Some(last) = last else { return codes.fill(Code(0)) };
         let from = usize::from(last).min(PLACES - 1) * TAXELS;
         (0..PLACES).for_each(|place| codes.copy_within(from..from + TAXELS, place * TAXELS));
@@ -137,7 +146,8 @@ impl Frames {
 
     /// Waits until the triggered chain has begun its first frame, some 100 cycles. `fields` is the number of
     /// sub-fields, 0 if the scan is not interlaced.
-    pub fn begin(&self, fields: usize) {
+    pub fn begin(&mut self, fields: usize) {
+        self.still = false;
         while Select::take_flags() == 0 {}
         BEAT.lock(|beat| *beat.borrow_mut() = Beat::new(Timer.now(), fields));
         if fields == 0 {
@@ -149,6 +159,17 @@ impl Frames {
         unsafe {
             PIO0_IRQ_0::enable()
         };
+    }
+
+    /// Lends a frame to the processor, while the chain stands still.
+    pub fn still(&mut self) -> &mut CodeFrame {
+        self.still = true;
+        #[allow(unsafe_code)]
+        // SAFETY: the memory is that of a static, taken once, the chain stands still, and the returned
+        // reference borrows `self`, without which the chain cannot be started.
+        unsafe {
+            &mut *self.places.cast::<CodeFrame>().wrapping_add(STILL.into())
+        }
     }
 
     /// Waits for a frame that was not lent yet; for more than one of `scans`, the sum of that many. The frame
@@ -183,7 +204,7 @@ impl Frames {
 
     /// Memory of a place, within the static that was taken once.
     fn frame(&self, lent: Lent) -> *mut CodeFrame {
-        self.0.cast::<CodeFrame>().wrapping_add(usize::from(lent.place).min(PLACES - 1))
+        self.places.cast::<CodeFrame>().wrapping_add(usize::from(lent.place).min(PLACES - 1))
     }
 }
 

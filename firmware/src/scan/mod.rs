@@ -38,15 +38,14 @@ use core::pin::pin;
 use embassy_futures::select::{Either, select};
 use embassy_time::Timer;
 use frames::Frames;
-use taxel_core::acquire::{Acquire, Depth, MuxScan, Plan, Scan, ScanError, ScanReport, longest_frame_us};
-use taxel_core::capacity::TAXELS;
+use taxel_core::acquire::{Acquire, Depth, Mux, Plan, Scan, ScanError, ScanReport, longest_frame_us};
 use taxel_core::garment::Circuit;
 use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
 
-/// The scanner that works by the processor.
+/// The scanner that works by the processor, in the memory of the chain, which stands still meanwhile.
 pub type Processor =
-    MuxScan<'static, pins::LinePin, platform::Settle, adc::Converter<INPUTS>, platform::Timer, LINES, TAXELS>;
+    Mux<'static, pins::LinePin, platform::Settle, adc::Converter<INPUTS>, platform::Timer, LINES>;
 
 /// Margin on the longest duration of a frame, us.
 const SPARE_US: u64 = 5_000;
@@ -95,7 +94,7 @@ impl Scanner {
     fn begin(&mut self, circuit: &Circuit, plan: &Plan) {
         self.chain.stop();
         self.frames.reset(self.circuit.as_ref() == Some(circuit));
-        self.by = match self.chain.start(circuit, plan, &self.frames) {
+        self.by = match self.chain.start(circuit, plan, &mut self.frames) {
             Ok(()) => By::Chain,
             Err(why) => {
                 defmt::info!("the processor scans this garment: {}", defmt::Display2Format(&why));
@@ -149,7 +148,11 @@ impl Acquire for Scanner {
             self.begin(circuit, plan);
         }
         let scan = match self.by {
-            By::Processor => self.processor.scan(circuit, plan).await,
+            By::Processor => {
+                let codes = self.frames.still();
+                let report = self.processor.scan(circuit, plan, codes)?;
+                Ok(Scan { codes, report })
+            }
             By::Chain | By::Nobody => self.next().await,
         }?;
         lent::tell(scan.codes);

@@ -9,11 +9,14 @@ use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::reflex::{Early, Reflex, Reflexes};
 
-static REFLEX: Mutex<CriticalSectionRawMutex, RefCell<Reflex<TAXELS>>> =
+/// Taxels that are checked: none in an image without reflexes.
+const CHECKED: usize = if cfg!(feature = "reflex") { TAXELS } else { 0 };
+
+static REFLEX: Mutex<CriticalSectionRawMutex, RefCell<Reflex<CHECKED>>> =
     Mutex::new(RefCell::new(Reflex::new()));
 
 /// Runs `act` with interrupts off: for some 100 cycles, or 3,000 to check a sub-field.
-fn with<T>(act: impl FnOnce(&mut Reflex<TAXELS>) -> T) -> T {
+fn with<T>(act: impl FnOnce(&mut Reflex<CHECKED>) -> T) -> T {
     REFLEX.lock(|reflex| act(&mut reflex.borrow_mut()))
 }
 

@@ -166,7 +166,7 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
             drive.high = drive.high & !lines | levels;
         });
         self.misled |= look && (bus.levels.get() ^ levels) & lines != 0;
-        let (_, _, adc, _) = self.processor.parts();
+        let (_, _, adc, _) = self.processor.mux().parts();
         let begun = bus.now_ns.get();
         let mut read = Vec::with_capacity(self.inputs.len());
         for (turn, (input, taxel)) in (0..).zip(self.inputs.iter().zip(taxels)) {

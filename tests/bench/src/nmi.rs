@@ -56,7 +56,7 @@ impl Grid {
         let mut state: Box<ContactState<8, { TAXELS / 2 }>> = Box::default();
         let image = Image { values, rows: &Rows::ALL };
         let touches = stage.process(&mut state, &self.layout, &image, Micros(0));
-        let greatest = touches.moments.iter().zip(touches.present).max_by_key(|(moments, _)| moments.m);
+        let greatest = touches.moments().zip(touches.present).max_by_key(|(moments, _)| moments.m);
         Ok(greatest.map(|(moments, contact)| nmi(moments, contact.peak)))
     }
 }

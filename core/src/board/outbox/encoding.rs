@@ -2,7 +2,9 @@
 
 use super::super::tx_frame::TxFrame;
 use super::super::{BoardInfo, Setup};
+use super::contacts::{ContactQueue, List};
 use super::{About, GestureQueue, Outbox, Waiting};
+use crate::body::Placed;
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
 use crate::garment::Layout;
@@ -22,7 +24,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Own frame: its buffers are on the stack only here.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, boot, setup, monitor, examined, certificate, unsure, taught } = about;
+        let About { info, boot, setup, monitor, examined, certificate, present, form_ages, unsure, taught } =
+            about;
         let tx_frame = &mut self.tx_frame;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -45,10 +48,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             // Before the contacts, whose classes are indices of these names.
             put_shapes(tx_frame, taught)
         } else if core::mem::take(&mut self.ages_wait) {
-            put_forms(tx_frame, &self.contacts, &self.ages)
-        } else if self.contacts_wait {
-            self.contacts_wait = false;
-            tx_frame.put(Report::CONTACTS, &self.contacts)
+            put_forms(tx_frame, &self.contacts, present, form_ages)
+        } else if core::mem::take(&mut self.contacts.waits) {
+            tx_frame.put(Report::CONTACTS, &List { queue: &self.contacts, present })
         } else if core::mem::take(&mut self.unsure) {
             put_unsure(tx_frame, self.contacts.frame, self.contacts.time, unsure)
         } else if self.symbols_wait {
@@ -76,7 +78,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some((frame, time)) = self.image.due.take() {
             self.put_image(frame, time, &setup.layout, image, health)
-        } else if let Some((frame, time)) = self.raw.take() {
+        } else if let Some((frame, time)) = self.raw.take().filter(|_| cfg!(feature = "raw")) {
             self.put_raw(frame, time)
         } else {
             true
@@ -164,9 +166,9 @@ fn put_gesture(tx_frame: &mut TxFrame, waiting: &mut GestureQueue) -> bool {
     fits
 }
 
-fn put_forms(tx_frame: &mut TxFrame, list: &ContactList, ages: &[u8]) -> bool {
+fn put_forms(tx_frame: &mut TxFrame, list: &ContactQueue, present: &[Placed], ages: &[u8]) -> bool {
     let mut report = FormsReport { frame: list.frame, time: list.time, ages: Vec::new() };
-    for (placed, age) in list.contacts.iter().zip(ages).filter(|(_, age)| **age > 0) {
+    for (placed, age) in list.listed(present).zip(ages).filter(|(_, age)| **age > 0) {
         // There are as many places as in the list.
         let _ = report.ages.push((placed.contact.id, *age));
     }

@@ -1,14 +1,12 @@
 //! Selects what of a frame is sent.
 
 use super::Outbox;
-use crate::contact::Phase;
 use crate::format::Micros;
 use crate::garment::PANELS;
 use crate::gesture::Gesture;
 use crate::pipeline::Percept;
 use crate::react::Reaction;
 use crate::wire::*;
-use heapless::Vec;
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Queues what was perceived in a frame. If the frame is `late`, its image, which is costly, is left out,
@@ -54,7 +52,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         if waits || (due && !late) {
             self.image.due = Some((frame, time));
         }
-        if self.rates.raw.due(time) || self.raw.is_some() {
+        if cfg!(feature = "raw") && (self.rates.raw.due(time) || self.raw.is_some()) {
             self.raw = Some((frame, time));
         }
     }
@@ -108,47 +106,12 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health.lost += u32::from(self.gestures.push_back((report, confidence)).is_err());
     }
 
-    /// Queues the newest state of each contact; onsets and releases stay until they are sent.
+    /// Queues the newest state of each contact; onsets and ends stay until they are sent.
     fn enqueue_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
-        let list = &mut self.contacts.contacts;
-        let news = percept.present.iter().any(|p| p.contact.phase == Phase::Onset);
         let due = self.rates.contacts.due(time) && !percept.present.is_empty();
-        if self.contacts_wait {
-            health.thinned_contacts += u32::from(due);
-        } else {
-            list.clear();
-        }
-        let mut untold = Vec::<u32, LISTED>::new();
-        for told_later in list.iter().filter(|p| p.contact.phase == Phase::Onset) {
-            let _ = untold.push(told_later.contact.id);
-        }
-        list.retain(|old| {
-            let present = percept.present.iter().any(|p| p.contact.id == old.contact.id);
-            old.contact.phase == Phase::Released || (old.contact.phase == Phase::Onset && !present)
-        });
-        let gone = list.len();
-        for placed in percept.present {
-            let fits = list.push(placed.clone()).is_ok();
-            health.lost += u32::from(!fits);
-            if let Some(told) = list.last_mut().filter(|_| fits && untold.contains(&placed.contact.id)) {
-                told.contact.phase = Phase::Onset;
-            }
-        }
-        for placed in percept.released {
-            health.lost += u32::from(list.push(placed.clone()).is_err());
-        }
-        self.contacts_wait |= due || news || !percept.released.is_empty();
-        (self.contacts.frame, self.contacts.time) = (frame, time);
-        self.ages_wait = self.tell_ages && self.contacts_wait && percept.form_ages.iter().any(|age| *age > 0);
-        if self.ages_wait {
-            self.ages.clear();
-            let _ = self.ages.resize(gone, 0);
-            for age in percept.form_ages {
-                // Contacts without a place here have none in the list.
-                let _ = self.ages.push(*age);
-            }
-        }
-        self.contacts.dropped = percept.dropped;
+        self.contacts.take((frame, time), percept, due, health);
+        let aged = percept.form_ages.iter().any(|age| *age > 0);
+        self.ages_wait = self.tell_ages && self.contacts.waits && aged;
     }
 
     fn enqueue_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {

@@ -1,5 +1,6 @@
 //! Queues of messages by urgency; a message is encoded only when the link has room.
 
+mod contacts;
 mod encoding;
 mod enqueue;
 
@@ -8,6 +9,7 @@ use super::refusal::Refusal;
 use super::tx_frame::TxFrame;
 use super::{BoardInfo, Setup};
 use super::{CodeVec, Sentence};
+use crate::body::Placed;
 use crate::boot::Boot;
 use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros, Q15};
@@ -18,6 +20,7 @@ use crate::scene::StreamConfig;
 use crate::shape::Taught;
 use crate::unsure::UnsureState;
 use crate::wire::*;
+use contacts::ContactQueue;
 use core::fmt;
 use heapless::{Deque, Vec};
 
@@ -33,6 +36,10 @@ pub(super) struct About<'a> {
     pub examined: Option<&'a SelfTestReport>,
     /// The calibration in force.
     pub certificate: Option<&'a Certificate>,
+    /// Present contacts of the last frame.
+    pub present: &'a [Placed],
+    /// Age of their forms, frames, in the same order.
+    pub form_ages: &'a [u8],
     /// Contacts that may be drift.
     pub unsure: &'a UnsureState<CONTACTS>,
     /// Taught shapes.
@@ -59,10 +66,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     intent: Option<IntentReport>,
     symbols: SymbolList,
     symbols_wait: bool,
-    contacts: ContactList,
-    contacts_wait: bool,
-    /// Ages of the forms of `contacts`, in the same order; 0 for those no longer present.
-    ages: Vec<u8, LISTED>,
+    contacts: ContactQueue,
     /// True if ages are requested and one of them is above 0.
     ages_wait: bool,
     tell_ages: bool,
@@ -116,9 +120,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             intent: None,
             symbols: SymbolList { frame: 0, time: Micros(0), events: Vec::new(), regions: Vec::new() },
             symbols_wait: false,
-            contacts: ContactList { frame: 0, time: Micros(0), dropped: 0, contacts: Vec::new() },
-            contacts_wait: false,
-            ages: Vec::new(),
+            contacts: ContactQueue::new(),
             ages_wait: false,
             tell_ages: false,
             unsure: false,
@@ -188,11 +190,11 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.shapes = true;
     }
 
-    /// The base of shapes has changed: queues it, and clears the classes of waiting contacts, which are those
-    /// of the previous base.
+    /// The base of shapes has changed: queues it, and clears the classes of contacts that have ended, which
+    /// are those of the previous base.
     pub fn shapes_changed(&mut self) {
         self.shapes = true;
-        self.contacts.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
+        self.contacts.forget_classes();
     }
 
     /// Queues the health map.
@@ -224,8 +226,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.forget_meaning();
         (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
-        self.contacts.contacts.clear();
-        (self.symbols_wait, self.contacts_wait, self.ages_wait, self.unsure) = (false, false, false, false);
+        self.contacts.clear();
+        (self.symbols_wait, self.ages_wait, self.unsure) = (false, false, false);
     }
 
     /// Drops intentions: those of a previous map would be read as concepts of the present one.
@@ -281,7 +283,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     /// Stores the codes of a frame that is to be sent raw.
     pub fn raw(&mut self, codes: &[Code], taxels: usize) {
-        if self.raw.is_some() {
+        if cfg!(feature = "raw") && self.raw.is_some() {
             self.codes.clear();
             let _ = self.codes.extend_from_slice(codes.get(..taxels).unwrap_or(codes));
         }

@@ -24,7 +24,7 @@ fn contact(filter: Filter, absent: Option<Absent>, dead: &[usize], codes: &[u16]
     let stage = ContactConfig::default().build().unwrap();
     let touches = stage.process(&mut contacts, &layout, &image, Micros(0));
     assert_eq!(touches.present.len(), 1);
-    (touches.present[0].clone(), touches.moments[0])
+    (touches.present[0].clone(), *touches.moments().next().unwrap())
 }
 
 /// A slope of 7 x 7 taxels from (4, 4); no two taxels are alike.

@@ -88,14 +88,15 @@ impl Rig {
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
         let touches = self.stage.process(&mut self.state, &self.layout, &image, Micros(self.now));
-        let Touches { present, moments, ages, quartics, released, dropped, overflow, .. } = touches;
+        let moments: Vec<Moments> = touches.moments().copied().collect();
+        let Touches { present, ages, quartics, released, dropped, overflow, .. } = touches;
         assert_eq!([moments.len(), ages.len(), quartics.len()], [present.len(); 3]);
-        for (contact, moments) in present.iter().zip(moments) {
+        for (contact, moments) in present.iter().zip(&moments) {
             assert_eq!(u64::from(contact.total), moments.m);
         }
         Frame {
             present: present.to_vec(),
-            moments: moments.to_vec(),
+            moments,
             looked: ages.iter().map(|age| *age == 0).collect(),
             ages: ages.to_vec(),
             quartics: quartics.to_vec(),

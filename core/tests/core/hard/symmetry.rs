@@ -127,7 +127,7 @@ proptest! {
         let touches = stage.process(&mut state, &layout, &image, Micros(0));
         prop_assert_eq!((touches.dropped, touches.overflow), (0, 0));
         let mut whole = Moments::default();
-        touches.moments.iter().for_each(|moments| whole.add(moments));
+        touches.moments().for_each(|moments| whole.add(moments));
         let rest: Vec<u16> = values.iter().map(|f| if *f < 60 { *f } else { 0 }).collect();
         whole.add(&Moments::of_image(&rest, SIDE as usize));
         let taxels: Vec<(i32, i32, u16)> =

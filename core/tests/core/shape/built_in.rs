@@ -80,7 +80,8 @@ fn settings_are_checked() {
         let image = Image { values: &values, rows: &Rows::ALL };
         let stage = ContactConfig::default().build().unwrap();
         let touches = stage.process(&mut state, &layout, &image, Micros(0));
-        let shape = shape.process(&touches.moments[0], &touches.quartics[0], &touches.present[0]);
+        let shape =
+            shape.process(touches.moments().next().unwrap(), &touches.quartics[0], &touches.present[0]);
         assert_eq!(shape.class, Class::FINGER);
         assert!(shape.confidence.0 > 16384 && shape.confidence.0 <= 32768);
     }

@@ -26,7 +26,7 @@ pub fn greatest<T>(
     let mut state: ContactState<8, 1024> = ContactState::new();
     let contacts = ContactConfig::default().build().unwrap();
     let touches = contacts.process(&mut state, layout, image, Micros(0));
-    let all = touches.moments.iter().zip(touches.quartics).zip(touches.present);
+    let all = touches.moments().zip(touches.quartics).zip(touches.present);
     let greatest = all.max_by_key(|(_, contact)| contact.total);
     greatest.map(|((moments, quartic), contact)| of(moments, quartic, contact))
 }

@@ -1,0 +1,363 @@
+//! The list of contacts that waits for the link. Present contacts are told from the table of contacts; only
+//! those that have left it are copied.
+
+use crate::body::Placed;
+use crate::contact::{Contact, Phase};
+use crate::format::Micros;
+use crate::pipeline::{CONTACTS, Percept};
+use crate::wire::{Health, LISTED};
+use heapless::Vec;
+use serde::ser::{Serialize, SerializeSeq, SerializeStruct, Serializer};
+
+/// What is to be told of the newest frame, and of what ended since the last list was sent.
+pub(super) struct ContactQueue {
+    /// True if the list is to be sent.
+    pub waits: bool,
+    /// Number of the newest frame.
+    pub frame: u32,
+    /// Its time.
+    pub time: Micros,
+    dropped: u16,
+    /// Number of present contacts that have a place in the list: the first ones.
+    listed: u16,
+    /// Present contacts whose onset was not told yet.
+    begun: Vec<Begun, CONTACTS>,
+    /// Contacts that ended, in the order of the list.
+    ended: Vec<Ended, CONTACTS>,
+}
+
+/// A contact whose onset was not told yet, in the last frame in which it was present.
+#[derive(Clone, Copy)]
+struct Begun {
+    id: u32,
+    total: u32,
+    duration_ms: u32,
+}
+
+/// A contact that ended.
+struct Ended {
+    placed: Placed,
+    /// Number of the frame with which it ended.
+    frame: u32,
+    /// Set if its onset was not told yet either.
+    begun: Option<Begun>,
+}
+
+impl Begun {
+    fn of(placed: &Placed) -> Begun {
+        let contact = &placed.contact;
+        Begun { id: contact.id, total: contact.total, duration_ms: contact.duration_ms }
+    }
+}
+
+impl Ended {
+    /// Number of its entries in the list.
+    fn entries(&self) -> usize {
+        if self.begun.is_some() { 2 } else { 1 }
+    }
+}
+
+impl ContactQueue {
+    pub const fn new() -> Self {
+        ContactQueue {
+            waits: false,
+            frame: 0,
+            time: Micros(0),
+            dropped: 0,
+            listed: 0,
+            begun: Vec::new(),
+            ended: Vec::new(),
+        }
+    }
+
+    /// Drops everything.
+    pub fn clear(&mut self) {
+        self.waits = false;
+        self.begun.clear();
+        self.ended.clear();
+    }
+
+    /// Resets the classes of the contacts that ended: those of another base of shapes.
+    pub fn forget_classes(&mut self) {
+        self.ended.iter_mut().for_each(|ended| ended.placed.shape.forget_class());
+    }
+
+    /// Takes the newest frame; `due` if the rate of the stream allows a list of it. Onsets and ends are
+    /// always sent.
+    pub fn take(
+        &mut self,
+        (frame, time): (u32, Micros),
+        percept: &Percept<'_>,
+        due: bool,
+        health: &mut Health,
+    ) {
+        if self.waits {
+            health.thinned_contacts += u32::from(due);
+        } else {
+            self.clear();
+        }
+        (self.frame, self.time, self.dropped) = (frame, time, percept.dropped);
+        if self.ended.is_empty() && percept.released.is_empty() {
+            self.listed = percept.present.len() as u16;
+        } else {
+            self.end(percept, health);
+        }
+        self.begun.retain_mut(|begun| {
+            let present = percept.present.iter().find(|placed| placed.contact.id == begun.id);
+            present.is_some_and(|placed| {
+                *begun = Begun::of(placed);
+                true
+            })
+        });
+        let mut news = false;
+        let is_onset = |placed: &Placed| placed.contact.phase == Phase::Onset;
+        for (index, placed) in percept.present.iter().enumerate().filter(|(_, placed)| is_onset(placed)) {
+            news = true;
+            if index < self.listed.into() {
+                // Always room: as many places as contacts.
+                let _ = self.begun.push(Begun::of(placed));
+            }
+        }
+        self.waits |= due || news || !percept.released.is_empty();
+    }
+
+    /// Keeps the contacts that ended with the frame, and counts those that have no place in the list: the
+    /// present ones come first.
+    #[inline(never)] // M0+: out of line
+    fn end(&mut self, percept: &Percept<'_>, health: &mut Health) {
+        let onsets = percept.released.iter().filter(|placed| self.begun_of(placed).is_some()).count();
+        let entries = self.ended.iter().map(Ended::entries).sum::<usize>();
+        let room = LISTED.saturating_sub(entries + onsets);
+        let listed = percept.present.len().min(room);
+        health.lost += (percept.present.len() - listed) as u32;
+        self.listed = listed as u16;
+        for (index, placed) in percept.released.iter().enumerate() {
+            let begun = self.begun_of(placed);
+            let ended = Ended { placed: placed.clone(), frame: self.frame, begun };
+            let fits = index < room - listed && self.ended.push(ended).is_ok();
+            health.lost += u32::from(!fits);
+        }
+    }
+
+    fn begun_of(&self, placed: &Placed) -> Option<Begun> {
+        self.begun.iter().find(|begun| begun.id == placed.contact.id).copied()
+    }
+
+    /// The present contacts that have a place in the list.
+    pub fn listed<'a>(&self, present: &'a [Placed]) -> impl Iterator<Item = &'a Placed> + use<'a> {
+        present.iter().take(self.listed.into())
+    }
+
+    /// Fills in the entries of the list. The present contacts stand before the ends of the newest frame. An
+    /// onset stands where its contact was while it was present: before the ends of the frame before its own.
+    #[inline(never)] // M0+: out of line
+    fn list<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
+        let (mut group, mut rest) = first_group(&self.ended);
+        onsets(group, entries);
+        while !group.is_empty() {
+            let frame = group.first().map_or(0, |ended| ended.frame);
+            let (next, after) = first_group(rest);
+            let follows = next.first().is_some_and(|next| next.frame == frame.wrapping_add(1));
+            if follows {
+                onsets(next, entries);
+            }
+            if frame == self.frame {
+                self.list_present(present, entries);
+            }
+            for ended in group {
+                let _ = entries.push((&ended.placed, None));
+            }
+            if !follows {
+                onsets(next, entries);
+            }
+            (group, rest) = (next, after);
+        }
+        if self.ended.last().is_none_or(|last| last.frame != self.frame) {
+            self.list_present(present, entries);
+        }
+    }
+
+    fn list_present<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
+        for placed in self.listed(present) {
+            let _ = entries.push((placed, self.begun_of(placed)));
+        }
+    }
+}
+
+/// The contacts that ended with the same frame as the first, and the rest.
+fn first_group(ended: &[Ended]) -> (&[Ended], &[Ended]) {
+    let frame = ended.first().map_or(0, |first| first.frame);
+    let count = ended.iter().take_while(|ended| ended.frame == frame).count();
+    (ended.get(..count).unwrap_or(&[]), ended.get(count..).unwrap_or(&[]))
+}
+
+/// Adds the onsets that were not told. There is room: `ContactQueue::end` has counted, here and elsewhere.
+fn onsets<'a>(group: &'a [Ended], entries: &mut Vec<Entry<'a>, LISTED>) {
+    for ended in group.iter().filter(|ended| ended.begun.is_some()) {
+        let _ = entries.push((&ended.placed, ended.begun));
+    }
+}
+
+/// A contact; if its onset is told, with total and duration of then. With the end only these change.
+type Entry<'a> = (&'a Placed, Option<Begun>);
+
+/// A [`ContactList`](crate::wire::ContactList) of what waits and of the table's present contacts.
+pub(super) struct List<'a> {
+    pub queue: &'a ContactQueue,
+    pub present: &'a [Placed],
+}
+
+impl Serialize for List<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let List { queue, present } = self;
+        let mut entries = Vec::new();
+        queue.list(present, &mut entries);
+        let mut list = serializer.serialize_struct("ContactList", 4)?;
+        list.serialize_field("frame", &queue.frame)?;
+        list.serialize_field("time", &queue.time)?;
+        list.serialize_field("dropped", &queue.dropped)?;
+        list.serialize_field("contacts", &Entries(&entries))?;
+        list.end()
+    }
+}
+
+struct Entries<'a>(&'a [Entry<'a>]);
+
+impl Serialize for Entries<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut entries = serializer.serialize_seq(Some(self.0.len()))?;
+        for (placed, begun) in self.0 {
+            let mut onset = None;
+            if let Some(Begun { total, duration_ms, .. }) = *begun {
+                let contact = Contact { phase: Phase::Onset, total, duration_ms, ..placed.contact.clone() };
+                onset = Some(Placed { contact, ..**placed });
+            }
+            entries.serialize_element(onset.as_ref().unwrap_or(placed))?;
+        }
+        entries.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::condition::Tare;
+    use crate::format::{Fixed16, Q15};
+    use crate::garment::{Place, Rect};
+    use crate::react::ReactState;
+    use crate::symbol::SymbolState;
+    use crate::unsure::UnsureState;
+    use crate::wire::ContactList;
+
+    fn placed(id: u32, phase: Phase, total: u32) -> Placed {
+        let contact = Contact {
+            id,
+            phase,
+            panel: 0,
+            total,
+            peak: 9,
+            peak_at: Place { panel: 0, row: 1, column: 2 },
+            area: 9,
+            perimeter: 8,
+            edge: 0,
+            bounds: Rect { panel: 0, top: 0, bottom: 2, left: 0, right: 2 },
+            x: Fixed16(1 << 16),
+            y: Fixed16(1 << 16),
+            azimuth: None,
+            anisotropy: Q15(0),
+            breadth: 300,
+            peak_breadth: 300,
+            dx: Fixed16(0),
+            dy: Fixed16(0),
+            vx: Fixed16(0),
+            vy: Fixed16(0),
+            slip: false,
+            onset: Micros(0),
+            duration_ms: total / 7,
+            peak_total: total,
+        };
+        contact.into()
+    }
+
+    /// The list as a copy of every contact, in which onsets and ends stay until they are sent.
+    fn copied(list: &mut std::vec::Vec<Placed>, present: &[Placed], released: &[Placed]) {
+        let untold: std::vec::Vec<u32> =
+            list.iter().filter(|p| p.contact.phase == Phase::Onset).map(|p| p.contact.id).collect();
+        let is_present = |id| present.iter().any(|p| p.contact.id == id);
+        list.retain(|old| match old.contact.phase {
+            Phase::Onset => !is_present(old.contact.id),
+            Phase::Held => false,
+            Phase::Released => true,
+        });
+        for placed in present {
+            let mut placed = placed.clone();
+            if untold.contains(&placed.contact.id) {
+                placed.contact.phase = Phase::Onset;
+            }
+            list.push(placed);
+        }
+        list.extend(released.iter().cloned());
+    }
+
+    #[test]
+    fn the_list_is_that_of_a_copy_however_long_it_waits() {
+        let mut rng = fastrand::Rng::with_seed(7);
+        let (unsure, symbols, reactions) =
+            (UnsureState::new(), SymbolState::default(), ReactState::default());
+        let mut queue = ContactQueue::new();
+        let (mut list, mut present, mut id) = (std::vec::Vec::new(), std::vec::Vec::<Placed>::new(), 0);
+        let mut waited = 0;
+        for frame in 1..4000u32 {
+            let mut released = std::vec::Vec::new();
+            present.retain_mut(|placed| {
+                let contact = &mut placed.contact;
+                let ends = rng.u8(..8) == 0 && waited < 8;
+                (contact.phase, contact.duration_ms) = (Phase::Held, contact.duration_ms + 5);
+                contact.total = if ends { 0 } else { rng.u32(100..9000) };
+                if ends {
+                    contact.phase = Phase::Released;
+                    released.push(placed.clone());
+                }
+                !ends
+            });
+            if rng.bool() && present.len() < 5 {
+                id += 1;
+                present.push(placed(id, Phase::Onset, rng.u32(100..9000)));
+            }
+            let percept = Percept {
+                image: &[],
+                present: &present,
+                form_ages: &[],
+                released: &released,
+                dropped: 0,
+                unsure: &unsure,
+                symbols: &symbols,
+                meaning: None,
+                gesture: None,
+                reactions: &reactions,
+                tare: Tare::Idle,
+            };
+            if !queue.waits {
+                list.clear();
+            }
+            copied(&mut list, &present, &released);
+            let mut health = Health::default();
+            queue.take((frame, Micros(frame.into())), &percept, rng.bool(), &mut health);
+            assert_eq!(health.lost, 0);
+            let copy = ContactList {
+                frame,
+                time: Micros(frame.into()),
+                dropped: 0,
+                contacts: list.iter().cloned().collect(),
+            };
+            let told = List { queue: &queue, present: &present };
+            assert_eq!(postcard::to_allocvec(&told).unwrap(), postcard::to_allocvec(&copy).unwrap());
+            waited = if queue.waits { waited + 1 } else { 0 };
+            if rng.u8(..6) == 0 {
+                (queue.waits, waited) = (false, 0);
+            }
+        }
+        assert!(id > 500);
+    }
+}

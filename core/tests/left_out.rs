@@ -1,0 +1,103 @@
+//! What a build without features refuses, and how it names it: `cargo test -p taxel-core --no-default-features
+//! --test left_out`.
+#![cfg(not(any(
+    feature = "gallery",
+    feature = "gesture",
+    feature = "intent",
+    feature = "raw",
+    feature = "reflex",
+    feature = "slip"
+)))]
+
+use taxel_core::acquire::Depth;
+use taxel_core::board::{Board, BoardInfo, Input};
+use taxel_core::contact::ContactConfig;
+use taxel_core::format::{Micros, Q15};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::gesture::GestureConfig;
+use taxel_core::react::{Cause, ReactionConfig};
+use taxel_core::scene::{Scene, StreamConfig};
+use taxel_core::wire::{Receiver, Report, Request, decode, encode, frame_bound};
+
+type Small = Board<2048, 1024, 512>;
+
+fn board() -> Box<Small> {
+    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
+    Box::new(Small::new(info, Garment::reference(), Scene::shipped()).expect("what ships fits"))
+}
+
+/// The board's answers to a request.
+fn answers(board: &mut Small, request: &Request<'_>) -> Vec<Option<String>> {
+    let mut wire = vec![0; 4096];
+    board.step(Micros(0), Input::Received(encode(request, &mut wire).unwrap()), &mut ());
+    let mut inbox: Receiver<{ frame_bound(8192) }> = Receiver::new();
+    let mut answers = Vec::new();
+    loop {
+        let bytes = board.pending(Micros(0), &mut ()).to_vec();
+        if bytes.is_empty() {
+            return answers;
+        }
+        board.sent(bytes.len());
+        for byte in bytes {
+            let Some(Ok(body)) = inbox.push(byte) else { continue };
+            if let Ok((_, Report::Answer(answer))) = decode::<(u32, Report<'_>)>(body) {
+                answers.push(answer.refusal.map(str::to_owned));
+            }
+        }
+    }
+}
+
+/// The board's only answer to a scene.
+fn answer_to_scene(edit: impl FnOnce(&mut Scene)) -> Option<String> {
+    let mut scene = Scene::shipped();
+    edit(&mut scene);
+    let bytes = postcard::to_allocvec(&scene).unwrap();
+    let [answer] = answers(&mut board(), &Request::SetScene(&bytes)).try_into().unwrap();
+    answer
+}
+
+#[test]
+fn a_scene_is_refused_by_the_name_of_what_it_asks_for() {
+    assert_eq!(answer_to_scene(|scene| scene.contact.low = 20), None, "contacts are all that is left");
+    let refused = |edit: fn(&mut Scene)| answer_to_scene(edit).unwrap();
+    let slip = refused(|scene| scene.contact = ContactConfig { slip_speed: 64, ..scene.contact });
+    assert_eq!(slip, "scene: contact.slip_speed is left out of this firmware");
+    let raw = refused(|scene| scene.stream = StreamConfig { raw_hz: 10, ..scene.stream });
+    assert_eq!(raw, "scene: stream.raw_hz is left out of this firmware");
+    let interlaced = refused(|scene| scene.plan.depth = Depth::Interlaced);
+    assert_eq!(interlaced, "plan.depth cannot be interlaced: it is left out of this firmware");
+    let flinch = refused(|scene| {
+        let row = scene.react[0].clone();
+        let cause = Cause::Leading(taxel_core::intent::Leading::Attack);
+        scene.react.push(ReactionConfig { name: "flinch".try_into().unwrap(), cause, ..row }).unwrap();
+    });
+    assert!(flinch.starts_with("scene: react[1]."), "{flinch}");
+}
+
+#[test]
+fn a_map_is_refused_before_it_is_read() {
+    let mut bytes = postcard::to_allocvec(&Scene::empty()).unwrap();
+    // The byte before the lists of friendliness, joints and reactions, and the stream, says that there is no
+    // map; a map would follow it.
+    let rest = 3 + postcard::to_allocvec(&StreamConfig::default()).unwrap().len();
+    let at = bytes.len() - rest - 1;
+    assert_eq!(bytes[at], 0);
+    bytes[at] = 1;
+    let refused = answers(&mut board(), &Request::SetScene(&bytes));
+    assert_eq!(refused, [Some("scene: intent is left out of this firmware".to_owned())]);
+}
+
+#[test]
+fn a_request_is_refused_by_the_name_of_what_it_asks_for() {
+    let mut board = board();
+    let mut refused = |request: Request<'_>| answers(&mut board, &request);
+    let left_out = |name: &str| [Some(format!("{name} is left out of this firmware"))];
+    assert_eq!(refused(Request::SetGestures(Some(GestureConfig::default()))), left_out("gestures"));
+    assert_eq!(refused(Request::SetGestures(None)), [None]);
+    assert_eq!(refused(Request::SetShapes(&[1])), left_out("shapes"));
+    assert_eq!(refused(Request::SetShapes(&[])), [None]);
+    assert_eq!(refused(Request::AddShapes(&[0])), left_out("shapes"));
+    assert_eq!(refused(Request::Concept { slot: 0, value: Q15(0) }), left_out("intent"));
+    assert_eq!(refused(Request::SetRaw { hz: 10 }), left_out("raw"));
+    assert_eq!(refused(Request::SetRaw { hz: 0 }), [None]);
+}

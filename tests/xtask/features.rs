@@ -1,0 +1,77 @@
+//! The images that leave something out: `firmware/Cargo.toml` lists what may be.
+
+use crate::cross::{TARGET, Toolchain};
+use crate::{firmware, process};
+use std::fmt::Write;
+use std::path::Path;
+
+/// All features of the firmware but `bench`.
+const ALL: [&str; 6] = ["gallery", "gesture", "intent", "raw", "reflex", "slip"];
+/// Name of the image with all of them, and of that without any.
+const EVERYTHING: &str = "everything";
+const ALONE: &str = "contacts alone";
+/// Limits of flash and RAM of both, KiB.
+const MOST: [(&str, [u64; 2]); 2] = [(EVERYTHING, [360, 190]), (ALONE, [272, 150])];
+/// Heading of the table.
+const IMAGE: &str = "image";
+
+/// The images of the table, by what they have.
+fn images() -> Vec<(String, Vec<&'static str>)> {
+    let without = |left: &&'static str| {
+        let rest = ALL.into_iter().filter(|feature| feature != left).collect();
+        (format!("without {left}"), rest)
+    };
+    let ends = [(EVERYTHING.into(), ALL.to_vec()), (ALONE.into(), Vec::new())];
+    ends.into_iter().chain(ALL.iter().map(without)).collect()
+}
+
+/// Builds an image, in a folder of its own so that the one that ships stays; returns its flash and RAM, bytes.
+fn build(toolchain: &Toolchain, features: &[&str], log: &Path) -> Result<[u64; 2], String> {
+    let folder = toolchain.folder().join("features");
+    let mut command = firmware::command(toolchain);
+    command.args(["--locked", "--bin", "taxel-firmware", "--no-default-features", "--features"]);
+    command.arg(features.join(",")).env("CARGO_TARGET_DIR", &folder);
+    process::run_into(&mut command, log)?;
+    let elf = folder.join(TARGET).join("release/taxel-firmware");
+    firmware::sizes_of(&elf)
+}
+
+/// Builds every image, and returns the table of their sizes. Error if one exceeds its limits.
+pub fn check(log: &Path) -> Result<String, String> {
+    let toolchain = Toolchain::find()?;
+    let mut text = format!("{IMAGE:<60}{:>10}{:>10}\n", "flash", "RAM");
+    for (name, features) in images() {
+        let [flash, ram] = build(&toolchain, &features, log).map_err(|error| format!("{name}: {error}"))?;
+        let _ = writeln!(text, "{name:<60}{flash:>10}{ram:>10}");
+        let most = MOST.into_iter().find(|(image, _)| *image == name);
+        if let Some((_, [most_flash, most_ram])) = most.filter(|(_, most)| exceeds([flash, ram], *most)) {
+            return Err(format!("{name}: flash {flash}, RAM {ram}, at most {most_flash} and {most_ram} KiB"));
+        }
+    }
+    Ok(text)
+}
+
+/// True if bytes of flash or RAM exceed their limits, KiB.
+fn exceeds(bytes: [u64; 2], most: [u64; 2]) -> bool {
+    bytes.iter().zip(most).any(|(bytes, most)| *bytes > most * 1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALL, images};
+
+    /// The default features of a manifest.
+    fn default_of(manifest: &str) -> Vec<&str> {
+        let line = manifest.lines().find(|line| line.starts_with("default = "));
+        line.map_or(Vec::new(), |line| line.split('"').skip(1).step_by(2).collect())
+    }
+
+    #[test]
+    fn every_feature_has_an_image_without_it() {
+        assert_eq!(default_of(include_str!("../../firmware/Cargo.toml")), ALL);
+        assert_eq!(default_of(include_str!("../../core/Cargo.toml")), ALL);
+        assert!(ALL.iter().all(|left| {
+            images().iter().any(|(_, has)| has.len() == ALL.len() - 1 && !has.contains(left))
+        }));
+    }
+}
