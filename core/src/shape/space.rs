@@ -45,7 +45,6 @@ impl Space {
 
 /// Returns the squared distance. The difference in each dimension is limited to 16383, so that twelve squares
 /// fit.
-#[inline]
 pub fn distance2(a: &Point, b: &Point) -> u32 {
     let square = |(a, b): (&i16, &i16)| u32::from(a.abs_diff(*b).min(16_383)).pow(2);
     a.iter().zip(b).map(square).sum()
