@@ -108,14 +108,15 @@ impl Layers {
 
     /// Names of types that two modules define, with these modules; arguments of commands and errors excepted.
     pub fn twice(&self) -> Vec<String> {
-        let mut homes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+        let mut homes: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
         for (module, source) in &self.sources {
             for name in source.lines().filter_map(defined).filter(|name| !matches!(*name, "Args" | "Error")) {
-                homes.entry(name).or_default().push(module.join("/"));
+                // Twice in a module: one for each machine or feature.
+                homes.entry(name).or_default().insert(module.join("/"));
             }
         }
         let twice = homes.into_iter().filter(|(_, modules)| modules.len() > 1);
-        twice.map(|(name, modules)| format!("{name}: {}", modules.join(", "))).collect()
+        twice.map(|(name, modules)| format!("{name}: {}", Vec::from_iter(modules).join(", "))).collect()
     }
 
     /// Modules of the root in the order in which it declares them.

@@ -77,7 +77,7 @@ fn build_firmware(args: &[String]) -> Result<(), String> {
     };
     let built = firmware::build()?;
     print!("{built}");
-    if write { sizes::write(&built, &features::check(&paths::log("features")?)?) } else { Ok(()) }
+    if write { sizes::write(&built, &features::table(&paths::log("features")?)?) } else { Ok(()) }
 }
 
 fn main() -> ExitCode {
