@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 use std::path::Path;
-use taxel_cli::bench::stages::case::Variant;
-use taxel_cli::bench::stages::format::INFERENCE;
-use taxel_cli::bench::stages::row::Row;
-use taxel_cli::bench::stages::table::Table;
+use taxel_bench::stages::case::Variant;
+use taxel_bench::stages::format::INFERENCE;
+use taxel_bench::stages::row::Row;
+use taxel_bench::stages::table::Table;
 
 /// What a scene or a kernel may cost, in cycles.
 struct Bar {

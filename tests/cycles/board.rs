@@ -3,8 +3,8 @@
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use taxel_cli::bench::stages::case::Step;
-use taxel_cli::bench::stages::row::Cost;
+use taxel_bench::stages::case::Step;
+use taxel_bench::stages::row::Cost;
 use taxel_core::format::Code;
 use taxel_suite::chain::Said;
 use taxel_suite::kernel::Kernel;

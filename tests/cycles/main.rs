@@ -9,11 +9,11 @@ mod data;
 
 use std::path::Path;
 use std::process::ExitCode;
-use taxel_cli::bench::stages::case::{Case, Step};
-use taxel_cli::bench::stages::format::{Form, FormRow};
-use taxel_cli::bench::stages::row::{Cost, Row};
-use taxel_cli::bench::stages::table::Table;
-use taxel_cli::bench::stages::twin::{Told, Twin};
+use taxel_bench::stages::case::{Case, Step};
+use taxel_bench::stages::format::{Form, FormRow};
+use taxel_bench::stages::row::{Cost, Row};
+use taxel_bench::stages::table::Table;
+use taxel_bench::stages::twin::{Told, Twin};
 
 /// The tables as they were last written.
 const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench");
