@@ -252,30 +252,6 @@ fn frames_decode_to_the_image_of_the_board_alone_or_from_their_base() {
 }
 
 #[test]
-fn a_key_frame_is_one_that_took_less_time_than_usual() {
-    let mut bench = Bench::new(Scene::shipped());
-    bench.ask(&Request::Start);
-    bench.drain(usize::MAX, |_| ());
-    let (mut keys, mut first) = (Vec::new(), None);
-    for step in 0..2_000u16 {
-        bench.press(&FINGER, 600 + step % 100);
-        bench.scan();
-        let is_short = step % 3 == 0;
-        bench.now += if is_short { 300 } else { 900 };
-        let now = bench.now;
-        bench.drain(usize::MAX, |report| {
-            if matches!(report, Report::Frame(frame) if frame.base.is_none()) {
-                keys.extend(first.map(|_| is_short));
-                first = first.or(Some(now));
-            }
-        });
-    }
-    let seconds = (bench.now - first.unwrap()) / 1_000_000;
-    assert!(keys.len() as u64 >= seconds && seconds >= 10, "{} key frames in {seconds} s", keys.len());
-    assert_eq!(keys, vec![true; keys.len()]);
-}
-
-#[test]
 fn a_slow_link_thins_updates_and_images_but_no_onset_and_no_release() {
     let mut bench = Bench::new(Scene::shipped());
     bench.ask(&Request::Start);

@@ -37,7 +37,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use completions::CompletionsArgs;
 use examples::*;
 #[cfg(not(feature = "foxglove"))]
-use not_built::{self as foxglove, FoxgloveArgs};
+use not_built::{self as foxglove, NotBuiltArgs as FoxgloveArgs};
 use std::ffi::OsString;
 use taxel::tell::{verbose, words};
 

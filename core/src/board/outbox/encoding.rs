@@ -17,9 +17,6 @@ use core::fmt::Write;
 use heapless::{String, Vec};
 use serde::Serialize;
 
-/// How much earlier than necessary a key frame may be sent.
-const KEY_EARLY_US: u64 = 50_000;
-
 impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Own frame: its buffers are on the stack only here.
     #[inline(never)]
@@ -120,12 +117,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         image: &Image<'_>,
         health: &mut Health,
     ) -> bool {
-        let Outbox { tx_frame, image: Waiting { base, key, process_us, last, .. }, rates, .. } = self;
-        // A key frame takes longer to encode: a frame that took less time than usual is preferred.
-        let is_short = health.process_us < *process_us;
-        *process_us = *process_us / 8 * 7 + health.process_us / 8;
-        let early_us = if is_short { KEY_EARLY_US } else { 0 };
-        let against = base.filter(|_| time.since(*key) + early_us < rates.key_us);
+        let Outbox { tx_frame, image: Waiting { base, key, last, .. }, rates, .. } = self;
+        let against = base.filter(|_| time.since(*key) < rates.key_us);
         let Some(length) = last.advance(layout, image, against.is_none(), tx_frame.scratch()) else {
             last.clear();
             *base = None;

@@ -96,8 +96,6 @@ struct Waiting<const TAXELS: usize> {
     base: Option<u32>,
     /// Time of the last key frame.
     key: Micros,
-    /// Mean processing time of the frames of the last images.
-    process_us: u32,
     last: ImageReference<TAXELS>,
 }
 
@@ -131,13 +129,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             shapes: false,
             map: None,
             examined: false,
-            image: Waiting {
-                due: None,
-                base: None,
-                key: Micros(0),
-                process_us: 0,
-                last: ImageReference::new(),
-            },
+            image: Waiting { due: None, base: None, key: Micros(0), last: ImageReference::new() },
             raw: None,
             codes: CodeVec::new(),
             raw_hz: 0,
