@@ -35,7 +35,7 @@ macro_rules! states {
 
 states! {
     ConditionState<TAXELS>, "condition/mod.rs", 21592, 21592;
-    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 65304, 65360;
+    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 65312, 65368;
     HardnessCue, "measure/hardness.rs", 20, 20;
     FoldState, "fold.rs", 96, 96;
     TouchState, "gesture/mod.rs", 3712, 3720;

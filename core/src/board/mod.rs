@@ -362,9 +362,20 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let image = state.image(&setup.pipeline, &setup.layout);
         let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
         let (boot, unsure, taught) = (*boot, state.unsure(), &state.taught);
-        let (present, form_ages) = (state.present(), state.form_ages());
-        let about =
-            About { info, boot, setup, monitor, examined, certificate, present, form_ages, unsure, taught };
+        let (present, form_ages, took_picture) = (state.present(), state.form_ages(), state.took_picture());
+        let about = About {
+            info,
+            boot,
+            setup,
+            monitor,
+            examined,
+            certificate,
+            present,
+            form_ages,
+            took_picture,
+            unsure,
+            taught,
+        };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {
             ledger.rest();

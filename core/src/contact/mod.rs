@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts with integer and fixed-point fields, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
-//! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship, with what later stages keep in its table: 65,304 bytes |
+//! | RAM | [`ContactState`] of the [capacities](crate::capacity) that ship, with what later stages keep in its table: 65,312 bytes |
 //! | M0+ cycles | reference garment: 2 k where nothing touches; 21 k with one contact of 29 taxels, 61 k with five, 231 k with forty of 4 to 9; 185 k if all 2,048 taxels are touched, 222 k as a checkerboard of 1,024 runs |
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another

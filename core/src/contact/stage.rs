@@ -136,6 +136,11 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         self.tracks.ages()
     }
 
+    /// True if the last frame took a picture of a contact's pattern.
+    pub(crate) fn took_picture(&self) -> bool {
+        self.tracks.took_picture()
+    }
+
     /// Index in [`Touches::present`] of the last frame's contact at a taxel.
     pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
         let area = layout.areas().get(usize::from(place.panel))?;

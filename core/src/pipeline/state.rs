@@ -117,6 +117,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.contact.form_ages()
     }
 
+    /// True if the last frame took a picture of a contact's pattern.
+    pub(crate) fn took_picture(&self) -> bool {
+        self.contact.took_picture()
+    }
+
     /// Which contacts of the last frame may be drift.
     pub fn unsure(&self) -> &UnsureState<CONTACTS> {
         &self.unsure

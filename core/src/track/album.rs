@@ -28,6 +28,8 @@ pub(crate) struct Album {
     pictures: [Picture; PICTURES],
     /// Places in use, one bit each.
     used: u32,
+    /// True if a picture was taken in this frame, or was tried.
+    pub busy: bool,
 }
 
 /// Number of a place, with which its owner asks for the picture.
@@ -43,7 +45,7 @@ impl Album {
             total: 0,
             peak: 0,
         };
-        Album { pictures: [BLANK; PICTURES], used: 0 }
+        Album { pictures: [BLANK; PICTURES], used: 0, busy: false }
     }
 
     /// Takes a free place, if there is one.

@@ -10,6 +10,7 @@ use super::gradient::SIDE;
 use crate::garment::{Area, Rect};
 use crate::image::view::Image;
 use crate::measure::component::Component;
+use crate::segment::threshold::touched;
 
 /// Displacement along x and y, in 2^-16 taxel.
 pub(crate) type Way = [i32; 2];
@@ -153,6 +154,7 @@ impl Pattern {
     fn take(&mut self, component: &Component, (album, area, image): (&mut Album, &Area, &Image), low: u16) {
         self.moved = [0; 2];
         if component.area >= LEAST_AREA {
+            album.busy = true;
             let leaf = self.taken.take().or_else(|| album.take());
             let picture = leaf.and_then(|leaf| album.picture_mut(leaf));
             self.taken = leaf;
@@ -171,20 +173,14 @@ impl Picture {
         let bounds = &component.bounds;
         let (left, right) = middle(component.x.0, bounds.left, bounds.right);
         let (top, bottom) = middle(component.y.0, bounds.top, bounds.bottom);
-        self.window = Rect { panel: bounds.panel, top, bottom, left, right };
-        for (anchor, row) in self.anchor.iter_mut().zip(top..=bottom) {
-            let row = image.row(area, row).get(usize::from(left)..=usize::from(right)).unwrap_or(&[]);
-            anchor.iter_mut().zip(row).for_each(|(kept, value)| *kept = *value);
-        }
         // Rows and columns of the picture and one on each side: bit 0 is the column before the first.
         let mut held = [0u16; SIDE + 2];
         for (held, row) in held.iter_mut().zip(top..=bottom.saturating_add(2)) {
             let row = row.checked_sub(1).map_or(&[][..], |row| image.row(area, row));
             let start = usize::from(left.saturating_sub(1));
-            let first = u16::from(left == 0);
-            for (bit, value) in (first..SIDE as u16 + 2).zip(row.get(start..).unwrap_or(&[])) {
-                *held |= u16::from(*value >= low) << bit;
-            }
+            let first = usize::from(left == 0);
+            let values = row.get(start..row.len().min(start + SIDE + 2 - first)).unwrap_or(&[]);
+            *held = (touched(values, low) as u16) << first;
         }
         let columns = (1u16 << (right - left).min(SIDE as u16 - 1)) - 1;
         let once = eroded(&held);
@@ -200,8 +196,16 @@ impl Picture {
             // information.
             *inner = if number % 2 == 1 { clear } else { 0 };
         }
+        if count < LEAST_INNER {
+            return false;
+        }
+        self.window = Rect { panel: bounds.panel, top, bottom, left, right };
+        for (anchor, row) in self.anchor.iter_mut().zip(top..=bottom) {
+            let row = image.row(area, row).get(usize::from(left)..=usize::from(right)).unwrap_or(&[]);
+            anchor.iter_mut().zip(row).for_each(|(kept, value)| *kept = *value);
+        }
         (self.total, self.peak) = (component.total, component.peak);
-        count >= LEAST_INNER
+        true
     }
 }
 

@@ -68,6 +68,11 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         &self.ages
     }
 
+    /// True if a picture was taken in the last frame, or was tried.
+    pub fn took_picture(&self) -> bool {
+        self.album.busy
+    }
+
     pub fn quartics(&self) -> &[Quartic] {
         &self.quartics
     }
@@ -129,6 +134,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         let known = self.known();
         self.part(config, components, &known);
         self.released.clear();
+        self.album.busy = false;
         for (slot, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
             let contact = slot.contact_mut();
             match components.get(usize::from(trail.component)) {

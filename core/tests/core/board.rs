@@ -251,6 +251,42 @@ fn frames_decode_to_the_image_of_the_board_alone_or_from_their_base() {
     assert!((3..=4).contains(&alone) && differing > 490, "{alone} key frames in 2.5 s, {differing} others");
 }
 
+/// A key frame takes longer to encode, so it avoids the frames that measure the form of a large contact.
+#[test]
+fn a_key_frame_is_one_that_measures_little() {
+    let mut bench = Bench::new(Scene::shipped());
+    bench.ask(&Request::Start);
+    bench.ask(&Request::SetForms { in_frame: 1, ages: true });
+    bench.drain(usize::MAX, |_| ());
+    let large: Vec<usize> = (0..64).filter(|taxel| taxel % 16 < 5).collect();
+    let (mut keys, mut measured) = (Vec::new(), Vec::new());
+    for step in 0..4_000u16 {
+        bench.press(&large, 900 + step % 7);
+        [8, 11, 14].iter().for_each(|column| bench.press(&[16 + column, 32 + column], 600 + step % 100));
+        bench.scan();
+        let now = bench.now;
+        let mut old = false;
+        bench.drain(usize::MAX, |report| match report {
+            // The large contact lies first, so its id is 1.
+            Report::Forms(forms) => old = forms.ages.iter().any(|(contact, _)| *contact == 1),
+            Report::Frame(frame) if frame.base.is_none() => keys.push((step, now)),
+            _ => {}
+        });
+        measured.push(!old);
+    }
+    assert!(keys.len() > 10, "{} key frames", keys.len());
+    for pair in keys.windows(2) {
+        let gap = pair[1].1 - pair[0].1;
+        assert!((937_500..=1_000_000).contains(&gap), "{gap} us between key frames");
+    }
+    let turns = measured.iter().filter(|large| **large).count();
+    assert!((990..=1010).contains(&turns), "one form of four a frame: {turns}");
+    for (step, _) in &keys[1..] {
+        let step = usize::from(*step);
+        assert!(!measured[step] && !measured[step + 1], "key frame {step} measures the large contact");
+    }
+}
+
 #[test]
 fn a_slow_link_thins_updates_and_images_but_no_onset_and_no_release() {
     let mut bench = Bench::new(Scene::shipped());

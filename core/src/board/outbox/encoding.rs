@@ -21,8 +21,19 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Own frame: its buffers are on the stack only here.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About { info, boot, setup, monitor, examined, certificate, present, form_ages, unsure, taught } =
-            about;
+        let About {
+            info,
+            boot,
+            setup,
+            monitor,
+            examined,
+            certificate,
+            present,
+            form_ages,
+            took_picture,
+            unsure,
+            taught,
+        } = about;
         let tx_frame = &mut self.tx_frame;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -74,7 +85,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some(temperature) = self.temperature.take() {
             tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some((frame, time)) = self.image.due.take() {
-            self.put_image(frame, time, &setup.layout, image, health)
+            let is_light = || !took_picture && measures_little(present, form_ages);
+            self.put_image(frame, time, &setup.layout, image, is_light, health)
         } else if let Some((frame, time)) = self.raw.take().filter(|_| cfg!(feature = "raw")) {
             self.put_raw(frame, time)
         } else {
@@ -108,17 +120,21 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.tx_frame.put(Report::HEALTH_MAP, &map)
     }
 
-    /// Returns `false` if the message does not fit. An image without room for its code is thinned.
+    /// Returns `false` if the message does not fit. An image without room for its code is thinned. A key
+    /// frame takes longer to encode, so a light frame shortly before it is due becomes it.
     fn put_image(
         &mut self,
         frame: u32,
         time: Micros,
         layout: &Layout,
         image: &Image<'_>,
+        is_light: impl Fn() -> bool,
         health: &mut Health,
     ) -> bool {
         let Outbox { tx_frame, image: Waiting { base, key, last, .. }, rates, .. } = self;
-        let against = base.filter(|_| time.since(*key) < rates.key_us);
+        let rest_us = rates.key_us.saturating_sub(time.since(*key));
+        let is_key_due = rest_us == 0 || rest_us <= rates.key_us / 16 && is_light();
+        let against = base.filter(|_| !is_key_due);
         let Some(length) = last.advance(layout, image, against.is_none(), tx_frame.scratch()) else {
             last.clear();
             *base = None;
@@ -144,6 +160,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let head = Raw { frame, time, data: &[] };
         length.is_some_and(|length| self.tx_frame.put_data(Report::RAW, &head, length))
     }
+}
+
+/// True if no contact that is larger than the mean has its form measured in this frame, or in the next one,
+/// when the rest of the message is sent. Unlike a measured time, this is the same on every machine.
+fn measures_little(present: &[Placed], form_ages: &[u8]) -> bool {
+    let area = |placed: &Placed| u32::from(placed.contact.area);
+    let all: u32 = present.iter().map(area).sum();
+    let oldest = form_ages.iter().max();
+    let turns = present.iter().zip(form_ages).filter(|(_, age)| **age == 0 || Some(*age) == oldest);
+    turns.map(|(placed, _)| area(placed)).all(|area| area * present.len() as u32 <= all)
 }
 
 /// Encodes the confidence of the first waiting gesture, then that gesture, so that a reader has the
