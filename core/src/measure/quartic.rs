@@ -6,7 +6,7 @@
 //! direction has to be known.
 
 use super::component::Component;
-use super::ratios::Ratios;
+use super::ratios::{PRODUCT, Ratios};
 use super::sight::Sight;
 use crate::format::Fixed16;
 use crate::garment::Area;
@@ -47,8 +47,7 @@ const COORDINATE: u32 = 10;
 /// Bits that are cut from a square.
 const SQUARE: u32 = 8;
 
-/// Bits that are cut from a pressure times a square, before it is multiplied again, and half of them.
-pub(super) const PRODUCT: u32 = 8;
+/// Half of what is cut from a product.
 const HALF: u32 = 1 << (PRODUCT - 1);
 
 /// What turns taxels into coordinates from the centroid, in units that the contact's extent fills, and their

@@ -1,6 +1,7 @@
 //! Sums of the fourth order, made independent of pressure and size.
 
-use super::quartic::PRODUCT;
+/// Bits that are cut from a pressure times a square, before it is multiplied again.
+pub(super) const PRODUCT: u32 = 8;
 
 /// Turns sums of the fourth order, of which [`PRODUCT`] bits are cut, into ratios, by 16 bits of each: a
 /// thousandth is less than a step.

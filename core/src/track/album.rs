@@ -1,9 +1,11 @@
 //! Memory for the pictures of patterns, shared by all contacts: few are large enough to have one.
 
 use super::gradient::SIDE;
-use super::pattern::LEAST_AREA;
 use crate::capacity::TAXELS;
 use crate::garment::Rect;
+
+/// Smallest contact that has a picture: in a square of ten, six by six taxels are clear of the outline.
+pub(crate) const LEAST_AREA: u16 = 100;
 
 /// Most pictures: a garment has no more contacts that are large enough. Only contacts that have shrunk since
 /// their picture was taken may hold more; a contact that finds no place then has no pattern.

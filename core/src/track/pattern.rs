@@ -4,7 +4,7 @@
 //! ([`Flow`]). Because displacement is measured from a fixed picture, the noise of the frames does not add
 //! up, and slow creep is found. After half a taxel of displacement, a new picture is taken.
 
-use super::album::{Album, Leaf, Picture};
+use super::album::{Album, LEAST_AREA, Leaf, Picture};
 use super::flow::{Flow, Pictures};
 use super::gradient::SIDE;
 use crate::garment::{Area, Rect};
@@ -15,9 +15,8 @@ use crate::segment::threshold::touched;
 /// Displacement along x and y, in 2^-16 taxel.
 pub(crate) type Way = [i32; 2];
 
-/// Smallest contact whose pattern is followed: in a square of ten, six by six taxels are clear of the
-/// outline. With fewer, a wave of pressure cannot be distinguished from a slope.
-pub(crate) const LEAST_AREA: u16 = 100;
+/// Fewest taxels clear of the outline: with fewer than six by six, a wave of pressure cannot be distinguished
+/// from a slope.
 const LEAST_INNER: u32 = 36;
 /// Frames for which a contact without a pattern is not examined.
 const PAUSE: u8 = 8;
