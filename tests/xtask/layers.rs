@@ -106,13 +106,17 @@ impl Layers {
         circles.collect()
     }
 
-    /// Names of types that two modules define, with these modules; arguments of commands and errors excepted.
-    pub fn twice(&self) -> Vec<String> {
+    /// Names of types that two modules of these crates define, with these modules; arguments of commands and
+    /// errors excepted.
+    pub fn twice(crates: &[(&str, Layers)]) -> Vec<String> {
         let mut homes: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-        for (module, source) in &self.sources {
+        let modules = crates
+            .iter()
+            .flat_map(|(name, layers)| layers.sources.iter().map(move |(at, text)| (name, at, text)));
+        for (krate, module, source) in modules {
             for name in source.lines().filter_map(defined).filter(|name| !matches!(*name, "Args" | "Error")) {
                 // Twice in a module: one for each machine or feature.
-                homes.entry(name).or_default().insert(module.join("/"));
+                homes.entry(name).or_default().insert(format!("{krate}/{}", module.join("/")));
             }
         }
         let twice = homes.into_iter().filter(|(_, modules)| modules.len() > 1);
@@ -281,21 +285,19 @@ mod tests {
     }
 
     #[test]
-    fn a_type_name_stands_for_one_thing_in_a_crate() {
-        let crates = [
-            "core",
-            "firmware",
-            "firmware/store",
-            "host/sim",
-            "host/taxel",
-            "host/cli",
-            "host/python",
-            "tests/bench",
-            "tests/suite",
+    fn a_type_name_stands_for_one_thing() {
+        let groups: [&[&str]; 6] = [
+            &["core", "firmware", "firmware/store", "tests/suite"],
+            &["host/sim"],
+            &["host/taxel"],
+            &["host/cli"],
+            &["host/python"],
+            &["tests/bench"],
         ];
-        for folder in crates {
-            let layers = Layers::read(&root().join(folder).join("src"));
-            assert_eq!(layers.twice(), Vec::<String>::new(), "{folder}");
+        for group in groups {
+            let read = |name: &&'static str| (*name, Layers::read(&root().join(name).join("src")));
+            let crates: Vec<_> = group.iter().map(read).collect();
+            assert_eq!(Layers::twice(&crates), Vec::<String>::new());
         }
         assert_eq!(defined("pub(super) struct Moment<'a> {"), Some("Moment"));
         assert_eq!(defined("pub type State = [i32; 4];"), Some("State"));

@@ -177,7 +177,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    type Picture = [[u16; SIDE]; SIDE];
+    type Pixels = [[u16; SIDE]; SIDE];
 
     /// All taxels except the border.
     const INNER: [u16; SIDE] = {
@@ -186,18 +186,18 @@ mod tests {
         inner
     };
 
-    fn picture(pressure: impl Fn(f64, f64) -> f64) -> Picture {
+    fn picture(pressure: impl Fn(f64, f64) -> f64) -> Pixels {
         core::array::from_fn(|y| core::array::from_fn(|x| pressure(x as f64, y as f64).round() as u16))
     }
 
-    fn pictures<'a>(before: &'a Picture, now: &'a Picture) -> Pictures<'a> {
+    fn pictures<'a>(before: &'a Pixels, now: &'a Pixels) -> Pictures<'a> {
         let peak = before.iter().chain(now).flatten().copied().max().unwrap();
         let now = now.each_ref().map(|row| &row[..]);
         Pictures { before, now, rows: SIDE, columns: SIDE, inner: &INNER, peak }
     }
 
     /// Waves of `length` along both axes, displaced by (dx, dy) taxels.
-    fn waves(length: f64, [dx, dy]: [f64; 2], [unit, peak]: [f64; 2]) -> Picture {
+    fn waves(length: f64, [dx, dy]: [f64; 2], [unit, peak]: [f64; 2]) -> Pixels {
         let k = TAU / length;
         picture(|x, y| peak * (0.5 + unit * ((k * (x - dx)).cos() + (k * (y - dy) + 1.0).cos())))
     }
@@ -260,7 +260,7 @@ mod tests {
             // possible.
             let extreme = [255u16, 4095, u16::MAX][round as usize % 3];
             let [a, b, c] = [next(), next(), next()];
-            let make = |shift: u32| -> Picture {
+            let make = |shift: u32| -> Pixels {
                 core::array::from_fn(|y| {
                     core::array::from_fn(|x| {
                         let (x, y) = (x as u32 + shift, y as u32);
@@ -286,7 +286,7 @@ mod tests {
     }
 
     /// The sums in 64 bits, from the definition.
-    fn wide(before: &Picture, now: &Picture, peak: u16) -> [i64; 9] {
+    fn wide(before: &Pixels, now: &Pixels, peak: u16) -> [i64; 9] {
         let scale = (16 - peak.leading_zeros()).saturating_sub(8);
         let half = 1i64 << scale >> 1;
         let mut sums = [0; 9];

@@ -17,7 +17,7 @@ use crate::{
     limits::INFO,
     link::{PacketHandler, Uart, Usb, Wire, uart},
     pins::LinePin,
-    scan::{Begun, DmaChain},
+    scan::{FrameBegin, DmaChain},
     store::Flash,
 };
 use embassy_rp::{
@@ -38,7 +38,7 @@ macro_rules! lines {
 }
 
 bind_interrupts!(struct Interrupts {
-    PIO0_IRQ_0 => Begun;
+    PIO0_IRQ_0 => FrameBegin;
     UART0_IRQ => port::BufferedInterruptHandler<UART0>;
     USBCTRL_IRQ => PacketHandler, usb::InterruptHandler<USB>;
 });

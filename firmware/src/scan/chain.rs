@@ -14,7 +14,7 @@
 //! The registers of a stretch are written during the conversion of the thermometer, when no channel stores a
 //! code.
 
-use super::frames::{Begun, Frames};
+use super::frames::{FrameBegin, Frames};
 use super::select::Select;
 use super::{reflex, tables};
 use crate::adc;
@@ -100,7 +100,7 @@ impl Step {
 
 impl DmaChain {
     /// A chain at rest.
-    pub fn new(parts: ChainParts, _frame_begun: impl Binding<PIO0_IRQ_0, Begun>) -> DmaChain {
+    pub fn new(parts: ChainParts, _frame_begun: impl Binding<PIO0_IRQ_0, FrameBegin>) -> DmaChain {
         DmaChain { _parts: parts, inputs: 0, select: None }
     }
 

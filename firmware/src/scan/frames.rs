@@ -80,9 +80,9 @@ static FRAMES_AT: AtomicPtr<[CodeFrame; PLACES]> = AtomicPtr::new(core::ptr::nul
 static COMPLETE: AtomicWaker = AtomicWaker::new();
 
 /// Handler of the interrupt at the beginning of each frame, or of each sub-field.
-pub struct Begun;
+pub struct FrameBegin;
 
-impl Handler<PIO0_IRQ_0> for Begun {
+impl Handler<PIO0_IRQ_0> for FrameBegin {
     #[allow(unsafe_code)] // SAFETY: no unsafe code here; the trait requires that only the interrupt calls it
     unsafe fn on_interrupt() {
         let begun = u32::from(Select::take_flags());

@@ -30,7 +30,7 @@ mod select;
 mod tables;
 
 pub use chain::DmaChain;
-pub use frames::Begun;
+pub use frames::FrameBegin;
 
 use crate::limits::{INPUTS, LINES};
 use crate::{adc, pins, platform};

@@ -151,7 +151,7 @@ impl ContactQueue {
     /// Fills in the entries of the list. The present contacts stand before the ends of the newest frame. An
     /// onset stands where its contact was while it was present: before the ends of the frame before its own.
     #[inline(never)] // M0+: out of line
-    fn list<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
+    fn list<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Listed<'a>, LISTED>) {
         let (mut group, mut rest) = first_group(&self.ended);
         onsets(group, entries);
         while !group.is_empty() {
@@ -177,7 +177,7 @@ impl ContactQueue {
         }
     }
 
-    fn list_present<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Entry<'a>, LISTED>) {
+    fn list_present<'a>(&'a self, present: &'a [Placed], entries: &mut Vec<Listed<'a>, LISTED>) {
         for placed in self.listed(present) {
             let _ = entries.push((placed, self.begun_of(placed)));
         }
@@ -192,14 +192,14 @@ fn first_group(ended: &[Ended]) -> (&[Ended], &[Ended]) {
 }
 
 /// Adds the onsets that were not told. There is room: `ContactQueue::end` has counted, here and elsewhere.
-fn onsets<'a>(group: &'a [Ended], entries: &mut Vec<Entry<'a>, LISTED>) {
+fn onsets<'a>(group: &'a [Ended], entries: &mut Vec<Listed<'a>, LISTED>) {
     for ended in group.iter().filter(|ended| ended.begun.is_some()) {
         let _ = entries.push((&ended.placed, ended.begun));
     }
 }
 
 /// A contact; if its onset is told, with total and duration of then. With the end only these change.
-type Entry<'a> = (&'a Placed, Option<Begun>);
+type Listed<'a> = (&'a Placed, Option<Begun>);
 
 /// A [`ContactList`](crate::wire::ContactList) of what waits and of the table's present contacts.
 pub(super) struct List<'a> {
@@ -221,7 +221,7 @@ impl Serialize for List<'_> {
     }
 }
 
-struct Entries<'a>(&'a [Entry<'a>]);
+struct Entries<'a>(&'a [Listed<'a>]);
 
 impl Serialize for Entries<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
