@@ -128,7 +128,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The same steps by OpenCV's Python module, one thread; none where it is not installed.
+/// Those steps by OpenCV in Python, one thread; `None` if it is not installed.
 fn opencv(values: &[u8]) -> Option<f64> {
     let script = format!(
         "import sys, time, cv2, numpy as np

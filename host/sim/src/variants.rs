@@ -100,7 +100,7 @@ fn has(layout: &Layout, panel: &str) -> bool {
     layout.areas().iter().any(|area| area.name == panel)
 }
 
-/// The panel with the largest surface; the first of equals.
+/// The panel with the largest surface; of equal ones the first.
 pub fn largest(layout: &Layout) -> Option<&Area> {
     let mm2 = |area: &Area| {
         let [x, y] = pitch_mm(area);

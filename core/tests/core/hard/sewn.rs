@@ -24,7 +24,7 @@ fn sewn(a: Side, b: Side, reversed: bool) -> Garment {
     sewn_in_part([a, b], [0, 0], N as u16, reversed)
 }
 
-/// The same, sewn from these taxels of the two sides on.
+/// A garment sewn from these taxels of the two sides on.
 fn sewn_in_part([a, b]: [Side; 2], starts: [u16; 2], length: u16, reversed: bool) -> Garment {
     let mut garment = Garment::recorded(N as u16, N as u16);
     let other = taxel_core::garment::Panel { name: name("other"), ..garment.panels[0].clone() };

@@ -46,7 +46,7 @@ impl Rig {
         self.draw_with(|x, y| pressure(x, y) * FULL);
     }
 
-    /// As [`Rig::draw`], with noise of `sigma` (a share of full scale) on every taxel.
+    /// [`Rig::draw`] with noise of `sigma` (a share of full scale) on every taxel.
     pub fn draw_noisy(&mut self, noise: &mut Noise, sigma: f64, pressure: impl Fn(f64, f64) -> f64) {
         self.draw_with(|x, y| (pressure(x, y) + sigma * noise.gauss()) * FULL);
     }

@@ -71,7 +71,7 @@ fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result
     Ok(map.state(numbered))
 }
 
-/// The strongest intention, else the strongest concept with causes; the first of equals.
+/// The strongest intention, else the strongest concept with causes; of equal ones the first.
 fn strongest(file: &MapFile, state: &MapState) -> Option<usize> {
     let is_intention = |name: &str| Leading::INTENTIONS.iter().any(|leading| leading.as_str() == name);
     let driven: Vec<usize> =
