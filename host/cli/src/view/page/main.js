@@ -20,13 +20,19 @@ import * as strips from "./strips.js";
 
 const store = new Store();
 const link = new Link($("link"), $("source"), $("provenance"));
+/** Time between two redraws of what is beside the picture while it is live: nobody reads faster. */
+const BESIDE_MS = 100;
 let stale = true;
-const changed = () => (stale = true);
+/** What is beside the picture is out of date since a message, or must be drawn at once. */
+let [besides, urgent] = [true, true];
+/** When it was drawn. */
+let besidesAt = 0;
+const changed = () => (stale = urgent = true);
 const change =
   (act) =>
   (...what) => {
     act(...what);
-    changed();
+    stale = besides = true;
   };
 
 const socket = connect({
@@ -45,7 +51,7 @@ const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
 const views = {
   panels: new Panels($("view-panels"), hover),
-  surface: new Surface($("view-surface"), changed),
+  surface: new Surface($("view-surface"), hover, changed),
   body: new Body($("view-body")),
   map: new CognitiveMap($("view-map")),
   health: new Health($("view-health")),
@@ -63,7 +69,9 @@ function log() {
 
 function draw() {
   requestAnimationFrame(draw);
-  if (!stale) return;
+  const now = performance.now();
+  const due = urgent || (besides && (store.paused || now - besidesAt >= BESIDE_MS));
+  if (!stale && !due) return;
   stale = false;
   const { settings } = controls;
   if (store.latest !== drawn) link.drawn();
@@ -71,10 +79,17 @@ function draw() {
   $("empty").hidden = Boolean(store.shown());
   controls.scale();
   // First, because it decides how much room is left.
-  player.draw();
+  if (due) player.draw();
   views[settings.view].draw(store, settings);
   scale.draw(store, settings);
   hover.draw(store);
+  if (!due) return;
+  besidesAt = now;
+  besides = urgent = false;
+  beside(settings);
+}
+
+function beside(settings) {
   link.draw(store);
   concepts.draw(store);
   contacts($("contacts"), $("contact-count"), store);
@@ -98,4 +113,4 @@ window.addEventListener("keydown", (event) => {
 });
 
 // For tests and for the console.
-window.taxel = { store, settings: controls.settings, changed, ask };
+window.taxel = { store, settings: controls.settings, views, changed, ask };

@@ -92,6 +92,17 @@ export function peak(context, { row, column }, sx, sy) {
   });
 }
 
+/** Draws a local maximum of the surface. */
+export function diamond(context, x, y) {
+  stroke(context, 1.2, () => {
+    context.moveTo(x, y - 4);
+    context.lineTo(x + 4, y);
+    context.lineTo(x, y + 4);
+    context.lineTo(x - 4, y);
+    context.closePath();
+  });
+}
+
 /** Draws the taxel under the pointer. */
 export function frame(context, row, column, sx, sy) {
   stroke(context, 1.5, () => context.rect(column * sx, row * sy, sx, sy));

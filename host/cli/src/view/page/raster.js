@@ -11,6 +11,8 @@ const GLOW = 0x916fff;
 export class Raster {
   constructor() {
     this.canvas = document.createElement("canvas");
+    // Filled by the processor.
+    this.context = this.canvas.getContext("2d", { willReadFrequently: true });
     this.data = null;
   }
 
@@ -18,7 +20,7 @@ export class Raster {
     const { canvas } = this;
     if (this.data && canvas.width === width && canvas.height === height) return;
     Object.assign(canvas, { width, height });
-    this.data = canvas.getContext("2d").createImageData(width, height);
+    this.data = this.context.createImageData(width, height);
     this.pixels = new Uint32Array(this.data.data.buffer);
   }
 
@@ -30,7 +32,7 @@ export class Raster {
     if (smooth) interpolate(this.pixels, image, panel, top);
     else for (let at = 0; at < rows * columns; at += 1) this.pixels[at] = PIXELS[stepOf(image[base + at], top)];
     this.clear(panel, absent, fine);
-    this.canvas.getContext("2d").putImageData(this.data, 0, 0);
+    this.context.putImageData(this.data, 0, 0);
     return this.canvas;
   }
 
@@ -41,7 +43,7 @@ export class Raster {
       const alpha = Math.round(opacity(glow[base + at], image[base + at], top) * 255);
       this.pixels[at] = ((alpha << 24) | GLOW) >>> 0;
     }
-    this.canvas.getContext("2d").putImageData(this.data, 0, 0);
+    this.context.putImageData(this.data, 0, 0);
     return this.canvas;
   }
 

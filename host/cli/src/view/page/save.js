@@ -1,6 +1,7 @@
 // Saves a picture, this moment's numbers, or a recording of the live half minute or of the range.
 
 import { $, colour, make } from "./dom.js";
+import { diamond, label } from "./marks.js";
 
 /** Margin of a saved picture, pixels. */
 const MARGIN = 12;
@@ -48,11 +49,7 @@ function moment(store) {
 
 /** A view as a PNG in a URL. */
 export async function picture(root) {
-  const plot = root.querySelector(".js-plotly-plot");
-  if (plot) {
-    const { clientWidth: width, clientHeight: height } = root;
-    return window.Plotly.toImage(plot, { format: "png", width, height, scale: 2 });
-  }
+  root.dispatchEvent(new Event("picture"));
   const { left, top, width, height } = root.getBoundingClientRect();
   const ratio = window.devicePixelRatio || 1;
   const canvas = make("canvas", { width: (width + 2 * MARGIN) * ratio, height: (height + 2 * MARGIN) * ratio });
@@ -61,10 +58,11 @@ export async function picture(root) {
   context.fillStyle = colour("card");
   context.fillRect(0, 0, width + 2 * MARGIN, height + 2 * MARGIN);
   context.translate(MARGIN, MARGIN);
-  for (const part of root.querySelectorAll("canvas, svg, figcaption b")) {
+  for (const part of root.querySelectorAll("canvas, svg, figcaption b, .marks b:not([hidden])")) {
     const box = part.getBoundingClientRect();
     const place = [box.left - left, box.top - top];
     if (part.tagName === "CANVAS") context.drawImage(part, ...place, box.width, box.height);
+    else if (part.closest(".marks")) mark(context, part.textContent, box, place);
     else if (part.tagName === "B") caption(context, part.textContent, place);
     else context.drawImage(await drawing(part), ...place, box.width, box.height);
   }
@@ -76,6 +74,13 @@ function caption(context, text, [x, y]) {
   context.textBaseline = "top";
   context.fillStyle = colour("ink");
   context.fillText(text, x, y + 2);
+}
+
+/** A mark of the surface: see layout.css. */
+function mark(context, text, { width, height }, [left, top]) {
+  const [x, y] = [left + width / 2, top + height / 2];
+  diamond(context, x, y + 16);
+  if (text) label(context, text, x, y);
 }
 
 /** An SVG as an image, with its colours written out, because the style sheet is not part of it. */
