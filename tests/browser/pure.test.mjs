@@ -2,13 +2,8 @@
 
 import { test } from "node:test";
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
+import { load } from "./module.fixture.mjs";
 
-/** A module of the page that imports no other. */
-async function load(name) {
-  const text = await readFile(new URL(`../../host/cli/src/view/page/${name}.js`, import.meta.url), "utf8");
-  return import(`data:text/javascript,${encodeURIComponent(text)}`);
-}
 const [timeline, glow, follow, presence] = await Promise.all(
   ["timeline", "afterglow", "follow", "presence"].map(load),
 );

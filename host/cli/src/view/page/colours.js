@@ -1,5 +1,6 @@
 // Pressure as colour: cividis, which is readable with any colour vision and grows evenly in lightness.
 
+/** @type {[import("./types.d.ts").Triple, ...import("./types.d.ts").Triple[]]} */
 const STOPS = [
   [0, 34, 78],
   [18, 53, 112],
@@ -18,18 +19,31 @@ const SIZE = 256;
 export const RAMP = Array.from({ length: SIZE }, (_, step) => {
   const at = (step / (SIZE - 1)) * (STOPS.length - 1);
   const low = Math.min(Math.floor(at), STOPS.length - 2);
-  return STOPS[low].map((from, part) => Math.round(from + (STOPS[low + 1][part] - from) * (at - low)));
+  const [from = STOPS[0], to = from] = STOPS.slice(low, low + 2);
+  const part = (/** @type {0 | 1 | 2} */ which) => Math.round(from[which] + (to[which] - from[which]) * (at - low));
+  return /** @type {import("./types.d.ts").Triple} */ ([part(0), part(1), part(2)]);
 });
 
 /** The steps as pixels of ImageData (little-endian ABGR). */
 export const PIXELS = new Uint32Array(RAMP.map(([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0));
 
-/** Step of a pressure on a scale that ends at `top`. */
+/**
+ * Step of a pressure on a scale that ends at `top`.
+ * @param {number} value
+ * @param {number} top
+ */
 export const stepOf = (value, top) => Math.max(0, Math.min(SIZE - 1, Math.round((value / top) * (SIZE - 1))));
 
-/** CSS colour of a share of the scale, 0 to 1. */
-export const css = (share) => `rgb(${RAMP[stepOf(share, 1)].join(" ")})`;
+/**
+ * CSS colour of a share of the scale, 0 to 1.
+ * @param {number} share
+ */
+export const css = (share) => `rgb(${(RAMP[stepOf(share, 1)] ?? []).join(" ")})`;
 
 /** Equal bands of the scale: contours separate them, and the histogram counts them. */
 export const BANDS = 5;
+/**
+ * @param {number} value
+ * @param {number} top
+ */
 export const bandOf = (value, top) => Math.min(BANDS - 1, Math.floor((value / top) * BANDS));

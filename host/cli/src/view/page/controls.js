@@ -1,27 +1,27 @@
 // Views, layers, theme and keys.
 
-import { $, forgetColours, make } from "./dom.js";
+import { $, forgetColours, make, one } from "./dom.js";
 import { Follow } from "./follow.js";
 import { KEYS as RECORDED_KEYS } from "./recorder.js";
 import { toggleUnit } from "./units.js";
 
 /** Name, label and key of each view. */
-const VIEWS = [
+const VIEWS = /** @type {const} */ ([
   ["panels", "Panels", "1"],
   ["surface", "3-D", "2"],
   ["body", "Body", "3"],
   ["map", "Map", "4"],
   ["health", "Health", "5"],
-];
+]);
 /** Layers of pressure: setting, label, key, description. */
-const LAYERS = [
+const LAYERS = /** @type {const} */ ([
   ["smooth", "Smooth", "i", "Interpolate between taxels"],
   ["contours", "Contours", "c", "Lines between the bands of pressure"],
   ["contacts", "Contacts", "e", "Ellipses with id, axis and arrow"],
   ["peaks", "Peaks", "p", "Every local maximum"],
   ["glow", "Afterglow", "g", "Pressure of the last second, in red, fading"],
   ["held", "Hold", "h", "The highest pressure since it was cleared (x)"],
-];
+]);
 /** Keys of the live half minute. */
 const LIVE_KEYS = [
   ["space", "pause, resume"],
@@ -42,11 +42,21 @@ const STORED = "taxel-view";
 const [LEAST, MOST] = [25, 51_200];
 const TARE = 32;
 
+/** @typedef {typeof LAYERS[number][0]} Layer */
+
 /** The settings, kept by the browser, and the controls that change them. */
 export class Controls {
+  /**
+   * @param {import("./store.js").Store} store
+   * @param {import("./types.d.ts").Ask} ask
+   * @param {() => void} changed
+   */
   constructor(store, ask, changed) {
-    Object.assign(this, { store, ask, changed });
+    this.store = store;
+    this.ask = ask;
+    this.changed = changed;
     this.follow = new Follow();
+    /** @type {import("./types.d.ts").Settings} */
     this.settings = {
       view: "panels",
       smooth: false,
@@ -60,7 +70,7 @@ export class Controls {
       theme: null,
     };
     try {
-      Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED)));
+      Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED) ?? "{}"));
     } catch {
       // Without storage the page still works.
     }
@@ -70,7 +80,7 @@ export class Controls {
   }
 
   buttons() {
-    const tab = ([name, text, key]) =>
+    const tab = (/** @type {typeof VIEWS[number]} */ [name, text, key]) =>
       make(
         "button",
         {
@@ -83,7 +93,7 @@ export class Controls {
         text,
       );
     $("views").replaceChildren(...VIEWS.map(tab));
-    const layer = ([name, text, key, title]) =>
+    const layer = (/** @type {typeof LAYERS[number]} */ [name, text, key, title]) =>
       make("button", { id: `layer-${name}`, title: `${title} (${key})`, click: () => this.toggle(name) }, text);
     $("layers").replaceChildren(...LAYERS.map(layer));
     const acts = { finer: "-", coarser: "+", unit: "u", theme: "d", help: "?", tare: "t", auto: "a" };
@@ -98,10 +108,10 @@ export class Controls {
       ...LAYERS.map(([, , key, title]) => [key, title]),
       ...KEYS,
     ];
-    $("keys")
-      .querySelector("dl")
-      .replaceChildren(...rows.flatMap(([key, what]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]));
-    $("keys").showModal();
+    const list = rows.flatMap(([key = "", what = ""]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]);
+    const dialog = one(HTMLDialogElement, "keys");
+    dialog.querySelector("dl")?.replaceChildren(...list);
+    dialog.showModal();
   }
 
   /** Adapts the scale to the pressure shown, if that is switched on. */
@@ -109,17 +119,21 @@ export class Controls {
     const { settings, store } = this;
     const shown = settings.auto && store.shown();
     if (!shown) return;
-    const image = settings.held ? store.held : shown.image;
+    const image = settings.held && store.held ? store.held : shown.image;
     const greatest = image.reduce((most, value) => Math.max(most, value), 0);
     const top = this.follow.next(settings.top, greatest, performance.now());
     if (top !== settings.top) this.set({ top });
   }
 
+  /** @param {Layer | "auto"} name */
   toggle(name) {
     this.set({ [name]: !this.settings[name] });
   }
 
-  /** Changes settings, and updates the page. */
+  /**
+   * Changes settings, and updates the page.
+   * @param {Partial<import("./types.d.ts").Settings>} change
+   */
   set(change) {
     const { settings } = this;
     Object.assign(settings, change);
@@ -144,18 +158,29 @@ export class Controls {
     this.changed();
   }
 
+  /** @param {number} factor */
   zoom(factor) {
     this.set({ auto: false, top: Math.max(LEAST, Math.min(MOST, this.settings.top * factor)) });
   }
 
-  /** True if the key was handled. */
+  /**
+   * True if the key was handled.
+   * @param {{ key: string }} event
+   */
   key({ key }) {
+    /** @type {Record<string, () => void>} */
     const acts = {
       "+": () => this.zoom(2),
       "=": () => this.zoom(2),
       "-": () => this.zoom(0.5),
-      u: () => this.set({}, toggleUnit()),
-      x: () => this.set({}, this.store.clearHeld()),
+      u: () => {
+        toggleUnit();
+        this.set({});
+      },
+      x: () => {
+        this.store.clearHeld();
+        this.set({});
+      },
       a: () => this.toggle("auto"),
       t: () => this.store.recorded || this.ask({ tare: TARE }),
       d: () => this.set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }),

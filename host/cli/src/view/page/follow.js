@@ -5,7 +5,10 @@ const [LEAST, MOST] = [25, 51_200];
 /** Time of lower pressure after which the scale shrinks, milliseconds. */
 export const PATIENCE_MS = 2000;
 
-/** The smallest end at or above the greatest pressure. */
+/**
+ * The smallest end at or above the greatest pressure.
+ * @param {number} greatest
+ */
 export function endFor(greatest) {
   let end = LEAST;
   while (end < greatest && end < MOST) end *= 2;
@@ -15,6 +18,7 @@ export function endFor(greatest) {
 /** Remembers since when the pressure is lower. */
 export class Follow {
   constructor() {
+    /** @type {number | null} */
     this.since = null;
     this.most = 0;
   }
@@ -22,6 +26,9 @@ export class Follow {
   /**
    * The end of the scale at `now` ms, from the previous end and the greatest pressure shown. Unchanged at
    * rest.
+   * @param {number} top
+   * @param {number} greatest
+   * @param {number} now
    */
   next(top, greatest, now) {
     const wanted = endFor(greatest);

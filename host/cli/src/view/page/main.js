@@ -1,6 +1,6 @@
 // Assembles the page: messages are stored on arrival, and drawn once per screen refresh.
 
-import { $, make } from "./dom.js";
+import { $, make, one } from "./dom.js";
 import { Body } from "./body.js";
 import { CognitiveMap } from "./fcm.js";
 import { Concepts, contacts } from "./contacts.js";
@@ -28,12 +28,11 @@ let [besides, urgent] = [true, true];
 /** When it was drawn. */
 let besidesAt = 0;
 const changed = () => (stale = urgent = true);
-const change =
-  (act) =>
-  (...what) => {
-    act(...what);
-    stale = besides = true;
-  };
+/** @type {<What>(act: (what: What) => void) => (what: What) => void} */
+const change = (act) => (what) => {
+  act(what);
+  stale = besides = true;
+};
 
 const socket = connect({
   image: change((message) => store.image(message)),
@@ -44,11 +43,13 @@ const socket = connect({
   }),
   heard: () => link.hear(),
 });
+/** @type {import("./types.d.ts").Ask} */
 const ask = (wish) => socket.ask(wish);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
 const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
+/** @type {Record<string, import("./types.d.ts").View>} */
 const views = {
   panels: new Panels($("view-panels"), hover),
   surface: new Surface($("view-surface"), hover, changed),
@@ -58,7 +59,11 @@ const views = {
 };
 const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) });
 
-let [told, drawn] = [null, null];
+/** @type {string | null} */
+let told = null;
+/** @type {import("./types.d.ts").Shown | null} */
+let drawn = null;
+
 function log() {
   const lines = store.lines();
   const key = lines.join("\n");
@@ -80,7 +85,7 @@ function draw() {
   controls.scale();
   // First, because it decides how much room is left.
   if (due) player.draw();
-  views[settings.view].draw(store, settings);
+  views[settings.view]?.draw(store, settings);
   scale.draw(store, settings);
   hover.draw(store);
   if (!due) return;
@@ -89,12 +94,13 @@ function draw() {
   beside(settings);
 }
 
+/** @param {import("./types.d.ts").Settings} settings */
 function beside(settings) {
   link.draw(store);
   concepts.draw(store);
-  contacts($("contacts"), $("contact-count"), store);
-  ranges.draw($("ranges"), store, settings);
-  if (!store.recorded) strips.draw($("strips"), store);
+  contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);
+  ranges.draw(one(HTMLCanvasElement, "ranges"), store, settings);
+  if (!store.recorded) strips.draw(one(HTMLCanvasElement, "strips"), store);
   log();
 }
 requestAnimationFrame(draw);
@@ -104,6 +110,7 @@ window.addEventListener("resize", changed);
 setInterval(() => link.absence(store) && changed(), 500);
 window.addEventListener("keydown", (event) => {
   const { target, ctrlKey, altKey, metaKey, key } = event;
+  if (!(target instanceof Element)) return;
   const typed =
     target.matches("input, select") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
   if (typed || ctrlKey || altKey || metaKey) return;
@@ -113,4 +120,4 @@ window.addEventListener("keydown", (event) => {
 });
 
 // For tests and for the console.
-window.taxel = { store, settings: controls.settings, views, changed, ask };
+Object.assign(window, { taxel: { store, settings: controls.settings, views, changed, ask } });

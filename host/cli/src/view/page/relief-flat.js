@@ -21,11 +21,11 @@ export class FlatPainter {
     this.context = canvas.getContext("2d", { willReadFrequently: true });
     /** @type {string[]} */
     this.colours = [];
+    /** @type {Uint32Array} */
     this.faces = new Uint32Array(0);
     /** @type {number[][]} */
     this.floor = [];
     this.near = new Float32Array(0);
-    /** @type {Uint32Array} */
     this.raised = new Uint32Array(0);
   }
 

@@ -1,6 +1,6 @@
 // The scale of pressure below the picture.
 
-import { $, colour, fit, say } from "./dom.js";
+import { $, colour, fit, one, say } from "./dom.js";
 import { css } from "./colours.js";
 import { isPascal, pressure } from "./units.js";
 
@@ -23,7 +23,7 @@ export function draw({ garment }, { top }) {
     [0.5, "center"],
     [1, "right"],
   ]).map(([share, align]) => ({ share, align, text: pressure(garment, top * share) }));
-  const canvas = /** @type {HTMLCanvasElement} */ ($("ramp"));
+  const canvas = one(HTMLCanvasElement, "ramp");
   const { clientWidth: width } = canvas;
   const { theme } = document.documentElement.dataset;
   const key = [width, theme, ...labels.map(({ text }) => text)].join();

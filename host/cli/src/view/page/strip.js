@@ -8,14 +8,22 @@ export const RIBBON = 18;
 export const LANE = 13;
 export const TIMES = 15;
 /** Colours of Okabe and Ito; the ribbon also has the names. */
+/** @type {Record<string, string>} */
 const INTENTIONS = { kindness: "#0072b2", threat: "#e69f00", attack: "#d55e00" };
+/** @type {Record<string, string>} */
 const INK = { kindness: "#fff", threat: "#000", attack: "#fff" };
 
 /**
  * Draws the greatest total of each pixel as an area; columns below 0 are unknown. `floor` is its lower edge.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Float64Array} columns
+ * @param {number} highest
+ * @param {number} floor
+ * @param {number} head
  */
 export function area(context, columns, highest, floor, head = 18) {
   context.beginPath();
+  /** @type {number | null} */
   let last = null;
   columns.forEach((total, column) => {
     if (total < 0) return;
@@ -35,7 +43,14 @@ export function area(context, columns, highest, floor, head = 18) {
   context.stroke();
 }
 
-/** Draws periods [from, to, leading], with names where there is room. */
+/**
+ * Draws periods [from, to, leading], with names where there is room.
+ * @param {CanvasRenderingContext2D} context
+ * @param {[number, number, string][]} stretches
+ * @param {(time: number) => number} x
+ * @param {number} top
+ * @param {number} height
+ */
 export function ribbon(context, stretches, x, top, height = RIBBON - 5) {
   context.textBaseline = "middle";
   context.textAlign = "left";
@@ -50,7 +65,12 @@ export function ribbon(context, stretches, x, top, height = RIBBON - 5) {
   }
 }
 
-/** Draws lines at times, with labels below. `lines` are [x, name, align]. */
+/**
+ * Draws lines at times, with labels below. `lines` are [x, name, align].
+ * @param {CanvasRenderingContext2D} context
+ * @param {[number, string, CanvasTextAlign][]} lines
+ * @param {number} height
+ */
 export function ruler(context, lines, height) {
   context.textBaseline = "bottom";
   for (const [at, name, align] of lines) {
@@ -62,7 +82,12 @@ export function ruler(context, lines, height) {
   }
 }
 
-/** Draws the moment shown. */
+/**
+ * Draws the moment shown.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} at
+ * @param {number} height
+ */
 export function cursor(context, at, height) {
   context.fillStyle = colour("ink");
   context.fillRect(Math.round(at) - 1, 0, 2, height);
