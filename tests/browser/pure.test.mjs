@@ -4,8 +4,8 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { load } from "./module.fixture.mjs";
 
-const [timeline, glow, follow, presence] = await Promise.all(
-  ["timeline", "afterglow", "follow", "presence"].map(load),
+const [timeline, glow, follow, presence, speaker] = await Promise.all(
+  ["timeline", "afterglow", "follow", "presence", "speaker"].map(load),
 );
 
 test("times are read as on a clock", () => {
@@ -133,4 +133,12 @@ test("who is not there is said to be away, and since when", () => {
   assert.deepEqual([gone.text, gone.since, gone.again], ["Disconnected", 1_200, true]);
   assert.equal(absence({ connected: false, heard: null, lost: null }, 9_000).since, null);
   assert.deepEqual([5_900, 130_000, 8_000_000].map(agoText), ["5 s", "2 min", "2 h"]);
+});
+
+test("what is spoken is the newest, and waits for the one before", () => {
+  const voice = new speaker.Speaker();
+  assert.equal(voice.next("a", 0), "a");
+  assert.equal(voice.next("b", 500), "a");
+  assert.equal(voice.next("c", 1_600), "c");
+  assert.equal(voice.next("c", 9_000), "c");
 });

@@ -24,6 +24,7 @@ const FILES: &[(&str, Asset)] = files![
     CSS "layout.css",
     SCRIPT "main.js",
     SCRIPT "socket.js",
+    SCRIPT "speaker.js",
     SCRIPT "store.js",
     SCRIPT "garment.js",
     SCRIPT "units.js",

@@ -69,7 +69,7 @@ export class Concepts {
     this.key = names.join();
     this.parts = names.map((name) => {
       const bar = make("b");
-      const value = make("output");
+      const value = make("span", { class: "value" });
       const item = make("li", {}, make("span", {}, name), make("i", {}, bar), value);
       return { name, item, bar, value };
     });

@@ -26,7 +26,7 @@ const LAYERS = /** @type {const} */ ([
 const LIVE_KEYS = [
   ["space", "pause, resume"],
   ["← →", "one image back, forward; with shift one second"],
-  ["t", "tare over 32 frames"],
+  ["t", "tare over 32 frames, after a question"],
 ];
 /** Keys apart from these, and those of views and layers. */
 const KEYS = [
@@ -68,6 +68,7 @@ export class Controls {
       top: 200,
       auto: false,
       theme: null,
+      keys: true,
     };
     try {
       Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED) ?? "{}"));
@@ -89,6 +90,7 @@ export class Controls {
           "aria-controls": `view-${name}`,
           title: `${text} (${key})`,
           click: () => this.set({ view: name }),
+          keydown: (event) => this.tabKey(event),
         },
         text,
       );
@@ -97,7 +99,36 @@ export class Controls {
       make("button", { id: `layer-${name}`, title: `${title} (${key})`, click: () => this.toggle(name) }, text);
     $("layers").replaceChildren(...LAYERS.map(layer));
     const acts = { finer: "-", coarser: "+", unit: "u", theme: "d", help: "?", tare: "t", auto: "a" };
+    const asked = one(HTMLDialogElement, "ask-tare");
+    asked.addEventListener("close", () => {
+      if (asked.returnValue === "tare") this.ask({ tare: TARE });
+      asked.returnValue = "";
+    });
+    const keys = one(HTMLInputElement, "keys-on");
+    keys.addEventListener("change", () => this.set({ keys: keys.checked }));
     for (const [id, key] of Object.entries(acts)) $(id).addEventListener("click", () => this.key({ key }));
+  }
+
+  /**
+   * Keys of the tabs.
+   * @param {KeyboardEvent} event
+   */
+  tabKey(event) {
+    const at = VIEWS.findIndex(([name]) => name === this.settings.view);
+    /** @type {Record<string, number>} */
+    const ways = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: VIEWS.length - 1 };
+    const to = ways[event.key];
+    if (to === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const [name] = VIEWS[(to + VIEWS.length) % VIEWS.length] ?? VIEWS[0];
+    this.set({ view: name });
+    $(`tab-${name}`).focus();
+  }
+
+  /** Asks before it tares: a garment that is touched would no longer feel it. */
+  tare() {
+    if (!this.store.recorded) one(HTMLDialogElement, "ask-tare").showModal();
   }
 
   /** All keys, including those of the current view. */
@@ -144,10 +175,13 @@ export class Controls {
     for (const [name] of VIEWS) {
       const chosen = name === settings.view;
       $(`tab-${name}`).setAttribute("aria-selected", String(chosen));
+      // One tab is a stop of the tabulator; the arrow keys lead to the others.
+      $(`tab-${name}`).tabIndex = chosen ? 0 : -1;
       $(`view-${name}`).hidden = !chosen;
     }
     for (const [name] of LAYERS) $(`layer-${name}`).setAttribute("aria-pressed", String(settings[name]));
     $("auto").setAttribute("aria-pressed", String(settings.auto));
+    one(HTMLInputElement, "keys-on").checked = settings.keys;
     const pressed = !["map", "health"].includes(settings.view);
     $("layers").hidden = $("scale").hidden = !pressed;
     try {
@@ -182,7 +216,7 @@ export class Controls {
         this.set({});
       },
       a: () => this.toggle("auto"),
-      t: () => this.store.recorded || this.ask({ tare: TARE }),
+      t: () => this.tare(),
       d: () => this.set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }),
       "?": () => this.keys(),
     };

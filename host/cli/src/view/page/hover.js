@@ -62,7 +62,7 @@ export class Hover {
     const next = { panel, row: row + way[0], column: column + way[1] };
     const x = left + ((next.column + 0.5) / panel.columns) * width;
     const y = top + ((next.row + 0.5) / panel.rows) * height;
-    this.set({ ...next, x, y });
+    this.set({ ...next, x, y, byKeys: true });
   }
 
   /** @param {Place | null} place */
@@ -74,6 +74,20 @@ export class Hover {
     this.place = place;
     if (taxel(place) !== before) this.ask({ hover: taxel(place) });
     this.changed();
+  }
+
+  /**
+   * The taxel that the keys have chosen, in words; null if there is none.
+   * @param {import("./store.js").Store} store
+   */
+  told(store) {
+    const { place } = this;
+    const { garment } = store;
+    const shown = store.shown();
+    if (!place?.byKeys || !garment || !shown) return null;
+    const { panel, row, column } = place;
+    const counts = shown.image[panel.base + row * panel.columns + column] ?? 0;
+    return `${panel.name}, row ${row}, column ${column}: ${pressure(garment, counts)}`;
   }
 
   /** @param {import("./store.js").Store} store */

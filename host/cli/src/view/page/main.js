@@ -1,6 +1,6 @@
 // Assembles the page: messages are stored on arrival, and drawn once per screen refresh.
 
-import { $, make, one } from "./dom.js";
+import { $, make, one, say } from "./dom.js";
 import { Body } from "./body.js";
 import { CognitiveMap } from "./fcm.js";
 import { Concepts, contacts } from "./contacts.js";
@@ -13,6 +13,7 @@ import { Player } from "./player.js";
 import { Save } from "./save.js";
 import { Store } from "./store.js";
 import { Surface } from "./surface.js";
+import { Speaker } from "./speaker.js";
 import { connect } from "./socket.js";
 import * as ranges from "./ranges.js";
 import * as scale from "./scale.js";
@@ -47,6 +48,7 @@ const socket = connect({
 const ask = (wish) => socket.ask(wish);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
+const speaker = new Speaker();
 const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
 /** @type {Record<string, import("./types.d.ts").View>} */
@@ -94,9 +96,16 @@ function draw() {
   beside(settings);
 }
 
+/** What is said to whoever does not see the picture: the taxel that the keys read, else the intention. */
+function spoken() {
+  const leading = store.shown()?.head.frame.intent.leading ?? "none";
+  return hover.told(store) ?? (leading === "none" ? "" : `intention: ${leading}`);
+}
+
 /** @param {import("./types.d.ts").Settings} settings */
 function beside(settings) {
   link.draw(store);
+  say($("spoken"), speaker.next(spoken(), performance.now()));
   concepts.draw(store);
   contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);
   ranges.draw(one(HTMLCanvasElement, "ranges"), store, settings);
@@ -113,7 +122,7 @@ window.addEventListener("keydown", (event) => {
   if (!(target instanceof Element)) return;
   const typed =
     target.matches("input, select") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
-  if (typed || ctrlKey || altKey || metaKey) return;
+  if (typed || ctrlKey || altKey || metaKey || !controls.settings.keys) return;
   if (key === "s") save.toggle();
   else if (!player.key(event) && !controls.key(event)) return;
   event.preventDefault();

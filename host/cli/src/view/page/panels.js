@@ -67,8 +67,8 @@ export class Panels {
     this.parts = garment.panels.map((panel) => {
       const canvas = make("canvas", {
         tabindex: 0,
-        role: "img",
-        "aria-label": `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns`,
+        role: "application",
+        "aria-label": `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns. Arrow keys read taxels.`,
         style: `width:${panel.columns * panel.mm[0] * scale}px;height:${panel.rows * panel.mm[1] * scale}px`,
       });
       this.hover.watch(canvas, panel);

@@ -11,14 +11,31 @@ export class Save {
   /** @param {{ store: import("./store.js").Store, view: () => HTMLElement }} context */
   constructor(context) {
     const menu = $("savings");
+    const items = [...menu.querySelectorAll("button")];
     const show = (/** @type {boolean} */ open) => {
       menu.hidden = !open;
       $("save").setAttribute("aria-expanded", String(open));
-      if (open) menu.querySelector("button")?.focus();
+      (open ? items[0] : $("save"))?.focus();
     };
     this.toggle = () => show(menu.hidden);
     $("save").addEventListener("click", this.toggle);
-    menu.addEventListener("keydown", ({ key }) => key === "Escape" && show(false));
+    for (const item of items) item.tabIndex = -1;
+    menu.addEventListener("focusout", ({ relatedTarget }) => {
+      if (relatedTarget instanceof Node && menu.contains(relatedTarget)) return;
+      menu.hidden = true;
+      $("save").setAttribute("aria-expanded", "false");
+    });
+    menu.addEventListener("keydown", (event) => {
+      const at = items.findIndex((item) => item === document.activeElement);
+      /** @type {Record<string, number>} */
+      const ways = { ArrowUp: at - 1, ArrowDown: at + 1, Home: 0, End: items.length - 1 };
+      const to = ways[event.key];
+      if (event.key === "Escape") show(false);
+      else if (to !== undefined) items[(to + items.length) % items.length]?.focus();
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
     menu.addEventListener("click", ({ target }) => {
       show(false);
       const kind = target instanceof HTMLElement && target.dataset.save;

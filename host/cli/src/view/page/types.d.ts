@@ -211,6 +211,8 @@ export interface Settings {
   top: number;
   auto: boolean;
   theme: string | null;
+  /** Whether keys act without a focus. */
+  keys: boolean;
 }
 
 /** A taxel that is pointed at, and where on the page. */
@@ -220,6 +222,8 @@ export interface Place {
   column: number;
   x: number;
   y: number;
+  /** Chosen by the keys. */
+  byKeys?: boolean;
 }
 
 /** A view of the picture. */
