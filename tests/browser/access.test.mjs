@@ -123,4 +123,31 @@ test("the menu is one of keys, too, and keys without a focus can be switched off
   assert.equal(await browser.value("taxel.settings.view"), "surface");
 });
 
+test("one colour has one meaning", async () => {
+  const { browser } = both;
+  const NAMES = ["accent", "more", "less", "force", "lost", "mark-note", "mark-gesture", "mark-intention", "mark-reaction"];
+  for (const theme of ["light", "dark"]) {
+    const seen = await browser.value(`(async () => {
+      document.documentElement.dataset.theme = "${theme}";
+      const { palette } = await import("./colours.js");
+      const { CLASSES } = await import("./health.js");
+      const style = getComputedStyle(document.documentElement);
+      return {
+        ...Object.fromEntries(${JSON.stringify(NAMES)}.map((name) => [name, style.getPropertyValue("--" + name).trim()])),
+        ...palette.intentions,
+        ...Object.fromEntries(Object.entries(CLASSES).map(([health, [, fill]]) => [health, fill])),
+      };
+    })()`);
+    const names = Object.keys(seen);
+    assert.ok(names.length >= NAMES.length + 3 + 5, names.join());
+    const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+    for (const one of names)
+      for (const other of names.filter((name) => name > one)) {
+        const apart = Math.hypot(...rgb(seen[one]).map((part, at) => part - rgb(seen[other])[at]));
+        assert.ok(apart > 30, `${theme}: ${one} ${seen[one]}, ${other} ${seen[other]}: ${apart.toFixed(0)}`);
+      }
+  }
+  await browser.open(both.view.url);
+});
+
 test("the page has complained of nothing", () => assert.deepEqual(both.browser.complaints, []));

@@ -67,14 +67,20 @@ export class Chromium {
     return new Promise((done, fail) => this.waiting.set(id, { done, fail }));
   }
 
-  /** Shows a page of that size. */
-  async open(url, { width = 1280, height = 800, dark = false, mobile = false } = {}) {
+  /** Shows the page of `taxel view`, of that size. */
+  async open(url, size) {
+    await this.visit(url, size);
+    await this.until("window.taxel?.store.latest");
+  }
+
+  /** Shows any page. */
+  async visit(url, { width = 1280, height = 800, dark = false, mobile = false } = {}) {
     await this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile });
     await this.send("Emulation.setEmulatedMedia", {
       features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }],
     });
     await this.send("Page.navigate", { url });
-    await this.until("document.readyState === 'complete' && window.taxel?.store.latest");
+    await this.until(`document.readyState === "complete" && location.href.startsWith(${JSON.stringify(url)})`);
   }
 
   /** The value of an expression in the page. */

@@ -114,13 +114,14 @@ test("a touch of 61 ms glows for most of a second, and no longer", () => {
 });
 
 test("the scale grows at once, becomes smaller after a while, and stays at rest", () => {
+  const ENDS = [25, 51_200];
   const scale = new follow.Follow();
-  assert.equal(scale.next(200, 1_500, 0), 1_600);
-  assert.equal(scale.next(1_600, 0, 60_000), 1_600);
-  assert.equal(scale.next(1_600, 90, 70_000), 1_600);
-  assert.equal(scale.next(1_600, 300, 71_000), 1_600);
-  assert.equal(scale.next(1_600, 90, 72_500), 400);
-  assert.equal(follow.endFor(1e9), 51_200);
+  assert.equal(scale.next(200, 1_500, 0, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 0, 60_000, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 90, 70_000, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 300, 71_000, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 90, 72_500, ENDS), 400);
+  assert.equal(follow.endFor(1e9, ENDS), 51_200);
 });
 
 test("who is not there is said to be away, and since when", () => {

@@ -42,11 +42,11 @@ test("the surface stands where the pat is", async () => {
 /** Where a taxel is seen, and the step of the ramp that it has there. */
 const seenAt = (browser, taxel) =>
   browser.value(`(async () => {
-    const { RAMP, stepOf } = await import("./colours.js");
+    const { palette, stepOf } = await import("./colours.js");
     const { relief } = taxel.views.surface;
     const { left, top } = relief.stage.getBoundingClientRect();
     const [x, y] = relief.seen.slice(3 * ${taxel}, 3 * ${taxel} + 2);
-    return { x: x + left, y: y + top, rgb: RAMP[stepOf(taxel.store.shown().image[${taxel}], taxel.settings.top)] };
+    return { x: x + left, y: y + top, rgb: palette.ramp[stepOf(taxel.store.shown().image[${taxel}], taxel.settings.top)] };
   })()`);
 
 test("a taxel of the surface has its colour, and is read by the pointer", async () => {
@@ -95,9 +95,9 @@ test("the body shows the back from behind", async () => {
   const half = (side) => ({ left: left + (side * width) / 2, top, width: width / 2, height });
   // Colours of pressed taxels, exactly as the scale has them.
   const pressed = await browser.value(`(async () => {
-    const { RAMP, stepOf } = await import("./colours.js");
+    const { palette, stepOf } = await import("./colours.js");
     const { image } = taxel.store.shown();
-    return [...new Set([...image].filter(Boolean).map((value) => RAMP[stepOf(value, taxel.settings.top)].join()))];
+    return [...new Set([...image].filter(Boolean).map((value) => palette.ramp[stepOf(value, taxel.settings.top)].join()))];
   })()`);
   assert.ok(pressed.length > 20, `${pressed.length} colours`);
   const touched = async (side) => {

@@ -22,6 +22,7 @@ const FILES: &[(&str, Asset)] = files![
     HTML "index.html",
     CSS "style.css",
     CSS "layout.css",
+    CSS "relief.css",
     SCRIPT "main.js",
     SCRIPT "socket.js",
     SCRIPT "speaker.js",

@@ -1,5 +1,6 @@
 // Views, layers, theme and keys.
 
+import { palette } from "./colours.js";
 import { $, forgetColours, make, one } from "./dom.js";
 import { Follow } from "./follow.js";
 import { KEYS as RECORDED_KEYS } from "./recorder.js";
@@ -39,7 +40,6 @@ const KEYS = [
   ["?", "these keys"],
 ];
 const STORED = "taxel-view";
-const [LEAST, MOST] = [25, 51_200];
 const TARE = 32;
 
 /** @typedef {typeof LAYERS[number][0]} Layer */
@@ -65,7 +65,7 @@ export class Controls {
       peaks: true,
       glow: true,
       held: false,
-      top: 200,
+      top: 0,
       auto: false,
       theme: null,
       keys: true,
@@ -148,11 +148,12 @@ export class Controls {
   /** Adapts the scale to the pressure shown, if that is switched on. */
   scale() {
     const { settings, store } = this;
+    if (!settings.top && palette.start) this.set({ top: palette.start });
     const shown = settings.auto && store.shown();
     if (!shown) return;
     const image = settings.held && store.held ? store.held : shown.image;
     const greatest = image.reduce((most, value) => Math.max(most, value), 0);
-    const top = this.follow.next(settings.top, greatest, performance.now());
+    const top = this.follow.next(settings.top, greatest, performance.now(), palette.ends);
     if (top !== settings.top) this.set({ top });
   }
 
@@ -194,7 +195,8 @@ export class Controls {
 
   /** @param {number} factor */
   zoom(factor) {
-    this.set({ auto: false, top: Math.max(LEAST, Math.min(MOST, this.settings.top * factor)) });
+    const [least, most] = palette.ends;
+    this.set({ auto: false, top: Math.max(least, Math.min(most, this.settings.top * factor)) });
   }
 
   /**

@@ -1,5 +1,5 @@
-// The cognitive map with its live activations. As in `taxel fcm draw`: blue solid edges increase, vermilion
-// dashed ones decrease, width is strength; the number is the activation.
+// The cognitive map with its live activations. As in `taxel fcm draw`: solid edges increase, dashed ones
+// decrease, width is strength; the number is the activation.
 
 import { draw, make, say } from "./dom.js";
 

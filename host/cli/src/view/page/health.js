@@ -3,13 +3,13 @@
 import { colour, fit, make } from "./dom.js";
 import { placeOf } from "./garment.js";
 
-/** Letter and colour (Okabe and Ito) of each class. */
+/** Letter and colour of each class; no colour means anything else on the page. */
 /** @type {Record<string, [string, string]>} */
-const CLASSES = {
+export const CLASSES = {
   dead: ["D", "#000000"],
-  stuck: ["S", "#e69f00"],
-  open: ["O", "#56b4e9"],
-  shorted: ["X", "#d55e00"],
+  stuck: ["S", "#d9c300"],
+  open: ["O", "#8fb7cf"],
+  shorted: ["X", "#7b2d26"],
   noisy: ["N", "#cc79a7"],
 };
 /** Faulty taxels listed at most; the map shows all. */

@@ -1,7 +1,7 @@
 // The panels in two dimensions.
 
 import { fit, make, say } from "./dom.js";
-import { BANDS } from "./colours.js";
+import { palette } from "./colours.js";
 import { force } from "./units.js";
 import { Raster } from "./raster.js";
 import { trace } from "./contours.js";
@@ -142,7 +142,7 @@ function contours(context, image, panel, top, sx, sy) {
   context.save();
   context.scale(sx, sy);
   context.beginPath();
-  for (let band = 1; band < BANDS; band += 1) trace(context, image, panel, (top * band) / BANDS);
+  for (let band = 1; band < palette.bands; band += 1) trace(context, image, panel, (top * band) / palette.bands);
   context.restore();
   context.strokeStyle = "rgb(255 255 255 / 70%)";
   context.lineWidth = 1;

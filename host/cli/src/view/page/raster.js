@@ -1,7 +1,7 @@
 // A panel as pixels: one per taxel, or several with the pressure interpolated.
 
 import { contextOf } from "./dom.js";
-import { PIXELS, stepOf } from "./colours.js";
+import { palette, stepOf } from "./colours.js";
 
 /** Pixels per taxel if interpolated. */
 const FINE = 6;
@@ -41,7 +41,7 @@ export class Raster {
     const fine = smooth ? FINE : 1;
     this.size(columns * fine, rows * fine);
     if (smooth) interpolate(this.pixels, image, panel, top);
-    else for (let at = 0; at < rows * columns; at += 1) this.pixels[at] = PIXELS[stepOf(image[base + at] ?? 0, top)] ?? 0;
+    else for (let at = 0; at < rows * columns; at += 1) this.pixels[at] = palette.pixels[stepOf(image[base + at] ?? 0, top)] ?? 0;
     this.clear(panel, absent, fine);
     if (this.data) this.context.putImageData(this.data, 0, 0);
     return this.canvas;
@@ -105,7 +105,7 @@ function interpolate(pixels, image, { rows, columns, base }, top) {
       const share = u - before;
       const high = (image[upper + left] ?? 0) * (1 - share) + (image[upper + right] ?? 0) * share;
       const below = (image[lower + left] ?? 0) * (1 - share) + (image[lower + right] ?? 0) * share;
-      pixels[y * width + x] = PIXELS[stepOf(high * (1 - down) + below * down, top)] ?? 0;
+      pixels[y * width + x] = palette.pixels[stepOf(high * (1 - down) + below * down, top)] ?? 0;
     }
   }
 }

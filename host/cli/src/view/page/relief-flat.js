@@ -1,7 +1,7 @@
 // A relief drawn by the canvas alone, for browsers without WebGL: first the floor, then what rises above it, from
 // the back to the front.
 
-import { RAMP, stepOf } from "./colours.js";
+import { palette, stepOf } from "./colours.js";
 import { STRIDE } from "./mesh.js";
 
 /**
@@ -84,7 +84,7 @@ export class FlatPainter {
   colour(share, light) {
     const [step, shade] = [stepOf(share, 1), Math.round(light * LIGHTS)];
     const at = step * (LIGHTS + 1) + shade;
-    const rgb = RAMP[step] ?? [];
+    const rgb = palette.ramp[step] ?? [];
     return (this.colours[at] ??= `rgb(${rgb.map((part) => Math.round((part * shade) / LIGHTS)).join(" ")})`);
   }
 }

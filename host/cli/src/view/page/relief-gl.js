@@ -1,6 +1,6 @@
 // A relief drawn by WebGL.
 
-import { RAMP } from "./colours.js";
+import { palette } from "./colours.js";
 import { STRIDE } from "./mesh.js";
 
 /**
@@ -60,12 +60,12 @@ export class GlPainter {
     this.count = 0;
     gl.useProgram(program);
     gl.enable(gl.DEPTH_TEST);
-    gl.uniform1f(gl.getUniformLocation(program, "steps"), RAMP.length - 1);
+    this.steps = gl.getUniformLocation(program, "steps");
     this.places = this.input(program, "place", 2);
     this.relief = this.input(program, "relief", STRIDE);
     this.corners = gl.createBuffer();
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.corners);
-    this.ramp();
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
   }
 
   /**
@@ -84,13 +84,14 @@ export class GlPainter {
     return buffer;
   }
 
+  /** Takes the colours, which the program tells with the garment. */
   ramp() {
     const { gl } = this;
-    const texels = Uint8Array.from(RAMP.flatMap((rgb) => [...rgb, 255]));
-    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.uniform1f(this.steps, palette.ramp.length - 1);
+    const texels = Uint8Array.from(palette.ramp.flatMap((rgb) => [...rgb, 255]));
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, RAMP.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, palette.ramp.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
   }
 
   /**
@@ -99,6 +100,7 @@ export class GlPainter {
    */
   build({ places, faces }) {
     const { gl } = this;
+    this.ramp();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STATIC_DRAW);
     const corners = new Uint32Array((faces.length / 4) * 6);

@@ -2,6 +2,7 @@
 // slots.
 
 import { afterglow, FADE_S } from "./afterglow.js";
+import { take } from "./colours.js";
 import { garmentOf } from "./garment.js";
 import { logAt } from "./timeline.js";
 
@@ -85,6 +86,7 @@ export class Store {
     Object.assign(this.states, { [line.type]: line });
     if (line.type !== "hello") return;
     delete this.states.end;
+    take(line.palette);
     const garment = garmentOf(line);
     if (this.garment?.key !== garment.key) {
       this.forget();

@@ -1,17 +1,15 @@
 // Total force, leading intentions and marks over a period.
 
 import { colour } from "./dom.js";
+import { palette } from "./colours.js";
 import { marks } from "./events.js";
 
 /** Heights of the ribbon of intentions, of the lane of marks, and of the times below. */
 export const RIBBON = 18;
 export const LANE = 13;
 export const TIMES = 15;
-/** Colours of Okabe and Ito; the ribbon also has the names. */
-/** @type {Record<string, string>} */
-const INTENTIONS = { kindness: "#0072b2", threat: "#e69f00", attack: "#d55e00" };
-/** @type {Record<string, string>} */
-const INK = { kindness: "#fff", threat: "#000", attack: "#fff" };
+/** Colour of names on the colours of intentions. */
+const INK = "#000";
 
 /**
  * Draws the greatest total of each pixel as an area; columns below 0 are unknown. `floor` is its lower edge.
@@ -35,10 +33,10 @@ export function area(context, columns, highest, floor, head = 18) {
   context.lineTo(last ?? 0, floor);
   context.closePath();
   context.globalAlpha = 0.25;
-  context.fillStyle = colour("accent");
+  context.fillStyle = colour("force");
   context.fill();
   context.globalAlpha = 1;
-  context.strokeStyle = colour("accent");
+  context.strokeStyle = colour("force");
   context.lineWidth = 1.5;
   context.stroke();
 }
@@ -56,9 +54,9 @@ export function ribbon(context, stretches, x, top, height = RIBBON - 5) {
   context.textAlign = "left";
   for (const [from, to, leading] of stretches) {
     const [left, right] = [x(from), x(to)];
-    context.fillStyle = INTENTIONS[leading] ?? colour("quiet");
+    context.fillStyle = palette.intentions[leading] ?? colour("quiet");
     context.fillRect(left, top, Math.max(1.5, right - left), height);
-    context.fillStyle = INK[leading] ?? colour("card");
+    context.fillStyle = leading in palette.intentions ? INK : colour("card");
     const from_edge = Math.max(left, 0);
     if (height > 10 && context.measureText(leading).width + 8 < right - from_edge)
       context.fillText(leading, from_edge + 4, top + height / 2 + 0.5);

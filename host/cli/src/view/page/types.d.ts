@@ -35,6 +35,16 @@ export interface CognitiveMapOf {
   edges: Edge[];
 }
 
+/** Colours and scale of pressure, and colours of the intentions. */
+export interface Palette {
+  ramp: Triple[];
+  bands: number;
+  /** End of the scale at the beginning, and its least and greatest, counts. */
+  start: number;
+  ends: [number, number];
+  intentions: Record<string, string>;
+}
+
 /** `hello`, with what the page adds. */
 export interface Garment {
   garment: string;
@@ -46,6 +56,7 @@ export interface Garment {
   /** Counts at which a contact ends. */
   low: number;
   map: CognitiveMapOf | null;
+  palette: Palette;
   panels: Panel[];
   taxels: number;
   /** 1 where there is no taxel. */
@@ -207,7 +218,7 @@ export interface Settings {
   peaks: boolean;
   glow: boolean;
   held: boolean;
-  /** End of the scale, counts. */
+  /** End of the scale, counts; 0 before the program has said where it begins. */
   top: number;
   auto: boolean;
   theme: string | null;
