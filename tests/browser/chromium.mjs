@@ -8,13 +8,11 @@ import { setTimeout as sleep } from "node:timers/promises";
 import WebSocket from "ws";
 
 const PROGRAM = process.env.TAXEL_CHROMIUM ?? "chromium";
-// WebGL by software; no sandbox, because checks may run as root.
+// No sandbox, because checks may run as root.
 const OPTIONS = [
   "--headless=new",
   "--no-sandbox",
   "--disable-dev-shm-usage",
-  "--use-angle=swiftshader",
-  "--enable-unsafe-swiftshader",
   "--remote-debugging-port=0",
   "--hide-scrollbars",
   "--no-first-run",
@@ -22,14 +20,18 @@ const OPTIONS = [
   "--enable-precise-memory-info",
   "--js-flags=--expose-gc",
 ];
+/** WebGL by software. */
+const SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+/** Neither WebGL nor any other imitation of a graphics card. */
+const PLAIN = ["--disable-gpu", "--disable-gpu-rasterization", "--disable-software-rasterizer"];
 const STARTS_MS = 30_000;
 
 /** A running browser with one page. */
 export class Chromium {
-  /** Starts it. */
-  static async start() {
+  /** Starts it, with WebGL or without. */
+  static async start({ webgl = true } = {}) {
     const folder = await mkdtemp(join(tmpdir(), "taxel-chromium-"));
-    const process = spawn(PROGRAM, [...OPTIONS, `--user-data-dir=${folder}`, "about:blank"], { stdio: "ignore" });
+    const process = spawn(PROGRAM, [...OPTIONS, ...(webgl ? SOFTWARE : PLAIN), `--user-data-dir=${folder}`, "about:blank"], { stdio: "ignore" });
     const failed = new Promise((_, fail) => process.once("error", fail));
     const port = await Promise.race([portOf(folder), failed]);
     const pages = await (await fetch(`http://127.0.0.1:${port}/json/list`)).json();
@@ -65,14 +67,20 @@ export class Chromium {
     return new Promise((done, fail) => this.waiting.set(id, { done, fail }));
   }
 
-  /** Shows a page of that size. */
-  async open(url, { width = 1280, height = 800, dark = false, mobile = false } = {}) {
+  /** Shows the page of `taxel view`, of that size. */
+  async open(url, size) {
+    await this.visit(url, size);
+    await this.until("window.taxel?.store.latest");
+  }
+
+  /** Shows any page. */
+  async visit(url, { width = 1280, height = 800, dark = false, mobile = false } = {}) {
     await this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile });
     await this.send("Emulation.setEmulatedMedia", {
       features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }],
     });
     await this.send("Page.navigate", { url });
-    await this.until("document.readyState === 'complete' && window.taxel?.store.latest");
+    await this.until(`document.readyState === "complete" && location.href.startsWith(${JSON.stringify(url)})`);
   }
 
   /** The value of an expression in the page. */

@@ -2,15 +2,10 @@
 
 import { test } from "node:test";
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
+import { load } from "./module.fixture.mjs";
 
-/** A module of the page that imports no other. */
-async function load(name) {
-  const text = await readFile(new URL(`../../host/cli/src/view/page/${name}.js`, import.meta.url), "utf8");
-  return import(`data:text/javascript,${encodeURIComponent(text)}`);
-}
-const [timeline, glow, follow, presence] = await Promise.all(
-  ["timeline", "afterglow", "follow", "presence"].map(load),
+const [timeline, glow, follow, presence, speaker] = await Promise.all(
+  ["timeline", "afterglow", "follow", "presence", "speaker"].map(load),
 );
 
 test("times are read as on a clock", () => {
@@ -119,13 +114,14 @@ test("a touch of 61 ms glows for most of a second, and no longer", () => {
 });
 
 test("the scale grows at once, becomes smaller after a while, and stays at rest", () => {
+  const ENDS = [25, 51_200];
   const scale = new follow.Follow();
-  assert.equal(scale.next(200, 1_500, 0), 1_600);
-  assert.equal(scale.next(1_600, 0, 60_000), 1_600);
-  assert.equal(scale.next(1_600, 90, 70_000), 1_600);
-  assert.equal(scale.next(1_600, 300, 71_000), 1_600);
-  assert.equal(scale.next(1_600, 90, 72_500), 400);
-  assert.equal(follow.endFor(1e9), 51_200);
+  assert.equal(scale.next(200, 1_500, 0, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 0, 60_000, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 90, 70_000, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 300, 71_000, ENDS), 1_600);
+  assert.equal(scale.next(1_600, 90, 72_500, ENDS), 400);
+  assert.equal(follow.endFor(1e9, ENDS), 51_200);
 });
 
 test("who is not there is said to be away, and since when", () => {
@@ -138,4 +134,12 @@ test("who is not there is said to be away, and since when", () => {
   assert.deepEqual([gone.text, gone.since, gone.again], ["Disconnected", 1_200, true]);
   assert.equal(absence({ connected: false, heard: null, lost: null }, 9_000).since, null);
   assert.deepEqual([5_900, 130_000, 8_000_000].map(agoText), ["5 s", "2 min", "2 h"]);
+});
+
+test("what is spoken is the newest, and waits for the one before", () => {
+  const voice = new speaker.Speaker();
+  assert.equal(voice.next("a", 0), "a");
+  assert.equal(voice.next("b", 500), "a");
+  assert.equal(voice.next("c", 1_600), "c");
+  assert.equal(voice.next("c", 9_000), "c");
 });

@@ -7,6 +7,7 @@ import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
+import { small, violations } from "./access.fixture.mjs";
 import { box, drawn, page, screen, show } from "./page.fixture.mjs";
 import { View } from "./program.mjs";
 
@@ -158,6 +159,9 @@ test("a telephone has room for all of it", async () => {
     await browser.until("document.body.classList.contains('recorded')");
     const wide = await browser.value("document.documentElement.scrollWidth");
     assert.ok(wide <= width, `${wide} of ${width} pixels`);
+    await drawn(browser);
+    assert.deepEqual(await small(browser), []);
+    assert.deepEqual(await violations(browser), []);
   }
 });
 

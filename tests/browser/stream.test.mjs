@@ -4,7 +4,8 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { connect } from "node:net";
 import { setTimeout as sleep } from "node:timers/promises";
-import { page, show } from "./page.fixture.mjs";
+import { Chromium } from "./chromium.mjs";
+import { box, page, screen, show } from "./page.fixture.mjs";
 
 // Seconds that are watched. The first have passed when everything that is kept for a while is full.
 const [KEPT, BEFORE, WATCHED] = process.env.TAXEL_CAMPAIGN ? [30, 35, 600] : [5, 6, 20];
@@ -82,32 +83,48 @@ async function dead({ port }) {
   return socket;
 }
 
-test("the surface goes along with the stream", async (t) => {
-  const { browser } = both;
+/** Pictures of the surface that are waited for: their rate is printed. */
+const PICTURES = 90;
+
+/** Shows the surface until it has been drawn so many times: what drew it, and where the panels lie. */
+async function pictures(t, browser, by) {
   await show(browser, "surface", "peaks");
-  await browser.until("document.querySelector('.js-plotly-plot canvas')");
-  const { plots, busy, images, seconds } = await browser.value(`(async () => {
-    const plot = document.querySelector(".js-plotly-plot");
-    const { restyle } = Plotly;
-    let [plots, busy] = [0, 0];
-    Plotly.restyle = (...what) => {
-      const start = performance.now();
-      const done = restyle(...what);
-      busy += performance.now() - start;
-      plots += 1;
-      return done;
-    };
-    const [start, before] = [performance.now(), taxel.store.count];
-    await new Promise((done) => setTimeout(done, 4000));
-    Plotly.restyle = restyle;
-    return { plots, busy, images: taxel.store.count - before, seconds: (performance.now() - start) / 1000 };
+  // The images from before the page was opened have come.
+  await browser.until("!taxel.store.shown().head.frame.past && taxel.store.shown().head.frame.contacts.length === 5");
+  const missed = await browser.value("taxel.store.latest.head.missed");
+  const { painter, floor, rate, images } = await browser.value(`(async () => {
+    const { relief } = taxel.views.surface;
+    const [start, drawn, came] = [performance.now(), relief.pictures, taxel.store.count];
+    while (relief.pictures < drawn + ${PICTURES}) await new Promise(requestAnimationFrame);
+    const seconds = (performance.now() - start) / 1000;
+    const rate = (relief.pictures - drawn) / seconds;
+    const floor = taxel.store.garment.panels.map(({ base }) => [...relief.seen.slice(3 * base, 3 * base + 2)]);
+    return { painter: relief.painter.constructor.name, floor, rate, images: (taxel.store.count - came) / seconds };
   })()`);
   t.diagnostic(
-    `view: in three dimensions ${(plots / seconds).toFixed(1)} of ${(images / seconds).toFixed(1)} images/s are drawn, ${(busy / plots).toFixed(1)} ms of the page each`,
+    `view: in three dimensions, by ${by}, ${rate.toFixed(1)} of ${images.toFixed(1)} images/s are drawn, ${PICTURES} in all`,
   );
-  assert.ok(plots > 0);
   assert.equal(await browser.value("taxel.store.states.link.lost"), 0);
-  assert.equal(await browser.value("taxel.store.latest.head.missed"), 0);
+  assert.equal(await browser.value("taxel.store.latest.head.missed"), missed);
+  const found = await (await screen(browser)).colours(await box(browser, "#view-surface"));
+  assert.ok(found.length > 200, `${found.length} colours`);
+  return { painter, floor };
+}
+
+test("the surface goes along with the stream, and without WebGL the canvas draws the same", async (t) => {
+  const { browser, view } = both;
+  const gl = await pictures(t, browser, "WebGL without a graphics card");
+  assert.equal(gl.painter, "GlPainter");
+  await show(browser, "map");
+  const plain = await Chromium.start({ webgl: false });
+  try {
+    await plain.open(`${view.url}?keep=${KEPT}`);
+    const flat = await pictures(t, plain, "the canvas without WebGL");
+    assert.deepEqual(flat, { ...gl, painter: "FlatPainter" });
+    assert.deepEqual(plain.complaints, []);
+  } finally {
+    await plain.stop();
+  }
   await show(browser, "panels", "contours", "contacts", "peaks");
 });
 

@@ -15,26 +15,75 @@ async function colours(browser, selector) {
 test("the surface stands where the pat is", async () => {
   const { browser } = both;
   await show(browser, "surface", "peaks");
-  await browser.until("document.querySelector('.js-plotly-plot canvas')");
   await pauseAtTouch(browser, 7000);
-  await browser.until("document.querySelector('.js-plotly-plot').data[0].z.some((kpa) => kpa > 0.5)");
-  // What plotly.js was given is the image of this moment, in kPa.
-  const given = await browser.value("document.querySelector('.js-plotly-plot').data[0].z");
-  const { image, kpa } = await browser.value(`(async () => {
-    const { pascalsOf } = await import("./units.js");
-    return { image: [...taxel.store.shown().image], kpa: pascalsOf(taxel.store.garment) };
+  // What stands there is the image of this moment, and the highest taxel of the contact has its id.
+  const { heights, image, contact, text } = await browser.value(`(async () => {
+    const { surface } = taxel.views;
+    const { relief } = surface.relief;
+    const { image, head } = taxel.store.shown();
+    const [contact] = head.frame.contacts;
+    const { panels } = taxel.store.garment;
+    const taxel_ = panels[contact.panel].base + contact.peak_row * panels[contact.panel].columns + contact.peak_column;
+    const scene = surface.scene(taxel.store, taxel.store.garment, taxel.store.shown(), taxel.settings);
+    return {
+      heights: [...image].map((_, taxel) => relief.data[3 * taxel]),
+      image: [...image],
+      contact,
+      text: scene.peaks.find(({ taxel }) => taxel === taxel_)?.text,
+    };
   })()`);
-  assert.deepEqual(
-    given,
-    image.map((counts) => counts * kpa),
-  );
-  await browser.until("document.querySelector('.js-plotly-plot').data[1].z.length > 0");
-  const marks = await browser.value("document.querySelector('.js-plotly-plot').data[1]");
-  const id = await browser.value("taxel.store.shown().head.frame.contacts[0].id");
-  assert.ok(marks.text.includes(String(id)), marks.text.join());
-  await drawn(browser);
+  const up = Math.max(...heights) / Math.max(...image);
+  heights.forEach((height, taxel) => assert.ok(Math.abs(height - image[taxel] * up) < 1e-3, `taxel ${taxel}`));
+  assert.equal(text, String(contact.id));
   const found = await colours(browser, "#view-surface");
   assert.ok(found.length > 200, `${found.length} colours`);
+});
+
+/** Where a taxel is seen, and the step of the ramp that it has there. */
+const seenAt = (browser, taxel) =>
+  browser.value(`(async () => {
+    const { palette, stepOf } = await import("./colours.js");
+    const { relief } = taxel.views.surface;
+    const { left, top } = relief.stage.getBoundingClientRect();
+    const [x, y] = relief.seen.slice(3 * ${taxel}, 3 * ${taxel} + 2);
+    return { x: x + left, y: y + top, rgb: palette.ramp[stepOf(taxel.store.shown().image[${taxel}], taxel.settings.top)] };
+  })()`);
+
+test("a taxel of the surface has its colour, and is read by the pointer", async () => {
+  const { browser } = both;
+  await show(browser, "surface");
+  // At rest, in the middle of the left arm.
+  const taxel = 2 * 512 + 15 * 16 + 8;
+  const { x, y, rgb } = await seenAt(browser, taxel);
+  assert.deepEqual(await (await screen(browser)).at(x, y), rgb);
+  await browser.pointer(x, y);
+  await drawn(browser);
+  assert.equal(await browser.value('document.querySelector("#hover b").textContent'), "left arm, row 15, column 8");
+  await browser.pointer(2, 2);
+  await drawn(browser);
+  assert.equal(await browser.value("document.getElementById('hover').hidden"), true);
+});
+
+test("the surface is turned by pointer and keys, and comes back", async () => {
+  const { browser } = both;
+  await show(browser, "surface");
+  const camera = () => browser.value("taxel.views.surface.relief.camera");
+  const first = await camera();
+  const { left, top, width, height } = await box(browser, "#view-surface");
+  await browser.pointer(left + width / 2, top + height / 2, "mousePressed");
+  await browser.pointer(left + width / 2 + 60, top + height / 2 + 20);
+  await browser.pointer(left + width / 2 + 60, top + height / 2 + 20, "mouseReleased");
+  const dragged = await camera();
+  assert.ok(dragged.turn < first.turn - 0.3 && dragged.tilt > first.tilt + 0.1, JSON.stringify(dragged));
+  await browser.value("document.querySelector('.relief').focus()");
+  for (const key of ["ArrowLeft", "ArrowUp", "PageUp"]) await browser.key(key);
+  const moved = await camera();
+  assert.ok(moved.turn > dragged.turn && moved.tilt < dragged.tilt && moved.zoom > 1.2, JSON.stringify(moved));
+  // None of them were the page's: it would have stepped through the half minute.
+  assert.equal(await browser.value("taxel.settings.view"), "surface");
+  await browser.key("Home");
+  assert.deepEqual(await camera(), first);
+  await browser.value("document.activeElement.blur()");
 });
 
 test("the body shows the back from behind", async () => {
@@ -46,9 +95,9 @@ test("the body shows the back from behind", async () => {
   const half = (side) => ({ left: left + (side * width) / 2, top, width: width / 2, height });
   // Colours of pressed taxels, exactly as the scale has them.
   const pressed = await browser.value(`(async () => {
-    const { RAMP, stepOf } = await import("./colours.js");
+    const { palette, stepOf } = await import("./colours.js");
     const { image } = taxel.store.shown();
-    return [...new Set([...image].filter(Boolean).map((value) => RAMP[stepOf(value, taxel.settings.top)].join()))];
+    return [...new Set([...image].filter(Boolean).map((value) => palette.ramp[stepOf(value, taxel.settings.top)].join()))];
   })()`);
   assert.ok(pressed.length > 20, `${pressed.length} colours`);
   const touched = async (side) => {

@@ -8,7 +8,7 @@ use std::process::Command;
 /// Prefix of log lines with measurements.
 const MEASURED: &str = "# view: ";
 
-/// Runs all tests of the page, and prints their measurements.
+/// Checks the types of the page, runs all its tests, and prints their measurements.
 pub fn check(log: &Path) -> End {
     shown(measured(&[], log, &[])?)
 }
@@ -16,6 +16,11 @@ pub fn check(log: &Path) -> End {
 /// Measurements printed by the tests in some files; an empty list selects all files.
 pub fn measured(files: &[&str], log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     install::browser()?;
+    let mut types = Command::new("node");
+    types.args(["node_modules/typescript/bin/tsc", "-p", "."]).current_dir(paths::browser());
+    if let Err(why) = process::run_into(&mut types, log) {
+        return Ok(Err(why));
+    }
     // The tests of the program are built along with it.
     if let Err(why) = process::run_into(test_target("program").arg("--no-run"), log) {
         return Ok(Err(why));

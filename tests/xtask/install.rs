@@ -55,13 +55,13 @@ pub fn emulator() -> Result<(), String> {
     node(&crate::paths::emulator(), "rp2040js")
 }
 
-/// Installs a headless browser, and Node with its driver.
+/// Installs a headless browser, and Node with its driver and the checker of types.
 pub fn browser() -> Result<(), String> {
     let _alone = alone();
     if !process::exists("chromium") {
         packages(BROWSER)?;
     }
-    node(&crate::paths::browser(), "ws")
+    node(&crate::paths::browser(), "typescript")
 }
 
 /// Installs Node, and the packages of a folder, one of which is `package`.

@@ -7,6 +7,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`palette`] | colours and scale of pressure, for all that shows it |
 //! | [`watch`] | a followed board: options, loop, sentences about events |
 //! | [`terminal`] | views in the terminal |
 //! | [`report`] | a recording or a board on one page |
@@ -21,6 +22,8 @@
 // First: the modules below use its macros.
 #[macro_use]
 mod told;
+
+pub mod palette;
 
 pub mod watch;
 

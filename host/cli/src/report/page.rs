@@ -2,8 +2,9 @@
 
 use super::seen::{Moment, Seen, of};
 use super::strips::Strip;
-use super::svg::{escaped, nice_top};
+use super::svg::escaped;
 use super::{plane, ranges, surface, tables};
+use crate::palette;
 use anyhow::{Result, bail};
 use taxel_core::body::Placed;
 use taxel_core::garment::Area;
@@ -12,17 +13,21 @@ use taxel_core::garment::Area;
 const QUIET: f64 = 0.02;
 
 const STYLE: &str = "
-:root{--paper:#fff;--ink:#1c2430;--soft:#5d6878;--line:#d7dce3}
+:root{--paper:#fff;--ink:#1c2430;--soft:#5d6878;--line:#d7dce3;--mark:#fff;--halo:#10151c}
 @media(prefers-color-scheme:dark){:root{--paper:#12141a;--ink:#d8dee9;--soft:#97a1b3;--line:#2e3440}}
 body{margin:2rem auto;max-width:1120px;padding:0 1rem;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,'DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2rem 0 .4rem}p{margin:.3rem 0;max-width:75ch}
 .panels{display:flex;flex-wrap:wrap;gap:12px}svg{max-width:100%;height:auto}svg text{fill:var(--ink);font-size:12px}svg .title{font-size:14px;font-weight:600}svg .mark{fill:var(--soft);font-size:10px}
 .level{fill:none;stroke:#fff;stroke-opacity:.75;stroke-width:.7}.axis{stroke:#fff;stroke-width:1.6}.centre{fill:#fff;stroke:#000;stroke-width:.8}.peak{stroke:#e8123c;stroke-width:1.8;fill:none}svg .id{fill:#fff;font-weight:600;paint-order:stroke;stroke:#000;stroke-width:2.5px}
-.face path{stroke:#0006;stroke-width:.3}.stalk{stroke:#e8123c;stroke-width:1.4}svg .value{font-size:11px;font-weight:600;paint-order:stroke;stroke:var(--paper);stroke-width:3px}
+#surface{height:460px}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round}.grid{stroke:var(--line);fill:none}
 table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}td,th{padding:3px 12px 3px 0;text-align:left;border-bottom:1px solid var(--line)}th{color:var(--soft);font-weight:500}
 .bar{display:inline-block;height:10px;margin-right:6px}.swatch{display:inline-block;width:16px;height:12px}pre{font-size:12.5px;overflow-x:auto;white-space:pre-wrap}.scroll{overflow-x:auto}
 ";
+
+/// The page loads nothing, and sends nothing.
+const POLICY: &str = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
+                      style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">";
 
 /// Draws a panel from its values and contacts.
 type Draw<'a> = &'a dyn Fn(&Area, &[u16], &[Placed]) -> String;
@@ -32,7 +37,7 @@ pub fn page(seen: &Seen) -> Result<String> {
     if seen.top.image.is_empty() {
         bail!("{}: no image was received, so there is nothing to report", seen.label);
     }
-    let top = nice_top(f64::from(seen.hold.iter().copied().max().unwrap_or(0))).min(65535.0) as u16;
+    let top = palette::end_of(&seen.hold);
     let Moment { time_us, total, image, contacts } = &seen.top;
     let moment = format!("{:.3} s", *time_us as f64 / 1e6);
     let limits = ranges::limits(top);
@@ -59,24 +64,31 @@ pub fn page(seen: &Seen) -> Result<String> {
         (
             "Pressure, 3-D",
             format!(
-                "<p>The same moment; the number on each peak is that of its taxel, {}. Row 0, column 0 is at the back.</p>\n{}",
+                "<p>The same moment; the number on each peak is that of its taxel, {}.</p>\n{}",
                 scale.unit(),
-                each(&|area, values, contacts| surface::draw(area, values, contacts, top, scale))
+                surface::draw(seen, top)
             ),
         ),
         ("Ranges of pressure", ranges::table(image, &seen.hold, top, scale)),
         ("Force over time", totals(seen)),
         ("Intention over time", intention(seen)),
-        ("Contacts", format!("<div class=\"scroll\">{}</div>\n", tables::contacts(seen))),
+        (
+            "Contacts",
+            format!(
+                "<div class=\"scroll\" role=\"group\" aria-label=\"Contacts\" tabindex=\"0\">{}</div>\n",
+                tables::contacts(seen)
+            ),
+        ),
         ("Events", tables::events(seen)),
         ("Health", tables::health(seen)),
     ];
     let body: String = sections.iter().map(|(title, text)| format!("<h2>{title}</h2>\n{text}")).collect();
     Ok(format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title><style>{STYLE}</style></head><body>\n\
-         <h1>{0}</h1>\n{1}{body}</body></html>\n",
+         <meta name=\"viewport\" content=\"width=device-width\">{POLICY}<title>{0}</title><style>{STYLE}{1}</style></head><body>\n\
+         <main>\n<h1>{0}</h1>\n{2}{body}</main></body></html>\n",
         escaped(&seen.label),
+        surface::STYLE,
         head(seen)
     ))
 }

@@ -52,8 +52,11 @@ impl Plane {
         let size = [MARGIN[0] + wide + MARGIN[2], MARGIN[1] + high + MARGIN[3]];
         write!(
             svg,
-            "<svg viewBox=\"0 0 {:.0} {:.0}\" width=\"{:.0}\" role=\"img\">",
-            size[0], size[1], size[0]
+            "<svg viewBox=\"0 0 {:.0} {:.0}\" width=\"{:.0}\" role=\"img\" aria-label=\"Pressure on the {}\">",
+            size[0],
+            size[1],
+            size[0],
+            escaped(&area.name)
         )?;
         writeln!(svg, "<text x=\"{}\" y=\"14\" class=\"title\">{}</text>", MARGIN[0], escaped(&area.name))?;
         let (left, upper) = (MARGIN[0], MARGIN[1]);

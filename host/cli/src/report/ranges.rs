@@ -2,14 +2,12 @@
 
 use super::scale::PageUnit;
 use super::svg::colour;
+use crate::palette::BANDS;
 use std::fmt::Write;
-
-/// Ranges above zero pressure.
-const RANGES: u16 = 5;
 
 /// Lower limits of the ranges: equal parts of `top`, the first at 0.
 pub fn limits(top: u16) -> Vec<u16> {
-    (0..RANGES).map(|index| (u32::from(top) * u32::from(index) / u32::from(RANGES)) as u16).collect()
+    (0..BANDS).map(|index| (u32::from(top) * u32::from(index) / u32::from(BANDS)) as u16).collect()
 }
 
 /// Number of taxels without pressure, then in each range.
@@ -26,16 +24,19 @@ pub fn counts(values: &[u16], limits: &[u16]) -> Vec<usize> {
 pub fn table(then: &[u16], hold: &[u16], top: u16, scale: PageUnit) -> String {
     let limits = limits(top);
     let (now, held) = (counts(then, &limits), counts(hold, &limits));
-    let most = now.iter().chain(&held).skip(1).copied().max().unwrap_or(0).max(1);
+    let most = now.iter().skip(1).chain(held.iter().skip(1)).copied().max().unwrap_or(0).max(1);
     let mut html = format!(
-        "<table><tr><th></th><th>on a taxel, {}</th><th>taxels at that moment</th><th>at their greatest</th></tr>\n",
+        "<table><tr><th>colour</th><th>on a taxel, {}</th><th>taxels at that moment</th><th>at their greatest</th></tr>\n",
         scale.unit()
     );
     for (index, (now, held)) in now.iter().zip(&held).enumerate() {
         let from = if index == 0 { 0 } else { limits[index - 1] + 1 };
         let to = if index == 0 { 0 } else { limits.get(index).copied().unwrap_or(top) };
-        let range =
-            if index == 0 { "0".to_string() } else { format!("{} to {}", scale.told(from), scale.told(to)) };
+        let range = match index {
+            0 => "0".to_string(),
+            _ if index == limits.len() => format!("{} and more", scale.told(from)),
+            _ => format!("{} to {}", scale.told(from), scale.told(to)),
+        };
         let fill = colour(f64::midpoint(f64::from(from), f64::from(to)), top);
         let bar = |count: usize| {
             // Taxels without pressure far outnumber the others.

@@ -1,6 +1,6 @@
 //! Curves over time.
 
-use super::svg::{LINES, escaped, nice_top};
+use super::svg::{escaped, line, nice_top};
 use std::fmt::{Result, Write};
 
 /// Size of the drawing, SVG units, and the area inside the axes: left, top, right, bottom.
@@ -43,13 +43,16 @@ impl Strip<'_> {
         let top = nice_top(values().copied().fold(0.0, f64::max));
         let low = if values().any(|value| *value < 0.0) { -top } else { 0.0 };
         let y = |value: f64| FRAME[3] - (value - low) / (top - low) * (FRAME[3] - FRAME[1]);
-        writeln!(svg, "<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\">", SIZE[0], SIZE[1], SIZE[0])?;
+        let [width, height] = SIZE;
+        let about = escaped(self.label);
+        writeln!(
+            svg,
+            "<svg viewBox=\"0 0 {width} {height}\" width=\"{width}\" role=\"img\" aria-label=\"{about} over time\">"
+        )?;
         self.axes(svg, low, top, &y)?;
         let kept = &self.points;
         for (index, name) in self.names.iter().enumerate() {
-            let ink = LINES[index % LINES.len()];
-            // Colours repeat, dashed.
-            let dash = if index < LINES.len() { "" } else { " stroke-dasharray=\"5 3\"" };
+            let (ink, dash) = line(name, index);
             write!(svg, "<path class=\"line\" stroke=\"{ink}\"{dash} d=\"")?;
             for (count, (time, values)) in kept.iter().enumerate() {
                 let (x, y) = (self.x(*time), y(values.get(index).copied().unwrap_or(0.0)));

@@ -1,16 +1,24 @@
 //! Shared by the drawings.
 
-use crate::terminal::ramp;
+use crate::palette::{self, hex};
+use taxel_core::intent::Leading;
 
 /// Colour of a pressure.
 pub fn colour(value: f64, top: u16) -> String {
-    let [r, g, b] = ramp::pressure(value.round().clamp(0.0, 65535.0) as u16, top);
-    format!("#{r:02x}{g:02x}{b:02x}")
+    hex(palette::pressure(value.round().clamp(0.0, 65535.0) as u16, top))
 }
 
-/// Line colours that colour-blind readers can tell apart (Okabe and Ito).
-pub const LINES: [&str; 8] =
-    ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#999999", "#8c8c00"];
+/// Line colours that colour-blind readers can tell apart: those of Okabe and Ito that no intention has.
+const LINES: [&str; 5] = ["#0072b2", "#cc79a7", "#56b4e9", "#999999", "#8c8c00"];
+
+/// Colour of a line, and its dashes: an intention has its own everywhere, the other colours repeat, dashed.
+pub fn line(name: &str, index: usize) -> (String, &'static str) {
+    let known = Leading::INTENTIONS.into_iter().find(|leading| leading.as_str() == name);
+    let ink =
+        known.map_or_else(|| LINES[index % LINES.len()].into(), |leading| hex(palette::intention(leading)));
+    let is_solid = known.is_some() || index < LINES.len();
+    (ink, if is_solid { "" } else { " stroke-dasharray=\"5 3\"" })
+}
 
 /// Escapes text for HTML and SVG.
 pub fn escaped(text: &str) -> String {

@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 const HEAD: usize = 16 * 1024;
 /// Time limit for a request.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Restricts the page to what this program serves. plotly.js sets styles and, in places, creates functions.
+/// Restricts the page to what this program serves.
 const POLICY: &str = "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; \
-                      style-src 'self' 'unsafe-inline'; script-src 'self' 'unsafe-eval'; \
+                      style-src 'self' 'unsafe-inline'; script-src 'self'; \
                       frame-ancestors 'none'; base-uri 'none'";
 
 /// A refused request.

@@ -1,6 +1,7 @@
 //! Draws panels as pressure maps, two pixels in a character cell.
 
-use super::ramp::{Paint, Rgb, color, glyph, mix, pressure};
+use super::ramp::{Paint, color, glyph};
+use crate::palette::{Rgb, mix, pressure};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};

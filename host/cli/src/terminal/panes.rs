@@ -1,6 +1,7 @@
 //! Panes beside the maps: contacts and intention.
 
-use super::ramp::{Rgb, color};
+use super::ramp::color;
+use crate::palette::{Rgb, intention as colour_of};
 use crate::watch::narrate::force;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,22 +11,9 @@ use taxel_core::body::Placed;
 use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
 
-// Colours of Okabe and Ito, which the colour-blind can tell apart.
-const GREEN: Rgb = [0, 158, 115];
-const ORANGE: Rgb = [230, 159, 0];
-const RED: Rgb = [213, 94, 0];
+/// Colours of concepts that are no intentions, and of what is negative.
 const BLUE: Rgb = [86, 180, 233];
 const GREY: Rgb = [128, 128, 128];
-
-/// Colour of an intention.
-pub fn colour_of(leading: Leading) -> Rgb {
-    match leading {
-        Leading::None => GREY,
-        Leading::Kindness => GREEN,
-        Leading::Threat => ORANGE,
-        Leading::Attack => RED,
-    }
-}
 
 /// Draws a heading and as many of the lines as fit.
 pub fn list(title: &str, lines: &[String], space: Rect, buffer: &mut Buffer) {

@@ -2,7 +2,8 @@
 
 use super::map::Grid;
 use super::panes;
-use super::ramp::{GLYPHS, Paint, color, ramp};
+use super::ramp::{GLYPHS, Paint, color};
+use crate::palette::{ENDS, START, STEPS, ramp};
 use crate::watch::narrate::Narrator;
 use crate::watch::rate::Rate;
 use ratatui::buffer::Buffer;
@@ -19,8 +20,6 @@ const LOG: usize = 100;
 const SIDE: u16 = 62;
 /// Smallest width at which the panes are beside the maps instead of below them.
 const WIDE: u16 = 98;
-/// Initial end of the scale, counts.
-const TOP: u16 = 400;
 
 /// State of the display beyond the client's.
 #[derive(Debug, Clone)]
@@ -45,7 +44,7 @@ impl View {
             narrator: Narrator::new(source.counts_per_newton),
             log: VecDeque::new(),
             rate: Rate::default(),
-            top: TOP,
+            top: START,
             latency: None,
             paint: Paint::Colours,
             paused: None,
@@ -90,7 +89,7 @@ impl View {
 
     /// Doubles or halves the end of the scale.
     pub fn zoom(&mut self, up: bool) {
-        self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(25, 51_200);
+        self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(ENDS[0], ENDS[1]);
         if let Some((_, view)) = self.paused.as_deref_mut() {
             view.top = self.top;
         }
@@ -218,7 +217,7 @@ impl View {
         }
         let (mut x, y) = buffer.set_stringn(space.x, space.y, keys, usize::from(space.width), Style::new());
         let steps: Vec<(char, Color)> = match self.paint {
-            Paint::Colours => (0..16).map(|step| (' ', color(ramp(step as f32 / 15.0)))).collect(),
+            Paint::Colours => (0..16).map(|step| (' ', color(ramp(step * (STEPS - 1) / 15)))).collect(),
             Paint::Glyphs => GLYPHS.map(|glyph| (glyph, Color::Reset)).to_vec(),
         };
         for (glyph, ground) in steps {
@@ -293,7 +292,7 @@ mod tests {
             ['*', '#', '%', '@'].map(|glyph| count(picture, glyph)).iter().sum::<usize>()
         };
         assert!(heavy(&pressed) > heavy(&rest) + 10, "{pressed:#?}");
-        assert!(pressed[39].contains(".:-=+o*#%@ 400 counts"), "{}", pressed[39]);
+        assert!(pressed[39].contains(".:-=+o*#%@ 200 counts"), "{}", pressed[39]);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //!
 //! | type | holds |
 //! |---|---|
-//! | `hello` | also `label` (the source), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (positions without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
+//! | `hello` | also `label` (the source), `palette` (`ramp`, red, green and blue of each step; `bands`, equal parts of the scale; `start`, its end at the beginning, and `ends`, least and greatest, counts; `intentions`, the colour of each), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (positions without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
 //! | `link` | `rate` (frames/s of the board), `frames`, `lost`, `thinned`, `refused`, `restarts`, `latency_ms` (or null), `pages` |
 //! | `pins` | of the last self-test: `faults` (their number), `told` (a sentence for each, or one if there are none) |
 //! | `say` | a line of the log: `text`; `kind` (`onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`), `time_us` (or null), `said` (the text without its time) |
@@ -35,6 +35,7 @@
 
 use super::order::Order;
 use super::shot::Shot;
+use crate::palette;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -66,6 +67,7 @@ pub fn hello(client: &Client, label: &str, counts_per_newton: Option<f32>) -> Va
     let mut line = message(client, &Event::Hello);
     let Some(worn) = client.worn() else { return line };
     line["label"] = json!(label);
+    line["palette"] = palette::told();
     line["counts_per_newton"] = json!(counts_per_newton);
     line["low"] = json!(worn.scene.contact.low);
     line["absent"] = json!(worn.garment.absent);

@@ -266,7 +266,7 @@ fn the_picture_shows_maps_contacts_and_intention() {
         "politeness",
         "contact 1 on the back begins",
         "q quit",
-        "400 counts",
+        "200 counts",
     ] {
         assert!(wide.contains(part), "{part} in\n{wide}");
     }

@@ -5,8 +5,11 @@ import { opacity } from "./afterglow.js";
 import { Raster } from "./raster.js";
 import { label } from "./marks.js";
 
+/** @typedef {[number, number, number, number, number]} Slot */
+
 // Places of regions by words in their names: figure (0 front, 1 back), left edge, top, width, height. A
 // figure is 100 high and its middle is 0; the robot's left is on the viewer's right.
+/** @type {[RegExp, Slot][]} */
 const SLOTS = [
   [/left.*(leg|thigh|shin|foot)/, [0, 3, 55, 10, 40]],
   [/right.*(leg|thigh|shin|foot)/, [0, -13, 55, 10, 40]],
@@ -24,6 +27,7 @@ const BESIDE = 3;
 
 /** The view. */
 export class Body {
+  /** @param {HTMLElement} root */
   constructor(root) {
     this.canvas = make("canvas", { role: "img", "aria-label": "Panels on the body, front and back" });
     root.append(this.canvas);
@@ -31,9 +35,14 @@ export class Body {
     this.glow = new Raster();
   }
 
+  /**
+   * @param {import("./store.js").Store} store
+   * @param {import("./types.d.ts").Settings} settings
+   */
   draw(store, settings) {
     const shown = store.shown();
-    const context = shown && fit(this.canvas);
+    const { garment } = store;
+    const context = shown && garment && fit(this.canvas);
     if (!context) return;
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const unit = Math.min((height - 24) / 100, width / 130);
@@ -42,7 +51,7 @@ export class Body {
     context.clearRect(0, 0, width, height);
     ["front", "back"].forEach((name, figure) => {
       context.save();
-      context.translate(middles[figure], top);
+      context.translate(middles[figure] ?? 0, top);
       context.scale(unit, unit);
       outline(context, unit);
       context.restore();
@@ -50,16 +59,15 @@ export class Body {
       context.font = "12px system-ui, sans-serif";
       context.textAlign = "center";
       context.textBaseline = "bottom";
-      context.fillText(name, middles[figure], top - 2);
+      context.fillText(name, middles[figure] ?? 0, top - 2);
     });
-    const image = settings.held ? store.held : shown.image;
+    const image = settings.held && store.held ? store.held : shown.image;
     const glow = settings.glow && !settings.held ? store.glowing() : null;
-    const { garment } = store;
     const places = placesOf(garment);
     garment.panels.forEach((panel, index) => {
-      const [figure, x, y, w, h] = places[index];
-      const [left, upper] = [middles[figure] + x * unit, top + y * unit];
-      const box = [left, upper, w * unit, h * unit];
+      const [figure, x, y, w, h] = places[index] ?? [0, 0, 0, 0, 0];
+      const [left, upper] = [(middles[figure] ?? 0) + x * unit, top + y * unit];
+      const box = /** @type {const} */ ([left, upper, w * unit, h * unit]);
       context.imageSmoothingEnabled = settings.smooth;
       context.drawImage(this.raster.paint(image, panel, { ...settings, absent: garment.absent }), ...box);
       if (glow) context.drawImage(this.glow.shine(glow, image, panel, settings.top, opacity), ...box);
@@ -68,9 +76,9 @@ export class Body {
       context.strokeRect(...box);
       const touches = settings.contacts && !settings.held ? shown.head.frame.contacts : [];
       for (const touch of touches.filter((c) => c.panel === index)) {
-        const at = [left + ((touch.x + 0.5) / panel.columns) * box[2], upper + ((touch.y + 0.5) / panel.rows) * box[3]];
+        const at = /** @type {const} */ ([left + ((touch.x + 0.5) / panel.columns) * box[2], upper + ((touch.y + 0.5) / panel.rows) * box[3]]);
         context.beginPath();
-        context.arc(...at, 11, 0, 2 * Math.PI);
+        context.arc(at[0], at[1], 11, 0, 2 * Math.PI);
         context.strokeStyle = colour("mark");
         context.lineWidth = 2;
         context.stroke();
@@ -85,9 +93,13 @@ export class Body {
   }
 }
 
-/** The place of each panel; panels that share one are stacked in it. */
+/**
+ * The place of each panel; panels that share one are stacked in it.
+ * @param {import("./types.d.ts").Garment} garment
+ * @returns {Slot[]}
+ */
 function placesOf(garment) {
-  const slotOf = ({ name, region, link }) => {
+  const slotOf = (/** @type {import("./types.d.ts").Panel} */ { name, region, link }) => {
     const words = `${region} ${name} ${link}`.toLowerCase().replaceAll("_", " ");
     const own = [region, name, words].map((text) => SLOTS.find(([known]) => known.test(text.toLowerCase())));
     return own.find(Boolean)?.[1] ?? null;
@@ -107,7 +119,11 @@ function placesOf(garment) {
   });
 }
 
-/** Head, trunk, arms and legs, in units of a figure. */
+/**
+ * Head, trunk, arms and legs, in units of a figure.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} unit
+ */
 function outline(context, unit) {
   context.beginPath();
   context.ellipse(0, 8, 6, 8, 0, 0, 2 * Math.PI);

@@ -1,35 +1,45 @@
-// Pressure as colour: cividis, which is readable with any colour vision and grows evenly in lightness.
+// Pressure as colour. The program says which colours, and how far the scale reaches: see palette.rs.
 
-const STOPS = [
-  [0, 34, 78],
-  [18, 53, 112],
-  [59, 73, 108],
-  [87, 93, 109],
-  [112, 113, 115],
-  [138, 134, 120],
-  [165, 156, 116],
-  [195, 179, 105],
-  [225, 204, 85],
-  [254, 232, 56],
-];
-const SIZE = 256;
+/**
+ * @typedef {import("./types.d.ts").Triple} Triple
+ * @typedef {import("./types.d.ts").Palette} Palette
+ */
 
-/** Red, green and blue of SIZE steps. */
-export const RAMP = Array.from({ length: SIZE }, (_, step) => {
-  const at = (step / (SIZE - 1)) * (STOPS.length - 1);
-  const low = Math.min(Math.floor(at), STOPS.length - 2);
-  return STOPS[low].map((from, part) => Math.round(from + (STOPS[low + 1][part] - from) * (at - low)));
-});
+/**
+ * The palette of the program; empty before its first message.
+ * @type {Palette & { pixels: Uint32Array }}
+ */
+export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions: {}, pixels: new Uint32Array(0) };
 
-/** The steps as pixels of ImageData (little-endian ABGR). */
-export const PIXELS = new Uint32Array(RAMP.map(([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0));
+/**
+ * Takes the palette.
+ * @param {Palette} told
+ */
+export function take(told) {
+  // As pixels of ImageData: little-endian ABGR.
+  const pixels = told.ramp.map(([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0);
+  Object.assign(palette, told, { pixels: Uint32Array.from(pixels) });
+}
 
-/** Step of a pressure on a scale that ends at `top`. */
-export const stepOf = (value, top) => Math.max(0, Math.min(SIZE - 1, Math.round((value / top) * (SIZE - 1))));
+/**
+ * Step of a pressure on a scale that ends at `top`.
+ * @param {number} value
+ * @param {number} top
+ */
+export function stepOf(value, top) {
+  const last = palette.ramp.length - 1;
+  return Math.max(0, Math.min(last, Math.round((value / top) * last)));
+}
 
-/** CSS colour of a share of the scale, 0 to 1. */
-export const css = (share) => `rgb(${RAMP[stepOf(share, 1)].join(" ")})`;
+/**
+ * CSS colour of a share of the scale, 0 to 1.
+ * @param {number} share
+ */
+export const css = (share) => `rgb(${(palette.ramp[stepOf(share, 1)] ?? []).join(" ")})`;
 
-/** Equal bands of the scale: contours separate them, and the histogram counts them. */
-export const BANDS = 5;
-export const bandOf = (value, top) => Math.min(BANDS - 1, Math.floor((value / top) * BANDS));
+/**
+ * Band of a pressure: contours separate them, and the histogram counts them.
+ * @param {number} value
+ * @param {number} top
+ */
+export const bandOf = (value, top) => Math.min(palette.bands - 1, Math.floor((value / top) * palette.bands));

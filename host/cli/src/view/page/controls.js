@@ -1,32 +1,33 @@
 // Views, layers, theme and keys.
 
-import { $, forgetColours, make } from "./dom.js";
+import { palette } from "./colours.js";
+import { $, forgetColours, make, one } from "./dom.js";
 import { Follow } from "./follow.js";
 import { KEYS as RECORDED_KEYS } from "./recorder.js";
 import { toggleUnit } from "./units.js";
 
 /** Name, label and key of each view. */
-const VIEWS = [
+const VIEWS = /** @type {const} */ ([
   ["panels", "Panels", "1"],
   ["surface", "3-D", "2"],
   ["body", "Body", "3"],
   ["map", "Map", "4"],
   ["health", "Health", "5"],
-];
+]);
 /** Layers of pressure: setting, label, key, description. */
-const LAYERS = [
+const LAYERS = /** @type {const} */ ([
   ["smooth", "Smooth", "i", "Interpolate between taxels"],
   ["contours", "Contours", "c", "Lines between the bands of pressure"],
   ["contacts", "Contacts", "e", "Ellipses with id, axis and arrow"],
   ["peaks", "Peaks", "p", "Every local maximum"],
   ["glow", "Afterglow", "g", "Pressure of the last second, in red, fading"],
   ["held", "Hold", "h", "The highest pressure since it was cleared (x)"],
-];
+]);
 /** Keys of the live half minute. */
 const LIVE_KEYS = [
   ["space", "pause, resume"],
   ["← →", "one image back, forward; with shift one second"],
-  ["t", "tare over 32 frames"],
+  ["t", "tare over 32 frames, after a question"],
 ];
 /** Keys apart from these, and those of views and layers. */
 const KEYS = [
@@ -39,14 +40,23 @@ const KEYS = [
   ["?", "these keys"],
 ];
 const STORED = "taxel-view";
-const [LEAST, MOST] = [25, 51_200];
 const TARE = 32;
+
+/** @typedef {typeof LAYERS[number][0]} Layer */
 
 /** The settings, kept by the browser, and the controls that change them. */
 export class Controls {
+  /**
+   * @param {import("./store.js").Store} store
+   * @param {import("./types.d.ts").Ask} ask
+   * @param {() => void} changed
+   */
   constructor(store, ask, changed) {
-    Object.assign(this, { store, ask, changed });
+    this.store = store;
+    this.ask = ask;
+    this.changed = changed;
     this.follow = new Follow();
+    /** @type {import("./types.d.ts").Settings} */
     this.settings = {
       view: "panels",
       smooth: false,
@@ -55,12 +65,13 @@ export class Controls {
       peaks: true,
       glow: true,
       held: false,
-      top: 200,
+      top: 0,
       auto: false,
       theme: null,
+      keys: true,
     };
     try {
-      Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED)));
+      Object.assign(this.settings, JSON.parse(localStorage.getItem(STORED) ?? "{}"));
     } catch {
       // Without storage the page still works.
     }
@@ -70,7 +81,7 @@ export class Controls {
   }
 
   buttons() {
-    const tab = ([name, text, key]) =>
+    const tab = (/** @type {typeof VIEWS[number]} */ [name, text, key]) =>
       make(
         "button",
         {
@@ -79,15 +90,45 @@ export class Controls {
           "aria-controls": `view-${name}`,
           title: `${text} (${key})`,
           click: () => this.set({ view: name }),
+          keydown: (event) => this.tabKey(event),
         },
         text,
       );
     $("views").replaceChildren(...VIEWS.map(tab));
-    const layer = ([name, text, key, title]) =>
+    const layer = (/** @type {typeof LAYERS[number]} */ [name, text, key, title]) =>
       make("button", { id: `layer-${name}`, title: `${title} (${key})`, click: () => this.toggle(name) }, text);
     $("layers").replaceChildren(...LAYERS.map(layer));
     const acts = { finer: "-", coarser: "+", unit: "u", theme: "d", help: "?", tare: "t", auto: "a" };
+    const asked = one(HTMLDialogElement, "ask-tare");
+    asked.addEventListener("close", () => {
+      if (asked.returnValue === "tare") this.ask({ tare: TARE });
+      asked.returnValue = "";
+    });
+    const keys = one(HTMLInputElement, "keys-on");
+    keys.addEventListener("change", () => this.set({ keys: keys.checked }));
     for (const [id, key] of Object.entries(acts)) $(id).addEventListener("click", () => this.key({ key }));
+  }
+
+  /**
+   * Keys of the tabs.
+   * @param {KeyboardEvent} event
+   */
+  tabKey(event) {
+    const at = VIEWS.findIndex(([name]) => name === this.settings.view);
+    /** @type {Record<string, number>} */
+    const ways = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: VIEWS.length - 1 };
+    const to = ways[event.key];
+    if (to === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const [name] = VIEWS[(to + VIEWS.length) % VIEWS.length] ?? VIEWS[0];
+    this.set({ view: name });
+    $(`tab-${name}`).focus();
+  }
+
+  /** Asks before it tares: a garment that is touched would no longer feel it. */
+  tare() {
+    if (!this.store.recorded) one(HTMLDialogElement, "ask-tare").showModal();
   }
 
   /** All keys, including those of the current view. */
@@ -98,28 +139,33 @@ export class Controls {
       ...LAYERS.map(([, , key, title]) => [key, title]),
       ...KEYS,
     ];
-    $("keys")
-      .querySelector("dl")
-      .replaceChildren(...rows.flatMap(([key, what]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]));
-    $("keys").showModal();
+    const list = rows.flatMap(([key = "", what = ""]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]);
+    const dialog = one(HTMLDialogElement, "keys");
+    dialog.querySelector("dl")?.replaceChildren(...list);
+    dialog.showModal();
   }
 
   /** Adapts the scale to the pressure shown, if that is switched on. */
   scale() {
     const { settings, store } = this;
+    if (!settings.top && palette.start) this.set({ top: palette.start });
     const shown = settings.auto && store.shown();
     if (!shown) return;
-    const image = settings.held ? store.held : shown.image;
+    const image = settings.held && store.held ? store.held : shown.image;
     const greatest = image.reduce((most, value) => Math.max(most, value), 0);
-    const top = this.follow.next(settings.top, greatest, performance.now());
+    const top = this.follow.next(settings.top, greatest, performance.now(), palette.ends);
     if (top !== settings.top) this.set({ top });
   }
 
+  /** @param {Layer | "auto"} name */
   toggle(name) {
     this.set({ [name]: !this.settings[name] });
   }
 
-  /** Changes settings, and updates the page. */
+  /**
+   * Changes settings, and updates the page.
+   * @param {Partial<import("./types.d.ts").Settings>} change
+   */
   set(change) {
     const { settings } = this;
     Object.assign(settings, change);
@@ -130,10 +176,13 @@ export class Controls {
     for (const [name] of VIEWS) {
       const chosen = name === settings.view;
       $(`tab-${name}`).setAttribute("aria-selected", String(chosen));
+      // One tab is a stop of the tabulator; the arrow keys lead to the others.
+      $(`tab-${name}`).tabIndex = chosen ? 0 : -1;
       $(`view-${name}`).hidden = !chosen;
     }
     for (const [name] of LAYERS) $(`layer-${name}`).setAttribute("aria-pressed", String(settings[name]));
     $("auto").setAttribute("aria-pressed", String(settings.auto));
+    one(HTMLInputElement, "keys-on").checked = settings.keys;
     const pressed = !["map", "health"].includes(settings.view);
     $("layers").hidden = $("scale").hidden = !pressed;
     try {
@@ -144,20 +193,32 @@ export class Controls {
     this.changed();
   }
 
+  /** @param {number} factor */
   zoom(factor) {
-    this.set({ auto: false, top: Math.max(LEAST, Math.min(MOST, this.settings.top * factor)) });
+    const [least, most] = palette.ends;
+    this.set({ auto: false, top: Math.max(least, Math.min(most, this.settings.top * factor)) });
   }
 
-  /** True if the key was handled. */
+  /**
+   * True if the key was handled.
+   * @param {{ key: string }} event
+   */
   key({ key }) {
+    /** @type {Record<string, () => void>} */
     const acts = {
       "+": () => this.zoom(2),
       "=": () => this.zoom(2),
       "-": () => this.zoom(0.5),
-      u: () => this.set({}, toggleUnit()),
-      x: () => this.set({}, this.store.clearHeld()),
+      u: () => {
+        toggleUnit();
+        this.set({});
+      },
+      x: () => {
+        this.store.clearHeld();
+        this.set({});
+      },
       a: () => this.toggle("auto"),
-      t: () => this.store.recorded || this.ask({ tare: TARE }),
+      t: () => this.tare(),
       d: () => this.set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }),
       "?": () => this.keys(),
     };

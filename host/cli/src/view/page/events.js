@@ -4,19 +4,23 @@ import { colour } from "./dom.js";
 import { MARKED } from "./timeline.js";
 
 /** Name of each kind in the legend. */
-export const KINDS = {
+export const KINDS = /** @type {const} */ ({
   onset: "contact",
   intention: "intention",
   reaction: "reaction",
   gesture: "gesture",
   gap: "gap",
-};
+});
 /** Width of the widest mark, pixels. */
 export const WIDE = 9;
 
 /**
  * Draws the marks of [time, kind] around the height `y`; `x` maps a time to its place. Of coinciding marks
  * only the last is drawn.
+ * @param {CanvasRenderingContext2D} context
+ * @param {(readonly [number, string, string])[]} said
+ * @param {(time: number) => number} x
+ * @param {number} y
  */
 export function marks(context, said, x, y) {
   const drawn = new Map();
@@ -30,7 +34,13 @@ export function marks(context, said, x, y) {
   for (const { at, kind } of list) mark(context, kind, at, y);
 }
 
-/** Draws one mark. */
+/**
+ * Draws one mark.
+ * @param {CanvasRenderingContext2D} context
+ * @param {string} kind
+ * @param {number} x
+ * @param {number} y
+ */
 export function mark(context, kind, x, y) {
   const half = WIDE / 2;
   context.fillStyle = colour(`mark-${kind}`);

@@ -1,5 +1,5 @@
-// The cognitive map with its live activations. As in `taxel fcm draw`: blue solid edges increase, vermilion
-// dashed ones decrease, width is strength; the number is the activation.
+// The cognitive map with its live activations. As in `taxel fcm draw`: solid edges increase, dashed ones
+// decrease, width is strength; the number is the activation.
 
 import { draw, make, say } from "./dom.js";
 
@@ -7,10 +7,17 @@ const [WIDTH, HEIGHT, ACROSS, DOWN] = [112, 42, 150, 84];
 
 /** The view. */
 export class CognitiveMap {
+  /** @param {HTMLElement} root */
   constructor(root) {
-    Object.assign(this, { root, key: "" });
+    this.root = root;
+    this.key = "";
+    /** @type {{ name: string, box: SVGElement, text: SVGElement }[]} */
+    this.nodes = [];
+    /** @type {{ from: string, weight: number, line: SVGElement }[]} */
+    this.edges = [];
   }
 
+  /** @param {import("./store.js").Store} store */
   draw(store) {
     const { garment } = store;
     if (!garment) return;
@@ -18,19 +25,20 @@ export class CognitiveMap {
     const shown = store.shown();
     if (!shown || !garment.map) return;
     const { concepts, leading } = shown.head.frame.intent;
-    const value = (name) => concepts[name] ?? 0;
+    const value = (/** @type {string} */ name) => concepts[name] ?? 0;
     for (const { name, box, text } of this.nodes) {
       const activation = value(name);
-      box.style.fillOpacity = Math.min(1, Math.abs(activation)) * 0.75;
+      box.style.fillOpacity = String(Math.min(1, Math.abs(activation)) * 0.75);
       box.style.fill = activation < 0 ? "var(--less)" : "var(--more)";
-      box.style.strokeWidth = name === leading ? 3 : 1;
+      box.style.strokeWidth = name === leading ? "3" : "1";
       say(text, activation.toFixed(2));
     }
     for (const { from, weight, line } of this.edges) {
-      line.style.opacity = 0.22 + 0.78 * Math.min(1, Math.abs(value(from) * weight));
+      line.style.opacity = String(0.22 + 0.78 * Math.min(1, Math.abs(value(from) * weight)));
     }
   }
 
+  /** @param {import("./types.d.ts").CognitiveMapOf | null} map */
   build(map) {
     const key = JSON.stringify(map);
     if (key === this.key) return;
@@ -40,21 +48,23 @@ export class CognitiveMap {
       return;
     }
     const places = placesOf(map.concepts);
-    const extent = (at) => Math.max(...places.map((place) => place[at]));
+    const extent = (/** @type {0 | 1} */ at) => Math.max(...places.map((place) => place[at]));
     const svg = draw("svg", {
       viewBox: `-12 -12 ${extent(0) + WIDTH + 24} ${extent(1) + HEIGHT + 24}`,
       role: "img",
       "aria-label": "Concepts and causes of the cognitive map, with their activations",
     });
     svg.append(draw("defs", {}, marker("more"), marker("less")));
+    const name = (/** @type {number} */ at) => map.concepts[at]?.name ?? "";
+    const place = (/** @type {number} */ at) => places[at] ?? [0, 0];
     this.edges = map.edges.map(({ from, to, weight }) => {
-      const line = arrow(places[from], places[to], weight);
-      line.append(draw("title", {}, `${map.concepts[from].name} → ${map.concepts[to].name}: ${weight}`));
+      const line = arrow(place(from), place(to), weight);
+      line.append(draw("title", {}, `${name(from)} → ${name(to)}: ${weight}`));
       svg.append(line);
-      return { from: map.concepts[from].name, weight, line };
+      return { from: name(from), weight, line };
     });
     this.nodes = map.concepts.map(({ name }, at) => {
-      const [x, y] = places[at];
+      const [x, y] = place(at);
       const box = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, stroke: "var(--quiet)" });
       const text = draw("text", {
         x: x + WIDTH / 2,
@@ -79,9 +89,13 @@ export class CognitiveMap {
   }
 }
 
-/** Places causes left of effects; layers are slightly skewed, so that few edges cross a concept. */
+/**
+ * Places causes left of effects; layers are slightly skewed, so that few edges cross a concept.
+ * @param {import("./types.d.ts").Concept[]} concepts
+ * @returns {[number, number][]}
+ */
 function placesOf(concepts) {
-  const count = (layer) => concepts.filter((concept) => concept.layer === layer).length;
+  const count = (/** @type {number} */ layer) => concepts.filter((concept) => concept.layer === layer).length;
   const tallest = Math.max(...concepts.map(({ layer }) => count(layer)));
   const seen = new Map();
   return concepts.map(({ layer }) => {
@@ -92,6 +106,7 @@ function placesOf(concepts) {
   });
 }
 
+/** @param {string} kind */
 function marker(kind) {
   const shape = draw("path", { d: "M0 0 8 4 0 8z", fill: `var(--${kind})` });
   return draw(
@@ -112,6 +127,9 @@ function marker(kind) {
 
 /**
  * Edge from the side of the cause to the side of the effect; it runs back if the effect is placed before it.
+ * @param {[number, number]} from
+ * @param {[number, number]} to
+ * @param {number} weight
  */
 function arrow([x0, y0], [x1, y1], weight) {
   const kind = weight < 0 ? "less" : "more";

@@ -3,12 +3,13 @@
 import { colour, fit, make } from "./dom.js";
 import { placeOf } from "./garment.js";
 
-/** Letter and colour (Okabe and Ito) of each class. */
-const CLASSES = {
+/** Letter and colour of each class; no colour means anything else on the page. */
+/** @type {Record<string, [string, string]>} */
+export const CLASSES = {
   dead: ["D", "#000000"],
-  stuck: ["S", "#e69f00"],
-  open: ["O", "#56b4e9"],
-  shorted: ["X", "#d55e00"],
+  stuck: ["S", "#d9c300"],
+  open: ["O", "#8fb7cf"],
+  shorted: ["X", "#7b2d26"],
   noisy: ["N", "#cc79a7"],
 };
 /** Faulty taxels listed at most; the map shows all. */
@@ -17,34 +18,42 @@ const [GAP, CAPTION, LEGEND] = [14, 18, 30];
 
 /** The view. */
 export class Health {
+  /** @param {HTMLElement} root */
   constructor(root) {
     this.canvas = make("canvas", { role: "img", "aria-label": "Map of faulty taxels" });
     this.list = make("div", { class: "list", tabindex: 0 });
     root.append(this.canvas, this.list);
+    /** @type {unknown[] | null} */
     this.told = null;
   }
 
+  /** @param {import("./store.js").Store} store */
   draw(store) {
-    const context = store.garment && fit(this.canvas);
+    const { garment } = store;
+    const context = garment && fit(this.canvas);
     if (!context) return;
-    this.map(context, store);
+    this.map(context, garment, store.ill());
     const told = [store.states.health_map, store.states.health, store.states.pins];
     if (this.told?.every((line, at) => line === told[at])) return;
     this.told = told;
-    this.list.replaceChildren(...lists(store));
+    this.list.replaceChildren(...lists(garment, store.states));
   }
 
-  map(context, { garment, ...store }) {
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {import("./types.d.ts").Garment} garment
+   * @param {Map<number, string>} ill
+   */
+  map(context, garment, ill) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const { panels } = garment;
-    const ill = new Map((store.states.health_map?.ill || []).map(({ taxel, health }) => [taxel, health]));
     const wide = panels.reduce((sum, panel) => sum + panel.columns * panel.mm[0], 0);
     const tall = Math.max(...panels.map((panel) => panel.rows * panel.mm[1]));
     const scale = Math.min((width - GAP * (panels.length - 1)) / wide, (height - CAPTION - LEGEND) / tall);
     context.clearRect(0, 0, width, height);
     let left = 0;
     for (const panel of panels) {
-      const [sx, sy] = panel.mm.map((mm) => mm * scale);
+      const [sx, sy] = [panel.mm[0] * scale, panel.mm[1] * scale];
       context.font = "600 12px system-ui, sans-serif";
       context.textAlign = "left";
       context.textBaseline = "top";
@@ -62,7 +71,11 @@ export class Health {
   }
 }
 
-/** Letter and name of each class. */
+/**
+ * Letter and name of each class.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} y
+ */
 function legend(context, y) {
   let x = 0;
   for (const health of Object.keys(CLASSES)) {
@@ -75,8 +88,16 @@ function legend(context, y) {
   }
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {string | undefined} health
+ * @param {number} x
+ * @param {number} y
+ * @param {number} sx
+ * @param {number} sy
+ */
 function cell(context, health, x, y, sx, sy) {
-  const [letter, fill] = CLASSES[health] ?? ["", colour("grid")];
+  const [letter, fill] = CLASSES[health ?? ""] ?? ["", colour("grid")];
   context.fillStyle = fill;
   context.fillRect(x, y, sx - 1, sy - 1);
   if (!letter) return;
@@ -87,11 +108,15 @@ function cell(context, health, x, y, sx, sy) {
   context.fillText(letter, x + (sx - 1) / 2, y + (sy - 1) / 2 + 0.5);
 }
 
-/** The faulty taxels, the results of the board's last self-test, and its counters. */
-function lists({ garment, states }) {
+/**
+ * The faulty taxels, the results of the board's last self-test, and its counters.
+ * @param {import("./types.d.ts").Garment} garment
+ * @param {import("./types.d.ts").States} states
+ */
+function lists(garment, states) {
   const board = states.health;
   const ill = states.health_map?.ill || [];
-  const line = ({ taxel, health }) => {
+  const line = (/** @type {{ taxel: number, health: string }} */ { taxel, health }) => {
     const { panel, row, column } = placeOf(garment, taxel);
     return make("li", {}, `${health}: ${panel.name}, row ${row}, column ${column}`);
   };
@@ -106,11 +131,11 @@ function lists({ garment, states }) {
         ["perception", `${board.process_us} us`],
       ]
     : [];
-  const cells = counts.map(([name, value]) => make("tr", {}, make("th", {}, name), make("td", {}, String(value))));
+  const cells = counts.map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, String(name)), make("td", {}, String(value))));
   const title = ill.length
     ? `${ill.length} of ${garment.taxels} taxels are faulty`
     : "No faulty taxels.";
-  const items = (lines) => make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
+  const items = (/** @type {HTMLElement[]} */ lines) => make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
   const pins = states.pins?.told ?? ["The board has not tested its lines and inputs yet."];
   return [
     make("h2", {}, title),

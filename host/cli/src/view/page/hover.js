@@ -3,15 +3,36 @@
 import { make } from "./dom.js";
 import { pressure } from "./units.js";
 
+/** @typedef {import("./types.d.ts").Place} Place */
+
+/**
+ * Rows and columns that the arrow keys go.
+ * @type {Record<string, [number, number]>}
+ */
+const WAYS = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
+
 /** The selected taxel and the note beside it. `ask` tells the program, which then sends its raw code. */
 export class Hover {
+  /**
+   * @param {HTMLElement} element
+   * @param {import("./types.d.ts").Ask} ask
+   * @param {() => void} changed
+   */
   constructor(element, ask, changed) {
-    Object.assign(this, { element, ask, changed, place: null });
+    this.element = element;
+    this.ask = ask;
+    this.changed = changed;
+    /** @type {Place | null} */
+    this.place = null;
   }
 
-  /** Watches the canvas of a panel. */
+  /**
+   * Watches the canvas of a panel.
+   * @param {HTMLCanvasElement} canvas
+   * @param {import("./types.d.ts").Panel} panel
+   */
   watch(canvas, panel) {
-    const at = (event) => {
+    const at = (/** @type {PointerEvent} */ event) => {
       const { left, top, width, height } = canvas.getBoundingClientRect();
       const column = Math.floor(((event.clientX - left) / width) * panel.columns);
       const row = Math.floor(((event.clientY - top) / height) * panel.rows);
@@ -24,52 +45,73 @@ export class Hover {
     canvas.addEventListener("keydown", (event) => this.key(event, canvas, panel));
   }
 
+  /**
+   * @param {KeyboardEvent} event
+   * @param {HTMLCanvasElement} canvas
+   * @param {import("./types.d.ts").Panel} panel
+   */
   key(event, canvas, panel) {
-    const way = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
+    const way = WAYS[event.key];
     if (event.key === "Escape") this.set(null);
     if (!way) return;
     event.preventDefault();
     event.stopPropagation();
-    const same = this.place?.panel.index === panel.index;
-    const { row, column } = same ? this.place : { row: panel.rows >> 1, column: panel.columns >> 1 };
+    const here = this.place?.panel.index === panel.index ? this.place : null;
+    const { row, column } = here ?? { row: panel.rows >> 1, column: panel.columns >> 1 };
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const next = { panel, row: row + way[0], column: column + way[1] };
     const x = left + ((next.column + 0.5) / panel.columns) * width;
     const y = top + ((next.row + 0.5) / panel.rows) * height;
-    this.set({ ...next, x, y });
+    this.set({ ...next, x, y, byKeys: true });
   }
 
+  /** @param {Place | null} place */
   set(place) {
-    const inside = (p) => p.row >= 0 && p.column >= 0 && p.row < p.panel.rows && p.column < p.panel.columns;
+    const inside = (/** @type {Place} */ p) => p.row >= 0 && p.column >= 0 && p.row < p.panel.rows && p.column < p.panel.columns;
     if (place && !inside(place)) return;
-    const taxel = (p) => (p ? p.panel.base + p.row * p.panel.columns + p.column : null);
+    const taxel = (/** @type {Place | null} */ p) => (p ? p.panel.base + p.row * p.panel.columns + p.column : null);
     const before = taxel(this.place);
     this.place = place;
     if (taxel(place) !== before) this.ask({ hover: taxel(place) });
     this.changed();
   }
 
+  /**
+   * The taxel that the keys have chosen, in words; null if there is none.
+   * @param {import("./store.js").Store} store
+   */
+  told(store) {
+    const { place } = this;
+    const { garment } = store;
+    const shown = store.shown();
+    if (!place?.byKeys || !garment || !shown) return null;
+    const { panel, row, column } = place;
+    const counts = shown.image[panel.base + row * panel.columns + column] ?? 0;
+    return `${panel.name}, row ${row}, column ${column}: ${pressure(garment, counts)}`;
+  }
+
+  /** @param {import("./store.js").Store} store */
   draw(store) {
     const { element, place } = this;
     element.hidden = !place;
     const shown = store.shown();
-    if (!place || !shown) return;
     const { garment, states } = store;
+    if (!place || !shown || !garment) return;
     const taxel = place.panel.base + place.row * place.panel.columns + place.column;
-    const told = states.taxel?.taxel === taxel ? states.taxel : {};
-    const counts = shown.image[taxel];
+    const told = states.taxel?.taxel === taxel ? states.taxel : null;
+    const counts = shown.image[taxel] ?? 0;
     const waits = store.recorded ? "not recorded" : "waiting …";
     const rows = [
       ["pressure", pressure(garment, counts)],
       ["counts", String(counts)],
-      ["raw code", !store.recorded && store.paused ? "live only" : (told.code ?? waits)],
+      ["raw code", !store.recorded && store.paused ? "live only" : (told?.code ?? waits)],
       ["health", store.ill().get(taxel) ?? "good"],
-      ["highest", pressure(garment, store.held[taxel])],
-      ["wired", told.block == null ? "–" : `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`],
+      ["highest", pressure(garment, store.held?.[taxel] ?? 0)],
+      ["wired", !told || told.block === null ? "–" : `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`],
     ];
     element.replaceChildren(
       make("b", {}, `${place.panel.name}, row ${place.row}, column ${place.column}`),
-      make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, String(value))])),
+      make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, String(name)), make("dd", {}, String(value))])),
     );
     const { offsetWidth: width, offsetHeight: height } = element;
     const left = place.x + 18 + width > innerWidth ? place.x - 18 - width : place.x + 18;

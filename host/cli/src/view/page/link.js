@@ -6,12 +6,30 @@ import { provenance } from "./units.js";
 
 /** The figures at the top. */
 export class Link {
+  /**
+   * @param {HTMLElement} list
+   * @param {HTMLElement} source
+   * @param {HTMLElement} note
+   */
   constructor(list, source, note) {
-    Object.assign(this, { list, source, note, cells: new Map(), images: [] });
-    Object.assign(this, { connected: false, heard: null, lost: null, told: null });
+    this.list = list;
+    this.source = source;
+    this.note = note;
+    /** @type {Map<string, HTMLElement>} */
+    this.cells = new Map();
+    /** @type {number[]} */
+    this.images = [];
+    this.connected = false;
+    /** @type {number | null} */
+    this.heard = null;
+    /** @type {number | null} */
+    this.lost = null;
   }
 
-  /** The connection is open, or lost. */
+  /**
+   * The connection is open, or lost.
+   * @param {boolean} connected
+   */
   connection(connected) {
     if (this.connected && !connected) this.lost = Date.now();
     this.connected = connected;
@@ -22,13 +40,19 @@ export class Link {
     this.heard = Date.now();
   }
 
-  /** Why the picture is not live; null if it is. */
+  /**
+   * Why the picture is not live; null if it is.
+   * @param {import("./store.js").Store} store
+   */
   absence(store) {
     const quiet = Boolean(store.recorded) || Boolean(store.states.end);
     return absence({ ...this, quiet }, Date.now());
   }
 
-  /** Shows the reason and since when; the passing seconds are not announced by screen readers. */
+  /**
+   * Shows the reason and since when; the passing seconds are not announced by screen readers.
+   * @param {import("./store.js").Store} store
+   */
   presence(store) {
     const gone = this.absence(store);
     document.body.classList.toggle("gone", gone !== null);
@@ -45,9 +69,10 @@ export class Link {
   drawn() {
     const now = performance.now();
     this.images.push(now);
-    while (this.images[0] < now - 1000) this.images.shift();
+    while ((this.images[0] ?? now) < now - 1000) this.images.shift();
   }
 
+  /** @param {import("./store.js").Store} store */
   draw(store) {
     const { garment, states, latest } = store;
     const { link, end } = states;
@@ -75,13 +100,19 @@ export class Link {
     this.set("latency", latency === null ? "–" : `${latency.toFixed(1)} ms`, "Half of the round trip to the board");
   }
 
+  /**
+   * @param {string} name
+   * @param {string} value
+   * @param {string} title
+   * @param {boolean} warn
+   */
   set(name, value, title, warn = false) {
-    if (!this.cells.has(name)) {
-      const cell = make("dd", { id: `link-${name}` });
+    let cell = this.cells.get(name);
+    if (!cell) {
+      cell = make("dd", { id: `link-${name}` });
       this.list.append(make("div", { title }, make("dt", {}, name), cell));
       this.cells.set(name, cell);
     }
-    const cell = this.cells.get(name);
     cell.classList.toggle("warn", warn);
     say(cell, value);
   }

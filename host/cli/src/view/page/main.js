@@ -1,6 +1,6 @@
 // Assembles the page: messages are stored on arrival, and drawn once per screen refresh.
 
-import { $, make } from "./dom.js";
+import { $, make, one, say } from "./dom.js";
 import { Body } from "./body.js";
 import { CognitiveMap } from "./fcm.js";
 import { Concepts, contacts } from "./contacts.js";
@@ -13,6 +13,7 @@ import { Player } from "./player.js";
 import { Save } from "./save.js";
 import { Store } from "./store.js";
 import { Surface } from "./surface.js";
+import { Speaker } from "./speaker.js";
 import { connect } from "./socket.js";
 import * as ranges from "./ranges.js";
 import * as scale from "./scale.js";
@@ -20,14 +21,19 @@ import * as strips from "./strips.js";
 
 const store = new Store();
 const link = new Link($("link"), $("source"), $("provenance"));
+/** Time between two redraws of what is beside the picture while it is live: nobody reads faster. */
+const BESIDE_MS = 100;
 let stale = true;
-const changed = () => (stale = true);
-const change =
-  (act) =>
-  (...what) => {
-    act(...what);
-    changed();
-  };
+/** What is beside the picture is out of date since a message, or must be drawn at once. */
+let [besides, urgent] = [true, true];
+/** When it was drawn. */
+let besidesAt = 0;
+const changed = () => (stale = urgent = true);
+/** @type {<What>(act: (what: What) => void) => (what: What) => void} */
+const change = (act) => (what) => {
+  act(what);
+  stale = besides = true;
+};
 
 const socket = connect({
   image: change((message) => store.image(message)),
@@ -38,21 +44,28 @@ const socket = connect({
   }),
   heard: () => link.hear(),
 });
+/** @type {import("./types.d.ts").Ask} */
 const ask = (wish) => socket.ask(wish);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
+const speaker = new Speaker();
 const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
+/** @type {Record<string, import("./types.d.ts").View>} */
 const views = {
   panels: new Panels($("view-panels"), hover),
-  surface: new Surface($("view-surface"), changed),
+  surface: new Surface($("view-surface"), hover, changed),
   body: new Body($("view-body")),
   map: new CognitiveMap($("view-map")),
   health: new Health($("view-health")),
 };
 const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) });
 
-let [told, drawn] = [null, null];
+/** @type {string | null} */
+let told = null;
+/** @type {import("./types.d.ts").Shown | null} */
+let drawn = null;
+
 function log() {
   const lines = store.lines();
   const key = lines.join("\n");
@@ -63,7 +76,9 @@ function log() {
 
 function draw() {
   requestAnimationFrame(draw);
-  if (!stale) return;
+  const now = performance.now();
+  const due = urgent || (besides && (store.paused || now - besidesAt >= BESIDE_MS));
+  if (!stale && !due) return;
   stale = false;
   const { settings } = controls;
   if (store.latest !== drawn) link.drawn();
@@ -71,15 +86,30 @@ function draw() {
   $("empty").hidden = Boolean(store.shown());
   controls.scale();
   // First, because it decides how much room is left.
-  player.draw();
-  views[settings.view].draw(store, settings);
+  if (due) player.draw();
+  views[settings.view]?.draw(store, settings);
   scale.draw(store, settings);
   hover.draw(store);
+  if (!due) return;
+  besidesAt = now;
+  besides = urgent = false;
+  beside(settings);
+}
+
+/** What is said to whoever does not see the picture: the taxel that the keys read, else the intention. */
+function spoken() {
+  const leading = store.shown()?.head.frame.intent.leading ?? "none";
+  return hover.told(store) ?? (leading === "none" ? "" : `intention: ${leading}`);
+}
+
+/** @param {import("./types.d.ts").Settings} settings */
+function beside(settings) {
   link.draw(store);
+  say($("spoken"), speaker.next(spoken(), performance.now()));
   concepts.draw(store);
-  contacts($("contacts"), $("contact-count"), store);
-  ranges.draw($("ranges"), store, settings);
-  if (!store.recorded) strips.draw($("strips"), store);
+  contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);
+  ranges.draw(one(HTMLCanvasElement, "ranges"), store, settings);
+  if (!store.recorded) strips.draw(one(HTMLCanvasElement, "strips"), store);
   log();
 }
 requestAnimationFrame(draw);
@@ -89,13 +119,14 @@ window.addEventListener("resize", changed);
 setInterval(() => link.absence(store) && changed(), 500);
 window.addEventListener("keydown", (event) => {
   const { target, ctrlKey, altKey, metaKey, key } = event;
+  if (!(target instanceof Element)) return;
   const typed =
     target.matches("input, select") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
-  if (typed || ctrlKey || altKey || metaKey) return;
+  if (typed || ctrlKey || altKey || metaKey || !controls.settings.keys) return;
   if (key === "s") save.toggle();
   else if (!player.key(event) && !controls.key(event)) return;
   event.preventDefault();
 });
 
 // For tests and for the console.
-window.taxel = { store, settings: controls.settings, changed, ask };
+Object.assign(window, { taxel: { store, settings: controls.settings, views, changed, ask } });

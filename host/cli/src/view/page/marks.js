@@ -8,14 +8,23 @@ const STILL = 1.5;
 /** Length of an arrow, seconds of movement. */
 const AHEAD = 0.25;
 
-/** Half axes, in taxels, of the ellipse with a contact's area and elongation. */
+/**
+ * Half axes, in taxels, of the ellipse with a contact's area and elongation.
+ * @param {import("./types.d.ts").Contact} contact
+ * @returns {[number, number]}
+ */
 export function halfAxes({ area, anisotropy }) {
   const ratio = Math.sqrt((1 - anisotropy) / (1 + anisotropy)) || 0.1;
   const major = Math.sqrt(Math.max(area, 1) / Math.PI / Math.max(ratio, 0.1));
   return [major, major * Math.max(ratio, 0.1)];
 }
 
-/** Strokes the path that `path` makes, first wide and dark, then narrow and light. */
+/**
+ * Strokes the path that `path` makes, first wide and dark, then narrow and light.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} width
+ * @param {() => void} path
+ */
 function stroke(context, width, path) {
   context.beginPath();
   path();
@@ -27,11 +36,18 @@ function stroke(context, width, path) {
   context.stroke();
 }
 
-/** Draws a contact; `sx` and `sy` are the pixels per taxel. */
+/**
+ * Draws a contact; `sx` and `sy` are the pixels per taxel.
+ * @param {CanvasRenderingContext2D} context
+ * @param {import("./types.d.ts").Contact} touch
+ * @param {number} sx
+ * @param {number} sy
+ */
 export function contact(context, touch, sx, sy) {
   const [x, y] = [(touch.x + 0.5) * sx, (touch.y + 0.5) * sy];
   const [major, minor] = halfAxes(touch);
   const angle = touch.azimuth ?? 0;
+  /** @type {(along: number, across: number) => [number, number]} */
   const to = (along, across) => [
     x + (along * Math.cos(angle) - across * Math.sin(angle)) * sx,
     y + (along * Math.sin(angle) + across * Math.cos(angle)) * sy,
@@ -52,12 +68,21 @@ export function contact(context, touch, sx, sy) {
   label(context, String(touch.id), x, y);
 }
 
-/** Draws its direction; wide if it slips. */
+/**
+ * Draws its direction; wide if it slips.
+ * @param {CanvasRenderingContext2D} context
+ * @param {import("./types.d.ts").Contact} touch
+ * @param {number} x
+ * @param {number} y
+ * @param {number} sx
+ * @param {number} sy
+ */
 function arrow(context, { vx, vy, slip }, x, y, sx, sy) {
   const [dx, dy] = [vx * AHEAD * sx, vy * AHEAD * sy];
   const length = Math.max(18, Math.hypot(dx, dy));
   const angle = Math.atan2(dy, dx);
   const [ex, ey] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
+  /** @type {(turn: number) => [number, number]} */
   const barb = (turn) => [ex - 8 * Math.cos(angle + turn), ey - 8 * Math.sin(angle + turn)];
   stroke(context, slip ? 3.5 : 1.5, () => {
     context.moveTo(x, y);
@@ -68,7 +93,13 @@ function arrow(context, { vx, vy, slip }, x, y, sx, sy) {
   });
 }
 
-/** Draws centred text with a halo. */
+/**
+ * Draws centred text with a halo.
+ * @param {CanvasRenderingContext2D} context
+ * @param {string} text
+ * @param {number} x
+ * @param {number} y
+ */
 export function label(context, text, x, y, size = 13) {
   context.font = `650 ${size}px system-ui, sans-serif`;
   context.textAlign = "center";
@@ -81,7 +112,13 @@ export function label(context, text, x, y, size = 13) {
   context.fillText(text, x, y);
 }
 
-/** Draws a local maximum. */
+/**
+ * Draws a local maximum.
+ * @param {CanvasRenderingContext2D} context
+ * @param {{ row: number, column: number }} place
+ * @param {number} sx
+ * @param {number} sy
+ */
 export function peak(context, { row, column }, sx, sy) {
   const [x, y] = [(column + 0.5) * sx, (row + 0.5) * sy];
   stroke(context, 1.2, () => {
@@ -92,7 +129,30 @@ export function peak(context, { row, column }, sx, sy) {
   });
 }
 
-/** Draws the taxel under the pointer. */
+/**
+ * Draws a local maximum of the surface.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x
+ * @param {number} y
+ */
+export function diamond(context, x, y) {
+  stroke(context, 1.2, () => {
+    context.moveTo(x, y - 4);
+    context.lineTo(x + 4, y);
+    context.lineTo(x, y + 4);
+    context.lineTo(x - 4, y);
+    context.closePath();
+  });
+}
+
+/**
+ * Draws the taxel under the pointer.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} row
+ * @param {number} column
+ * @param {number} sx
+ * @param {number} sy
+ */
 export function frame(context, row, column, sx, sy) {
   stroke(context, 1.5, () => context.rect(column * sx, row * sy, sx, sy));
 }

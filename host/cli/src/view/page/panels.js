@@ -1,7 +1,7 @@
 // The panels in two dimensions.
 
 import { fit, make, say } from "./dom.js";
-import { BANDS } from "./colours.js";
+import { palette } from "./colours.js";
 import { force } from "./units.js";
 import { Raster } from "./raster.js";
 import { trace } from "./contours.js";
@@ -12,23 +12,38 @@ import { opacity } from "./afterglow.js";
 const GAP = 8;
 const CAPTION = 20;
 
+/**
+ * @typedef {import("./types.d.ts").Panel} Panel
+ * @typedef {import("./types.d.ts").Garment} Garment
+ */
+
 /** The view; `hover` gets the taxel under the pointer. */
 export class Panels {
+  /**
+   * @param {HTMLElement} root
+   * @param {import("./hover.js").Hover} hover
+   */
   constructor(root, hover) {
     this.root = root;
     this.hover = hover;
     this.key = "";
+    /** @type {{ panel: Panel, canvas: HTMLCanvasElement, note: HTMLElement }[]} */
+    this.parts = [];
     this.raster = new Raster();
     this.glow = new Raster();
   }
 
+  /**
+   * @param {import("./store.js").Store} store
+   * @param {import("./types.d.ts").Settings} settings
+   */
   draw(store, settings) {
     const { garment } = store;
     if (!garment) return;
     this.build(garment);
     const shown = store.shown();
     if (!shown) return;
-    const image = settings.held ? store.held : shown.image;
+    const image = settings.held && store.held ? store.held : shown.image;
     const { contacts } = shown.head.frame;
     const glow = settings.glow && !settings.held ? store.glowing() : null;
     for (const { panel, canvas, note } of this.parts) {
@@ -39,7 +54,10 @@ export class Panels {
     }
   }
 
-  /** Creates a figure for each panel, as large as all of them fit. */
+  /**
+   * Creates a figure for each panel, as large as all of them fit.
+   * @param {Garment} garment
+   */
   build(garment) {
     const { clientWidth: width, clientHeight: height } = this.root;
     const key = `${garment.key} ${width} ${height}`;
@@ -49,14 +67,14 @@ export class Panels {
     this.parts = garment.panels.map((panel) => {
       const canvas = make("canvas", {
         tabindex: 0,
-        role: "img",
-        "aria-label": `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns`,
+        role: "application",
+        "aria-label": `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns. Arrow keys read taxels.`,
         style: `width:${panel.columns * panel.mm[0] * scale}px;height:${panel.rows * panel.mm[1] * scale}px`,
       });
       this.hover.watch(canvas, panel);
       return { panel, canvas, note: make("span", { class: "quiet" }) };
     });
-    const figure = ({ panel, canvas, note }) =>
+    const figure = (/** @type {typeof this.parts[0]} */ { panel, canvas, note }) =>
       make(
         "figure",
         { style: `width:${panel.columns * panel.mm[0] * scale}px` },
@@ -66,6 +84,15 @@ export class Panels {
     this.root.replaceChildren(...this.parts.map(figure));
   }
 
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Panel} panel
+   * @param {ArrayLike<number>} image
+   * @param {import("./types.d.ts").Contact[]} contacts
+   * @param {Garment} garment
+   * @param {import("./types.d.ts").Settings} settings
+   * @param {Float32Array | null} glow
+   */
   panel(canvas, panel, image, contacts, garment, settings, glow) {
     const context = fit(canvas);
     if (!context) return;
@@ -84,25 +111,38 @@ export class Panels {
   }
 }
 
-/** The most pixels per millimetre at which all panels fit, in the best number of rows. */
+/**
+ * The most pixels per millimetre at which all panels fit, in the best number of rows.
+ * @param {Panel[]} panels
+ * @param {number} width
+ * @param {number} height
+ */
 function bestScale(panels, width, height) {
   let best = 0;
   for (let across = 1; across <= panels.length; across += 1) {
     const down = Math.ceil(panels.length / across);
     const widest = Math.max(...panels.map((panel) => panel.columns * panel.mm[0]));
     const tallest = Math.max(...panels.map((panel) => panel.rows * panel.mm[1]));
-    const room = [(width - (across - 1) * GAP) / across, (height - (down - 1) * GAP) / down - CAPTION];
-    best = Math.max(best, Math.min((room[0] - 1) / widest, (room[1] - 1) / tallest));
+    const [wide, high] = [(width - (across - 1) * GAP) / across, (height - (down - 1) * GAP) / down - CAPTION];
+    best = Math.max(best, Math.min((wide - 1) / widest, (high - 1) / tallest));
   }
   return best;
 }
 
-/** Draws the contours between the bands of the scale. */
+/**
+ * Draws the contours between the bands of the scale.
+ * @param {CanvasRenderingContext2D} context
+ * @param {ArrayLike<number>} image
+ * @param {Panel} panel
+ * @param {number} top
+ * @param {number} sx
+ * @param {number} sy
+ */
 function contours(context, image, panel, top, sx, sy) {
   context.save();
   context.scale(sx, sy);
   context.beginPath();
-  for (let band = 1; band < BANDS; band += 1) trace(context, image, panel, (top * band) / BANDS);
+  for (let band = 1; band < palette.bands; band += 1) trace(context, image, panel, (top * band) / palette.bands);
   context.restore();
   context.strokeStyle = "rgb(255 255 255 / 70%)";
   context.lineWidth = 1;

@@ -1,6 +1,6 @@
 // Pause, and steps back through the live half minute, or through a recording.
 
-import { $, say } from "./dom.js";
+import { $, one, say } from "./dom.js";
 import { Recorder } from "./recorder.js";
 import { KEPT_S } from "./store.js";
 import { seconds } from "./units.js";
@@ -10,15 +10,23 @@ const SECOND = 60;
 
 /** The buttons below the picture. */
 export class Player {
+  /**
+   * @param {import("./store.js").Store} store
+   * @param {import("./types.d.ts").Ask} ask
+   * @param {() => void} changed
+   */
   constructor(store, ask, changed) {
-    Object.assign(this, { store, changed });
+    this.store = store;
+    this.changed = changed;
     this.recorder = new Recorder(store, ask);
-    $("seek").min = -KEPT_S;
-    const on = (id, key) => $(id).addEventListener("click", ({ shiftKey }) => this.key({ key, shiftKey }));
+    this.slider = one(HTMLInputElement, "seek");
+    this.slider.min = String(-KEPT_S);
+    const on = (/** @type {string} */ id, /** @type {string} */ key) =>
+      $(id).addEventListener("click", ({ shiftKey }) => this.key({ key, shiftKey }));
     on("pause", " ");
     on("back", "ArrowLeft");
     on("forth", "ArrowRight");
-    $("seek").addEventListener("input", ({ target }) => this.do(() => store.seek(-Number(target.value))));
+    this.slider.addEventListener("input", () => this.do(() => store.seek(-Number(this.slider.value))));
     $("strips").addEventListener("pointerdown", (event) => {
       if (store.recorded) return;
       const { left, width } = $("strips").getBoundingClientRect();
@@ -26,23 +34,29 @@ export class Player {
     });
   }
 
+  /** @param {() => void} act */
   do(act) {
     act();
     this.changed();
   }
 
-  /** True if the key was handled. */
+  /**
+   * True if the key was handled.
+   * @param {{ key: string, shiftKey: boolean }} event
+   */
   key(event) {
     const { key, shiftKey } = event;
     if (this.store.recorded) return this.recorder.key(event);
     const far = shiftKey ? SECOND : 1;
+    /** @type {Record<string, () => void>} */
     const acts = {
       " ": () => this.store.pause(),
       ArrowLeft: () => this.store.step(-far),
       ArrowRight: () => this.store.step(far),
     };
-    if (!acts[key]) return false;
-    this.do(acts[key]);
+    const act = acts[key];
+    if (!act) return false;
+    this.do(act);
     return true;
   }
 
@@ -58,10 +72,9 @@ export class Player {
     const { store } = this;
     const shown = store.shown();
     say($("pause"), store.paused ? "Resume" : "Pause");
-    $("pause").setAttribute("aria-pressed", String(store.paused));
     if (!shown) return;
     const behind = store.behind();
-    if (document.activeElement !== $("seek") || !store.paused) $("seek").value = -Math.min(KEPT_S, behind);
+    if (document.activeElement !== this.slider || !store.paused) this.slider.value = String(-Math.min(KEPT_S, behind));
     const { frame, time_us: time } = shown.head.frame;
     say($("clock"), store.paused ? `${seconds(time)} s  (−${behind.toFixed(2)} s)` : `${seconds(time)} s  #${frame}`);
   }

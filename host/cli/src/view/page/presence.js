@@ -10,6 +10,9 @@ export const SILENCE_MS = 3000;
  * The message to show; null while all is well. `connected` is the state of the connection, `heard` the time
  * of the last message and `lost` that of the disconnection, both ms or null. A paused recording sends
  * nothing.
+ * @param {{ connected: boolean, heard: number | null, lost: number | null, quiet?: boolean }} state
+ * @param {number} now
+ * @returns {{ since: number | null, text: string, again: boolean } | null}
  */
 export function absence({ connected, heard, lost, quiet = false }, now) {
   if (!connected) {
@@ -21,7 +24,10 @@ export function absence({ connected, heard, lost, quiet = false }, now) {
   return { since: heard, text: "No messages from the program", again: false };
 }
 
-/** "5 s", "3 min", "2 h" */
+/**
+ * "5 s", "3 min", "2 h"
+ * @param {number} ms
+ */
 export function agoText(ms) {
   const seconds = Math.max(0, Math.floor(ms / 1000));
   if (seconds < 120) return `${seconds} s`;

@@ -1,6 +1,6 @@
 // Buttons and keys of the player of a recording. The player is in the program, and all pages follow it.
 
-import { $, make, say } from "./dom.js";
+import { $, make, one, say } from "./dom.js";
 import { KINDS, mark } from "./events.js";
 import { legend, Timeline } from "./timeline-view.js";
 import { neighbour, nextSpeed, SPEEDS, speedText, timeText } from "./timeline.js";
@@ -19,23 +19,35 @@ export const KEYS = [
 
 /** The transport. */
 export class Recorder {
+  /**
+   * @param {import("./store.js").Store} store
+   * @param {import("./types.d.ts").Ask} ask
+   */
   constructor(store, ask) {
-    Object.assign(this, { store, ask });
+    this.store = store;
+    this.ask = ask;
     this.timeline = new Timeline(store, ask);
-    $("speed").append(...SPEEDS.map((speed) => make("option", { value: speed }, speedText(speed))));
-    $("speed").addEventListener("change", ({ target }) => ask({ speed: Number(target.value) }));
-    $("loop").addEventListener("click", () => this.key({ key: "l" }));
-    $("all").addEventListener("click", () => this.key({ key: "r" }));
-    this.theme = null;
+    this.speed = one(HTMLSelectElement, "speed");
+    this.speed.append(...SPEEDS.map((speed) => make("option", { value: speed }, speedText(speed))));
+    this.speed.addEventListener("change", () => ask({ speed: Number(this.speed.value) }));
+    $("loop").addEventListener("click", () => this.key({ key: "l", shiftKey: false }));
+    $("all").addEventListener("click", () => this.key({ key: "r", shiftKey: false }));
+    /** @type {string | undefined} */
+    this.theme = undefined;
   }
 
-  /** True if the key was handled. */
+  /**
+   * True if the key was handled.
+   * @param {{ key: string, shiftKey: boolean }} event
+   */
   key({ key, shiftKey }) {
     const { recorded, states } = this.store;
+    if (!recorded) return false;
     const said = states.overview?.said ?? [];
     const at = this.store.moment();
     const [from, to] = recorded.range;
-    const go = (line) => line && this.ask({ seek: line[0] / 1e6 });
+    const go = (/** @type {import("./types.d.ts").Said | null} */ line) => line && this.ask({ seek: line[0] / 1e6 });
+    /** @type {Record<string, () => void>} */
     const acts = {
       " ": () => this.ask({ play: !recorded.playing }),
       ArrowLeft: () => (shiftKey ? this.ask({ seek: at - 1 }) : this.ask({ step: -1 })),
@@ -57,13 +69,13 @@ export class Recorder {
 
   draw() {
     const { store } = this;
+    if (!store.recorded) return;
     const { playing, speed, loop, range, duration } = store.recorded;
     const at = store.moment();
     say($("pause"), playing ? "Pause" : "Play");
-    $("pause").setAttribute("aria-pressed", String(!playing));
     $("loop").setAttribute("aria-pressed", String(loop));
     const whole = range[0] <= 0 && range[1] >= duration;
-    $("all").disabled = whole;
+    one(HTMLButtonElement, "all").disabled = whole;
     say($("save-recording"), whole ? "Recording (MCAP)" : `Range ${timeText(range[0], 1)} – ${timeText(range[1], 1)} s (MCAP)`);
     this.speeds(speed);
     const frame = store.latest ? `  #${store.latest.head.frame.frame}` : "";
@@ -75,12 +87,15 @@ export class Recorder {
     this.timeline.draw();
   }
 
-  /** Offers the present speed if it is not one of the usual ones. */
+  /**
+   * Offers the present speed if it is not one of the usual ones.
+   * @param {number} speed
+   */
   speeds(speed) {
-    const list = $("speed");
+    const list = this.speed;
     if (Number(list.value) === speed || document.activeElement === list) return;
-    if (![...list.options].some((option) => Number(option.value) === speed))
-      list.append(make("option", { value: speed }, speedText(speed)));
-    list.value = [...list.options].find((option) => Number(option.value) === speed).value;
+    let option = [...list.options].find((option) => Number(option.value) === speed);
+    option ??= list.appendChild(make("option", { value: speed }, speedText(speed)));
+    list.value = option.value;
   }
 }

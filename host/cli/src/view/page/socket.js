@@ -2,7 +2,11 @@
 
 const AGAIN_MS = 1000;
 
-/** Decodes a binary message to { frame, samples, replaced, missed, image, highest }. */
+/**
+ * Decodes a binary message to { frame, samples, replaced, missed, image, highest }.
+ * @param {ArrayBuffer} buffer
+ * @returns {import("./types.d.ts").ImageMessage}
+ */
 export function decode(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
@@ -11,23 +15,37 @@ export function decode(buffer) {
   return { ...head, image: values.subarray(0, taxels), highest: values.subarray(taxels) };
 }
 
-/** Connects, and reconnects. `on` has image(message), line(object), connected(boolean) and heard(). */
+/**
+ * Connects, and reconnects. `on` has image(message), line(object), connected(boolean) and heard().
+ * @param {object} on
+ * @param {(message: import("./types.d.ts").ImageMessage) => void} on.image
+ * @param {(line: import("./types.d.ts").Line) => void} on.line
+ * @param {(connected: boolean) => void} on.connected
+ * @param {() => void} on.heard
+ * @returns {{ ask: import("./types.d.ts").Ask }}
+ */
 export function connect(on) {
+  /** @type {WebSocket | null} */
   let socket = null;
   const open = () => {
-    socket = new WebSocket(`ws://${location.host}/socket`);
-    socket.binaryType = "arraybuffer";
-    socket.onopen = () => on.connected(true);
-    socket.onclose = () => {
+    const next = new WebSocket(`ws://${location.host}/socket`);
+    socket = next;
+    next.binaryType = "arraybuffer";
+    next.onopen = () => on.connected(true);
+    next.onclose = () => {
       on.connected(false);
       setTimeout(open, AGAIN_MS);
     };
-    socket.onmessage = ({ data }) => {
+    next.onmessage = ({ data }) => {
       on.heard();
       if (typeof data === "string") on.line(JSON.parse(data));
       else on.image(decode(data));
     };
   };
   open();
-  return { ask: (wish) => socket.readyState === WebSocket.OPEN && socket.send(JSON.stringify(wish)) };
+  return {
+    ask: (wish) => {
+      if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(wish));
+    },
+  };
 }

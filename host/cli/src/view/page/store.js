@@ -2,6 +2,7 @@
 // slots.
 
 import { afterglow, FADE_S } from "./afterglow.js";
+import { take } from "./colours.js";
 import { garmentOf } from "./garment.js";
 import { logAt } from "./timeline.js";
 
@@ -14,22 +15,48 @@ const GLOWING = 64;
 /** Age relative to the newest up to which an image may be a repeat, us. */
 const TWICE = 500_000;
 
+/**
+ * @typedef {import("./types.d.ts").Garment} Garment
+ * @typedef {import("./types.d.ts").Head} Head
+ * @typedef {import("./types.d.ts").Said} Said
+ * @typedef {import("./types.d.ts").Shown} Shown
+ * @typedef {import("./types.d.ts").Still} Still
+ */
+
 /** Everything shown. `shown()` is the image at the cursor, or the newest. */
 export class Store {
   constructor() {
+    /** @type {Garment | null} */
     this.garment = null;
+    /** @type {import("./types.d.ts").States} */
     this.states = {};
+    /** @type {string[]} */
     this.log = [];
+    /** @type {Said[]} */
     this.marks = [];
+    /** @type {number | null} */
     this.seeks = null;
     this.size = KEPT_S * RATE;
+    /** @type {number | null} */
+    this.cursor = null;
+    /** @type {Still | null} */
+    this.still = null;
+    /** @type {Shown | null} */
+    this.latest = null;
+    /** @type {(Head | null)[]} */
+    this.heads = [];
+    this.count = 0;
+    this.images = new Uint16Array(0);
+    this.highest = new Uint16Array(0);
+    this.glow = new Float32Array(0);
+    /** @type {Uint16Array | null} */
+    this.held = null;
     this.forget();
   }
 
   forget() {
     this.cursor = null;
     this.still = null;
-    this.images = null;
     this.held = null;
     this.forgetImages();
   }
@@ -40,7 +67,10 @@ export class Store {
     this.marks = [];
   }
 
-  /** Handles a text message. */
+  /**
+   * Handles a text message.
+   * @param {import("./types.d.ts").Line} line
+   */
   line(line) {
     if (line.type === "none") {
       delete this.states[line.of];
@@ -49,12 +79,14 @@ export class Store {
     if (line.type === "say") {
       this.log.unshift(line.text);
       this.log.length = Math.min(this.log.length, 60);
-      if (line.time_us !== null) this.mark(line);
+      const { time_us: time, kind, said } = line;
+      if (time !== null) this.mark({ time_us: time, kind, said });
       return;
     }
-    this.states[line.type] = line;
+    Object.assign(this.states, { [line.type]: line });
     if (line.type !== "hello") return;
     delete this.states.end;
+    take(line.palette);
     const garment = garmentOf(line);
     if (this.garment?.key !== garment.key) {
       this.forget();
@@ -66,40 +98,50 @@ export class Store {
     this.garment = garment;
   }
 
-  /** Keeps a line of the live log while its time is on the time line. */
+  /**
+   * Keeps a line of the live log while its time is on the time line.
+   * @param {{ time_us: number, kind: string, said: string }} line
+   */
   mark({ time_us: time, kind, said }) {
-    if (time < this.marks.at(-1)?.[0]) this.marks = [];
+    if (time < (this.marks.at(-1)?.[0] ?? 0)) this.marks = [];
     this.marks.push([time, kind, said]);
     const oldest = time - 2 * KEPT_S * 1e6;
-    while (this.marks[0][0] < oldest) this.marks.shift();
+    while ((this.marks[0]?.[0] ?? oldest) < oldest) this.marks.shift();
   }
 
-  /** Handles an image, also while paused, so that it can be stepped to. */
-  image({ image, highest, ...head }) {
-    const { garment, latest } = this;
-    if (!garment || image.length !== garment.taxels || !this.follows(head.frame, latest?.head.frame.time_us)) return;
+  /**
+   * Handles an image, also while paused, so that it can be stepped to.
+   * @param {import("./types.d.ts").ImageMessage} message
+   */
+  image({ image, highest, samples, ...head }) {
+    const { garment, latest, held } = this;
+    if (!garment || !held || image.length !== garment.taxels || !this.follows(head.frame, latest?.head.frame.time_us)) return;
     for (let taxel = 0; taxel < highest.length; taxel += 1) {
-      if (highest[taxel] > this.held[taxel]) this.held[taxel] = highest[taxel];
+      held[taxel] = Math.max(held[taxel] ?? 0, highest[taxel] ?? 0);
     }
-    head.samples = Float64Array.from(head.samples.flat());
     if (this.cursor !== null && this.count - this.cursor >= this.size) this.cursor += 1;
     const slot = this.count % this.size;
     this.images.set(image, slot * garment.taxels);
     this.highest.set(highest, (this.count % GLOWING) * garment.taxels);
-    this.heads[slot] = head;
+    this.heads[slot] = { ...head, samples: Float64Array.from(samples.flat()) };
     this.count += 1;
     this.latest = this.at(this.count - 1);
   }
 
-  /** True if an image is kept; discards images that do not lead to it. */
-  follows({ time_us: time, seeks = null, past }, newest) {
+  /**
+   * True if an image is kept; discards images that do not lead to it.
+   * @param {import("./types.d.ts").Frame} frame
+   * @param {number | undefined} newest
+   */
+  follows({ time_us: time, seeks: told, past }, newest) {
+    const seeks = told ?? null;
     const sought = seeks !== this.seeks;
     if (sought) {
       // Another moment of a recording: held pressures are discarded.
       this.seeks = seeks;
       this.clearHeld();
-    } else if (time <= newest && (past || newest - time < TWICE)) return false;
-    if (sought || time < newest) this.forgetImages();
+    } else if (newest !== undefined && time <= newest && (past || newest - time < TWICE)) return false;
+    if (sought || (newest !== undefined && time < newest)) this.forgetImages();
     return true;
   }
 
@@ -111,20 +153,29 @@ export class Store {
     if (this.cursor !== null) this.cursor = 0;
   }
 
-  /** Numbers of the kept images: first, and one past the last. */
+  /**
+   * Numbers of the kept images: first, and one past the last.
+   * @returns {[number, number]}
+   */
   span() {
     const { heads, latest } = this;
     let first = Math.max(0, this.count - this.size);
     const oldest = latest ? latest.head.frame.time_us - KEPT_S * 1e6 : 0;
-    while (first < this.count && heads[first % this.size].frame.time_us < oldest) first += 1;
+    while (first < this.count && (heads[first % this.size]?.frame.time_us ?? 0) < oldest) first += 1;
     return [first, this.count];
   }
 
-  /** The image with this number. */
+  /**
+   * The image with this number.
+   * @param {number} number
+   * @returns {Shown}
+   */
   at(number) {
     const slot = number % this.size;
-    const { taxels } = this.garment;
-    return { number, head: this.heads[slot], image: this.images.subarray(slot * taxels, (slot + 1) * taxels) };
+    const taxels = this.garment?.taxels ?? 0;
+    const head = this.heads[slot];
+    if (!head) throw new Error(`image ${number} is not kept`);
+    return { number, head, image: this.images.subarray(slot * taxels, (slot + 1) * taxels) };
   }
 
   /** The player of a recording; null for a board. */
@@ -132,28 +183,40 @@ export class Store {
     return this.states.player ?? null;
   }
 
-  /** The image shown while paused, or the newest; null before the first. */
+  /**
+   * The image shown while paused, or the newest; null before the first.
+   * @returns {Shown | null}
+   */
   shown() {
     return this.still ?? this.latest;
   }
 
   /** Time of the right end of the live half minute, us; it is fixed while paused. */
   end() {
-    return this.still ? this.still.end : this.latest.head.frame.time_us;
+    return this.still?.end ?? this.newest();
   }
 
+  /** Time of the newest image, us. */
+  newest() {
+    return this.latest?.head.frame.time_us ?? 0;
+  }
+
+  /** Whether the picture stands still. */
   get paused() {
     return this.recorded ? !this.recorded.playing : this.still !== null;
   }
 
-  /** Pauses at an image, which is kept although its slot is reused. */
+  /**
+   * Pauses at an image, which is kept although its slot is reused.
+   * @param {number} number
+   */
   stand(number) {
     const { head, image } = this.at(number);
     const time = head.frame.time_us;
-    const end = Math.max(time, this.still?.end ?? this.latest.head.frame.time_us);
+    const end = Math.max(time, this.still?.end ?? this.newest());
     this.cursor = number;
-    this.still = { number, head, image: image.slice(), end, glow: this.glowing().slice() };
-    if (time !== this.latest.head.frame.time_us) this.still.glow = this.glowAt(number).slice();
+    const glow = time === this.newest() ? this.glowing() : this.glowAt(number);
+    this.still = { number, head, image: image.slice(), end, glow: glow.slice() };
   }
 
   /** Pauses at the newest image, or resumes. */
@@ -162,7 +225,10 @@ export class Store {
     else if (!still) this.cursor = this.still = null;
   }
 
-  /** Steps this many images forward or back. */
+  /**
+   * Steps this many images forward or back.
+   * @param {number} images
+   */
   step(images) {
     if (!this.count) return;
     const [first, end] = this.span();
@@ -170,7 +236,10 @@ export class Store {
     this.stand(Math.max(first, Math.min(end - 1, from + images)));
   }
 
-  /** Pauses at the image nearest to `seconds` before the end of the half minute. */
+  /**
+   * Pauses at the image nearest to `seconds` before the end of the half minute.
+   * @param {number} seconds
+   */
   seek(seconds) {
     if (!this.count) return;
     const [first, end] = this.span();
@@ -194,11 +263,13 @@ export class Store {
 
   /**
    * The afterglow at an image, from the second before it; its duration does not depend on the playing speed.
+   * @param {number} number
    */
   glowAt(number) {
-    const { taxels } = this.garment;
+    const taxels = this.garment?.taxels ?? 0;
     const { time_us: now } = this.at(number).head.frame;
     const slow = 1e6 * Math.max(1, this.recorded?.speed ?? 1);
+    /** @type {[ArrayLike<number>, number][]} */
     const images = [];
     for (let at = number; at >= Math.max(0, this.count - this.size); at -= 1) {
       const age = (now - this.at(at).head.frame.time_us) / slow;
@@ -225,6 +296,7 @@ export class Store {
 
   /** Seconds from the beginning of a recording to the moment shown. */
   moment() {
+    if (!this.recorded) return 0;
     const { playing, at, seeks } = this.recorded;
     const shown = this.latest?.head.frame.at_us;
     if (shown === undefined) return at;
@@ -245,7 +317,11 @@ export class Store {
   }
 }
 
-/** An image of this many taxels, from the values that are not 0. */
+/**
+ * An image of this many taxels, from the values that are not 0.
+ * @param {[number, number][]} told
+ * @param {number} taxels
+ */
 function spread(told, taxels) {
   const values = new Uint16Array(taxels);
   for (const [taxel, counts] of told) values[taxel] = counts;

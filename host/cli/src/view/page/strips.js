@@ -5,13 +5,18 @@ import { KEPT_S } from "./store.js";
 import * as strip from "./strip.js";
 import { force } from "./units.js";
 
-/** Draws it into a canvas. */
+/**
+ * Draws it into a canvas.
+ * @param {HTMLCanvasElement} canvas
+ * @param {import("./store.js").Store} store
+ */
 export function draw(canvas, store) {
-  const context = store.latest && fit(canvas);
+  const { garment, latest } = store;
+  const context = garment && latest && fit(canvas);
   if (!context) return;
   const { clientWidth: width, clientHeight: height } = canvas;
   const end = store.end();
-  const x = (time) => width * (1 - (end - time) / (KEPT_S * 1e6));
+  const x = (/** @type {number} */ time) => width * (1 - (end - time) / (KEPT_S * 1e6));
   const floor = height - strip.RIBBON - strip.LANE - strip.TIMES;
   context.clearRect(0, 0, width, height);
   context.font = "11px system-ui, sans-serif";
@@ -22,13 +27,18 @@ export function draw(canvas, store) {
   context.fillStyle = colour("quiet");
   context.textAlign = "left";
   context.textBaseline = "top";
-  context.fillText(`total force, up to ${force(store.garment, highest)}`, 4, 2);
+  context.fillText(`total force, up to ${force(garment, highest)}`, 4, 2);
   strip.ribbon(context, intentions(store), x, floor + 3);
   strip.marks(context, store.marks, x, height - strip.TIMES - strip.LANE / 2);
-  if (store.paused) strip.cursor(context, x(store.shown().head.frame.time_us), height - strip.TIMES);
+  if (store.paused) strip.cursor(context, x((store.shown() ?? latest).head.frame.time_us), height - strip.TIMES);
 }
 
-/** A line for every five seconds. */
+/**
+ * A line for every five seconds.
+ * @param {number} width
+ * @param {boolean} paused
+ * @returns {[number, string, CanvasTextAlign][]}
+ */
 function lines(width, paused) {
   const step = KEPT_S / 6;
   return Array.from({ length: 7 }, (_, index) => {
@@ -38,24 +48,34 @@ function lines(width, paused) {
   });
 }
 
-/** The greatest total of each pixel. */
+/**
+ * The greatest total of each pixel.
+ * @param {import("./store.js").Store} store
+ * @param {(time: number) => number} x
+ * @param {number} width
+ */
 function totals(store, x, width) {
   const columns = new Float64Array(Math.ceil(width) + 1).fill(-1);
   const [first, end] = store.span();
   for (let number = first; number < end; number += 1) {
     const { samples } = store.at(number).head;
     for (let at = 0; at < samples.length; at += 2) {
-      const column = Math.round(x(samples[at]));
+      const column = Math.round(x(samples[at] ?? 0));
       if (column < 0 || column >= columns.length) continue;
-      columns[column] = Math.max(columns[column], samples[at + 1]);
+      columns[column] = Math.max(columns[column] ?? -1, samples[at + 1] ?? 0);
     }
   }
   return columns;
 }
 
-/** Periods in which one intention leads. */
+/**
+ * Periods in which one intention leads.
+ * @param {import("./store.js").Store} store
+ */
 function intentions(store) {
-  const [found, [first, end]] = [[], store.span()];
+  /** @type {[number, number, string][]} */
+  const found = [];
+  const [first, end] = store.span();
   for (let number = first; number < end; number += 1) {
     const { time_us: time, intent } = store.at(number).head.frame;
     const last = found.at(-1);

@@ -5,39 +5,56 @@ const unit = { kpa: true };
 /** Pressures in kPa (if possible) or in counts. */
 export const toggleUnit = () => (unit.kpa = !unit.kpa);
 
-/** True if pressures are in kPa: then the scale must be the same on all panels. */
+/**
+ * True if pressures are in kPa: then the scale must be the same on all panels.
+ * @param {import("./types.d.ts").Garment} garment
+ * @returns {boolean}
+ */
 export function isPascal(garment) {
   const areas = new Set(garment.panels.map((panel) => panel.mm[0] * panel.mm[1]));
   const known = garment.panels.every((panel) => panel.known);
-  return unit.kpa && known && areas.size === 1 && garment.counts_per_newton > 0;
+  return unit.kpa && known && areas.size === 1 && (garment.counts_per_newton ?? 0) > 0;
 }
 
-/** kPa per count, if isPascal. */
+/**
+ * kPa per count, if isPascal.
+ * @param {import("./types.d.ts").Garment} garment
+ */
 export function pascalsOf(garment) {
-  const [x, y] = garment.panels[0].mm;
-  return 1000 / garment.counts_per_newton / (x * y);
+  const [x, y] = garment.panels[0]?.mm ?? [10, 10];
+  return 1000 / (garment.counts_per_newton ?? 1) / (x * y);
 }
 
-const digits = (value) => (value >= 100 ? value.toFixed(0) : value.toFixed(1));
+const digits = (/** @type {number} */ value) => (value >= 100 ? value.toFixed(0) : value.toFixed(1));
 
-/** The pressure of a taxel. */
+/**
+ * The pressure of a taxel.
+ * @param {import("./types.d.ts").Garment} garment
+ * @param {number} counts
+ */
 export function pressure(garment, counts) {
   return isPascal(garment) ? `${digits(counts * pascalsOf(garment))} kPa` : `${Math.round(counts)} counts`;
 }
 
-/** The force of a contact. */
+/**
+ * The force of a contact.
+ * @param {import("./types.d.ts").Garment} garment
+ * @param {number} counts
+ */
 export function force(garment, counts) {
-  return garment.counts_per_newton > 0
-    ? `${digits(counts / garment.counts_per_newton)} N`
-    : `${Math.round(counts)} counts`;
+  const newton = garment.counts_per_newton ?? 0;
+  return newton > 0 ? `${digits(counts / newton)} N` : `${Math.round(counts)} counts`;
 }
 
-/** The unit, and how reliable it is. */
+/**
+ * The unit, and how reliable it is.
+ * @param {import("./types.d.ts").Garment} garment
+ */
 export function provenance(garment) {
   if (garment.calibration) return `calibrated: ${garment.calibration}`;
-  if (garment.counts_per_newton > 0) return "simulated gain, not calibrated";
+  if ((garment.counts_per_newton ?? 0) > 0) return "simulated gain, not calibrated";
   return "counts: not calibrated";
 }
 
 /** Seconds of board time. */
-export const seconds = (us) => (us / 1e6).toFixed(2);
+export const seconds = (/** @type {number} */ us) => (us / 1e6).toFixed(2);

@@ -54,7 +54,7 @@ fn is_served(port: u16) -> Duration {
 #[test]
 fn who_takes_large_files_and_does_not_read_them_shuts_nobody_out() {
     let port = page();
-    for path in ["/recording.taxel", "/plotly.js", "/"] {
+    for path in ["/recording.taxel", "/store.js", "/"] {
         let held: Vec<TcpStream> = (0..150).map(|_| ask(port, path)).collect();
         let waited = is_served(port);
         assert!(waited < Duration::from_secs(4), "{path}: {waited:?}");

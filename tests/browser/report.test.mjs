@@ -1,0 +1,111 @@
+// The page of `taxel report`: its surface is that of `taxel view`, and a touch has one colour wherever it is shown.
+
+import { after, before, test } from "node:test";
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { promisify } from "node:util";
+import { violations } from "./access.fixture.mjs";
+import { box, drawn, page, screen } from "./page.fixture.mjs";
+
+const run = promisify(execFile);
+const PROGRAM = process.env.TAXEL_PROGRAM ?? "taxel";
+// The page in which the other two are compared with it.
+const both = page("sim:pat");
+let [folder, report] = ["", ""];
+
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), "taxel-report-"));
+  report = join(folder, "pat.html");
+  await run(PROGRAM, ["report", "--source", "sim:pat", "-o", report]);
+});
+after(() => rm(folder, { recursive: true }));
+
+const visit = (size) => both.browser.visit(pathToFileURL(report).href, size);
+
+for (const [name, size] of Object.entries({
+  light: {},
+  dark: { dark: true },
+  telephone: { width: 390, height: 844, mobile: true },
+})) {
+  test(`axe-core finds nothing on a report: ${name}`, async () => {
+    const { browser } = both;
+    await visit(size);
+    await drawn(browser);
+    assert.deepEqual(await violations(browser), []);
+    const wide = await browser.value("document.documentElement.scrollWidth");
+    assert.ok(wide <= (size.width ?? 1280), `${wide} pixels`);
+  });
+}
+
+test("a report has the surface of the page, which turns and is read", async () => {
+  const { browser } = both;
+  await visit({});
+  await browser.value('document.getElementById("surface").scrollIntoView()');
+  await drawn(browser);
+  const first = await screen(browser);
+  const place = await box(browser, "#surface");
+  const before = await first.colours(place);
+  assert.ok(before.length > 200, `${before.length} colours`);
+  const marks = await browser.value(`[...document.querySelectorAll(".marks b")].map((mark) => mark.textContent)`);
+  const { peaks } = await browser.value('JSON.parse(document.getElementById("data").textContent)');
+  assert.deepEqual(
+    marks,
+    peaks.map(({ text }) => text),
+  );
+  const where = () => browser.value('document.querySelector(".marks b").style.transform');
+  const still = await where();
+  await browser.value('document.querySelector(".relief").focus()');
+  await browser.key("ArrowLeft");
+  await drawn(browser);
+  assert.notEqual(await where(), still);
+  await browser.key("Home");
+  await drawn(browser);
+  assert.equal(await where(), still);
+  // Just below the peak.
+  const mark = await box(browser, ".marks b");
+  await browser.pointer(mark.left + mark.width / 2, mark.top + 28);
+  await browser.until(`/, row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("told").textContent)`);
+});
+
+test("terminal, page and report show a touch in one palette on one scale", async () => {
+  const { browser, view } = both;
+  const html = await readFile(report, "utf8");
+  const { image, top, panels } = JSON.parse(/id="data">(.*?)<\/script>/s.exec(html)[1]);
+  await browser.open(view.url);
+  // The page's colours of the report's image, and of the terminal's scale.
+  const { wanted, ramp, start } = await browser.value(`(async () => {
+    const { css, palette } = await import("./colours.js");
+    const hex = (text) => "#" + text.match(/\\d+/g).map((part) => Number(part).toString(16).padStart(2, "0")).join("");
+    const share = (value) => Math.min(1, value / ${top});
+    const { settings } = taxel;
+    return {
+      wanted: ${JSON.stringify(image)}.map((value) => hex(css(share(value)))),
+      ramp: Array.from({ length: 16 }, (_, step) => hex("rgb(" + palette.ramp[step * 17].join(" ") + ")")),
+      start: settings.top,
+    };
+  })()`);
+  // Report: the cells of the panels, in the order of the taxels that are pressed.
+  const drawnIn = html.split("<h2>Pressure, 3-D</h2>")[0];
+  const cells = [...drawnIn.matchAll(/width="11\.2" height="[\d.]+" fill="(#\w{6})"/g)].map(([, fill]) => fill);
+  assert.ok(cells.length > 50 && panels.length === 4, `${cells.length} cells`);
+  assert.deepEqual(
+    cells,
+    wanted.filter((_, taxel) => image[taxel] > 0),
+  );
+  // Terminal: its scale, and its end.
+  const svg = join(folder, "live.svg");
+  await run(PROGRAM, ["live", "--source", "sim:pat", "--seconds", "1", "--svg", svg]);
+  const text = await readFile(svg, "utf8");
+  const fills = [...text.matchAll(/fill="(#\w{6})"/g)].map(([, fill]) => fill);
+  assert.deepEqual(
+    ramp.filter((fill) => !fills.includes(fill)),
+    [],
+  );
+  assert.match(text, new RegExp(` ${start} counts *<`));
+});
+
+test("nothing has been complained of", () => assert.deepEqual(both.browser.complaints, []));
