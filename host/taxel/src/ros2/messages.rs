@@ -1,7 +1,7 @@
 //! Encodes the messages.
 
-use super::super::names;
 use super::cdr::Cdr;
+use super::names::topic_part;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
 use taxel_core::wire::Health;
@@ -28,7 +28,7 @@ fn header(cdr: Cdr, host_us: u64, frame: &str) -> Cdr {
 
 /// Frame of a panel; it is its own, so that panels of one link do not overlap.
 fn frame(area: &Area) -> String {
-    format!("tactile/{}", names::topic(&area.name))
+    format!("tactile/{}", topic_part(&area.name))
 }
 
 /// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie
