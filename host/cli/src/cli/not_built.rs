@@ -1,4 +1,4 @@
-//! Stand-in for `taxel foxglove` in a build without the feature: says how to build it in.
+//! Stand-ins for the commands of features that a build leaves out: they say how to build them in.
 
 use anyhow::{Result, bail};
 use std::ffi::OsString;
@@ -11,10 +11,27 @@ pub struct NotBuiltArgs {
     args: Vec<OsString>,
 }
 
-/// Returns the error that says how the command is built in.
-pub fn run(args: NotBuiltArgs) -> Result<()> {
+/// Stand-in for `taxel foxglove`.
+#[cfg(not(feature = "foxglove"))]
+pub mod foxglove {
+    /// Returns the error that says how the command is built in.
+    pub fn run(args: super::NotBuiltArgs) -> anyhow::Result<()> {
+        super::refuse("Foxglove", "foxglove", &args)
+    }
+}
+
+/// Stand-in for `taxel ros2`.
+#[cfg(not(feature = "ros2"))]
+pub mod ros2 {
+    /// Returns the error that says how the command is built in.
+    pub fn run(args: super::NotBuiltArgs) -> anyhow::Result<()> {
+        super::refuse("ROS 2", "ros2", &args)
+    }
+}
+
+fn refuse(what: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {
     let asked = args.args.iter().map(|arg| format!(" {}", arg.display())).collect::<String>();
     bail!(Fault::usage(format!(
-        "this program was built without Foxglove: `cargo run --release --features foxglove -- foxglove{asked}` builds it in"
+        "this program was built without {what}: `cargo run --release --features {command} -- {command}{asked}` builds it in"
     )))
 }

@@ -14,7 +14,8 @@
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
 use crate::recording::{Format, Store, Writer};
-use crate::ros2::{messages, schemas, topic_part};
+use crate::ros2::messages::{self, BoardState};
+use crate::ros2::{schemas, topic_part};
 use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
@@ -66,7 +67,11 @@ impl<S: Store> Ros2<S> {
             }
             Event::Health(health) => {
                 let board = client.worn().map_or("", |worn| worn.firmware.as_str());
-                let data = messages::diagnostics(stamp.host_us, board, health, client.ill().len());
+                let data = messages::diagnostics(
+                    stamp.host_us,
+                    board,
+                    BoardState::Reports(health, client.ill().len()),
+                );
                 let schema = "diagnostic_msgs/msg/DiagnosticArray";
                 vec![Sent { topic: "/diagnostics".into(), schema, text: schemas::DIAGNOSTICS, data }]
             }

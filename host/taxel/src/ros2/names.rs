@@ -1,5 +1,7 @@
 //! Names as parts of ROS topics and frames.
 
+use taxel_core::garment::Area;
+
 /// A name as part of a topic: letters, digits and single underscores, not beginning with a digit.
 pub fn topic_part(name: &str) -> String {
     let mut word = String::new();
@@ -11,6 +13,11 @@ pub fn topic_part(name: &str) -> String {
         }
     }
     if word.starts_with(|c: char| c.is_ascii_digit()) || word.is_empty() { format!("_{word}") } else { word }
+}
+
+/// Frame of a panel; it is its own, so that panels of one link do not overlap.
+pub fn frame(area: &Area) -> String {
+    format!("tactile/{}", topic_part(&area.name))
 }
 
 #[cfg(test)]
