@@ -2,7 +2,7 @@
 
 mod completions;
 mod examples;
-#[cfg(not(feature = "foxglove"))]
+#[cfg(not(all(feature = "foxglove", feature = "ros2")))]
 mod not_built;
 
 use crate::commands::board::doctor::{self, DoctorArgs};
@@ -39,9 +39,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 use completions::CompletionsArgs;
 use examples::*;
 #[cfg(not(feature = "foxglove"))]
-use not_built::{NotBuiltArgs as FoxgloveArgs, foxglove};
+use not_built::NotBuiltArgs as FoxgloveArgs;
 #[cfg(not(feature = "ros2"))]
-use not_built::{NotBuiltArgs as Ros2Args, ros2};
+use not_built::NotBuiltArgs as Ros2Args;
 use std::ffi::OsString;
 use taxel::tell::{verbose, words};
 
@@ -159,8 +159,14 @@ impl Cli {
         match self.command.or_else(live).expect("live is a command") {
             Command::Live(args) => live::run(args),
             Command::View(args) => view::run(args),
+            #[cfg(feature = "foxglove")]
             Command::Foxglove(args) => foxglove::run(args),
+            #[cfg(not(feature = "foxglove"))]
+            Command::Foxglove(args) => not_built::foxglove(&args),
+            #[cfg(feature = "ros2")]
             Command::Ros2(args) => ros2::run(args),
+            #[cfg(not(feature = "ros2"))]
+            Command::Ros2(args) => not_built::ros2(&args),
             Command::Record(args) => record::run(args),
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),

@@ -24,7 +24,7 @@ def by_type(told):
 
 def test_words_reactions_and_intention_say_what_json_says(listener, tmp_path):
     scene = tmp_path / "scene.toml"
-    scene.write_text('[[react]]\nname = "pressed"\ncause = "pressure"\nlevel = 300\nhysteresis = 100\nhold_ms = 50\n')
+    scene.write_text('[[react]]\nname = "pressed"\ncause = "contacts"\nlevel = 1\n')
     told = listener.hear(String, "/taxel/json")
     heard = [
         (listener.hear(Symbols, "/taxel/symbols"), "symbols", fields.symbols),

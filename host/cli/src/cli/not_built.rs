@@ -11,22 +11,16 @@ pub struct NotBuiltArgs {
     args: Vec<OsString>,
 }
 
-/// Stand-in for `taxel foxglove`.
+/// Stand-in for `taxel foxglove`: returns the error that says how the command is built in.
 #[cfg(not(feature = "foxglove"))]
-pub mod foxglove {
-    /// Returns the error that says how the command is built in.
-    pub fn run(args: super::NotBuiltArgs) -> anyhow::Result<()> {
-        super::refuse("Foxglove", "foxglove", &args)
-    }
+pub fn foxglove(args: &NotBuiltArgs) -> Result<()> {
+    refuse("Foxglove", "foxglove", args)
 }
 
-/// Stand-in for `taxel ros2`.
+/// Stand-in for `taxel ros2`: returns the error that says how the command is built in.
 #[cfg(not(feature = "ros2"))]
-pub mod ros2 {
-    /// Returns the error that says how the command is built in.
-    pub fn run(args: super::NotBuiltArgs) -> anyhow::Result<()> {
-        super::refuse("ROS 2", "ros2", &args)
-    }
+pub fn ros2(args: &NotBuiltArgs) -> Result<()> {
+    refuse("ROS 2", "ros2", args)
 }
 
 fn refuse(what: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {

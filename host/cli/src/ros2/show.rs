@@ -116,8 +116,12 @@ impl Show for RosShow {
         self.publish(client, event, self.us(stamp), stamp.board_us)?;
         let is_line = !matches!(event, Event::Frame { .. } | Event::Raw { .. } | Event::Refused(_));
         if is_line && self.node.wants(&JSON, "") {
-            let line = json::message(client, event);
+            let mut line = json::message(client, event);
             if line != Value::Null {
+                line["host_time_us"] = stamp.host_us.into();
+                if let Some(uncertainty_us) = stamp.uncertainty_us {
+                    line["host_time_uncertainty_us"] = uncertainty_us.into();
+                }
                 self.node.publish(&JSON, "", messages::text(&line.to_string()))?;
             }
         }

@@ -23,7 +23,7 @@ pub struct Ros2Args {
     #[arg(long, value_name = "NAME", default_value = "taxel")]
     pub name: String,
     /// Images, points and forces of a panel per second; 0: none. The parameter image_hz changes it
-    #[arg(long, value_name = "HZ", default_value_t = 10.0)]
+    #[arg(long, value_name = "HZ", default_value = "10", value_parser = hz, allow_negative_numbers = true)]
     pub image_hz: f64,
     /// Stamp messages with the board's time, and tell it on /clock: other nodes set use_sim_time
     #[arg(long)]
@@ -31,6 +31,12 @@ pub struct Ros2Args {
     /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
+}
+
+/// Parses a rate of images.
+fn hz(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| (0.0..=1000.0).contains(rate));
+    rate.ok_or_else(|| "must be 0 to 1000".into())
 }
 
 impl Ros2Args {
