@@ -1,5 +1,6 @@
 """The node under test, and a node that listens to it."""
 
+import gc
 import json
 import os
 import subprocess
@@ -21,9 +22,22 @@ LONG = "TAXEL_CAMPAIGN" in os.environ
 FIVE = Path(__file__).parent / "five.toml"
 EXAMPLES = Path(__file__).parents[3] / "examples/ros2"
 
-RELIABLE = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
+# What waits for a callback is kept, up to five seconds of lists of contacts: a shared machine pauses.
+RELIABLE = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 NEWEST = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def in_real_time():
+    """A campaign runs before what else the machine does, where it may: it measures the node."""
+    try:
+        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))
+    except OSError:
+        return False
+    return True
+
+
+REAL_TIME = LONG and in_real_time()
 
 
 class Got:
@@ -41,7 +55,8 @@ class Got:
         """Prints the latency."""
         ms = sorted(self.ms)
         median, p99 = ms[len(ms) // 2], ms[int(len(ms) * 0.99)]
-        print(f"ros2: {what}: {len(ms)} received; ms: median {median:.2f}, p99 {p99:.2f}, largest {ms[-1]:.2f}")
+        how = "real-time priority" if REAL_TIME else f"load {os.getloadavg()[0]:.1f}"
+        print(f"ros2: {what}; {how}; ms: median {median:.2f}, p99 {p99:.2f}, largest {ms[-1]:.2f}")
         return p99
 
 
@@ -84,6 +99,8 @@ class Listener:
 
 @pytest.fixture(scope="session", autouse=True)
 def ros():
+    # Its pauses grow with the messages that a test keeps.
+    gc.disable()
     rclpy.init()
     yield
     rclpy.shutdown()

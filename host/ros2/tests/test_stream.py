@@ -1,7 +1,6 @@
 """Contacts of a board's stream, all of them, and what they say."""
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -9,7 +8,7 @@ import time
 from pathlib import Path
 
 import fields
-from conftest import FIVE, LONG, NEWEST, PROGRAM, RELIABLE, lines, taxel
+from conftest import FIVE, LONG, NEWEST, PROGRAM, REAL_TIME, lines, taxel
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
 from taxel_msgs.msg import Contacts
@@ -57,15 +56,15 @@ def test_all_contacts_arrive_and_say_what_json_says(listener):
     assert len(shared) > 500
     for one in shared:
         fields.contacts(one, again[one.frame])
-    p99 = got.table(f"{MANY} of {MANY} lists of five contacts, {len(shared)} like those of taxel live")
-    # A machine that does other things besides is slow by itself.
-    assert not LONG or p99 <= P99_MS or os.getloadavg()[0] > 2
+    p99 = got.table(f"{MANY} of {MANY} lists of five contacts, {len(shared)} of them also by taxel live")
+    assert not REAL_TIME or p99 <= P99_MS
 
 
 def test_nothing_is_lost_while_images_are_sent_and_another_is_slow(listener):
     got = listener.hear(Contacts, "/taxel/contacts")
     images = [listener.hear(Image, f"/tactile/{panel}/image", NEWEST) for panel in PANELS]
-    slow = subprocess.Popen([sys.executable, Path(__file__).parent / "slow.py"], stdout=subprocess.PIPE, text=True)
+    words = [sys.executable, Path(__file__).parent / "slow.py"]
+    slow = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     with taxel("--source", SOURCE, "--image-hz", "50"):
         listener.spin(lambda: len(of_five(got)) > 100, 30)
         if LONG:
@@ -82,7 +81,8 @@ def test_nothing_is_lost_while_images_are_sent_and_another_is_slow(listener):
     complete(got)
     counts = [len(image.messages) for image in images]
     assert min(counts) > 0
-    got.table(f"{MANY} of {MANY} with {sum(counts)} images, beside a subscriber that took {len(slowly)}")
+    p99 = got.table(f"{MANY} of {MANY} with {sum(counts)} images, beside a slow one that took {len(slowly)}")
+    assert not REAL_TIME or p99 <= P99_MS
 
 
 def test_a_node_that_was_killed_is_found_again(listener):

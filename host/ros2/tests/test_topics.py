@@ -53,12 +53,14 @@ def test_health_is_told_to_who_comes_later(listener):
         diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
         told = listener.hear(String, "/taxel/json")
         listener.spin(lambda: len(diagnostics.messages) > 1 and len(health.messages) > 1)
-    lines = {line["scans"]: line for all_lines in by_type(told).values() for line in all_lines if line["type"] == "health"}
+    of_health = [all_lines for (kind, _), all_lines in by_type(told).items() if kind == "health"]
+    lines = {line["scans"]: line for all_lines in of_health for line in all_lines}
     for message in health.messages:
         for line in filter(None, [lines.get(message.scans)]):
             fields.health(message, line)
     status = diagnostics.messages[0].status[0]
-    assert status.level == b"\0" and status.name == "taxel: board" and status.hardware_id.startswith("taxel-sim")
+    assert status.level == b"\0" and status.name == "taxel: board"
+    assert status.hardware_id.startswith("taxel-sim")
     assert {value.key for value in status.values} >= {"scans", "lost", "ill_taxels"}
 
 
