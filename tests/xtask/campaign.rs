@@ -1,6 +1,6 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
-use crate::{browser, paths, python, targets, ways};
+use crate::{browser, paths, python, ros2, targets, ways};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -20,6 +20,8 @@ enum Run {
     Python(&'static str),
     /// The Python package with each CPython.
     Wheels,
+    /// The ROS 2 node with each distribution.
+    Ros2,
     /// Tests of files on a failing disk.
     Disk,
     /// The image by each toolchain.
@@ -27,7 +29,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 20] = [
+const RUNS: [(&str, Run, &str); 21] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -89,6 +91,11 @@ const RUNS: [(&str, Run, &str); 20] = [
         Run::Wheels,
         "Python: the wheel with each CPython, a million frames of five contacts, from pip install to the first frame",
     ),
+    (
+        "ros2",
+        Run::Ros2,
+        "ROS 2: the node with rclpy of each distribution: 10,000 lists of five contacts, slow and killed ends",
+    ),
     ("disk", Run::Disk, "files: every command that writes, each fault of a disk at each call"),
     (
         "view",
@@ -141,6 +148,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Browser(file) => browser::measured(&[file], log, &longer)?,
         Run::Python(names) => targets::read_by_python(&[names], log, &longer)?,
         Run::Wheels => python::campaign(log, &longer)?,
+        Run::Ros2 => ros2::campaign(log, &longer)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),
     };

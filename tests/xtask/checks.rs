@@ -7,7 +7,8 @@ use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
 use crate::targets::{End, WHOLE};
 use crate::{
-    browser, features, firmware, locks, no_panic, package, paths, process, python, recordings, sizes, targets,
+    browser, features, firmware, locks, no_panic, package, paths, process, python, recordings, ros2, sizes,
+    targets,
 };
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -42,6 +43,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("view", browser::check),
     ("python", targets::python),
     ("wheel", python::check),
+    ("ros2", ros2::check),
     ("disk", targets::disk),
     ("clippy", clippy),
     ("docs", docs),

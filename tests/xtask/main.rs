@@ -24,6 +24,7 @@ mod process;
 mod python;
 mod recordings;
 mod report;
+mod ros2;
 mod sizes;
 mod supply;
 mod targets;
@@ -56,6 +57,7 @@ usage: cargo xtask COMMAND
                         test again only what docs/bench/mutants.txt lists as missed and does not explain as equivalent
   python [--release]    build the Python package as a wheel and test it in an environment of its own;
                         --release: as it is given away
+  ros2                  test the ROS 2 node against ROS, with each distribution whose Python is there
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
@@ -101,6 +103,7 @@ fn main() -> ExitCode {
         Some("fuzz") => fuzz::run(rest),
         Some("mutants") => mutants::run(rest).map(|()| true),
         Some("python") => python::run(rest).map(|()| true),
+        Some("ros2") => ros2::run(rest).map(|()| true),
         Some("soak") => targets::soak(rest).map(|()| true),
         Some("supply") => supply::run(rest),
         Some("test") => checks::run(rest),

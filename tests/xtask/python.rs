@@ -85,7 +85,7 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
 }
 
 /// Name or path of the CPython of this version: on the PATH, or one that pyenv has installed.
-fn interpreter(minor: u32) -> Option<String> {
+pub fn interpreter(minor: u32) -> Option<String> {
     let is_it = |python: &str| version(python).is_some_and(|[_, have]| have == minor);
     let named = format!("python3.{minor}");
     if is_it(&named) {

@@ -2,7 +2,7 @@
 
 mod completions;
 mod examples;
-#[cfg(not(feature = "foxglove"))]
+#[cfg(not(all(feature = "foxglove", feature = "ros2")))]
 mod not_built;
 
 use crate::commands::board::doctor::{self, DoctorArgs};
@@ -30,6 +30,8 @@ use crate::commands::touches::intent::{self, IntentArgs};
 #[cfg(feature = "foxglove")]
 use crate::commands::views::foxglove::{self, FoxgloveArgs};
 use crate::commands::views::live;
+#[cfg(feature = "ros2")]
+use crate::commands::views::ros2::{self, Ros2Args};
 use crate::commands::views::view::{self, ViewArgs};
 use crate::watch::LiveArgs;
 use anyhow::Result;
@@ -37,7 +39,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 use completions::CompletionsArgs;
 use examples::*;
 #[cfg(not(feature = "foxglove"))]
-use not_built::{self as foxglove, NotBuiltArgs as FoxgloveArgs};
+use not_built::NotBuiltArgs as FoxgloveArgs;
+#[cfg(not(feature = "ros2"))]
+use not_built::NotBuiltArgs as Ros2Args;
 use std::ffi::OsString;
 use taxel::tell::{verbose, words};
 
@@ -65,6 +69,10 @@ enum Command {
     #[cfg_attr(not(feature = "foxglove"), doc = "(needs a build with `--features foxglove`)")]
     #[command(after_help = FOXGLOVE)]
     Foxglove(FoxgloveArgs),
+    /// Run a ROS 2 node that publishes a board's stream, live
+    #[cfg_attr(not(feature = "ros2"), doc = "(needs a build with `--features ros2`)")]
+    #[command(after_help = ROS2)]
+    Ros2(Ros2Args),
     /// Record a board's stream for Foxglove, Rerun, Python and ROS 2
     #[command(after_help = RECORD)]
     Record(RecordArgs),
@@ -151,7 +159,14 @@ impl Cli {
         match self.command.or_else(live).expect("live is a command") {
             Command::Live(args) => live::run(args),
             Command::View(args) => view::run(args),
+            #[cfg(feature = "foxglove")]
             Command::Foxglove(args) => foxglove::run(args),
+            #[cfg(not(feature = "foxglove"))]
+            Command::Foxglove(args) => not_built::foxglove(&args),
+            #[cfg(feature = "ros2")]
+            Command::Ros2(args) => ros2::run(args),
+            #[cfg(not(feature = "ros2"))]
+            Command::Ros2(args) => not_built::ros2(&args),
             Command::Record(args) => record::run(args),
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),

@@ -14,6 +14,7 @@
 //! | [`serve`] | the door of a server on this machine |
 //! | [`view`] | the page in the browser, and its server |
 //! | `foxglove` | the server for Foxglove (feature `foxglove`) |
+//! | `ros2` | the ROS 2 node (feature `ros2`) |
 //! | `commands` | the commands |
 //! | [`cli`] | the command line |
 //! | [`program`] | the program from its arguments to its exit status |
@@ -37,6 +38,9 @@ pub mod view;
 
 #[cfg(feature = "foxglove")]
 pub mod foxglove;
+
+#[cfg(feature = "ros2")]
+pub mod ros2;
 
 #[doc(hidden)]
 pub mod commands;

@@ -7,6 +7,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use taxel::files::garments;
+use taxel::source::SceneFile;
 use taxel::stepped::Stepped;
 use taxel_core::format::Micros;
 use taxel_core::scene::Scene;
@@ -32,7 +33,7 @@ impl Board {
 fn build(garment: &str, scene: Option<&str>) -> anyhow::Result<Stepped> {
     let garment = garments::load(garment)?;
     let scene =
-        scene.map_or_else(|| Ok(Scene::shipped()), |scene| request::scene(scene).map(|file| file.scene))?;
+        scene.map_or_else(|| Ok(Scene::shipped()), |scene| SceneFile::named(scene).map(|file| file.scene))?;
     Stepped::new(garment, scene)
 }
 

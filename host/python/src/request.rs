@@ -2,7 +2,6 @@
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
-use std::path::Path;
 use taxel::client::Client;
 use taxel::session::setting;
 use taxel::source::SceneFile;
@@ -57,19 +56,11 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         "set_concept" => Request::Feed(feed(&values)?),
         "set_posture" => Request::Posture(posture(client, &values)?),
         "set_garment" => return setting::set_garment(client, values.text("garment")),
-        "set_scene" => return setting::set_scene(client, &scene(values.text("scene"))?),
+        "set_scene" => return setting::set_scene(client, &SceneFile::named(values.text("scene"))?),
         "set_gestures" => return gestures(client, &values),
         _ => bail!(Fault::usage(format!("there is no request {request}"))),
     };
     Ok(client.request(&request)?)
-}
-
-/// A scene by its file, or by its text, which has more than one line or an assignment.
-pub fn scene(path_or_text: &str) -> Result<SceneFile> {
-    if path_or_text.contains(['\n', '=']) && !Path::new(path_or_text).is_file() {
-        return SceneFile::parse(path_or_text.into(), "the scene".into(), Path::new("."));
-    }
-    SceneFile::read(Path::new(path_or_text))
 }
 
 fn feed(values: &Values) -> Result<Feed> {

@@ -23,6 +23,7 @@
 //! | [`stepped`] | the very board, stepped by hand with codes and a time |
 //! | [`json`] | a stream's JSON |
 //! | [`moments`] | moments, NMI and axis of one image |
+//! | [`ros2`] | messages of ROS 2 and their layout |
 //! | [`record`] | recordings of a stream and their topics |
 //! | [`learn`] | training of what a board recognises |
 //!
@@ -55,6 +56,8 @@ pub mod stepped;
 pub mod json;
 
 pub mod moments;
+
+pub mod ros2;
 
 pub mod record;
 

@@ -23,15 +23,25 @@ pub(super) const VIEW: &str = "Examples:
   taxel view walk.mcap --open
   taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
-pub(super) const FOXGLOVE: &str = if cfg!(feature = "foxglove") { SERVED } else { NOT_BUILT };
+pub(super) const FOXGLOVE: &str = if cfg!(feature = "foxglove") { SERVED } else { NO_FOXGLOVE };
 
 /// The example of a build without the feature.
-const NOT_BUILT: &str = "Example, in the folder of taxel:
+const NO_FOXGLOVE: &str = "Example, in the folder of taxel:
   cargo run --release --features foxglove -- foxglove --source sim:pat";
 
 const SERVED: &str = "Examples:
   taxel foxglove --source sim:pat
   taxel foxglove --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
+pub(super) const ROS2: &str = if cfg!(feature = "ros2") { NODE } else { NO_ROS2 };
+
+/// The example of a build without the feature.
+const NO_ROS2: &str = "Example, in the folder of taxel:
+  cargo run --release --features ros2 -- ros2 --source sim:pat";
+
+const NODE: &str = "Examples:
+  taxel ros2 --source sim:pat
+  taxel ros2 --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32 --namespace /left";
 
 pub(super) const RECORD: &str = "Examples:
   taxel record -o touch.mcap

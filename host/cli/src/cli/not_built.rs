@@ -1,4 +1,4 @@
-//! Stand-in for `taxel foxglove` in a build without the feature: says how to build it in.
+//! Stand-ins for the commands of features that a build leaves out: they say how to build them in.
 
 use anyhow::{Result, bail};
 use std::ffi::OsString;
@@ -11,10 +11,21 @@ pub struct NotBuiltArgs {
     args: Vec<OsString>,
 }
 
-/// Returns the error that says how the command is built in.
-pub fn run(args: NotBuiltArgs) -> Result<()> {
+/// Stand-in for `taxel foxglove`: returns the error that says how the command is built in.
+#[cfg(not(feature = "foxglove"))]
+pub fn foxglove(args: &NotBuiltArgs) -> Result<()> {
+    refuse("Foxglove", "foxglove", args)
+}
+
+/// Stand-in for `taxel ros2`: returns the error that says how the command is built in.
+#[cfg(not(feature = "ros2"))]
+pub fn ros2(args: &NotBuiltArgs) -> Result<()> {
+    refuse("ROS 2", "ros2", args)
+}
+
+fn refuse(what: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {
     let asked = args.args.iter().map(|arg| format!(" {}", arg.display())).collect::<String>();
     bail!(Fault::usage(format!(
-        "this program was built without Foxglove: `cargo run --release --features foxglove -- foxglove{asked}` builds it in"
+        "this program was built without {what}: `cargo run --release --features {command} -- {command}{asked}` builds it in"
     )))
 }

@@ -16,6 +16,15 @@ fn a_build_without_foxglove_says_how_to_build_it() {
 }
 
 #[test]
+#[cfg(not(feature = "ros2"))]
+fn a_build_without_ros2_says_how_to_build_it() {
+    let output = taxel(&["ros2", "--source", "sim:pat"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    let how = "`cargo run --release --features ros2 -- ros2 --source sim:pat`";
+    assert!(output.status.code() == Some(2) && error.contains(how), "{error}");
+}
+
+#[test]
 #[cfg(not(feature = "lerobot"))]
 fn a_build_without_lerobot_says_how_to_build_it() {
     let output = taxel(&["export", "no-such.mcap", "--to", "lerobot", "-o", "no-such-folder"]);
@@ -30,7 +39,7 @@ fn shells_complete_subcommands_and_options() {
         let output = taxel(&["completions", shell]);
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && text.contains("taxel"), "{shell}");
-        for word in ["live", "calibrate", "foxglove", "garment", "verbose"] {
+        for word in ["live", "calibrate", "foxglove", "ros2", "garment", "verbose"] {
             assert!(text.contains(word), "{shell}: {word}");
         }
     }

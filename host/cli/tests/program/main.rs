@@ -17,6 +17,8 @@ mod own_garment;
 mod recordings;
 mod reference;
 mod repair;
+#[cfg(feature = "ros2")]
+mod ros2;
 mod schemas;
 #[path = "../commands/sink.rs"]
 mod sink;

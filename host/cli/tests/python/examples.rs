@@ -34,10 +34,10 @@ fn the_python_example_draws_from_a_pipe_and_from_tcp() {
     }
 }
 
-/// There is no ROS here: only its syntax is checked.
+/// There is no launch of ROS here: only its syntax is checked, and its options in `tests/program/ros2.rs`.
 #[test]
-fn the_ros_node_is_python() {
-    let node = root().join("examples/ros2/taxel_node.py");
+fn the_launch_file_is_python() {
+    let file = root().join("examples/ros2/taxel.launch.py");
     let check = "import ast, sys; ast.parse(open(sys.argv[1]).read())";
-    assert!(python().args(["-c", check]).arg(node).status().unwrap().success());
+    assert!(python().args(["-c", check]).arg(file).status().unwrap().success());
 }

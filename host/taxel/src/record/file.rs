@@ -1,8 +1,8 @@
 //! One file of a recording: its channels, and the messages written to them.
 
+use super::bag::Ros2;
 use super::message;
 use super::provenance::{self, Origin};
-use super::ros2::Ros2;
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
 use crate::client::{Client, Event, Worn};

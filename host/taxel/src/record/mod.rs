@@ -14,6 +14,7 @@
 //! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata
 //! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
 
+mod bag;
 mod counters;
 mod file;
 mod limit;
@@ -22,7 +23,6 @@ mod names;
 mod play;
 mod provenance;
 mod recorder;
-mod ros2;
 mod schemas;
 mod stamps;
 mod standing;

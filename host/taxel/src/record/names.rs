@@ -1,4 +1,4 @@
-//! Names of files and ROS topics.
+//! Names of files.
 
 use anyhow::{Result, bail};
 use std::path::{Path, PathBuf};
@@ -40,22 +40,15 @@ pub fn beside(path: &Path) -> PathBuf {
     path.with_extension("ros2.mcap")
 }
 
-/// A name as part of a ROS topic: letters, digits and underscores, not beginning with a digit.
-pub fn topic(name: &str) -> String {
-    let word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    if word.starts_with(|c: char| c.is_ascii_digit()) || word.is_empty() { format!("_{word}") } else { word }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn names_are_numbered_and_made_topics() {
+    fn names_are_numbered() {
         assert_eq!(numbered(Path::new("a/b.mcap"), 1), Path::new("a/b.mcap"));
         assert_eq!(numbered(Path::new("a/b.mcap"), 12), Path::new("a/b-0012.mcap"));
         assert_eq!(numbered(Path::new("b"), 2), Path::new("b-0002"));
         assert_eq!(beside(Path::new("a/b.mcap")), Path::new("a/b.ros2.mcap"));
-        assert_eq!((topic("left arm").as_str(), topic("3").as_str()), ("left_arm", "_3"));
     }
 }

@@ -34,6 +34,14 @@ impl SceneFile {
         SceneFile::parse(text, name, path.parent().unwrap_or(Path::new(".")))
     }
 
+    /// A scene by its file, or by its text, which has more than one line or an assignment.
+    pub fn named(path_or_text: &str) -> Result<SceneFile> {
+        if path_or_text.contains(['\n', '=']) && !Path::new(path_or_text).is_file() {
+            return SceneFile::parse(path_or_text.into(), "the scene".into(), Path::new("."));
+        }
+        SceneFile::read(Path::new(path_or_text))
+    }
+
     /// Parses a scene's text. `name` names it in errors; paths of maps are relative to `folder`.
     pub fn parse(text: String, name: String, folder: &Path) -> Result<SceneFile> {
         let said: toml::Table =

@@ -13,6 +13,7 @@ mod maps;
 mod meaning;
 mod people;
 mod points;
+mod ros2;
 mod scan;
 mod session;
 #[path = "../../../../core/tests/core/shape/rig.rs"]

@@ -3,4 +3,6 @@
 #[cfg(feature = "foxglove")]
 pub mod foxglove;
 pub mod live;
+#[cfg(feature = "ros2")]
+pub mod ros2;
 pub mod view;

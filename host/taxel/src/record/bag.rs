@@ -1,10 +1,21 @@
-//! Assigns messages to topics.
+//! ROS 2 messages of a board's stream, in a file beside the recording (`NAME.ros2.mcap`), so that `ros2 bag
+//! play` and RViz read them without a node of ours.
+//!
+//! | topic | message | what |
+//! |---|---|---|
+//! | `/tactile/PANEL/image` | sensor_msgs/Image, mono16 | pressure, counts |
+//! | `/tactile/PANEL/points` | sensor_msgs/PointCloud2 | x, y, z in m on the panel, pressure in counts; if the pitch is known |
+//! | `/tactile/PANEL/wrench` | geometry_msgs/WrenchStamped | sum of the normal forces, N; if counts per newton are known |
+//! | `/tf_static` | tf2_msgs/TFMessage | the frame of each panel on its link; panels of one link side by side |
+//! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second |
+//!
+//! The frame of a panel's messages is `tactile/PANEL`, whose parent is its link. Stamps are the host's time.
 
-use super::super::names;
-use super::super::stamps::Stamp;
-use super::{messages, schemas};
+use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
 use crate::recording::{Format, Store, Writer};
+use crate::ros2::messages::{self, BoardState};
+use crate::ros2::{schemas, topic_part};
 use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
@@ -56,7 +67,11 @@ impl<S: Store> Ros2<S> {
             }
             Event::Health(health) => {
                 let board = client.worn().map_or("", |worn| worn.firmware.as_str());
-                let data = messages::diagnostics(stamp.host_us, board, health, client.ill().len());
+                let data = messages::diagnostics(
+                    stamp.host_us,
+                    board,
+                    BoardState::Reports(health, client.ill().len()),
+                );
                 let schema = "diagnostic_msgs/msg/DiagnosticArray";
                 vec![Sent { topic: "/diagnostics".into(), schema, text: schemas::DIAGNOSTICS, data }]
             }
@@ -87,7 +102,7 @@ fn frame(client: &Client, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
         let taxels = usize::from(area.rows) * usize::from(area.columns);
         let values = image.get(start..start + taxels).unwrap_or(&[]);
         let mut send = |what: &str, schema, text, data| {
-            let topic = format!("/tactile/{}/{what}", names::topic(&area.name));
+            let topic = format!("/tactile/{}/{what}", topic_part(&area.name));
             all.push(Sent { topic, schema, text, data });
         };
         let time = stamp.host_us;

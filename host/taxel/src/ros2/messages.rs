@@ -1,7 +1,7 @@
-//! Encodes the messages.
+//! What a board reports, as standard messages.
 
-use super::super::names;
 use super::cdr::Cdr;
+use super::names::frame;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
 use taxel_core::wire::Health;
@@ -17,18 +17,9 @@ const NO_LINK: &str = "garment";
 /// Micrometres per metre.
 const UM: f32 = 1e6;
 
-/// Writes the header: time and frame.
+/// A message that begins with `std_msgs/Header`.
 fn head(host_us: u64, frame: &str) -> Cdr {
-    header(Cdr::default(), host_us, frame)
-}
-
-fn header(cdr: Cdr, host_us: u64, frame: &str) -> Cdr {
-    cdr.i32((host_us / 1_000_000) as i32).u32((host_us % 1_000_000) as u32 * 1000).text(frame)
-}
-
-/// Frame of a panel; it is its own, so that panels of one link do not overlap.
-fn frame(area: &Area) -> String {
-    format!("tactile/{}", names::topic(&area.name))
+    Cdr::default().time(host_us).text(frame)
 }
 
 /// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie
@@ -39,10 +30,8 @@ pub fn frames(host_us: u64, areas: &[Area]) -> Vec<u8> {
     for area in areas {
         let link = if area.link.is_empty() { NO_LINK } else { area.link.as_str() };
         let x = taken.entry(link).or_default();
-        cdr = header(cdr, host_us, link).text(&frame(area));
-        for value in [*x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] {
-            cdr = cdr.f64(value);
-        }
+        cdr = cdr.time(host_us).text(link).text(&frame(area));
+        cdr = cdr.f64s([*x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
         *x += f64::from(area.columns) * f64::from(area.pitch_um[0]) / f64::from(UM) + GAP;
     }
     cdr.finish()
@@ -80,35 +69,58 @@ pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
 
 /// `geometry_msgs/msg/WrenchStamped`: a force along z, N. Pressure pushes into the panel, against its normal.
 pub fn wrench(host_us: u64, area: &Area, newtons: f64) -> Vec<u8> {
-    let mut cdr = head(host_us, &frame(area));
-    for value in [0.0, 0.0, 0.0 - newtons, 0.0, 0.0, 0.0] {
-        cdr = cdr.f64(value);
-    }
-    cdr.finish()
+    head(host_us, &frame(area)).f64s([0.0, 0.0, 0.0 - newtons, 0.0, 0.0, 0.0]).finish()
 }
 
-/// `diagnostic_msgs/msg/DiagnosticArray`: the counters of a board; a warning if anything was lost or failed.
-pub fn diagnostics(host_us: u64, board: &str, health: &Health, ill: usize) -> Vec<u8> {
-    let bad = health.failed + health.overruns + health.lost > 0 || ill > 0;
-    let said = if bad { "scans, messages or taxels are missing" } else { "all is well" };
-    let values = [
-        ("scans", u64::from(health.scans)),
-        ("failed", health.failed.into()),
-        ("overruns", health.overruns.into()),
-        ("thinned_frames", health.thinned_frames.into()),
-        ("thinned_contacts", health.thinned_contacts.into()),
-        ("lost", health.lost.into()),
-        ("refused", health.refused.into()),
-        ("scan_us", health.scan_us.into()),
-        ("process_us", health.process_us.into()),
-        ("ill_taxels", ill as u64),
-    ];
-    let mut cdr = head(host_us, "").u32(1).u8(bad.into()).text("taxel: board").text(said).text(board);
-    cdr = cdr.u32(values.len() as u32);
-    for (key, value) in values {
-        cdr = cdr.text(key).text(&value.to_string());
-    }
-    cdr.finish()
+/// State of a board, as its diagnostics tell it.
+#[derive(Debug, Clone, Copy)]
+pub enum BoardState<'a> {
+    /// Its counters, and its number of faulty taxels. A warning if anything was lost or failed.
+    Reports(&'a Health, usize),
+    /// Its source is lost, and why: an error.
+    Lost(&'a str),
+}
+
+/// `diagnostic_msgs/msg/DiagnosticArray` of a board with this firmware.
+pub fn diagnostics(host_us: u64, firmware: &str, state: BoardState<'_>) -> Vec<u8> {
+    let mut values = Vec::new();
+    let (level, said) = match state {
+        BoardState::Reports(health, faulty) => {
+            let bad = health.failed + health.overruns + health.lost > 0 || faulty > 0;
+            values.extend([
+                ("scans", u64::from(health.scans)),
+                ("failed", health.failed.into()),
+                ("overruns", health.overruns.into()),
+                ("thinned_frames", health.thinned_frames.into()),
+                ("thinned_contacts", health.thinned_contacts.into()),
+                ("lost", health.lost.into()),
+                ("refused", health.refused.into()),
+                ("scan_us", health.scan_us.into()),
+                ("process_us", health.process_us.into()),
+                ("ill_taxels", faulty as u64),
+            ]);
+            (u8::from(bad), if bad { "scans, messages or taxels are missing" } else { "all is well" })
+        }
+        BoardState::Lost(why) => (2, why),
+    };
+    let status = head(host_us, "").u32(1).u8(level).text("taxel: board").text(said).text(firmware);
+    status.list(&values, |cdr, (key, value)| cdr.text(key).text(&value.to_string())).finish()
+}
+
+/// `std_msgs/msg/String`
+pub fn text(text: &str) -> Vec<u8> {
+    Cdr::default().text(text).finish()
+}
+
+/// `rosgraph_msgs/msg/Clock`
+pub fn clock(us: u64) -> Vec<u8> {
+    Cdr::default().time(us).finish()
+}
+
+/// `sensor_msgs/msg/JointState` with a stamp of seconds and nanoseconds: positions alone, rad.
+pub fn joints((sec, nanosec): (i32, u32), names: &[&str], positions: &[f64]) -> Vec<u8> {
+    let named = Cdr::default().i32(sec).u32(nanosec).text("").list(names, |cdr, name| cdr.text(name));
+    named.list(positions, |cdr, position| cdr.f64(*position)).u32(0).u32(0).finish()
 }
 
 #[cfg(test)]

@@ -32,6 +32,11 @@ impl Cdr {
         self.aligned([value])
     }
 
+    /// `uint16`
+    pub fn u16(self, value: u16) -> Cdr {
+        self.aligned(value.to_le_bytes())
+    }
+
     /// `int32`
     pub fn i32(self, value: i32) -> Cdr {
         self.aligned(value.to_le_bytes())
@@ -55,6 +60,21 @@ impl Cdr {
         cdr
     }
 
+    /// Numbers, one after another.
+    pub fn f64s(self, values: impl IntoIterator<Item = f64>) -> Cdr {
+        values.into_iter().fold(self, Cdr::f64)
+    }
+
+    /// A sequence: its length, and what `add` writes for each element.
+    pub fn list<T>(self, all: &[T], add: impl FnMut(Cdr, &T) -> Cdr) -> Cdr {
+        all.iter().fold(self.u32(all.len() as u32), add)
+    }
+
+    /// `builtin_interfaces/Time`: seconds and nanoseconds.
+    pub fn time(self, us: u64) -> Cdr {
+        self.i32((us / 1_000_000) as i32).u32((us % 1_000_000) as u32 * 1000)
+    }
+
     /// `uint8[]`
     pub fn data(self, data: &[u8]) -> Cdr {
         let mut cdr = self.u32(data.len() as u32);
@@ -62,7 +82,7 @@ impl Cdr {
         cdr
     }
 
-    /// The message.
+    /// The message, behind the header of four bytes.
     pub fn finish(self) -> Vec<u8> {
         self.bytes
     }

@@ -1,0 +1,71 @@
+//! `taxel ros2`: a ROS 2 node that publishes a board's stream, and takes joint states and concepts.
+
+use crate::ros2::{DOMAINS, RosNode, RosParameters, RosPlace, RosShow};
+use crate::watch::{self, BoardArgs, LiveArgs, seconds, stop};
+use anyhow::Result;
+use clap::Args;
+use taxel::source::SourceOptions;
+use taxel::tell::fault::Fault;
+
+/// Arguments of `taxel ros2`.
+#[derive(Debug, Clone, Args)]
+pub struct Ros2Args {
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// Domain of ROS, 0 to 232 [default: ROS_DOMAIN_ID, else 0]
+    #[arg(long, value_name = "N")]
+    pub domain: Option<u16>,
+    /// Namespace of the node
+    #[arg(long, value_name = "NAMESPACE", default_value = "/")]
+    pub namespace: String,
+    /// Name of the node
+    #[arg(long, value_name = "NAME", default_value = "taxel")]
+    pub name: String,
+    /// Images, points and forces of a panel per second; 0: none. The parameter image_hz changes it
+    #[arg(long, value_name = "HZ", default_value = "10", value_parser = hz, allow_negative_numbers = true)]
+    pub image_hz: f64,
+    /// Stamp messages with the board's time, and tell it on /clock: other nodes set use_sim_time
+    #[arg(long)]
+    pub clock: bool,
+    /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub seconds: Option<f64>,
+}
+
+/// Parses a rate of images.
+fn hz(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| (0.0..=1000.0).contains(rate));
+    rate.ok_or_else(|| "must be 0 to 1000".into())
+}
+
+impl Ros2Args {
+    /// Where the node is.
+    fn place(&self) -> Result<RosPlace> {
+        let domain = match (self.domain, std::env::var("ROS_DOMAIN_ID").ok().filter(|text| !text.is_empty()))
+        {
+            (Some(domain), _) => Some(domain),
+            (None, Some(text)) => text.trim().parse().ok(),
+            (None, None) => Some(0),
+        };
+        let domain = domain.filter(|domain| DOMAINS.contains(domain));
+        let must = "the domain of ROS (--domain, ROS_DOMAIN_ID) must be a whole number from 0 to 232";
+        let domain = domain.ok_or_else(|| Fault::usage(must))?;
+        Ok(RosPlace { domain, namespace: self.namespace.clone(), name: self.name.clone() })
+    }
+}
+
+/// Runs the command.
+pub fn run(args: Ros2Args) -> Result<()> {
+    let place = args.place()?;
+    place.check()?;
+    let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
+    let (source, _) = args.board.open(options)?;
+    let parameters = RosParameters { source: source.label.clone(), image_hz: args.image_hz };
+    let at = format!("{} as node {} in domain {}", source.label, place.absolute(&place.name), place.domain);
+    let mut show = RosShow::open(RosNode::open(place, &parameters)?, &source, args.clock)?;
+    // The node leaves the network before the program ends.
+    stop::catch()?;
+    println!("{at} (Ctrl-C ends)");
+    watch::watch(&LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board) }, source, &mut show)
+}

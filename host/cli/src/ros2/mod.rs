@@ -1,0 +1,32 @@
+//! A ROS 2 node, without a ROS: publishes a board's stream over DDS, and takes joint states and concepts.
+//!
+//! Topics, types and qualities of service are in [`taxel::ros2::topics`], the layout of the messages in
+//! [`taxel::ros2`]. The node is part of the program, not of the library: whoever writes a program around
+//! `taxel` has a client of ROS already, and the library stays free of DDS.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `names.rs` | names of topics in the node's namespace |
+//! | `raw.rs` | messages as they go over the wire |
+//! | `node.rs` | the node, its publishers and subscriptions |
+//! | `parameters.rs` | its parameters |
+//! | `panels.rs` | images, points and forces of the panels, thinned |
+//! | `posture.rs` | joint states on their way to the board |
+//! | `concepts.rs` | concepts on their way to the board |
+//! | `services.rs` | services, and the board's answers to them |
+//! | `show.rs` | [`RosShow`]: hands the stream to all of them |
+
+mod concepts;
+mod names;
+mod node;
+mod panels;
+mod parameters;
+mod posture;
+mod raw;
+mod services;
+mod show;
+
+pub use names::RosPlace;
+pub use node::{DOMAINS, RosNode};
+pub use parameters::RosParameters;
+pub use show::RosShow;

@@ -1,0 +1,103 @@
+//! Images, points and forces of the panels, as often as asked for.
+
+use super::node::RosNode;
+use anyhow::Result;
+use taxel::client::Client;
+use taxel::ros2::parameters::IMAGE_HZ;
+use taxel::ros2::topics::{FRAMES, IMAGE, POINTS, RosTopic, WRENCH};
+use taxel::ros2::{messages, topic_part};
+use taxel_core::garment::Area;
+
+/// The topics of each panel.
+const OF_PANEL: [RosTopic; 3] = [IMAGE, POINTS, WRENCH];
+
+/// What is published of the panels.
+#[derive(Debug)]
+pub struct Panels {
+    /// Counts per newton, if known.
+    pub per_newton: Option<f32>,
+    /// Panels that were offered.
+    areas: Vec<Area>,
+    /// The board's time from which the next image is due, us.
+    due_us: u64,
+}
+
+impl Panels {
+    /// None yet.
+    pub fn new(per_newton: Option<f32>) -> Panels {
+        Panels { per_newton, areas: Vec::new(), due_us: 0 }
+    }
+
+    /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed.
+    pub fn offer(&mut self, node: &mut RosNode, client: &Client, us: u64) -> Result<()> {
+        let areas = client.layout().map_or(&[][..], |layout| layout.areas());
+        if self.areas == areas {
+            return Ok(());
+        }
+        let topics = |areas: &[Area]| -> Vec<(RosTopic, String)> {
+            let of = |area: &Area| {
+                self.topics(area).map(|topic| (topic, topic_part(&area.name))).collect::<Vec<_>>()
+            };
+            areas.iter().flat_map(of).collect()
+        };
+        let kept: Vec<String> = topics(areas).iter().map(|(topic, part)| node.name(topic, part)).collect();
+        let gone: Vec<String> =
+            topics(&self.areas).iter().map(|(topic, part)| node.name(topic, part)).collect();
+        node.withdraw(|name| gone.iter().any(|gone| gone == name) && !kept.iter().any(|kept| kept == name));
+        for (topic, part) in topics(areas) {
+            node.offer(&topic, &part)?;
+        }
+        self.areas = areas.to_vec();
+        self.due_us = 0;
+        node.publish(&FRAMES, "", messages::frames(us, areas))
+    }
+
+    /// Topics of a panel: points need a pitch, forces a calibration.
+    fn topics(&self, area: &Area) -> impl Iterator<Item = RosTopic> + use<> {
+        let (is_flat, is_calibrated) = (!area.pitch_um.contains(&0), self.per_newton.is_some());
+        OF_PANEL
+            .into_iter()
+            .filter(move |topic| (is_flat || *topic != POINTS) && (is_calibrated || *topic != WRENCH))
+    }
+
+    /// Publishes the last image of a client, if it is due and somebody wants it. Messages have the time `us`.
+    pub fn image(&mut self, node: &mut RosNode, client: &Client, us: u64, board_us: u64) -> Result<()> {
+        let hz = node.number(IMAGE_HZ);
+        // A board that has restarted begins anew.
+        self.due_us = if hz > 0.0 { self.due_us.min(board_us + period_us(hz)) } else { u64::MAX };
+        if hz <= 0.0 || board_us < self.due_us {
+            return Ok(());
+        }
+        // Later than due by less than a frame: the next one is not late, too.
+        self.due_us = (self.due_us + period_us(hz)).max(board_us);
+        let Some((_, image)) = client.image() else { return Ok(()) };
+        for area in &self.areas {
+            let part = topic_part(&area.name);
+            let start = usize::from(area.base);
+            let values = image.get(start..start + usize::from(area.rows) * usize::from(area.columns));
+            let values = values.unwrap_or_default();
+            for topic in self.topics(area) {
+                if !node.wants(&topic, &part) {
+                    continue;
+                }
+                let message = match topic {
+                    IMAGE => messages::image(us, area, values),
+                    POINTS => messages::points(us, area, values),
+                    _ => messages::wrench(us, area, self.newtons(values)),
+                };
+                node.publish(&topic, &part, message)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn newtons(&self, values: &[u16]) -> f64 {
+        let counts: u32 = values.iter().map(|value| u32::from(*value)).sum();
+        f64::from(counts) / f64::from(self.per_newton.unwrap_or(1.0))
+    }
+}
+
+/// Time between two images, us.
+fn period_us(hz: f64) -> u64 {
+    (1e6 / hz) as u64
+}

@@ -1,0 +1,105 @@
+//! Joint states on their way to the board, as its posture.
+
+use super::node::RosNode;
+use super::raw::JointState;
+use anyhow::Result;
+use ros2_client::Subscription;
+use std::time::{Duration, Instant};
+use taxel::client::Client;
+use taxel::ros2::messages;
+use taxel::ros2::topics::{JOINT_STATES, POSTURE};
+use taxel_core::fold::{JointAngle, Posture};
+use taxel_core::format::{Name, name};
+use taxel_core::wire::Request;
+
+/// Longest wait for the board's answer before the next posture is sent.
+const ANSWER: Duration = Duration::from_millis(500);
+/// Shortest time between two postures: joint states may come every millisecond.
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// The newest joint states, and those that the board has not answered yet. One posture is under way at a time.
+pub struct Postures {
+    states: Subscription<JointState>,
+    newest: Option<JointState>,
+    asked: Option<JointState>,
+    sent: Instant,
+}
+
+impl Postures {
+    /// Subscribes to the joint states.
+    pub fn open(node: &mut RosNode) -> Result<Postures> {
+        node.offer(&POSTURE, "")?;
+        Ok(Postures {
+            states: node.subscribe(&JOINT_STATES, "")?,
+            newest: None,
+            asked: None,
+            sent: Instant::now(),
+        })
+    }
+
+    /// Takes what has come, and sends the newest.
+    pub fn turn(&mut self, client: &mut Client) -> Result<()> {
+        // What cannot be read is another program's mistake.
+        while let Some(state) = self.states.take().ok().flatten() {
+            self.newest = Some(state.0);
+        }
+        let waits = if self.asked.is_some() { ANSWER } else { PAUSE };
+        let joints = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+        if self.sent.elapsed() < waits || joints.is_empty() {
+            return Ok(());
+        }
+        let Some(state) = self.newest.take() else { return Ok(()) };
+        let posture = posture(joints, &state);
+        if !posture.joints.is_empty() {
+            client.request(&Request::Posture(posture))?;
+            (self.asked, self.sent) = (Some(state), Instant::now());
+        }
+        Ok(())
+    }
+
+    /// Tells the posture that the board has accepted.
+    pub fn answered(&mut self, node: &mut RosNode, client: &Client, is_done: bool) -> Result<()> {
+        let Some(state) = self.asked.take().filter(|_| is_done) else { return Ok(()) };
+        let joints = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+        let posture = posture(joints, &state);
+        let told = posture.joints.iter().filter_map(|angle| {
+            Some((
+                joints.get(usize::from(angle.joint))?.as_str(),
+                f64::from(angle.centidegrees).to_radians() / 100.0,
+            ))
+        });
+        let (names, positions): (Vec<&str>, Vec<f64>) = told.unzip();
+        node.publish(&POSTURE, "", messages::joints(state.header.stamp, &names, &positions))
+    }
+}
+
+/// Angles of the scene's joints. A scene's names have at most 16 bytes: as much of the joint's name counts.
+fn posture(joints: &[Name], state: &JointState) -> Posture {
+    let angle = |(joint, position): (&String, &f64)| {
+        let index = joints.iter().position(|known| *known == name(joint))?;
+        // A joint that turns on and on has the angle that it shows.
+        let degrees = (position.to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
+        let is_angle = position.is_finite();
+        is_angle.then(|| JointAngle { joint: index as u8, centidegrees: (degrees * 100.0).round() as i16 })
+    };
+    // A scene has no more joints than a posture.
+    Posture { joints: state.name.iter().zip(&state.position).filter_map(angle).take(joints.len()).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joints_are_found_by_name_and_turned_to_degrees() {
+        let joints = [name("elbow"), name("left_shoulder_pitch_joint")];
+        let state = JointState {
+            name: ["left_shoulder_pitch_joint", "knee", "elbow", "elbow"].map(String::from).to_vec(),
+            position: vec![std::f64::consts::FRAC_PI_2, 1.0, 3.0 * std::f64::consts::PI, f64::NAN],
+            ..JointState::default()
+        };
+        let angles: Vec<_> =
+            posture(&joints, &state).joints.iter().map(|j| (j.joint, j.centidegrees)).collect();
+        assert_eq!(angles, [(1, 9000), (0, -18_000)]);
+    }
+}

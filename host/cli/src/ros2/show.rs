@@ -1,0 +1,148 @@
+//! Hands a board's stream to the node.
+
+use super::concepts::Concepts;
+use super::node::RosNode;
+use super::panels::Panels;
+use super::posture::Postures;
+use super::services::Services;
+use anyhow::Result;
+use ros2_client::log::LogLevel;
+use serde_json::Value;
+use taxel::client::{Client, Event, ImageNews};
+use taxel::json;
+use taxel::record::{Stamp, Stamps};
+use taxel::ros2::messages::{self, BoardState};
+use taxel::ros2::own;
+use taxel::ros2::topics::{CLOCK, CONTACTS, DIAGNOSTICS, FRAMES, HEALTH, INTENT, JSON, REACTIONS, SYMBOLS};
+use taxel::session::Show;
+use taxel::source::Source;
+use taxel_core::fold::Posture;
+use taxel_core::wire::Request;
+
+/// Publishes a board's stream, and passes on what comes for the board.
+pub struct RosShow {
+    node: RosNode,
+    stamps: Stamps,
+    /// The board's time is ROS's.
+    is_clock: bool,
+    panels: Panels,
+    postures: Postures,
+    concepts: Concepts,
+    services: Services,
+    /// Messages without room that were reported.
+    told_lost: u64,
+}
+
+impl RosShow {
+    /// Offers everything. With `is_clock`, stamps are the board's time, which is told on `/clock`.
+    pub fn open(mut node: RosNode, source: &Source, is_clock: bool) -> Result<RosShow> {
+        for topic in [CONTACTS, SYMBOLS, REACTIONS, INTENT, HEALTH, JSON, FRAMES, DIAGNOSTICS] {
+            node.offer(&topic, "")?;
+        }
+        if is_clock {
+            node.offer(&CLOCK, "")?;
+        }
+        let deaf = (!source.listens).then(|| source.label.clone());
+        Ok(RosShow {
+            stamps: Stamps::start(),
+            is_clock,
+            panels: Panels::new(source.counts_per_newton),
+            postures: Postures::open(&mut node)?,
+            concepts: Concepts::default(),
+            services: Services::open(&mut node, deaf)?,
+            told_lost: 0,
+            node,
+        })
+    }
+
+    /// Time of a message, us.
+    fn us(&self, stamp: Stamp) -> u64 {
+        if self.is_clock { stamp.board_us } else { stamp.host_us }
+    }
+
+    /// Publishes an event's own messages.
+    fn publish(&mut self, client: &Client, event: &Event, us: u64, board_us: u64) -> Result<()> {
+        let node = &mut self.node;
+        match event {
+            Event::Hello => {
+                self.panels.offer(node, client, us)?;
+                self.concepts.offer(node, client)
+            }
+            Event::Frame { image: ImageNews::Whole, .. } => self.panels.image(node, client, us, board_us),
+            Event::Contacts { frame, dropped, released, .. } => {
+                let list_of = (*frame, *dropped);
+                let message = own::contacts(us, client, list_of, released, self.panels.per_newton);
+                node.publish(&CONTACTS, "", message)
+            }
+            Event::Symbols(list) => node.publish(&SYMBOLS, "", own::symbols(us, client, list)),
+            Event::Reaction(report) => node.publish(&REACTIONS, "", own::reaction(us, report)),
+            Event::Intent(report) => node.publish(&INTENT, "", own::intent(us, client, report)),
+            Event::Health(health) => {
+                node.publish(&HEALTH, "", own::health(us, client, health))?;
+                let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
+                let state = BoardState::Reports(health, client.ill().len());
+                node.publish(&DIAGNOSTICS, "", messages::diagnostics(us, firmware, state))?;
+                self.tell_lost();
+                Ok(())
+            }
+            Event::Answer { request, refusal } => {
+                self.services.answered(*request, refusal.as_deref());
+                if *request == Request::Posture(Posture::default()).number() {
+                    self.postures.answered(node, client, refusal.is_none())?;
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Reports messages for which there was no room.
+    fn tell_lost(&mut self) {
+        let lost = self.node.lost - self.told_lost;
+        if lost > 0 {
+            self.told_lost = self.node.lost;
+            let why = "a subscriber has confirmed nothing for long";
+            self.node.log(LogLevel::Warn, &format!("{lost} messages were not published: {why}"));
+        }
+    }
+}
+
+impl Show for RosShow {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        let stamp = self.stamps.of(client, event);
+        if self.is_clock {
+            self.node.publish(&CLOCK, "", messages::clock(stamp.board_us))?;
+        }
+        self.publish(client, event, self.us(stamp), stamp.board_us)?;
+        let is_line = !matches!(event, Event::Frame { .. } | Event::Raw { .. } | Event::Refused(_));
+        if is_line && self.node.wants(&JSON, "") {
+            let mut line = json::message(client, event);
+            if line != Value::Null {
+                line["host_time_us"] = stamp.host_us.into();
+                if let Some(uncertainty_us) = stamp.uncertainty_us {
+                    line["host_time_uncertainty_us"] = uncertainty_us.into();
+                }
+                self.node.publish(&JSON, "", messages::text(&line.to_string()))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A lost board is an error of the diagnostics until it reports its health again.
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+        let Event::Log { text, .. } = note else { return Ok(()) };
+        eprintln!("{text}");
+        self.node.log(LogLevel::Warn, text);
+        let stamp = self.stamps.now(client);
+        let us = self.us(stamp);
+        let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
+        self.node.publish(&DIAGNOSTICS, "", messages::diagnostics(us, firmware, BoardState::Lost(text)))
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        self.services.turn(&self.node, client)?;
+        self.postures.turn(client)?;
+        self.concepts.turn(&self.node, client)?;
+        Ok(true)
+    }
+}

@@ -1,0 +1,101 @@
+//! Topics and services of the node `taxel ros2`: their names, types and qualities of service. Recordings have
+//! some of the topics, too.
+
+/// Quality of service of a topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RosQos {
+    /// Lost messages are sent again; else they are not.
+    pub reliable: bool,
+    /// A new subscriber gets the last messages.
+    pub latched: bool,
+    /// Messages kept for a subscriber.
+    pub depth: usize,
+}
+
+/// A topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RosTopic {
+    /// Its name; `PANEL` and `CONCEPT` stand for one topic each. A name that does not begin with `/` lies in the
+    /// node's namespace, behind the node's name if it begins with `~/`.
+    pub name: &'static str,
+    /// Package and name of its type.
+    pub message: (&'static str, &'static str),
+    /// Its quality of service.
+    pub qos: RosQos,
+}
+
+const fn topic(name: &'static str, package: &'static str, message: &'static str, qos: RosQos) -> RosTopic {
+    RosTopic { name, message: (package, message), qos }
+}
+
+/// Each message counts.
+const EVERY: RosQos = RosQos { reliable: true, latched: false, depth: 100 };
+/// Each message counts, and the last one to a new subscriber.
+const STATE: RosQos = RosQos { reliable: true, latched: true, depth: 1 };
+/// The newest message counts, as for images of a camera.
+const NEWEST: RosQos = RosQos { reliable: false, latched: false, depth: 5 };
+
+/// Contacts of each scan.
+pub const CONTACTS: RosTopic = topic("~/contacts", "taxel_msgs", "Contacts", EVERY);
+/// Words for contacts.
+pub const SYMBOLS: RosTopic = topic("~/symbols", "taxel_msgs", "Symbols", EVERY);
+/// Reactions, and their ends.
+pub const REACTIONS: RosTopic = topic("~/reactions", "taxel_msgs", "Reaction", EVERY);
+/// The intention.
+pub const INTENT: RosTopic = topic("~/intent", "taxel_msgs", "Intent", EVERY);
+/// Counters of the board.
+pub const HEALTH: RosTopic = topic("~/health", "taxel_msgs", "Health", STATE);
+/// Every event but images as a line of JSON, for nodes without `taxel_msgs`.
+pub const JSON: RosTopic = topic("~/json", "std_msgs", "String", EVERY);
+/// The posture that the board has accepted, with the stamp of the joint states that it came from.
+pub const POSTURE: RosTopic = topic("~/posture", "sensor_msgs", "JointState", STATE);
+/// Image of a panel.
+pub const IMAGE: RosTopic = topic("tactile/PANEL/image", "sensor_msgs", "Image", NEWEST);
+/// Points of a panel.
+pub const POINTS: RosTopic = topic("tactile/PANEL/points", "sensor_msgs", "PointCloud2", NEWEST);
+/// Force on a panel.
+pub const WRENCH: RosTopic = topic("tactile/PANEL/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
+/// Frames of the panels.
+pub const FRAMES: RosTopic = topic("/tf_static", "tf2_msgs", "TFMessage", STATE);
+/// State of the board.
+pub const DIAGNOSTICS: RosTopic = topic("/diagnostics", "diagnostic_msgs", "DiagnosticArray", EVERY);
+/// The board's time, with `--clock`.
+pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
+
+/// What the node publishes.
+pub const PUBLISHED: [RosTopic; 13] = [
+    CONTACTS,
+    SYMBOLS,
+    REACTIONS,
+    INTENT,
+    HEALTH,
+    JSON,
+    POSTURE,
+    IMAGE,
+    POINTS,
+    WRENCH,
+    FRAMES,
+    DIAGNOSTICS,
+    CLOCK,
+];
+
+/// Joint states, taken as posture.
+pub const JOINT_STATES: RosTopic = topic("joint_states", "sensor_msgs", "JointState", NEWEST);
+/// A concept that the scene's map lets the host feed.
+pub const CONCEPT: RosTopic = topic("~/concepts/CONCEPT", "std_msgs", "Float64", EVERY);
+
+/// What the node subscribes to.
+pub const TAKEN: [RosTopic; 2] = [JOINT_STATES, CONCEPT];
+
+/// A service: its name, and package and name of its type.
+pub type RosService = (&'static str, (&'static str, &'static str));
+
+/// Takes the mean of the next frames as the baseline.
+pub const TARE: RosService = ("~/tare", ("std_srvs", "Trigger"));
+/// Saves the board's settings to its flash.
+pub const SAVE: RosService = ("~/save", ("std_srvs", "Trigger"));
+/// Sends a scene.
+pub const SET_SCENE: RosService = ("~/set_scene", ("taxel_msgs", "SetScene"));
+
+/// What the node offers.
+pub const SERVICES: [RosService; 3] = [TARE, SAVE, SET_SCENE];

@@ -1,0 +1,204 @@
+//! What a board reports, as messages, read again by their definitions.
+
+use super::definitions::Definitions;
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use taxel::client::{Client, Event};
+use taxel::json::message;
+use taxel::ros2::messages::{self, BoardState};
+use taxel::ros2::{own, schemas};
+use taxel::session::Session;
+use taxel_core::format::name;
+use taxel_core::react::Reaction;
+use taxel_core::wire::ReactionReport;
+
+/// Time of the messages, us.
+const US: u64 = 1_700_000_000_000_123;
+const STAMP: [u64; 2] = [1_700_000_000, 123_000];
+/// Counts per newton.
+const SCALE: f32 = 1000.0;
+
+fn stamp() -> Value {
+    json!({ "sec": STAMP[0], "nanosec": STAMP[1] })
+}
+
+/// Fields of `Contact.msg` that are keys of a contact's JSON.
+const SAME: [&str; 29] = [
+    "id",
+    "panel",
+    "panel_name",
+    "region",
+    "link",
+    "total",
+    "peak",
+    "peak_row",
+    "peak_column",
+    "area",
+    "perimeter",
+    "edge",
+    "x",
+    "y",
+    "azimuth",
+    "anisotropy",
+    "nmi",
+    "nmi_peak",
+    "nmi_s2",
+    "shape",
+    "confidence",
+    "dx",
+    "dy",
+    "vx",
+    "vy",
+    "slip",
+    "unsure",
+    "duration",
+    "peak_total",
+];
+
+/// Fails unless a contact says what its JSON says.
+fn same_contact(read: &Value, line: &Value) {
+    for key in SAME {
+        assert_eq!(read[key], line[key], "{key}");
+    }
+    let metres = |value: &Value, mm: &str| {
+        let (own, told) = (value.as_f64().unwrap(), line[mm].as_f64().unwrap() / 1000.0);
+        assert!((own - told).abs() <= 1e-12, "{mm}: {own} m");
+    };
+    metres(&read["position"]["x"], "x_mm");
+    metres(&read["position"]["y"], "y_mm");
+    metres(&read["breadth"], "breadth_mm");
+    metres(&read["peak_breadth"], "peak_breadth_mm");
+    assert_eq!(read["force"], json!(line["total"].as_f64().unwrap() / f64::from(SCALE)));
+    let phase = ["onset", "held", "released"][read["phase"].as_u64().unwrap() as usize];
+    assert_eq!(phase, line["phase"]);
+    assert_eq!(read["contact"], json!(phase != "released"));
+    let frame = format!("tactile/{}", line["panel_name"].as_str().unwrap().replace(' ', "_"));
+    assert_eq!(read["header"], json!({ "stamp": stamp(), "frame_id": frame }));
+}
+
+/// Fails unless an event's message says what its JSON says; returns the name of its type.
+fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static str> {
+    let line = message(client, event);
+    match event {
+        Event::Contacts { frame, dropped, released, .. } => {
+            let bytes = own::contacts(US, client, (*frame, *dropped), released, Some(SCALE));
+            let read = all.read("Contacts", &bytes);
+            for list in ["contacts", "released"] {
+                let (read, line) = (read[list].as_array().unwrap(), line[list].as_array().unwrap());
+                assert_eq!(read.len(), line.len());
+                read.iter().zip(line).for_each(|(read, line)| same_contact(read, line));
+            }
+            assert_eq!([&read["frame"], &read["dropped"]], [&line["frame"], &line["dropped"]]);
+            Some("Contacts")
+        }
+        Event::Symbols(list) => {
+            let read = all.read("Symbols", &own::symbols(US, client, list));
+            for (read, line) in
+                read["events"].as_array().unwrap().iter().zip(line["events"].as_array().unwrap())
+            {
+                let words = &line["words"];
+                for (field, told) in
+                    [("strength", "strength"), ("extent", "extent"), ("span", "span"), ("shape", "class")]
+                {
+                    assert_eq!(read[field], words[told]);
+                }
+                assert_eq!(read["duration"], json!(line["duration_ms"].as_f64().unwrap() / 1000.0));
+                assert_eq!([&read["contact"], &read["peak_total"]], [&line["contact"], &line["peak_total"]]);
+            }
+            for (read, line) in
+                read["regions"].as_array().unwrap().iter().zip(line["regions"].as_array().unwrap())
+            {
+                for key in ["region", "contacts", "total", "peak", "moving"] {
+                    assert_eq!(read[key], line[key], "{key}");
+                }
+            }
+            Some("Symbols")
+        }
+        Event::Intent(report) => {
+            let read = all.read("Intent", &own::intent(US, client, report));
+            assert_eq!([&read["leading"], &read["outcome"]], [&line["intent"]["leading"], &line["outcome"]]);
+            let concepts =
+                read["concepts"].as_array().unwrap().iter().zip(read["activations"].as_array().unwrap());
+            let told = &line["intent"]["concepts"];
+            assert!(concepts.clone().count() > 3);
+            concepts.for_each(|(name, value)| assert_eq!(*value, told[name.as_str().unwrap()]));
+            Some("Intent")
+        }
+        Event::Health(health) => {
+            let read = all.read("Health", &own::health(US, client, health));
+            for key in
+                ["scans", "failed", "overruns", "thinned_frames", "thinned_contacts", "lost", "refused"]
+            {
+                assert_eq!(read[key], line[key], "{key}");
+            }
+            assert_eq!(read["scan"], json!(line["scan_us"].as_f64().unwrap() / 1e6));
+            let told = messages::diagnostics(US, "x", BoardState::Reports(health, 3));
+            let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &told);
+            assert_eq!(read["status"][0]["values"][9], json!({ "key": "ill_taxels", "value": "3" }));
+            Some("Health")
+        }
+        Event::Frame { .. } => {
+            same_panels(client);
+            Some("Frame")
+        }
+        _ => None,
+    }
+}
+
+/// Fails unless the standard messages of an image are as their definitions say.
+fn same_panels(client: &Client) {
+    let Some((_, image)) = client.image() else { return };
+    let areas = client.layout().unwrap().areas();
+    for area in areas {
+        let start = usize::from(area.base);
+        let values = &image[start..start + usize::from(area.rows) * usize::from(area.columns)];
+        let read = Definitions::of_text("I", schemas::IMAGE).read("I", &messages::image(US, area, values));
+        assert_eq!(read["data"].as_array().unwrap().len(), 2 * values.len());
+        let read =
+            Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &messages::points(US, area, values));
+        assert_eq!(read["data"].as_array().unwrap().len(), 16 * values.len());
+        let read = Definitions::of_text("W", schemas::WRENCH).read("W", &messages::wrench(US, area, 2.5));
+        assert_eq!(read["wrench"]["force"]["z"], json!(-2.5));
+    }
+    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &messages::frames(US, areas));
+    assert_eq!(read["transforms"].as_array().unwrap().len(), areas.len());
+}
+
+#[test]
+fn every_message_is_as_its_definition_and_says_what_json_says() {
+    let all = Definitions::of_package();
+    let mut seen = BTreeSet::new();
+    let mut session = Session::open("sim:five").unwrap();
+    while let Some(event) = session.wait().unwrap() {
+        seen.extend(same(&all, session.client(), &event));
+    }
+    assert_eq!(Vec::from_iter(seen), ["Contacts", "Frame", "Health", "Intent", "Symbols"]);
+    let reaction = Reaction { index: 2, name: name("flinch"), active: true, value: -7 };
+    let report = ReactionReport { frame: 5, time: Default::default(), reaction };
+    let read = all.read("Reaction", &own::reaction(US, &report));
+    let header = json!({ "stamp": stamp(), "frame_id": "" });
+    let told =
+        json!({ "header": header, "frame": 5, "index": 2, "name": "flinch", "active": true, "value": -7 });
+    assert_eq!(read, told);
+}
+
+#[test]
+fn small_messages_are_as_their_definitions() {
+    let text = Definitions::of_text("S", "string data");
+    assert_eq!(text.read("S", &messages::text("a")), json!({ "data": "a" }));
+    let time = "builtin_interfaces/Time clock\n====\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
+    assert_eq!(Definitions::of_text("C", time).read("C", &messages::clock(US)), json!({ "clock": stamp() }));
+    let joints = "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n\
+                  ====\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n\
+                  ====\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
+    let read =
+        Definitions::of_text("J", joints).read("J", &messages::joints((4, 5), &["a", "bc"], &[1.0, -2.0]));
+    assert_eq!(read["header"]["stamp"], json!({ "sec": 4, "nanosec": 5 }));
+    assert_eq!([&read["name"], &read["position"]], [&json!(["a", "bc"]), &json!([1.0, -2.0])]);
+    let lost = messages::diagnostics(US, "taxel-fw", BoardState::Lost("usb is gone"));
+    let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &lost);
+    assert_eq!(
+        [&read["status"][0]["level"], &read["status"][0]["message"]],
+        [&json!(2), &json!("usb is gone")]
+    );
+}
