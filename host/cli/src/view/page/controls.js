@@ -31,6 +31,7 @@ const LIVE_KEYS = [
 ];
 /** Keys apart from these, and those of views and layers. */
 const KEYS = [
+  ["Tab", "to a panel, whose taxels the arrow keys read, or to the surface, which they turn; Page Up, Page Down, Home there"],
   ["+ −", "scale"],
   ["a", "adapt the scale to the pressure shown"],
   ["u", "kPa or counts"],
