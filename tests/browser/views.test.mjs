@@ -160,6 +160,17 @@ test("every view can be saved as a picture", async () => {
   }
 });
 
+test("a lost graphics card leaves the surface to the canvas", async () => {
+  const { browser } = both;
+  await show(browser, "surface");
+  const painter = "taxel.views.surface.relief.painter";
+  await browser.value(`void ${painter}.gl.getExtension("WEBGL_lose_context").loseContext()`);
+  await browser.until(`${painter}.constructor.name === "FlatPainter"`);
+  await drawn(browser);
+  const found = await colours(browser, "#view-surface");
+  assert.ok(found.length > 50, `${found.length} colours`);
+});
+
 test("light and dark, and a telephone, fit", async () => {
   const { browser, view } = both;
   const back = () => browser.value("getComputedStyle(document.body).backgroundColor");

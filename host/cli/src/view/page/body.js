@@ -76,7 +76,10 @@ export class Body {
       context.strokeRect(...box);
       const touches = settings.contacts && !settings.held ? shown.head.frame.contacts : [];
       for (const touch of touches.filter((c) => c.panel === index)) {
-        const at = /** @type {const} */ ([left + ((touch.x + 0.5) / panel.columns) * box[2], upper + ((touch.y + 0.5) / panel.rows) * box[3]]);
+        const at = /** @type {const} */ ([
+          left + ((touch.x + 0.5) / panel.columns) * box[2],
+          upper + ((touch.y + 0.5) / panel.rows) * box[3],
+        ]);
         context.beginPath();
         context.arc(at[0], at[1], 11, 0, 2 * Math.PI);
         context.strokeStyle = colour("mark");

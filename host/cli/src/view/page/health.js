@@ -131,11 +131,14 @@ function lists(garment, states) {
         ["perception", `${board.process_us} us`],
       ]
     : [];
-  const cells = counts.map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, String(name)), make("td", {}, String(value))));
+  const cells = counts.map(([name, value]) =>
+    make("tr", {}, make("th", { scope: "row" }, String(name)), make("td", {}, String(value))),
+  );
   const title = ill.length
     ? `${ill.length} of ${garment.taxels} taxels are faulty`
     : "No faulty taxels.";
-  const items = (/** @type {HTMLElement[]} */ lines) => make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
+  const items = (/** @type {HTMLElement[]} */ lines) =>
+    make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
   const pins = states.pins?.told ?? ["The board has not tested its lines and inputs yet."];
   return [
     make("h2", {}, title),

@@ -67,7 +67,8 @@ export class Hover {
 
   /** @param {Place | null} place */
   set(place) {
-    const inside = (/** @type {Place} */ p) => p.row >= 0 && p.column >= 0 && p.row < p.panel.rows && p.column < p.panel.columns;
+    const inside = (/** @type {Place} */ p) =>
+      p.row >= 0 && p.column >= 0 && p.row < p.panel.rows && p.column < p.panel.columns;
     if (place && !inside(place)) return;
     const taxel = (/** @type {Place | null} */ p) => (p ? p.panel.base + p.row * p.panel.columns + p.column : null);
     const before = taxel(this.place);
@@ -107,7 +108,7 @@ export class Hover {
       ["raw code", !store.recorded && store.paused ? "live only" : (told?.code ?? waits)],
       ["health", store.ill().get(taxel) ?? "good"],
       ["highest", pressure(garment, store.held?.[taxel] ?? 0)],
-      ["wired", !told || told.block === null ? "–" : `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`],
+      ["wired", wiredText(told)],
     ];
     element.replaceChildren(
       make("b", {}, `${place.panel.name}, row ${place.row}, column ${place.column}`),
@@ -119,4 +120,13 @@ export class Hover {
     element.style.transform = `translate(${Math.max(4, left)}px, ${Math.max(4, top)}px)`;
     element.style.left = element.style.top = "0";
   }
+}
+
+/**
+ * Where a taxel is wired to, if that is known.
+ * @param {import("./types.d.ts").TaxelState | null} told
+ */
+function wiredText(told) {
+  if (!told || told.block === null) return "–";
+  return `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`;
 }

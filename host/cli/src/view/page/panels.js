@@ -68,7 +68,8 @@ export class Panels {
       const canvas = make("canvas", {
         tabindex: 0,
         role: "application",
-        "aria-label": `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns. Arrow keys read taxels.`,
+        "aria-label":
+          `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns. ` + "Arrow keys read taxels.",
         style: `width:${panel.columns * panel.mm[0] * scale}px;height:${panel.rows * panel.mm[1] * scale}px`,
       });
       this.hover.watch(canvas, panel);

@@ -41,7 +41,9 @@ export class Raster {
     const fine = smooth ? FINE : 1;
     this.size(columns * fine, rows * fine);
     if (smooth) interpolate(this.pixels, image, panel, top);
-    else for (let at = 0; at < rows * columns; at += 1) this.pixels[at] = palette.pixels[stepOf(image[base + at] ?? 0, top)] ?? 0;
+    else
+      for (let at = 0; at < rows * columns; at += 1)
+        this.pixels[at] = palette.pixels[stepOf(image[base + at] ?? 0, top)] ?? 0;
     this.clear(panel, absent, fine);
     if (this.data) this.context.putImageData(this.data, 0, 0);
     return this.canvas;

@@ -115,7 +115,8 @@ export class Store {
    */
   image({ image, highest, samples, ...head }) {
     const { garment, latest, held } = this;
-    if (!garment || !held || image.length !== garment.taxels || !this.follows(head.frame, latest?.head.frame.time_us)) return;
+    if (!garment || !held || image.length !== garment.taxels) return;
+    if (!this.follows(head.frame, latest?.head.frame.time_us)) return;
     for (let taxel = 0; taxel < highest.length; taxel += 1) {
       held[taxel] = Math.max(held[taxel] ?? 0, highest[taxel] ?? 0);
     }

@@ -116,9 +116,9 @@ export const leadingAt = (intentions, at) => intentions[countUntil(intentions, a
  * @returns {[number, number, string][]}
  */
 export function stretches(intentions, end) {
-  return intentions
-    .map(([from, leading], index) => /** @type {[number, number, string]} */ ([from, intentions[index + 1]?.[0] ?? end, leading]))
-    .filter(([, , leading]) => leading !== "none");
+  /** @type {[number, number, string][]} */
+  const all = intentions.map(([from, leading], index) => [from, intentions[index + 1]?.[0] ?? end, leading]);
+  return all.filter(([, , leading]) => leading !== "none");
 }
 
 /** Kinds with a mark, in drawing order: the most important last. */
