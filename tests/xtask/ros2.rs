@@ -124,9 +124,9 @@ fn contents(folder: &Path) -> Result<String, String> {
     paths.iter().map(of).collect()
 }
 
-/// The program with all features, as the other tests build it; a copy, which no other build replaces.
+/// The program that the other tests have built, with all features; a copy, which no other build replaces.
 fn program(folder: &Path, log: &Path) -> Result<PathBuf, String> {
-    let build = [&["build"], WHOLE, &["--bin", "taxel"]].concat();
+    let build = [&["test"], WHOLE, &["--test", "program", "--no-run"]].concat();
     process::run_into(&mut cargo(&build, paths::root()), log)?;
     let copy = folder.join("bin/taxel");
     // One that still runs is not overwritten.
