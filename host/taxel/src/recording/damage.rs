@@ -66,7 +66,11 @@ impl Damage {
         let next = match self.end {
             Some(end) if is_plausible(records, end)? => Some(end),
             _ if places.is_empty() => next_chunk(records, self.offset + 1)?,
-            _ => places.iter().map(|place| place.chunk_start_offset).find(|start| *start > self.offset),
+            _ => {
+                // A damaged index may name a place outside of the file.
+                let rest = self.offset + 1..records.length();
+                places.iter().map(|place| place.chunk_start_offset).find(|start| rest.contains(start))
+            }
         };
         let end = next.unwrap_or(records.length());
         let lost = || places.iter().filter(|place| (self.offset..end).contains(&place.chunk_start_offset));
