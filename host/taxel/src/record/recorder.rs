@@ -23,8 +23,8 @@ use taxel_core::wire::{self, Request};
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
-/// Board time between two chunks for sources faster than real time, us, so that readers can seek to any
-/// second.
+/// Most board time between two chunks for sources faster than real time, us, so that readers can seek to any
+/// second. A chunk of more than half of it ends before a key frame, so that the next one stands alone.
 const CHUNK_US: u64 = 1_000_000;
 
 /// Request number in the answer to an unreadable request, which the firmware does not know.
@@ -152,7 +152,9 @@ impl Recorder {
                 file.attach(worn, client.line(), &self.plan.origin, stamp)?;
             }
         }
-        if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
+        let is_key = matches!(event, Event::Frame { alone: true, .. });
+        let most = if is_key { CHUNK_US / 2 } else { CHUNK_US };
+        if stamp.board_us.abs_diff(self.chunk_us) >= most {
             self.chunk_us = stamp.board_us;
             file.close()?;
         }
