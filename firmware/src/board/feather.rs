@@ -17,7 +17,7 @@ use crate::{
     limits::INFO,
     link::{PacketHandler, Uart, Usb, Wire, uart},
     pins::LinePin,
-    scan::{FrameBegin, DmaChain},
+    scan::{DmaChain, FrameBegin},
     store::Flash,
 };
 use embassy_rp::{
