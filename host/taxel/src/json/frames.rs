@@ -2,7 +2,7 @@
 
 use super::{contact, intent};
 use crate::client::growths::Growths;
-use anyhow::Result;
+use crate::error::Result;
 use serde_json::{Value, json};
 use taxel_core::body::Placed;
 use taxel_core::condition::Tare;

@@ -7,10 +7,10 @@
 //! board has answered a `Sync`. Nothing else in a line depends on the host's time.
 
 use crate::client::{Client, Event, ImageNews, request_name};
+use crate::error::{Error, Result};
 use crate::files::calibrate::{Calibration, Forces};
 use crate::json;
 use crate::session::Show;
-use anyhow::Result;
 use serde_json::{Value, json};
 use std::io::Write;
 use taxel_core::body::Placed;
@@ -39,8 +39,8 @@ impl<W: Write> MessagePrinter<W> {
     }
 }
 
-impl<W: Write> Show for MessagePrinter<W> {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl<W: Write, E: From<Error>> Show<E> for MessagePrinter<W> {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
         let mut line = message(client, event);
         if let (true, Event::Frame { image: ImageNews::Whole, .. }) = (self.pixels, event) {
             line["panels"] = pixels(client);
@@ -58,16 +58,16 @@ impl<W: Write> Show for MessagePrinter<W> {
             line["host_time_us"] = json!(time.us);
             line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
         }
-        Ok(writeln!(self.out, "{line}")?)
+        Ok(writeln!(self.out, "{line}").map_err(Error::from)?)
     }
 
-    fn idle(&mut self, _: &mut Client) -> Result<bool> {
-        self.out.flush()?;
+    fn idle(&mut self, _: &mut Client) -> Result<bool, E> {
+        self.out.flush().map_err(Error::from)?;
         Ok(true)
     }
 
-    fn end(&mut self, _: &Client) -> Result<()> {
-        Ok(self.out.flush()?)
+    fn end(&mut self, _: &Client) -> Result<(), E> {
+        Ok(self.out.flush().map_err(Error::from)?)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
+use crate::error::Result;
 use crate::json;
-use anyhow::Result;
 use serde::Serialize;
 use serde_json::{Value, json};
 
