@@ -3,6 +3,7 @@
 use super::board::{BoardMap, MapState};
 use super::decimal::Decimal;
 use super::map::MapFile;
+use crate::files::rows::{CsvRow, rows};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -39,10 +40,8 @@ pub fn read(path: &Path, file: &MapFile, map: &BoardMap) -> Result<Touches> {
 
 /// Parses the text of a file.
 pub fn parse(text: &str, file: &MapFile, map: &BoardMap) -> Result<Touches> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let cells = |line: &str| -> Vec<String> { line.split(',').map(|cell| cell.trim().to_string()).collect() };
-    let (_, header) = lines.next().context("it is empty")?;
-    let header = cells(header);
+    let rows = rows(text);
+    let (CsvRow { cells: header, .. }, rows) = rows.split_first().context("it is empty")?;
     let column = |name: &str| header.iter().position(|cell| cell == name);
     let label = column("label").context("line 1: there is no column label")?;
     let group = column("group");
@@ -56,21 +55,19 @@ pub fn parse(text: &str, file: &MapFile, map: &BoardMap) -> Result<Touches> {
         inputs.push((at, concept));
     }
     let mut found = Touches { classes: Vec::new(), touches: Vec::new() };
-    for (at, line) in lines {
-        let row = cells(line);
+    for CsvRow { line, cells: row } in rows {
         if row.len() != header.len() {
-            bail!("line {}: {} values, and there are {} columns", at + 1, row.len(), header.len());
+            bail!("line {line}: {} values, and there are {} columns", row.len(), header.len());
         }
         let mut activations = Vec::new();
         for (cell, concept) in &inputs {
             let value = Decimal::parse(&row[*cell]).filter(|value| value.is_fraction());
-            let wrong = || {
-                format!("line {}: {} = {:?} is not a number in -1 ..= 1", at + 1, header[*cell], row[*cell])
-            };
+            let wrong =
+                || format!("line {line}: {} = {:?} is not a number in -1 ..= 1", &header[*cell], &row[*cell]);
             activations.push((*concept, value.with_context(wrong)?));
         }
-        let class = found.class(&row[label], file).with_context(|| format!("line {}", at + 1))?;
-        let group = group.map_or(String::new(), |group| row[group].clone());
+        let class = found.class(&row[label], file).with_context(|| format!("line {line}"))?;
+        let group = group.map_or(String::new(), |group| row[group].to_string());
         found.touches.push(Labelled { start: map.state(activations), class, group });
     }
     match found.classes.len() {

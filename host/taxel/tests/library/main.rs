@@ -8,6 +8,7 @@ mod drift;
 mod faults;
 mod fcm;
 mod health;
+mod lines;
 mod link;
 mod maps;
 mod meaning;
