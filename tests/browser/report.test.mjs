@@ -81,11 +81,11 @@ test("terminal, page and report show a touch in one palette on one scale", async
     const { css, palette } = await import("./colours.js");
     const hex = (text) => "#" + text.match(/\\d+/g).map((part) => Number(part).toString(16).padStart(2, "0")).join("");
     const share = (value) => Math.min(1, value / ${top});
-    const { settings } = taxel;
     return {
       wanted: ${JSON.stringify(image)}.map((value) => hex(css(share(value)))),
       ramp: Array.from({ length: 16 }, (_, step) => hex("rgb(" + palette.ramp[step * 17].join(" ") + ")")),
-      start: settings.top,
+      // The page's own scale may have followed a touch since.
+      start: palette.start,
     };
   })()`);
   // Report: the cells of the panels, in the order of the taxels that are pressed.

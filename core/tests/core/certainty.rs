@@ -1,6 +1,6 @@
 //! How sure a gesture is: told before it, and asked of what is announced, whichever model is asked for later.
 
-use crate::board::{Bench, FINGER};
+use crate::board::{BoardAndHost, FINGER};
 use taxel_core::format::Q15;
 use taxel_core::gesture::GestureConfig;
 use taxel_core::scene::Scene;
@@ -8,7 +8,7 @@ use taxel_core::wire::{Report, Request};
 
 /// Of one touch of a finger, held for 3 s: of each gesture that is told, whether the touch is over, and the
 /// confidence.
-fn touch(bench: &mut Bench) -> Vec<(bool, Q15)> {
+fn touch(bench: &mut BoardAndHost) -> Vec<(bool, Q15)> {
     let (mut before, mut told) = (None, Vec::new());
     for scan in 0..900 {
         bench.press(&FINGER, if scan < 600 { 900 } else { 0 });
@@ -30,7 +30,7 @@ fn touch(bench: &mut Bench) -> Vec<(bool, Q15)> {
 
 #[test]
 fn a_certainty_is_asked_of_all_models_until_another_comes() {
-    let mut bench = Bench::new(Scene::shipped());
+    let mut bench = BoardAndHost::new(Scene::shipped());
     bench.ask(&Request::Start);
     bench.ask(&Request::Tare { frames: 1 });
     bench.scan();

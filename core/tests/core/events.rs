@@ -13,7 +13,7 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{self, Receiver, Report, Request};
 
 /// A mat, whose taxels show what is drawn at once.
-struct Bench {
+struct MatAndHost {
     board: Box<Shipped>,
     receiver: Box<Receiver<8192>>,
     now: u64,
@@ -22,15 +22,15 @@ struct Bench {
 /// Phases of the events that were told of each contact.
 type Told = BTreeMap<u32, Vec<Phase>>;
 
-impl Bench {
-    fn new() -> Bench {
+impl MatAndHost {
+    fn new() -> MatAndHost {
         let mut scene = Scene::shipped();
         scene.condition.filter = Filter::Off;
         // cm: a touch two taxels away is another one.
         scene.contact.gate = 1;
         scene.react.clear();
         let board = Shipped::new(BoardInfo::feather("test 1.0"), Garment::mat(), scene).unwrap();
-        let mut bench = Bench { board: Box::new(board), receiver: Box::default(), now: 0 };
+        let mut bench = MatAndHost { board: Box::new(board), receiver: Box::default(), now: 0 };
         for request in [Request::Start, Request::Tare { frames: 1 }] {
             let mut frame = [0; 64];
             let frame = wire::encode(&request, &mut frame).unwrap();
@@ -76,7 +76,7 @@ impl Bench {
 
 #[test]
 fn in_a_frame_all_contacts_end_and_as_many_begin() {
-    let (mut bench, mut told) = (Bench::new(), Told::new());
+    let (mut bench, mut told) = (MatAndHost::new(), Told::new());
     for first in [0, 2, 0, 2] {
         bench.scan(Some(first));
         bench.read(&mut told);

@@ -1,6 +1,6 @@
 //! Another scene or garment while a reaction lasts: its pin, and its end.
 
-use crate::board::{Bench, FINGER};
+use crate::board::{BoardAndHost, FINGER};
 use taxel_core::board::Job;
 use taxel_core::format::name;
 use taxel_core::garment::Garment;
@@ -28,7 +28,7 @@ fn scene() -> Scene {
 }
 
 /// Levels to which the reaction's pin is driven now.
-fn driven(bench: &mut Bench) -> Vec<bool> {
+fn driven(bench: &mut BoardAndHost) -> Vec<bool> {
     let pin = scene().react[0].output.unwrap().pin;
     let jobs = std::iter::from_fn(|| bench.tick()).take(20);
     jobs.filter_map(|job| if let Job::Drive(at, level) = job { (at == pin).then_some(level) } else { None })
@@ -36,7 +36,7 @@ fn driven(bench: &mut Bench) -> Vec<bool> {
 }
 
 /// Ends and beginnings that are told.
-fn told(bench: &mut Bench) -> Vec<bool> {
+fn told(bench: &mut BoardAndHost) -> Vec<bool> {
     let mut told = Vec::new();
     bench.drain(usize::MAX, |report| {
         if let Report::Reaction(report) = report {
@@ -48,8 +48,8 @@ fn told(bench: &mut Bench) -> Vec<bool> {
 }
 
 /// A board whose reaction lasts at 200 counts, inside the hysteresis.
-fn guarding() -> Bench {
-    let mut bench = Bench::new(scene());
+fn guarding() -> BoardAndHost {
+    let mut bench = BoardAndHost::new(scene());
     bench.ask(&Request::Start);
     bench.ask(&Request::Tare { frames: 1 });
     bench.scan();
@@ -62,7 +62,7 @@ fn guarding() -> Bench {
     bench
 }
 
-fn set(bench: &mut Bench, scene: &Scene) {
+fn set(bench: &mut BoardAndHost, scene: &Scene) {
     assert_eq!(bench.answer(&Request::SetScene(&postcard::to_allocvec(scene).unwrap())), None);
 }
 

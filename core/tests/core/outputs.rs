@@ -2,7 +2,7 @@
 //! while its cause holds, and every begin and end is told. The judge is a board of its own: it knows what was
 //! done, when, and what was told.
 
-use crate::board::{Bench, FINGER};
+use crate::board::{BoardAndHost, FINGER};
 use std::collections::BTreeMap;
 use taxel_core::acquire::ScanError;
 use taxel_core::board::{Input, Job, Saved};
@@ -42,7 +42,7 @@ fn scene() -> Scene {
 
 /// What was done, and what should follow.
 struct Judge {
-    bench: Bench,
+    bench: BoardAndHost,
     scene: Scene,
     random: fastrand::Rng,
     pins: BTreeMap<u8, bool>,
@@ -72,7 +72,7 @@ struct Judge {
 impl Judge {
     fn new(seed: u64) -> Judge {
         let mut judge = Judge {
-            bench: Bench::new(scene()),
+            bench: BoardAndHost::new(scene()),
             scene: scene(),
             random: fastrand::Rng::with_seed(seed),
             pins: BTreeMap::new(),

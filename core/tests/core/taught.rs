@@ -1,12 +1,12 @@
 //! A base of shapes is exchanged while something touches: no class is told under the names of another base.
 
-use crate::board::{Bench, FINGER};
+use crate::board::{BoardAndHost, FINGER};
 use taxel_core::scene::Scene;
 use taxel_core::shape::{Class, ConfidenceTable, Exemplar, GalleryHead, Space};
 use taxel_core::wire::{Report, Request};
 
 /// Classes of the contacts in lists that come after the base was told, and the last frame of them.
-fn told(bench: &mut Bench) -> Vec<(u32, Class)> {
+fn told(bench: &mut BoardAndHost) -> Vec<(u32, Class)> {
     let (mut exchanged, mut classes) = (false, Vec::new());
     bench.drain(usize::MAX, |report| match report {
         Report::Shapes(_) => exchanged = true,
@@ -21,7 +21,7 @@ fn told(bench: &mut Bench) -> Vec<(u32, Class)> {
 
 #[test]
 fn a_class_of_one_base_is_never_told_as_one_of_another() {
-    let mut bench = Bench::new(Scene::shipped());
+    let mut bench = BoardAndHost::new(Scene::shipped());
     bench.ask(&Request::Start);
     bench.ask(&Request::Tare { frames: 1 });
     bench.scan();

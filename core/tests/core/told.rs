@@ -1,7 +1,7 @@
 //! What a host is told of reactions when it comes late or reads slowly, and what its silence means to the
 //! board.
 
-use crate::board::{Bench, FINGER};
+use crate::board::{BoardAndHost, FINGER};
 use taxel_core::format::{Micros, Q15, name};
 use taxel_core::garment::Line;
 use taxel_core::react::{Cause, ReactionConfig};
@@ -21,20 +21,20 @@ fn scene(row: ReactionConfig) -> Scene {
 }
 
 /// A board whose reaction to pressure is at rest.
-fn guarding() -> Bench {
-    let mut bench = Bench::new(scene(row(Cause::Pressure, 300)));
+fn guarding() -> BoardAndHost {
+    let mut bench = BoardAndHost::new(scene(row(Cause::Pressure, 300)));
     bench.ask(&Request::Tare { frames: 1 });
     bench.scan();
     bench.drain(usize::MAX, |_| ());
     bench
 }
 
-fn press(bench: &mut Bench, code: u16) {
+fn press(bench: &mut BoardAndHost, code: u16) {
     bench.press(&FINGER, code);
     (0..4).for_each(|_| bench.scan());
 }
 
-fn told(bench: &mut Bench) -> Vec<bool> {
+fn told(bench: &mut BoardAndHost) -> Vec<bool> {
     let mut told = Vec::new();
     bench.drain(usize::MAX, |report| {
         if let Report::Reaction(report) = report {

@@ -24,7 +24,7 @@ use {defmt_rtt as _, embassy_rp as _};
 #[repr(C)]
 struct Mailbox {
     command: AtomicU32,
-    /// Number of valid halves of `content`, or of bytes in it.
+    /// Number of valid bytes of `content`.
     length: AtomicU32,
     bytes: AtomicU32,
     digest: AtomicU32,
@@ -76,7 +76,7 @@ fn main() -> ! {
     loop {
         let said = match mailbox.command.load(Relaxed) {
             RECEIVE => receive(chain, mailbox),
-            SCAN => chain.scanned(taken(codes, mailbox), &mut StageMarks, |_| ()),
+            SCAN => chain.scanned(scanned(codes, mailbox), &mut StageMarks, |_| ()),
             command => match command.checked_sub(KERNELS).and_then(|n| Kernel::all().nth(n as usize)) {
                 Some(kernel) => {
                     let digest = kernel.run(bench, taken(codes, mailbox), &mut StageMarks);
@@ -99,12 +99,19 @@ fn ship(chain: &mut Chain) {
     }
 }
 
-/// Copies the codes out of the mailbox.
+/// Copies the codes of a kernel out of the mailbox.
 fn taken<'a>(codes: &'a mut [Code; TAXELS], mailbox: &Mailbox) -> &'a [Code; TAXELS] {
     for (code, sent) in codes.iter_mut().zip(&mailbox.content) {
         code.0 = sent.load(Relaxed);
     }
     codes
+}
+
+/// Copies the codes of a scan out of the mailbox: as many as the garment has taxels.
+fn scanned<'a>(codes: &'a mut [Code; TAXELS], mailbox: &Mailbox) -> &'a [Code] {
+    let count = mailbox.length.load(Relaxed) as usize / 2;
+    let codes = taken(codes, mailbox);
+    codes.get(..count).unwrap_or(codes)
 }
 
 /// Passes the bytes from a host on, one at a time.

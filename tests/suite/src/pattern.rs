@@ -5,9 +5,9 @@ use crate::chain::{FULL_SCALE, TAXELS};
 use taxel_core::format::Code;
 
 /// Number of columns of a panel of the reference garment.
-const COLUMNS: usize = 16;
+pub const COLUMNS: usize = 16;
 /// Number of rows of a panel.
-const ROWS: usize = 32;
+pub const ROWS: usize = 32;
 
 /// Units of a [`Disc`]'s place and radius per taxel.
 pub const UNITS: i32 = 20;

@@ -130,7 +130,7 @@ pub const CASES: &[Case] = &[
     ),
     case(
         "record rotate",
-        "record --source sim:press --seconds 3 --rotate 1s -o out.mcap",
+        "record --source sim:press --seconds 2.5 --rotate 1s -o out.mcap",
         &[recording("out.mcap"), recording("out-0002.mcap"), recording("out-0003.mcap")],
     ),
     case("live save", "live --source sim:pat --frames 30 --json --save out.bytes", &[begins("out.bytes")]),

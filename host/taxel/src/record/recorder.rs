@@ -64,6 +64,8 @@ pub struct Recorder {
     worn: Option<Worn>,
     /// Board time since the file began.
     passed: Passed,
+    /// What `passed` was at the last key frame, us.
+    key_us: u64,
     /// Board time at the start of the chunk, us.
     chunk_us: u64,
     kept: Instant,
@@ -89,6 +91,7 @@ impl Recorder {
             standing: Standing::default(),
             worn: None,
             passed: Passed::default(),
+            key_us: 0,
             chunk_us: 0,
             kept: Instant::now(),
             counters: Counters::default(),
@@ -162,14 +165,16 @@ impl Recorder {
         file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
-    /// Continues in another file when due. It begins with a key frame, so that the file stands alone.
+    /// Continues in another file when due. It begins with a key frame, so that the file stands alone: with the
+    /// one next to the requested time.
     fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Event::Frame { alone: true, .. } = event else { return Ok(()) };
         let Some(file) = &self.file else { return Ok(()) };
         let passed = self.passed.until(stamp.board_us);
+        let since_key = passed - std::mem::replace(&mut self.key_us, passed);
         let due = match self.plan.rotate {
             None => false,
-            Some(Rotate::After(time)) => passed >= time.as_micros() as u64,
+            Some(Rotate::After(time)) => passed.saturating_add(since_key / 2) >= time.as_micros() as u64,
             Some(Rotate::Bytes(bytes)) => file.bytes() >= bytes,
         };
         if !due {
@@ -179,7 +184,7 @@ impl Recorder {
         self.tally[1] = self.tally[0];
         self.number += 1;
         self.path = numbered(&self.plan.path, self.number);
-        self.passed = Passed::default();
+        (self.passed, self.key_us) = (Passed::default(), 0);
         let file = self.file.insert(begin(&self.plan, &self.path)?);
         if let Some(worn) = &self.worn {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;

@@ -2,6 +2,7 @@
 //! for this machine.
 
 use anyhow::{Context, Result};
+use std::ops::Range;
 use std::path::Path;
 use taxel::client::Client;
 use taxel::files::arrays;
@@ -16,7 +17,7 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 use taxel_suite::chain::{FULL_SCALE, TAXELS};
 use taxel_suite::kernel::Kernel;
-use taxel_suite::pattern::TouchPattern;
+use taxel_suite::pattern::{COLUMNS, ROWS, TouchPattern};
 
 /// Frames of the tare.
 const TARE: u16 = 16;
@@ -46,7 +47,7 @@ pub struct Case {
     pub name: &'static str,
     /// Variant of the chain.
     pub variant: Variant,
-    /// Simulated pattern; none for a recording.
+    /// Simulated pattern on the reference garment; none for a recording or another garment.
     pub pattern: Option<TouchPattern>,
     garment: Garment,
     scene: Scene,
@@ -68,6 +69,12 @@ pub enum Variant {
     Gestures,
     /// With a shipped base of shapes taught to the board.
     Taught,
+    /// One panel of 64 x 32 taxels.
+    Columns32,
+    /// One panel of 64 x 27 taxels.
+    Columns27,
+    /// One block of 4 x 16 taxels.
+    Block,
 }
 
 impl Variant {
@@ -80,16 +87,46 @@ impl Variant {
             Variant::EightBit => "8 bit",
             Variant::Gestures => "gestures",
             Variant::Taught => "taught",
+            Variant::Columns32 => "32 columns",
+            Variant::Columns27 => "27 columns",
+            Variant::Block => "4 x 16",
+        }
+    }
+
+    /// Its garment.
+    fn garment(self) -> Garment {
+        match self {
+            Variant::Columns32 => Garment::mat(),
+            Variant::Columns27 => Garment::recorded(64, 27),
+            Variant::Block => Garment::block(),
+            _ => Garment::reference(),
+        }
+    }
+
+    /// Taxels of a pattern in the order of the variant's garment. The four panels of the pattern lie two by
+    /// two on a wide panel, cut at its right edge; a block is a cut through the first disc.
+    fn taxels(self) -> Vec<usize> {
+        let laid = |rows: Range<usize>, columns: usize| {
+            let taxel = move |row: usize, column: usize| {
+                (row / ROWS * 2 + column / COLUMNS) * ROWS * COLUMNS + row % ROWS * COLUMNS + column % COLUMNS
+            };
+            rows.flat_map(move |row| (0..columns).map(move |column| taxel(row, column))).collect()
+        };
+        match self {
+            Variant::Columns32 => laid(0..64, 32),
+            Variant::Columns27 => laid(0..64, 27),
+            Variant::Block => laid(8..12, 16),
+            _ => (0..TAXELS).collect(),
         }
     }
 
     fn scene(self) -> Scene {
         let mut scene = Scene::shipped();
         match self {
-            Variant::Shipped | Variant::Gestures | Variant::Taught => {}
             Variant::Off => scene.condition.filter = Filter::Off,
             Variant::Median => scene.condition.filter = Filter::Median,
             Variant::EightBit => scene.plan.depth = Depth::Eight,
+            _ => {}
         }
         scene
     }
@@ -125,23 +162,30 @@ impl Case {
             (TouchPattern::Texture, Variant::Off),
             (TouchPattern::Texture, Variant::Median),
         ]);
+        let wide = [Variant::Columns32, Variant::Columns27].into_iter().flat_map(|variant| {
+            [TouchPattern::Empty, TouchPattern::Five, TouchPattern::Texture].map(|pattern| (pattern, variant))
+        });
+        let block = [TouchPattern::Empty, TouchPattern::One, TouchPattern::Texture]
+            .map(|pattern| (pattern, Variant::Block));
+        let cases = cases.chain(wide).chain(block);
         cases.map(|(pattern, variant)| Case::of(pattern, variant)).collect()
     }
 
     fn of(pattern: TouchPattern, variant: Variant) -> Case {
-        let scene = variant.scene();
+        let (scene, taxels) = (variant.scene(), variant.taxels());
         let rest = (0..u32::from(TARE)).map(|n| (TouchPattern::Empty, n));
         let touch = (u32::from(TARE)..).map(|n| (pattern, n)).take(WARM + MEASURED);
         let frames = rest.chain(touch).map(|(pattern, number)| {
             let mut codes = [Code(0); TAXELS];
             pattern.codes(number, &mut codes);
-            codes.iter().map(|code| Code(scene.plan.depth.keep(code.0))).collect()
+            taxels.iter().map(|taxel| Code(scene.plan.depth.keep(codes[*taxel].0))).collect()
         });
+        let garment = variant.garment();
         Case {
             name: pattern.name(),
             variant,
-            pattern: Some(pattern),
-            garment: Garment::reference(),
+            pattern: (garment == Garment::reference()).then_some(pattern),
+            garment,
             frames: frames.collect(),
             scene,
         }
