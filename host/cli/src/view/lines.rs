@@ -89,12 +89,15 @@ pub struct PageFrame<'a> {
     #[serde(flatten)]
     pub line: FrameLine<'a>,
     /// Of a recording: time since its beginning, us.
+    #[cfg_attr(feature = "schema", schemars(with = "u64"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_us: Option<u64>,
     /// Of a recording: number of jumps in time.
+    #[cfg_attr(feature = "schema", schemars(with = "u32"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seeks: Option<u32>,
     /// True if the image is from before the page was opened.
+    #[cfg_attr(feature = "schema", schemars(with = "bool"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub past: Option<bool>,
 }
