@@ -97,7 +97,7 @@ impl Variant {
     fn garment(self) -> Garment {
         match self {
             Variant::Columns32 => Garment::mat(),
-            Variant::Columns27 => Garment::recorded(64, 27),
+            Variant::Columns27 => narrow(),
             Variant::Block => Garment::block(),
             _ => Garment::reference(),
         }
@@ -146,6 +146,17 @@ impl Variant {
         let often = GestureConfig { decide_ms: 50, onset_ms: 0, ..GestureConfig::default() };
         (self == Variant::Gestures).then_some(often)
     }
+}
+
+/// A mat without its last five columns.
+fn narrow() -> Garment {
+    let mut garment = Garment::mat();
+    let panel = &mut garment.panels[0];
+    panel.columns = 27;
+    for block in garment.blocks.iter_mut() {
+        block.columns = block.columns.min((panel.columns - block.column) as u8);
+    }
+    garment
 }
 
 impl Case {
@@ -235,5 +246,22 @@ impl Case {
         steps.push(ask(&Request::Start)?);
         steps.extend(touch.iter().cloned().map(Step::Scan));
         Ok(steps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Case;
+    use taxel_core::board::{BoardInfo, Shipped};
+
+    #[test]
+    fn a_board_accepts_the_garment_and_the_scene_of_each_case() {
+        for case in Case::simulated() {
+            let taxels: usize =
+                case.garment.panels.iter().map(|panel| usize::from(panel.rows * panel.columns)).sum();
+            assert!(case.frames.iter().all(|frame| frame.len() == taxels), "{:?}", case.variant);
+            let board = Shipped::new(BoardInfo::feather("test"), case.garment, case.scene);
+            assert!(board.is_ok(), "{:?}: {:?}", case.variant, board.err());
+        }
     }
 }
