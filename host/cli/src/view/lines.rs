@@ -1,5 +1,5 @@
-//! The JSON messages to a page, one struct each, but for those that are lines of `taxel live --json`. The docs
-//! of the fields are the descriptions in `page/messages.d.ts`.
+//! The JSON messages to a page, one struct each, but for those that are lines of `taxel live --json`. The
+//! docs of the fields are the descriptions in `page/messages.d.ts`.
 
 use super::line_kind::LineKind;
 use crate::palette::PaletteTold;
@@ -80,8 +80,8 @@ pub struct PageEdge {
     pub weight: f64,
 }
 
-/// The line of an image: that of the frame, but with the activations of the last moment at which the announced
-/// intention led.
+/// The line of an image: that of the frame, but with the activations of the last moment at which the
+/// announced intention led.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PageFrame<'a> {
@@ -289,7 +289,10 @@ mod tests {
             TaxelLine { taxel: 7, frame: None, code: None, block, wired_row: None, wired_column: block };
         assert_eq!(
             text(&taxel),
-            r#"{"type":"taxel","taxel":7,"frame":null,"code":null,"block":3,"wired_row":null,"wired_column":3}"#
+            concat!(
+                r#"{"type":"taxel","taxel":7,"frame":null,"code":null,"#,
+                r#""block":3,"wired_row":null,"wired_column":3}"#
+            )
         );
         let said = SayLine { text: "1 s on".into(), kind: LineKind::Onset, time_us: Some(9), said: "on" };
         assert_eq!(text(&said), r#"{"type":"say","text":"1 s on","kind":"onset","time_us":9,"said":"on"}"#);
@@ -304,7 +307,10 @@ mod tests {
             playing: true,
             seeks: 3,
         };
-        let told = r#"{"type":"player","at":0.5,"duration":10.0,"range":[0.0,10.0],"speed":1.0,"loop":false,"playing":true,"seeks":3}"#;
+        let told = concat!(
+            r#"{"type":"player","at":0.5,"duration":10.0,"range":[0.0,10.0],"speed":1.0,"#,
+            r#""loop":false,"playing":true,"seeks":3}"#
+        );
         assert_eq!(text(&player), told);
         let overview = OverviewLine {
             duration_us: 9,
@@ -315,7 +321,10 @@ mod tests {
             said: vec![(4, LineKind::Gap, "lost")],
             unlisted: 0,
         };
-        let told = r#"{"type":"overview","duration_us":9,"known_us":8,"width_us":7,"totals":[1,2],"intentions":[[3,"threat"]],"said":[[4,"gap","lost"]],"unlisted":0}"#;
+        let told = concat!(
+            r#"{"type":"overview","duration_us":9,"known_us":8,"width_us":7,"totals":[1,2],"#,
+            r#""intentions":[[3,"threat"]],"said":[[4,"gap","lost"]],"unlisted":0}"#
+        );
         assert_eq!(text(&overview), told);
     }
 
@@ -331,7 +340,10 @@ mod tests {
             latency_ms: None,
             pages: 6,
         };
-        let told = r#"{"type":"link","rate":195.5,"frames":1,"lost":2,"thinned":3,"refused":4,"restarts":5,"latency_ms":null,"pages":6}"#;
+        let told = concat!(
+            r#"{"type":"link","rate":195.5,"frames":1,"lost":2,"thinned":3,"refused":4,"#,
+            r#""restarts":5,"latency_ms":null,"pages":6}"#
+        );
         assert_eq!(text(&link), told);
     }
 }

@@ -85,8 +85,8 @@ fn map(map: &MapConfig) -> PageMap<'_> {
 }
 
 /// The line of an image; none of another event. The activations are those of the last moment at which the
-/// announced intention led: a board announces it a little longer than the touch activates it, and a page shows
-/// both together.
+/// announced intention led: a board announces it a little longer than the touch activates it, and a page
+/// shows both together.
 pub fn frame<'a>(client: &'a Client, event: &'a Event) -> Option<PageFrame<'a>> {
     let Some(JsonLine::Frame(line)) = json::line(client, event) else { return None };
     let intent = MeaningOfTouch::of(client.leading(), client.concepts(), &client.activations_of_leading());

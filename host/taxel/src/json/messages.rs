@@ -18,7 +18,9 @@ use taxel_core::body::Placed;
 use taxel_core::format::{Micros, Name};
 use taxel_core::intent::Outcome;
 use taxel_core::symbol::Symbol;
-use taxel_core::wire::{GestureReport, Level, ReactionReport, ReflexReport, SelfTestReport, SymbolList};
+use taxel_core::wire::{
+    GestureReport, IntentReport, Level, ReactionReport, ReflexReport, SelfTestReport, SymbolList,
+};
 
 /// Encodes one event as a JSON object; null for a `Hello` that cannot be used.
 pub fn message(client: &Client, event: &Event) -> Value {
@@ -45,13 +47,7 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             dropped: *dropped,
         }),
         Event::Symbols(list) => JsonLine::Symbols(symbols(client, list)),
-        Event::Intent(report) => JsonLine::Intent(IntentLine {
-            frame: report.frame,
-            time_us: report.time.0,
-            intent: meaning(client),
-            outcome: outcome(report.outcome),
-            steps: report.steps,
-        }),
+        Event::Intent(report) => JsonLine::Intent(intent(client, report)),
         Event::Gesture(report) => JsonLine::Gesture(gesture(client, report)),
         Event::Confidence(report) => JsonLine::Confidence(ConfidenceLine {
             frame: report.frame,
@@ -165,6 +161,16 @@ fn contacts<'a>(client: &'a Client, list: &[Placed]) -> Vec<ContactLine<'a>> {
 
 fn meaning(client: &Client) -> MeaningOfTouch {
     MeaningOfTouch::of(client.leading(), client.concepts(), &client.activations())
+}
+
+fn intent(client: &Client, report: &IntentReport) -> IntentLine {
+    IntentLine {
+        frame: report.frame,
+        time_us: report.time.0,
+        intent: meaning(client),
+        outcome: outcome(report.outcome),
+        steps: report.steps,
+    }
 }
 
 fn symbols<'a>(client: &'a Client, list: &SymbolList) -> SymbolsLine<'a> {

@@ -1,5 +1,5 @@
-//! JSON schemas of the messages, so that Foxglove and others can offer the fields before any message. They are
-//! derived from the messages' structs; a test compares them.
+//! JSON schemas of the messages, so that Foxglove and others can offer the fields before any message. They
+//! are derived from the messages' structs; a test compares them.
 
 macro_rules! schema {
     ($topic:literal) => {

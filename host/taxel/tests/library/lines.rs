@@ -40,7 +40,7 @@ fn keep(lines: &mut Lines, place: &str, text: &str) {
     lines.insert(format!("{place} {kind} {}", form(&value)), format!("{place} {text}"));
 }
 
-/// What a scene's board reports, as lines, as printed with pixels, as recorded; and its codes processed again.
+/// What a scene's board reports: as lines, printed with pixels, recorded; and its codes processed again.
 fn simulate(scene: &str, lines: &mut Lines) {
     let spec: SourceSpec = format!("sim:{scene}").parse().unwrap();
     let options = SourceOptions { raw: true, ..SourceOptions::default() };
