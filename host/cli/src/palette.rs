@@ -1,8 +1,26 @@
 //! Colours and scale of pressure, and colours of the intentions: the same in the terminal, on the page and in a
 //! report. The page gets them from the program, see `view/message.rs`.
 
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 use taxel_core::intent::Leading;
+
+/// Colours and scale of pressure, and colours of the intentions.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PaletteTold {
+    /// Red, green and blue of each step.
+    pub ramp: Vec<Rgb>,
+    /// Number of equal parts of the scale.
+    pub bands: u16,
+    /// End of the scale at the beginning, counts.
+    pub start: u16,
+    /// Least and greatest end of the scale, counts.
+    pub ends: [u16; 2],
+    /// Colour of each intention, `#rrggbb`.
+    #[cfg_attr(feature = "schema", schemars(with = "std::collections::BTreeMap<String, String>"))]
+    pub intentions: Map<String, Value>,
+}
 
 /// Red, green, blue.
 pub type Rgb = [u8; 3];
@@ -80,17 +98,16 @@ pub fn hex([r, g, b]: Rgb) -> String {
 }
 
 /// All of it, as the page is told.
-pub fn told() -> Value {
+pub fn told() -> PaletteTold {
     let intentions = Leading::INTENTIONS.into_iter();
-    let intentions: serde_json::Map<_, _> =
-        intentions.map(|leading| (leading.as_str().to_string(), json!(hex(intention(leading))))).collect();
-    json!({
-        "ramp": (0..STEPS).map(ramp).collect::<Vec<_>>(),
-        "bands": BANDS,
-        "start": START,
-        "ends": ENDS,
-        "intentions": intentions,
-    })
+    let colour = |leading: Leading| (leading.as_str().to_string(), hex(intention(leading)).into());
+    PaletteTold {
+        ramp: (0..STEPS).map(ramp).collect(),
+        bands: BANDS,
+        start: START,
+        ends: ENDS,
+        intentions: intentions.map(colour).collect(),
+    }
 }
 
 #[cfg(test)]

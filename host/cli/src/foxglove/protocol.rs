@@ -62,7 +62,7 @@ pub fn advertise() -> String {
     let channel = |(id, (name, schema)): (Channel, JsonTopic)| {
         json!({
             "id": id, "topic": format!("/taxel/{name}"), "encoding": "json", "schemaName": format!("taxel.{name}"),
-            "schema": schema().to_string(), "schemaEncoding": "jsonschema",
+            "schema": schema, "schemaEncoding": "jsonschema",
         })
     };
     let channels: Vec<_> = (1..).zip(TOPICS).map(channel).collect();

@@ -1,13 +1,15 @@
 //! Connects the board's thread with the threads of the pages.
 
+use super::lines::NoneLine;
 use super::mailbox::Mailbox;
 use super::message::{self, PageWish};
 use super::order::Order;
 use super::recent::Recent;
 use super::said::Said;
-use super::shot::Shot;
+use super::shot::{Shot, text};
 use super::tape::{self, Tape};
 use anyhow::{Context, Result};
+use serde::Serialize;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -87,8 +89,8 @@ impl PageHub {
     }
 
     /// Sends a message to all pages, and to later ones until the next message of its kind.
-    pub fn state(&self, kind: &'static str, line: &serde_json::Value) {
-        let line: Arc<str> = line.to_string().into();
+    pub fn state(&self, kind: &'static str, line: &impl Serialize) {
+        let line = text(line);
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.state(kind, line.clone()));
         shared.known.insert(kind, line);
@@ -96,12 +98,12 @@ impl PageHub {
 
     /// Withdraws the current message of a kind.
     pub fn forget(&self, kind: &'static str) {
-        self.state(kind, &serde_json::json!({ "type": "none", "of": kind }));
+        self.state(kind, &NoneLine { of: kind });
     }
 
     /// Adds a line to the log.
     pub fn say(&self, said: &Said) {
-        let line: Arc<str> = said.message().to_string().into();
+        let line = text(&said.message());
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.line(line.clone()));
         shared.log.push_back(line);
@@ -138,7 +140,7 @@ impl PageHub {
             let Some(taxel) = page.hovered() else { continue };
             let Some(code) = codes.get(usize::from(taxel)) else { continue };
             let line = message::taxel(taxel, shared.circuit.as_deref(), Some((frame, *code)));
-            page.state("taxel", line.to_string().into());
+            page.state("taxel", text(&line));
         }
     }
 
@@ -155,7 +157,7 @@ impl PageHub {
                 page.hover(taxel);
                 if let Some(taxel) = taxel {
                     let line = message::taxel(taxel, shared.circuit.as_deref(), None);
-                    page.state("taxel", line.to_string().into());
+                    page.state("taxel", text(&line));
                 }
             }
             PageWish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),

@@ -1,49 +1,37 @@
 //! Messages between the program and a page, over one WebSocket at `/socket`.
 //!
-//! Text messages to a page are JSON objects with a `type`. Those of `taxel live --json` are the same:
-//! `hello`, `health`, `health_map`, `budget`. In addition:
-//!
-//! | type | holds |
-//! |---|---|
-//! | `hello` | also `label` (the source), `palette` (`ramp`, red, green and blue of each step; `bands`, equal parts of the scale; `start`, its end at the beginning, and `ends`, least and greatest, counts; `intentions`, the colour of each), `counts_per_newton` (number or null), `low` (counts at which a contact ends), `absent` (positions without a taxel), `map`: `concepts` (`name`, `layer`) and `edges` (`from`, `to`, `weight`) |
-//! | `link` | `rate` (frames/s of the board), `frames`, `lost`, `thinned`, `refused`, `restarts`, `latency_ms` (or null), `pages` |
-//! | `pins` | of the last self-test: `faults` (their number), `told` (a sentence for each, or one if there are none) |
-//! | `say` | a line of the log: `text`; `kind` (`onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`), `time_us` (or null), `said` (the text without its time) |
-//! | `taxel` | the taxel under the pointer: `taxel`, `code` (raw; null until received), `frame`, `block`, `wired_row`, `wired_column` (null if it has no block) |
-//! | `end` | the stream has ended; `text` says why |
-//! | `none` | the last message of the type `of` is no longer valid |
-//! | `player` | of a recording: `at`, `duration`, `range` (first and last), all s; `speed`, `loop`, `playing`; `seeks`, number of jumps in time |
-//! | `glow` | after a jump in a recording: `time_us`, `seeks`; `taxels`, `[taxel, counts]` of the pressure just before, fading with its age |
-//! | `overview` | of a recording, up to `known_us`: `duration_us`; `totals`, the greatest total of each `width_us`; `intentions`, `[at_us, leading]` at each change; `said`, `[at_us, kind, text]`; `unlisted`, number of contact lines left out |
+//! Text messages to a page are JSON objects with a `type`: the lines `health`, `health_map` and `budget` of
+//! `taxel live --json`, and those of `lines.rs` beside this.
 //!
 //! A binary message is an image, all numbers little-endian:
 //!
 //! | bytes | what |
 //! |---|---|
 //! | 4 | length h of the head |
-//! | h | the head, JSON and spaces up to an even length: `frame`, the line of type `frame` of `taxel live --json`, but with the activations of the last moment at which the announced intention led; `samples`, `[time_us, total]` of each frame since the last image, newest last; `replaced`, images not sent because of a newer one; `missed`, samples and lines dropped because the page did not read |
+//! | h | the head, JSON and spaces up to an even length: `ImageHead` of `lines.rs` |
 //! | 2 n | pressure of the n taxels, counts, in the order of the garment |
 //! | 2 n | the greatest pressure of each since the last image sent |
-//!
-//! The line of an image of a recording also has `at_us`, its time since the recording began, and `seeks` as
-//! above; an image from before the page was opened has `past`.
 //!
 //! A page sends `{"hover": taxel}` (or null), and `{"tare": frames}`. If it shows a recording, it sends
 //! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range":
 //! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
 //! not finite, a speed of 0 or less, and a step of 0; a time beyond the recording becomes its end.
 
+use super::lines::{
+    GlowLine, LinkLine, PageConcept, PageEdge, PageFrame, PageHello, PageMap, PinsLine, TaxelLine,
+};
 use super::order::Order;
 use super::shot::Shot;
 use crate::palette;
 use serde::Deserialize;
-use serde_json::{Value, json};
 use std::time::Duration;
 use taxel::client::{Client, Event};
 use taxel::fcm;
-use taxel::json::{self, message, pins};
+use taxel::json::lines::{FrameLine, JsonLine};
+use taxel::json::{self, MeaningOfTouch, pins};
 use taxel_core::format::Micros;
 use taxel_core::garment::Circuit;
+use taxel_core::intent::{Edge, MapConfig};
 use taxel_core::selftest::Findings;
 
 /// The binary message.
@@ -62,86 +50,92 @@ pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64
     bytes
 }
 
-/// `hello`
-pub fn hello(client: &Client, label: &str, counts_per_newton: Option<f32>) -> Value {
-    let mut line = message(client, &Event::Hello);
-    let Some(worn) = client.worn() else { return line };
-    line["label"] = json!(label);
-    line["palette"] = palette::told();
-    line["counts_per_newton"] = json!(counts_per_newton);
-    line["low"] = json!(worn.scene.contact.low);
-    line["absent"] = json!(worn.garment.absent);
-    line["map"] = worn.scene.intent.as_ref().map_or(Value::Null, |intent| map(&intent.map));
-    line
+/// `hello`; none before the board has told its garment.
+pub fn hello<'a>(
+    client: &'a Client,
+    label: &'a str,
+    counts_per_newton: Option<f32>,
+) -> Option<PageHello<'a>> {
+    let (Some(JsonLine::Hello(line)), Some(worn)) = (json::line(client, &Event::Hello), client.worn()) else {
+        return None;
+    };
+    Some(PageHello {
+        line,
+        label,
+        palette: palette::told(),
+        counts_per_newton: counts_per_newton.map(f64::from),
+        low: worn.scene.contact.low,
+        absent: &worn.garment.absent,
+        map: worn.scene.intent.as_ref().map(|intent| map(&intent.map)),
+    })
 }
 
-/// Encodes the cognitive map, in layers as in `taxel fcm draw`.
-fn map(map: &taxel_core::intent::MapConfig) -> Value {
+/// The cognitive map, in layers as in `taxel fcm draw`.
+fn map(map: &MapConfig) -> PageMap<'_> {
     let one = 10f64.powi(map.decimals.into());
     let edges: Vec<_> = map.edges.iter().filter(|edge| edge.weight != 0).collect();
     let ends: Vec<_> = edges.iter().map(|edge| (usize::from(edge.from), usize::from(edge.to))).collect();
     let layers = fcm::layers::layers(map.concepts.len(), &ends);
     let concepts = map.concepts.iter().zip(layers);
-    let concepts: Vec<_> =
-        concepts.map(|(name, layer)| json!({ "name": name.as_str(), "layer": layer })).collect();
-    let edges = edges
-        .iter()
-        .map(|edge| json!({ "from": edge.from, "to": edge.to, "weight": f64::from(edge.weight) / one }));
-    json!({ "concepts": concepts, "edges": edges.collect::<Vec<_>>() })
+    let edge = |edge: &Edge| PageEdge { from: edge.from, to: edge.to, weight: f64::from(edge.weight) / one };
+    PageMap {
+        concepts: concepts.map(|(name, layer)| PageConcept { name: name.as_str(), layer }).collect(),
+        edges: edges.into_iter().map(edge).collect(),
+    }
 }
 
-/// Encodes an image's line. The activations are those of the last moment at which the announced intention
-/// led: a board announces it a little longer than the touch activates it, and a page shows both together.
-pub fn frame(client: &Client, event: &Event) -> Value {
-    let mut line = message(client, event);
-    line["intent"] = json::intent(client.leading(), client.concepts(), &client.activations_of_leading());
-    line
+/// The line of an image; none of another event. The activations are those of the last moment at which the
+/// announced intention led: a board announces it a little longer than the touch activates it, and a page
+/// shows both together.
+pub fn frame<'a>(client: &'a Client, event: &'a Event) -> Option<PageFrame<'a>> {
+    let Some(JsonLine::Frame(line)) = json::line(client, event) else { return None };
+    let intent = MeaningOfTouch::of(client.leading(), client.concepts(), &client.activations_of_leading());
+    Some(PageFrame { line: FrameLine { intent, ..line }, at_us: None, seeks: None, past: None })
 }
 
 /// `glow`: the pressure in the second before a moment of a recording, by taxel.
-pub fn glow(glow: &[u16], time: Micros, seeks: u32) -> Value {
-    let taxels: Vec<_> = (0..).zip(glow).filter(|(_, counts)| **counts > 0).collect::<Vec<(u16, _)>>();
-    json!({ "type": "glow", "time_us": time.0, "seeks": seeks, "taxels": taxels })
+pub fn glow(glow: &[u16], time: Micros, seeks: u32) -> GlowLine {
+    let taxels = (0..).zip(glow.iter().copied()).filter(|(_, counts)| *counts > 0).collect();
+    GlowLine { time_us: time.0, seeks, taxels }
 }
 
 /// `pins`
-pub fn pins(client: &Client, findings: &Findings) -> Value {
+pub fn pins(client: &Client, findings: &Findings) -> PinsLine {
     let table = client.worn().map_or(String::new(), |worn| pins::table(&worn.garment, Some(findings)));
-    json!({ "type": "pins", "faults": findings.faults.len(), "told": table.lines().collect::<Vec<_>>() })
+    PinsLine { faults: findings.faults.len(), told: table.lines().map(String::from).collect() }
 }
 
 /// `taxel`
-pub fn taxel(taxel: u16, circuit: Option<&Circuit>, code: Option<(u32, u16)>) -> Value {
+pub fn taxel(taxel: u16, circuit: Option<&Circuit>, code: Option<(u32, u16)>) -> TaxelLine {
     let wired = circuit.and_then(|circuit| circuit.wired(usize::from(taxel)));
-    json!({
-        "type": "taxel",
-        "taxel": taxel,
-        "frame": code.map(|(frame, _)| frame),
-        "code": code.map(|(_, code)| code),
-        "block": wired.map(|w| w.0),
-        "wired_row": wired.map(|w| w.1),
-        "wired_column": wired.map(|w| w.2),
-    })
+    TaxelLine {
+        taxel,
+        frame: code.map(|(frame, _)| frame),
+        code: code.map(|(_, code)| code),
+        block: wired.map(|w| w.0),
+        wired_row: wired.map(|w| w.1),
+        wired_column: wired.map(|w| w.2),
+    }
 }
 
 /// `link`
-pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize) -> Value {
+pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize) -> LinkLine {
     let counts = client.counts();
-    json!({
-        "type": "link",
-        "rate": rate,
-        "frames": counts.frames,
-        "lost": counts.lost,
-        "thinned": counts.thinned,
-        "refused": counts.refused(),
-        "restarts": counts.restarts,
-        "latency_ms": latency.map(|latency| latency.as_secs_f64() * 1e3),
-        "pages": pages,
-    })
+    LinkLine {
+        rate,
+        frames: counts.frames,
+        lost: counts.lost,
+        thinned: counts.thinned,
+        refused: counts.refused(),
+        restarts: counts.restarts,
+        latency_ms: latency.map(|latency| latency.as_secs_f64() * 1e3),
+        pages,
+    }
 }
 
 /// A request of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum PageWish {
     /// The taxel under the pointer.
@@ -167,6 +161,7 @@ pub fn wish(text: &str) -> Option<PageWish> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::{Value, json};
 
     #[test]
     fn only_what_is_known_is_a_wish() {

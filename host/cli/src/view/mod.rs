@@ -8,6 +8,8 @@
 mod assets;
 pub mod browser;
 mod hub;
+mod line_kind;
+mod lines;
 mod mailbox;
 pub mod message;
 mod order;
@@ -18,6 +20,8 @@ mod raw;
 mod recent;
 mod recorded;
 mod said;
+#[cfg(feature = "schema")]
+pub mod schemas;
 mod server;
 mod shot;
 mod tape;
@@ -25,12 +29,13 @@ mod transfer;
 mod viewer;
 
 pub use hub::PageHub;
+pub use line_kind::LineKind;
 pub use mailbox::{Mailbox, Parcel};
 pub use order::Order;
 pub use page::hear;
 pub use recent::Recent;
 pub use recorded::Player;
-pub use said::{LineKind, Said};
+pub use said::Said;
 pub use server::serve;
 pub use shot::Shot;
 pub use tape::Tape;

@@ -7,6 +7,7 @@ const STEPS: i32 = 1000;
 
 /// An order.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
     /// Play or pause.

@@ -1,9 +1,9 @@
 //! Images of the half minute before a page was opened, so that a reloaded page can step back through them.
 
+use super::lines::PageFrame;
 use super::mailbox::{Mailbox, Parcel};
 use super::message;
-use super::shot::Shot;
-use serde_json::json;
+use super::shot::{Shot, text};
 use taxel::client::{Client, Event, ImageNews};
 use taxel_core::format::Micros;
 
@@ -29,10 +29,9 @@ impl<'a> Past<'a> {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return false };
         let Some((_, image)) = self.client.image() else { return false };
         let total = self.client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let mut line = message::frame(&self.client, event);
-        line["past"] = json!(true);
+        let Some(line) = message::frame(&self.client, event) else { return false };
         self.mailbox.shot(&Shot {
-            line: line.to_string().into(),
+            line: text(&PageFrame { past: Some(true), ..line }),
             image: image.into(),
             time_us: time.0,
             total,

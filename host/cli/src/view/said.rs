@@ -1,32 +1,12 @@
 //! Events as lines of the log and marks on the timeline.
 
+use super::line_kind::LineKind;
+use super::lines::SayLine;
 use crate::watch::narrate::{Narrator, seconds};
-use serde::Serialize;
-use serde_json::{Value, json};
 use taxel::client::{Client, Event};
 use taxel::record::time_of;
 use taxel_core::contact::Phase;
 use taxel_core::format::Micros;
-
-/// Kind of a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum LineKind {
-    /// A contact begins.
-    Onset,
-    /// A contact ends.
-    Release,
-    /// Another intention leads.
-    Intention,
-    /// A reaction of the garment begins or ends.
-    Reaction,
-    /// A gesture was recognised.
-    Gesture,
-    /// Messages or a part of a recording are missing.
-    Gap,
-    /// Everything else: garments, answers, log messages of the board.
-    Note,
-}
 
 /// A line.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,8 +32,8 @@ impl Said {
     }
 
     /// The message `say`.
-    pub fn message(&self) -> Value {
-        json!({ "type": "say", "text": self.line(), "kind": self.kind, "time_us": self.time_us, "said": self.text })
+    pub fn message(&self) -> SayLine<'_> {
+        SayLine { text: self.line(), kind: self.kind, time_us: self.time_us, said: &self.text }
     }
 }
 

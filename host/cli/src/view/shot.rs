@@ -1,6 +1,13 @@
 //! An image on its way to the pages.
 
+use serde::Serialize;
 use std::sync::Arc;
+
+/// The text of a message.
+pub fn text(line: &impl Serialize) -> Arc<str> {
+    // Numbers, texts and keys that are texts: this cannot fail.
+    serde_json::to_string(line).unwrap_or_default().into()
+}
 
 /// An image and its contacts.
 #[derive(Debug, Clone)]

@@ -1,14 +1,14 @@
 //! Passes a board's stream to the pages.
 
 use super::hub::PageHub;
+use super::lines::EndLine;
 use super::message;
 use super::pace::Pace;
 use super::raw::RawCodes;
 use super::said::{Said, Teller};
-use super::shot::Shot;
+use super::shot::{Shot, text};
 use crate::watch::rate::Rate;
 use anyhow::Result;
-use serde_json::json;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, ImageNews};
@@ -66,9 +66,9 @@ impl Viewer {
             std::thread::sleep(pace.wait(time, Instant::now()));
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
+        let Some(line) = message::frame(client, event) else { return };
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let line = message::frame(client, event).to_string().into();
-        self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
+        self.hub.shot(&Shot { line: text(&line), image: image.into(), time_us: time.0, total });
     }
 
     fn hello(&self, client: &Client) {
@@ -130,7 +130,7 @@ impl Show<anyhow::Error> for Viewer {
 
     fn end(&mut self, client: &Client) -> Result<()> {
         self.link(client);
-        self.hub.state("end", &json!({ "type": "end", "text": format!("{} has ended", self.label) }));
+        self.hub.state("end", &EndLine { text: format!("{} has ended", self.label) });
         Ok(())
     }
 }

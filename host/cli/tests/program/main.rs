@@ -14,6 +14,8 @@ mod maps;
 mod mistakes;
 mod outputs;
 mod own_garment;
+#[cfg(feature = "schema")]
+mod page_types;
 mod recordings;
 mod reference;
 mod repair;
@@ -27,5 +29,7 @@ mod status;
 mod steps;
 mod teach;
 mod tools;
+#[path = "../../../taxel/tests/library/validator.rs"]
+mod validator;
 mod version;
 mod view;

@@ -97,7 +97,6 @@ macro_rules! others {
 }
 
 others! {
-    anyhow::Error,
     binrw::Error,
     mcap::McapError,
     postcard::Error,

@@ -44,6 +44,9 @@ pub enum MapFileError {
     /// It is too large or too fine for the board's arithmetic.
     #[error("{0}")]
     TooLarge(String),
+    /// A file of labelled touches does not fit the map.
+    #[error("{0}")]
+    Touches(String),
     /// Maps cannot be united, touches cannot be learned from, or a question has no answer.
     #[error("{0}")]
     Unanswerable(String),

@@ -3,7 +3,8 @@
 use super::board::{BoardMap, MapState};
 use super::decimal::Decimal;
 use super::map::MapFile;
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, Error, FileError, MapFileError, Result};
+use crate::files::rows::{CsvRow, rows};
 use std::path::Path;
 
 /// Label of a touch without any intention of the map.
@@ -33,48 +34,54 @@ pub struct Touches {
 pub fn read(path: &Path, file: &MapFile, map: &BoardMap) -> Result<Touches> {
     let place = path.display();
     crate::tell::verbose::reads(path);
-    let text = std::fs::read_to_string(path).with_context(|| format!("{place}: cannot be read"))?;
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| FileError::read(path, error))
+        .with_context(|| format!("{place}: cannot be read"))?;
     parse(&text, file, map).with_context(|| place.to_string())
 }
 
 /// Parses the text of a file.
 pub fn parse(text: &str, file: &MapFile, map: &BoardMap) -> Result<Touches> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let cells = |line: &str| -> Vec<String> { line.split(',').map(|cell| cell.trim().to_string()).collect() };
-    let (_, header) = lines.next().context("it is empty")?;
-    let header = cells(header);
+    let wrong = |why: String| Error::from(MapFileError::Touches(why));
+    let rows = rows(text);
+    let (CsvRow { cells: header, .. }, rows) =
+        rows.split_first().ok_or_else(|| wrong("it is empty".into()))?;
     let column = |name: &str| header.iter().position(|cell| cell == name);
-    let label = column("label").context("line 1: there is no column label")?;
+    let label = column("label").ok_or_else(|| wrong("line 1: there is no column label".into()))?;
     let group = column("group");
     let mut inputs = Vec::new();
     for (at, name) in header.iter().enumerate().filter(|(at, _)| *at != label && Some(*at) != group) {
-        let concept =
-            file.find(name).with_context(|| format!("line 1: column {name} is not a concept of the map"))?;
+        let concept = file
+            .find(name)
+            .ok_or_else(|| wrong(format!("line 1: column {name} is not a concept of the map")))?;
         if file.is_driven(name) {
-            bail!("line 1: column {name} is a concept that has causes");
+            fail!(MapFileError::Touches, "line 1: column {name} is a concept that has causes");
         }
         inputs.push((at, concept));
     }
     let mut found = Touches { classes: Vec::new(), touches: Vec::new() };
-    for (at, line) in lines {
-        let row = cells(line);
+    for CsvRow { line, cells: row } in rows {
         if row.len() != header.len() {
-            bail!("line {}: {} values, and there are {} columns", at + 1, row.len(), header.len());
+            fail!(
+                MapFileError::Touches,
+                "line {line}: {} values, and there are {} columns",
+                row.len(),
+                header.len()
+            );
         }
         let mut activations = Vec::new();
         for (cell, concept) in &inputs {
             let value = Decimal::parse(&row[*cell]).filter(|value| value.is_fraction());
-            let wrong = || {
-                format!("line {}: {} = {:?} is not a number in -1 ..= 1", at + 1, header[*cell], row[*cell])
-            };
-            activations.push((*concept, value.with_context(wrong)?));
+            let (name, text) = (&header[*cell], &row[*cell]);
+            let unfit = || wrong(format!("line {line}: {name} = {text:?} is not a number in -1 ..= 1"));
+            activations.push((*concept, value.ok_or_else(unfit)?));
         }
-        let class = found.class(&row[label], file).with_context(|| format!("line {}", at + 1))?;
-        let group = group.map_or(String::new(), |group| row[group].clone());
+        let class = found.class(&row[label], file).with_context(|| format!("line {line}"))?;
+        let group = group.map_or(String::new(), |group| row[group].to_string());
         found.touches.push(Labelled { start: map.state(activations), class, group });
     }
     match found.classes.len() {
-        0 | 1 => bail!("there must be touches of at least two labels"),
+        0 | 1 => fail!(MapFileError::Touches, "there must be touches of at least two labels"),
         _ => Ok(found),
     }
 }
@@ -85,7 +92,7 @@ impl Touches {
             return Ok(class);
         }
         if label != NONE && !file.is_driven(label) {
-            bail!("label {label} is neither a concept with causes nor {NONE}");
+            fail!(MapFileError::Touches, "label {label} is neither a concept with causes nor {NONE}");
         }
         self.classes.push(label.into());
         Ok(self.classes.len() - 1)

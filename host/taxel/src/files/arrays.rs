@@ -108,7 +108,7 @@ impl OpenFile {
             // Values are uncompressed, so they take at most twice the size of the file.
             OpenFile::Array(file, size) => npy::read(file, size, &mut Room::endless()),
             OpenFile::Archive(mut archive) => archive.only(),
-            OpenFile::Text(file) => Ok(csv::read(file)?),
+            OpenFile::Text(file) => csv::read(file),
         }
     }
 }

@@ -4,5 +4,6 @@ pub mod arrays;
 pub mod calibrate;
 pub mod garments;
 pub mod output;
+pub mod rows;
 pub mod schemas;
 pub mod scripts;

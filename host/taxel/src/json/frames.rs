@@ -1,9 +1,11 @@
 //! Recorded frames, run through the board's pipeline: what it perceives, as JSON.
 
-use super::{contact, intent};
+use super::contact::ContactLine;
+use super::meaning::MeaningOfTouch;
 use crate::client::growths::Growths;
 use crate::error::Result;
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 use taxel_core::body::Placed;
 use taxel_core::condition::Tare;
 use taxel_core::format::{Code, Micros, Name, Q15};
@@ -11,6 +13,7 @@ use taxel_core::garment::{Garment, Layout};
 use taxel_core::intent::Leading;
 use taxel_core::pipeline::{Percept, Pipeline, PipelineState};
 use taxel_core::scene::Scene;
+use taxel_core::shape::Base;
 
 /// Taxels of the largest recording; half as many runs always suffice.
 const TAXELS: usize = 16_384;
@@ -65,31 +68,55 @@ impl Replay {
             *concepts = meaning.activations.to_vec();
         }
         growths.feel(percept.present, percept.released);
-        let mut object = perceived(&percept, layout, growths);
-        object["time"] = json!(time.0 as f64 / 1e6);
-        object["intent"] = intent(*leading, names, concepts);
-        object
+        let frame = ReplayedFrame {
+            contacts: contacts(&percept, layout, growths),
+            released: percept.released.iter().map(|placed| placed.contact.id).collect(),
+            dropped: Some(percept.dropped).filter(|dropped| *dropped > 0),
+            tare: matches!(percept.tare, Tare::Running { .. }).then_some(true),
+            time: time.0 as f64 / 1e6,
+            intent: MeaningOfTouch::of(*leading, names, concepts),
+        };
+        // Numbers, texts and keys that are texts: this cannot fail.
+        serde_json::to_value(frame).unwrap_or_default()
     }
 }
 
-/// Encodes what was perceived in a frame, except for the intention.
-fn perceived(percept: &Percept<'_>, layout: &Layout, growths: &Growths) -> Value {
+/// A frame processed by the host.
+#[derive(Debug, Serialize)]
+struct ReplayedFrame<'a> {
+    contacts: Vec<ReplayedContact<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    released: Vec<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dropped: Option<u16>,
+    /// Absent unless a tare is running.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tare: Option<bool>,
+    /// s.
+    time: f64,
+    intent: MeaningOfTouch,
+}
+
+/// A contact of such a frame.
+#[derive(Debug, Serialize)]
+struct ReplayedContact<'a> {
+    #[serde(flatten)]
+    contact: ContactLine<'a>,
+    /// Frames; null while it has no form.
+    form_age: Option<u8>,
+    /// Counts per cm2; null while unknown.
+    hardness: Option<u32>,
+}
+
+/// Contacts of a frame.
+fn contacts<'a>(percept: &Percept<'_>, layout: &'a Layout, growths: &Growths) -> Vec<ReplayedContact<'a>> {
     let contact = |(index, placed): (usize, &Placed)| {
-        let mut object = contact(placed, layout, percept.unsure.is_unsure(index));
-        object["form_age"] = json!(percept.form_ages.get(index));
-        object["hardness"] = json!(growths.hardness(placed.contact.id, layout));
-        object
+        let shape = Base::BUILT_IN.name(placed.shape.class).into();
+        ReplayedContact {
+            contact: ContactLine::of(placed, layout, shape, percept.unsure.is_unsure(index)),
+            form_age: percept.form_ages.get(index).copied(),
+            hardness: growths.hardness(placed.contact.id, layout),
+        }
     };
-    let mut object =
-        json!({ "contacts": percept.present.iter().enumerate().map(contact).collect::<Vec<_>>() });
-    if !percept.released.is_empty() {
-        object["released"] = json!(percept.released.iter().map(|p| p.contact.id).collect::<Vec<_>>());
-    }
-    if percept.dropped > 0 {
-        object["dropped"] = json!(percept.dropped);
-    }
-    if let Tare::Running { .. } = percept.tare {
-        object["tare"] = json!(true);
-    }
-    object
+    percept.present.iter().enumerate().map(contact).collect()
 }

@@ -1,20 +1,47 @@
 //! Lines and inputs found faulty by a self-test: their place, and the consequence for the garment.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 use taxel_core::garment::{Coding, Garment, Group};
 use taxel_core::selftest::{Fault, Findings, PinFault};
 
-/// `{"lines", "inputs", "faults": [{"gpio", "what", "where", "means"}]}`; null without a self-test.
-pub fn report(garment: &Garment, findings: Option<&Findings>) -> Value {
-    let Some(findings) = findings else { return Value::Null };
-    let fault = |found: &PinFault| {
-        json!({
-            "gpio": found.pin, "what": found.fault.to_string(), "where": place(garment, found.pin),
-            "means": meaning(garment, found),
-        })
+/// What a self-test found.
+#[derive(Debug, Clone, Serialize)]
+pub struct PinReport {
+    /// Select lines that were examined.
+    pub lines: u8,
+    /// Converter inputs that were examined.
+    pub inputs: u8,
+    /// The faults.
+    pub faults: Vec<PinFaultReport>,
+}
+
+/// A fault, for people.
+#[derive(Debug, Clone, Serialize)]
+pub struct PinFaultReport {
+    /// GPIO number.
+    pub gpio: u8,
+    /// The fault.
+    pub what: String,
+    /// What the pin is for.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// The consequence for the garment.
+    pub means: String,
+}
+
+/// Reports a self-test; none without one.
+pub fn report(garment: &Garment, findings: Option<&Findings>) -> Option<PinReport> {
+    let fault = |found: &PinFault| PinFaultReport {
+        gpio: found.pin,
+        what: found.fault.to_string(),
+        place: place(garment, found.pin),
+        means: meaning(garment, found),
     };
-    let faults: Vec<Value> = findings.faults.iter().map(fault).collect();
-    json!({ "lines": findings.lines, "inputs": findings.inputs, "faults": faults })
+    findings.map(|findings| PinReport {
+        lines: findings.lines,
+        inputs: findings.inputs,
+        faults: findings.faults.iter().map(fault).collect(),
+    })
 }
 
 /// A line for each fault, or one that says that there is none.
@@ -106,7 +133,7 @@ mod tests {
         assert!(lines[1].starts_with("GPIO 2 (block line, bit 0) bridged to GPIO 3: "), "{}", lines[1]);
         assert!(lines[1].ends_with("GPIO 3 (block line, bit 1) is misread"), "{}", lines[1]);
         assert!(lines[2].starts_with("GPIO 27 (input of back) open: "), "{}", lines[2]);
-        assert_eq!(report(&garment, Some(&found))["faults"][2]["gpio"], 27);
+        assert_eq!(report(&garment, Some(&found)).unwrap().faults[2].gpio, 27);
         assert_eq!(
             table(&garment, Some(&findings(&[]))),
             "reference: no faults on 9 select lines and 4 inputs.\n"

@@ -13,10 +13,10 @@
 
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
+use crate::error::Result;
 use crate::recording::{Format, Store, Writer};
 use crate::ros2::messages::{self, BoardState};
 use crate::ros2::{schemas, topic_part};
-use anyhow::Result;
 use std::collections::BTreeMap;
 use taxel_core::garment::Area;
 

@@ -1,14 +1,13 @@
 //! One file of a recording: its channels, and the messages written to them.
 
 use super::bag::Ros2;
-use super::message;
+use super::message::{self, JointLine, PostureLine};
 use super::provenance::{self, Origin};
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
 use crate::client::{Client, Event, Worn};
 use crate::error::Result;
 use crate::recording::{HELLO, Store, Writer};
-use serde_json::json;
 use taxel_core::fold::Posture;
 
 /// A file of a recording.
@@ -62,11 +61,11 @@ impl<S: Store> RecordingFile<S> {
     ) -> Result<()> {
         let joint = |told: &taxel_core::fold::JointAngle| {
             let name = names.get(usize::from(told.joint)).map_or("", |name| name.as_str());
-            json!({ "joint": name, "degrees": f64::from(told.centidegrees) / 100.0 })
+            JointLine { joint: name, degrees: f64::from(told.centidegrees) / 100.0 }
         };
-        let joints: Vec<_> = posture.joints.iter().map(joint).collect();
-        let told = json!({ "type": "posture", "time_us": stamp.board_us, "joints": joints });
-        self.json("posture", stamp, &message::with_times(told, stamp)?)
+        let joints = posture.joints.iter().map(joint).collect();
+        let line = PostureLine { time_us: stamp.board_us, joints };
+        self.json("posture", stamp, &message::with_times(line, stamp)?)
     }
 
     /// Writes an event as JSON and, if requested, as ROS 2 messages.

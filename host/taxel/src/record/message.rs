@@ -3,23 +3,22 @@
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
 use crate::error::Result;
-use crate::json;
+#[cfg(feature = "schema")]
+use crate::json::schema::TypeIs;
+use crate::json::{self, HostTimed, HostTimes};
 use serde::Serialize;
-use serde_json::{Value, json};
 
 /// Encodes an event as JSON with its times.
 pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<u8>> {
     let Event::Frame { frame, alone, image, .. } = event else {
-        return with_times(json::message(client, event), stamp);
+        return with_times(json::line(client, event), stamp);
     };
     let decoded = *image == ImageNews::Whole;
     let panels = if decoded { panels(client) } else { Vec::new() };
     Ok(serde_json::to_vec(&FrameMessage {
-        kind: "frame",
         frame: *frame,
         time_us: stamp.board_us,
-        host_time_us: stamp.host_us,
-        host_time_uncertainty_us: stamp.uncertainty_us,
+        times: times(stamp),
         key: *alone,
         decoded,
         lost: client.counts().lost,
@@ -30,39 +29,73 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
 }
 
 /// Encodes a message with the host's time.
-pub fn with_times(mut message: Value, stamp: Stamp) -> Result<Vec<u8>> {
-    message["host_time_us"] = json!(stamp.host_us);
-    if let Some(uncertainty) = stamp.uncertainty_us {
-        message["host_time_uncertainty_us"] = json!(uncertainty);
-    }
-    Ok(serde_json::to_vec(&message)?)
+pub fn with_times(line: impl Serialize, stamp: Stamp) -> Result<Vec<u8>> {
+    Ok(serde_json::to_vec(&HostTimed { line, times: times(stamp) })?)
+}
+
+fn times(stamp: Stamp) -> HostTimes {
+    HostTimes { host_time_us: stamp.host_us, host_time_uncertainty_us: stamp.uncertainty_us }
 }
 
 /// A frame with the pressure of every taxel; contacts and intention have their own topics.
 #[derive(Debug, Serialize)]
-struct FrameMessage<'a> {
-    #[serde(rename = "type")]
-    kind: &'static str,
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("frame")))]
+#[serde(tag = "type", rename = "frame")]
+pub struct FrameMessage<'a> {
+    /// Number of the scan.
     frame: u32,
+    /// Start of the scan, us of the board.
     time_us: u64,
-    host_time_us: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    host_time_uncertainty_us: Option<u64>,
+    /// The host's time, and the bound of its error.
+    #[serde(flatten)]
+    times: HostTimes,
+    /// True for a key frame, which is decoded without the frames before it.
     key: bool,
+    /// True if the image could be decoded.
     decoded: bool,
+    /// Messages lost so far.
     lost: u64,
+    /// Images left out so far, because the link had no room.
     thinned: u64,
     /// Sum over the garment, counts.
     total: u32,
+    /// The panels; empty if the image could not be decoded.
     panels: Vec<PanelImage<'a>>,
 }
 
-/// Pressures of a panel by row.
+/// Pressure of a panel.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct PanelImage<'a> {
+    /// Name of the panel.
     name: &'a str,
+    /// Sum of its pressure, counts.
     total: u32,
+    /// Pressure of each taxel by row, counts.
     rows: Vec<&'a [u16]>,
+}
+
+/// A posture sent to the board.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("posture")))]
+#[serde(tag = "type", rename = "posture")]
+pub struct PostureLine<'a> {
+    /// The board's time, us.
+    pub time_us: u64,
+    /// The joints.
+    pub joints: Vec<JointLine<'a>>,
+}
+
+/// Angle of a joint.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct JointLine<'a> {
+    /// Name of the joint in the scene.
+    pub joint: &'a str,
+    /// Angle, degrees.
+    pub degrees: f64,
 }
 
 /// Panels of the last image.

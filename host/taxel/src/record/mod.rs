@@ -35,6 +35,9 @@ pub use message::json_message;
 pub use play::Play;
 pub use provenance::{CALIBRATION, Origin};
 pub use recorder::{Plan, Recorder};
+#[cfg(feature = "schema")]
+pub use schemas::derived;
+pub use schemas::{JSON as TOPICS, JsonTopic};
 pub use stamps::{NS, Stamp, Stamps, time_of};
 pub use tally::{COUNTS, Tally};
-pub use topics::{JSON as TOPICS, JsonTopic, REQUESTS, of as topic};
+pub use topics::{REQUESTS, of as topic};

@@ -1,36 +1,14 @@
 //! Topics of a recording, and which events go to which.
 
-use super::schemas;
+use super::schemas::JSON;
 use crate::client::Event;
+use crate::error::Result;
 use crate::recording::{Format, Store, WIRE, Writer};
-use anyhow::Result;
-use serde_json::Value;
 
 /// Frames of the wire to the board.
 pub const REQUESTS: &str = "/taxel/requests";
 /// Encoding of both, described in `taxel_core::wire`.
 const WIRE_ENCODING: &str = "taxel-wire";
-
-/// A topic with JSON messages: its name below `/taxel/`, and their schema.
-pub type JsonTopic = (&'static str, fn() -> Value);
-
-/// All JSON topics.
-pub const JSON: [JsonTopic; 14] = [
-    ("hello", schemas::hello),
-    ("frames", schemas::frames),
-    ("contacts", schemas::contacts),
-    ("symbols", schemas::symbols),
-    ("intent", schemas::intent),
-    ("reactions", schemas::reactions),
-    ("health", schemas::health),
-    ("health_map", schemas::health_map),
-    ("budget", schemas::budget),
-    ("temperature", schemas::temperature),
-    ("gestures", schemas::gestures),
-    ("self_test", schemas::self_test),
-    ("posture", schemas::posture),
-    ("log", schemas::log),
-];
 
 /// Channel numbers in one file.
 #[derive(Debug, Clone)]
@@ -48,10 +26,9 @@ impl Topics {
         let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: "" };
         let (wire, requests) = (writer.channel(WIRE, &plain)?, writer.channel(REQUESTS, &plain)?);
         let mut json = Vec::new();
-        for (name, schema) in JSON {
-            let (title, text) = (format!("taxel.{name}"), schema().to_string());
-            let format =
-                Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text: &text };
+        for (name, text) in JSON {
+            let title = format!("taxel.{name}");
+            let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text };
             json.push((name, writer.channel(&format!("/taxel/{name}"), &format)?));
         }
         Ok(Topics { wire, requests, json })

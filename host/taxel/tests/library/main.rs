@@ -9,6 +9,7 @@ mod errors;
 mod faults;
 mod fcm;
 mod health;
+mod lines;
 mod link;
 mod maps;
 mod meaning;
@@ -16,10 +17,14 @@ mod people;
 mod points;
 mod ros2;
 mod scan;
+#[cfg(feature = "schema")]
+mod schemas;
 mod session;
 #[path = "../../../../core/tests/core/shape/rig.rs"]
 mod shape_of;
 mod shapes;
 mod stepped;
 mod touch;
+#[cfg(feature = "schema")]
+mod validator;
 mod watchdog;

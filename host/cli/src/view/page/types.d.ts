@@ -1,15 +1,27 @@
-// Types that several modules of the page share. Messages are those of host/cli/src/view/message.rs.
+// Types that several modules of the page share. What comes from the program is in messages.d.ts.
+
+import type {
+  BudgetLine,
+  EndLine,
+  GlowLine,
+  HealthLine,
+  HealthMapLine,
+  ImageHead,
+  LinkLine,
+  NoneLine,
+  OverviewLine,
+  PageHello,
+  PageWish,
+  PinsLine,
+  PlayerLine,
+  SayLine,
+  TaxelLine,
+} from "./messages.d.ts";
 
 export type Triple = [number, number, number];
 
 /** A panel of `hello`, with what the page adds. */
-export interface Panel {
-  name: string;
-  region: string;
-  link: string;
-  rows: number;
-  columns: number;
-  pitch_um: [number, number];
+export interface Panel extends PanelOf {
   /** Its number, and that of its first taxel. */
   index: number;
   base: number;
@@ -19,105 +31,32 @@ export interface Panel {
   known: boolean;
 }
 
-export interface Concept {
-  name: string;
-  layer: number;
-}
-
-export interface Edge {
-  from: number;
-  to: number;
-  weight: number;
-}
-
-export interface CognitiveMapOf {
-  concepts: Concept[];
-  edges: Edge[];
-}
-
-/** Colours and scale of pressure, and colours of the intentions. */
-export interface Palette {
-  ramp: Triple[];
-  bands: number;
-  /** End of the scale at the beginning, and its least and greatest, counts. */
-  start: number;
-  ends: [number, number];
-  intentions: Record<string, string>;
-}
+type PanelOf = PageHello["panels"][number];
+export type CognitiveMapOf = NonNullable<PageHello["map"]>;
+export type Concept = CognitiveMapOf["concepts"][number];
+export type Palette = PageHello["palette"];
+export type Hello = PageHello;
 
 /** `hello`, with what the page adds. */
-export interface Garment {
-  garment: string;
-  label: string;
-  scene: string;
-  firmware: string;
-  calibration: string;
-  counts_per_newton: number | null;
-  /** Counts at which a contact ends. */
-  low: number;
-  map: CognitiveMapOf | null;
-  palette: Palette;
+export interface Garment extends Omit<Hello, "panels" | "absent"> {
   panels: Panel[];
-  taxels: number;
   /** 1 where there is no taxel. */
   absent: Uint8Array;
   /** Changes with the panels. */
   key: string;
 }
 
-/** `hello`, as it comes. */
-export interface Hello extends Omit<Garment, "panels" | "taxels" | "absent" | "key"> {
-  type: "hello";
-  panels: Omit<Panel, "index" | "base" | "mm" | "known">[];
-  absent?: { panel: number; row: number; column: number; rows: number; columns: number }[];
-}
-
-export interface Contact {
-  id: number;
-  panel: number;
-  panel_name: string;
-  region: string;
-  shape: string;
-  total: number;
-  area: number;
-  x: number;
-  y: number;
-  vx: number;
-  vy: number;
-  slip: boolean;
-  azimuth: number | null;
-  anisotropy: number;
-  peak_row: number;
-  peak_column: number;
-}
-
 /** The line of a frame. */
-export interface Frame {
-  frame: number;
-  time_us: number;
-  contacts: Contact[];
-  intent: { leading: string; concepts: Record<string, number> };
-  /** Of a recording: time since its beginning, and number of jumps. */
-  at_us?: number;
-  seeks?: number;
-  /** From before the page was opened. */
-  past?: boolean;
-}
+export type Frame = ImageHead["frame"];
+export type Contact = Frame["contacts"][number];
 
 /** The head of an image, as it is kept: `samples` are times and totals by turns. */
-export interface Head {
-  frame: Frame;
+export interface Head extends Omit<ImageHead, "samples"> {
   samples: Float64Array;
-  replaced: number;
-  missed: number;
 }
 
 /** An image, as it comes. */
-export interface ImageMessage {
-  frame: Frame;
-  samples: [number, number][];
-  replaced: number;
-  missed: number;
+export interface ImageMessage extends ImageHead {
   image: Uint16Array;
   highest: Uint16Array;
 }
@@ -136,78 +75,36 @@ export interface Still extends Shown {
 }
 
 /** Time, kind and text of a line of the log. */
-export type Said = [number, string, string];
-
-export interface LinkState {
-  rate: number;
-  frames: number;
-  lost: number;
-  thinned: number;
-  latency_ms: number | null;
-  pages: number;
-}
-
-export interface PlayerState {
-  at: number;
-  duration: number;
-  range: [number, number];
-  speed: number;
-  loop: boolean;
-  playing: boolean;
-  seeks: number;
-}
-
-export interface Overview {
-  known_us: number;
-  duration_us: number;
-  totals: number[];
-  width_us: number;
-  intentions: [number, string][];
-  said: Said[];
-  unlisted: number;
-}
+export type Said = OverviewLine["said"][number];
+export type LinkState = LinkLine;
+export type Overview = OverviewLine;
+export type PlayerState = PlayerLine;
+export type TaxelState = TaxelLine;
 
 /** The newest line of each type. */
 export interface States {
   hello?: Hello;
   link?: LinkState;
-  health_map?: { ill?: { taxel: number; health: string }[] };
-  health?: Record<"scans" | "failed" | "overruns" | "lost" | "refused" | "scan_us" | "process_us", number>;
-  pins?: { faults: number; told: string[] };
-  budget?: object;
+  health_map?: HealthMapLine;
+  health?: HealthLine;
+  pins?: PinsLine;
+  budget?: BudgetLine;
   taxel?: TaxelState;
-  end?: { text: string };
+  end?: EndLine;
   player?: PlayerState;
-  glow?: { time_us: number; seeks: number; taxels: [number, number][]; values?: Uint16Array };
+  glow?: GlowLine & { values?: Uint16Array };
   overview?: Overview;
-}
-
-export interface TaxelState {
-  taxel: number;
-  code: number | null;
-  block: number | null;
-  wired_row: number | null;
-  wired_column: number | null;
 }
 
 /** A text message. */
 export type Line =
   | Hello
-  | { type: "none"; of: keyof States }
-  | { type: "say"; text: string; kind: string; time_us: number | null; said: string }
+  | (Omit<NoneLine, "of"> & { of: keyof States })
+  | SayLine
   | { type: Exclude<keyof States, "hello"> };
 
 /** What a page asks of the program. */
-export type Wish =
-  | { hover: number | null }
-  | { tare: number }
-  | { play: boolean }
-  | { seek: number }
-  | { step: number }
-  | { speed: number }
-  | { loop: boolean }
-  | { range: [number, number] | null };
-
+export type Wish = PageWish;
 export type Ask = (wish: Wish) => void;
 
 export interface Settings {

@@ -1,7 +1,7 @@
 //! Transport of the player: position, speed, range, loop.
 
+use crate::view::lines::PlayerLine;
 use crate::view::order::Order;
-use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 /// Slowest and fastest speed.
@@ -158,18 +158,17 @@ impl Deck {
     }
 
     /// The message `player`, with times in seconds.
-    pub fn message(&self, now: Instant) -> Value {
+    pub fn message(&self, now: Instant) -> PlayerLine {
         let seconds = |us: u64| us as f64 / 1e6;
-        json!({
-            "type": "player",
-            "at": seconds(self.position(now)),
-            "duration": seconds(self.duration),
-            "range": self.range.map(seconds),
-            "speed": self.speed,
-            "loop": self.repeats,
-            "playing": self.playing,
-            "seeks": self.seeks,
-        })
+        PlayerLine {
+            at: seconds(self.position(now)),
+            duration: seconds(self.duration),
+            range: self.range.map(seconds),
+            speed: self.speed,
+            repeats: self.repeats,
+            playing: self.playing,
+            seeks: self.seeks,
+        }
     }
 }
 
@@ -233,6 +232,6 @@ mod tests {
         deck.obey(&Order::Range(None), start);
         assert_eq!(deck.range(), [0, 10 * S]);
         deck.obey(&Order::Speed(1e9), start);
-        assert_eq!(deck.message(start)["speed"], 64.0);
+        assert_eq!(deck.message(start).speed, 64.0);
     }
 }

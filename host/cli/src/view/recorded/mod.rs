@@ -181,7 +181,7 @@ fn origin(clips: &Clips, path: &Path, calibration: Option<Calibration>) -> Resul
     let name = format!("{CALIBRATION} of {}", path.display());
     let attached = clips.attached.get(CALIBRATION).map(|bytes| {
         let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
-        Calibration::parse(text, &name)
+        anyhow::Ok(Calibration::parse(text, &name)?)
     });
     let calibration = calibration.or(attached.transpose()?);
     let words = clips.words.get("taxel");

@@ -1,7 +1,8 @@
 //! Summary of a whole recording: total force, intentions, and log lines with their times.
 
-use crate::view::said::{LineKind, Said};
-use serde_json::{Value, json};
+use crate::view::line_kind::LineKind;
+use crate::view::lines::OverviewLine;
+use crate::view::said::Said;
 use taxel_core::intent::Leading;
 
 /// Most bins of the totals, and the least width of one, us.
@@ -84,19 +85,16 @@ impl Overview {
     }
 
     /// The message `overview`.
-    pub fn message(&self) -> Value {
-        let intentions: Vec<_> = self.intentions.iter().map(|(at, name)| json!([at, name])).collect();
-        let said: Vec<_> = self.said.iter().map(|(at, said)| json!([at, said.kind, said.text])).collect();
-        json!({
-            "type": "overview",
-            "duration_us": self.duration,
-            "known_us": self.known,
-            "width_us": self.width,
-            "totals": self.totals,
-            "intentions": intentions,
-            "said": said,
-            "unlisted": self.unlisted,
-        })
+    pub fn message(&self) -> OverviewLine<'_> {
+        OverviewLine {
+            duration_us: self.duration,
+            known_us: self.known,
+            width_us: self.width,
+            totals: &self.totals,
+            intentions: &self.intentions,
+            said: self.said.iter().map(|(at, said)| (*at, said.kind, said.text.as_str())).collect(),
+            unlisted: self.unlisted,
+        }
     }
 }
 
@@ -111,8 +109,7 @@ mod tests {
         overview.press(10_500, 900);
         overview.press(35_000, 0);
         overview.press(99_999, 7);
-        let totals = &overview.message()["totals"];
-        assert_eq!(totals, &json!([0, 900, 900, 900, 0, 0, 0, 0, 0, 7, 0]));
+        assert_eq!(overview.message().totals, [0, 900, 900, 900, 0, 0, 0, 0, 0, 7, 0]);
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Shows moments of a recording to the pages of a hub.
 
 use crate::view::hub::PageHub;
+use crate::view::lines::PageFrame;
 use crate::view::message;
-use crate::view::shot::Shot;
+use crate::view::shot::{Shot, text};
 use crate::watch::rate::Rate;
-use serde_json::json;
 use std::sync::Arc;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json;
@@ -65,9 +65,9 @@ impl PageScreen {
         let Some((_, image)) = client.image() else { return };
         self.rate.add(*time);
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let mut line = message::frame(client, event);
-        (line["at_us"], line["seeks"]) = (json!(at), json!(seeks));
-        self.hub.show(Shot { line: line.to_string().into(), image: image.into(), time_us: time.0, total });
+        let Some(line) = message::frame(client, event) else { return };
+        let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), ..line });
+        self.hub.show(Shot { line, image: image.into(), time_us: time.0, total });
     }
 
     fn hello(&self, client: &Client) {

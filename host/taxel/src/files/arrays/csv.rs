@@ -1,14 +1,16 @@
 //! Frames from text.
 
 use super::{Frames, Shape, count, unfit};
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use crate::error::{ArrayError, Context, Result};
 use std::fs::File;
 use std::io::Read;
 
 /// Reads the frames of a file.
 pub fn read(mut file: File) -> Result<Frames> {
     let mut text = String::new();
-    file.read_to_string(&mut text).context("not a text")?;
+    file.read_to_string(&mut text)
+        .map_err(|error| ArrayError::NotAnArray(error.to_string()))
+        .context("not a text")?;
     parse(&text)
 }
 
@@ -46,7 +48,8 @@ impl ParsedFrames {
         let start = self.values.len();
         for (column, cell) in text.split(',').map(str::trim).enumerate() {
             let number: Option<f64> = cell.parse().ok();
-            let number = number.ok_or_else(|| anyhow!("column {column}: {cell:?} is not a number"))?;
+            let number = number
+                .ok_or_else(|| error!(ArrayError::Unfit, "column {column}: {cell:?} is not a number"))?;
             let value = count(number).ok_or_else(|| unfit(self.frames, self.row, column, number))?;
             self.values.push(value);
         }
@@ -54,7 +57,12 @@ impl ParsedFrames {
         if start == 0 {
             self.columns = columns;
         }
-        ensure!(columns == self.columns, "{columns} columns, and the first row has {}", self.columns);
+        require!(
+            columns == self.columns,
+            ArrayError::Unfit,
+            "{columns} columns, and the first row has {}",
+            self.columns
+        );
         self.row += 1;
         Ok(())
     }
@@ -63,7 +71,13 @@ impl ParsedFrames {
     fn end_frame(&mut self) -> Result<()> {
         if self.row > 0 {
             let rows = *self.rows.get_or_insert(self.row);
-            ensure!(rows == self.row, "frame {} has {} rows, and the first {rows}", self.frames, self.row);
+            require!(
+                rows == self.row,
+                ArrayError::Unfit,
+                "frame {} has {} rows, and the first {rows}",
+                self.frames,
+                self.row
+            );
             self.frames += 1;
             self.row = 0;
         }
@@ -71,7 +85,7 @@ impl ParsedFrames {
     }
 
     fn finish(self) -> Result<Frames> {
-        let Some(rows) = self.rows else { bail!("there are no values") };
+        let Some(rows) = self.rows else { fail!(ArrayError::Unfit, "there are no values") };
         let shape = Shape::of(&[self.frames as u64, rows as u64, self.columns as u64])?;
         Ok(shape.filled(self.values))
     }

@@ -1,6 +1,6 @@
 //! Selection and merging of classes.
 
-use anyhow::{Result, bail};
+use crate::error::{Error, Result, UsageError};
 use std::str::FromStr;
 
 /// A selection of classes.
@@ -19,7 +19,7 @@ const GROUPS: &str = "ball=round,rock=round,sticky_tape=round,box=rectangular,ru
     pen=finger-like,highlighter=finger-like,cable=finger-like,cable_pipe=finger-like,tube=finger-like";
 
 impl FromStr for Classes {
-    type Err = anyhow::Error;
+    type Err = Error;
 
     fn from_str(text: &str) -> Result<Classes> {
         let list = match text {
@@ -30,7 +30,7 @@ impl FromStr for Classes {
         };
         let pair = |item: &str| match item.split_once('=').unwrap_or((item, item)) {
             (from, to) if from.is_empty() || to.is_empty() => {
-                bail!("expected NAME or NAME=GROUP, separated by commas")
+                fail!(UsageError::Argument, "expected NAME or NAME=GROUP, separated by commas")
             }
             (from, to) => Ok((from.to_string(), to.to_string())),
         };

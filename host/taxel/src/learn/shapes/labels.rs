@@ -1,41 +1,42 @@
 //! CSV file of labels for a file of images.
 
-use anyhow::{Context, Result, bail, ensure};
+use crate::error::{Context, FileError, LearnError, Result};
+use crate::files::rows::{CsvRow, rows};
 use std::path::Path;
 
 /// Class of each of `count` images: a column `index` (from 0), and the last other column for the name.
 pub fn read(path: &Path, count: usize) -> Result<Vec<String>> {
     let parse = || {
         crate::tell::verbose::reads(path);
-        let text = std::fs::read_to_string(path).context("cannot be read")?;
-        let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let (_, head) = lines.next().context("is empty")?;
-        let head: Vec<&str> = head.split(',').map(str::trim).collect();
-        let index = head.iter().position(|name| *name == "index").context("has no column `index`")?;
-        let class = (0..head.len()).rfind(|column| *column != index).context("has no column of names")?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| FileError::read(path, error))
+            .context("cannot be read")?;
+        let lacks = |why: &str| LearnError::Data(why.into());
+        let rows = rows(&text);
+        let (CsvRow { cells: head, .. }, rows) = rows.split_first().ok_or_else(|| lacks("is empty"))?;
+        let index =
+            head.iter().position(|name| name == "index").ok_or_else(|| lacks("has no column `index`"))?;
+        let class = (0..head.len())
+            .rfind(|column| *column != index)
+            .ok_or_else(|| lacks("has no column of names"))?;
         let mut names = vec![None; count];
-        for (number, line) in lines {
-            let line_number = number + 1;
-            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
-            ensure!(
-                cells.len() == head.len(),
-                "line {line_number}: has {} cells, expected {}",
-                cells.len(),
-                head.len()
-            );
+        for CsvRow { line, cells } in rows {
+            let (have, want) = (cells.len(), head.len());
+            require!(have == want, LearnError::Data, "line {line}: has {have} cells, expected {want}");
             let Ok(at) = cells[index].parse::<usize>() else {
-                bail!("line {line_number}: {:?} is not an index", cells[index])
+                fail!(LearnError::Data, "line {line}: {:?} is not an index", &cells[index])
             };
-            let slot = names.get_mut(at).with_context(|| {
-                format!("line {line_number}: there are {count} images, none has index {at}")
+            let slot = names.get_mut(at).ok_or_else(|| {
+                error!(LearnError::Data, "line {line}: there are {count} images, none has index {at}")
             })?;
-            ensure!(
+            require!(
                 slot.replace(cells[class].to_string()).is_none(),
-                "line {line_number}: index {at} occurs twice"
+                LearnError::Data,
+                "line {line}: index {at} occurs twice"
             );
         }
-        let missing = |at: usize| format!("image {at} has no label");
-        names.into_iter().enumerate().map(|(at, name)| name.with_context(|| missing(at))).collect()
+        let missing = |at: usize| error!(LearnError::Data, "image {at} has no label");
+        names.into_iter().enumerate().map(|(at, name)| name.ok_or_else(|| missing(at))).collect()
     };
     parse().with_context(|| path.display().to_string())
 }

@@ -1,52 +1,60 @@
 //! CSV files with named columns.
 
-use anyhow::{Context, Result, ensure};
+use crate::error::{Context, FileError, LearnError, Result};
+use crate::files::rows::{CsvRow, rows};
+use csv::StringRecord;
 use std::path::Path;
 
-/// Rows of texts, as long as the header. Quoted fields are not supported.
+/// Rows of texts, as long as the header.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
-    names: Vec<String>,
-    lines: Vec<Vec<String>>,
+    names: StringRecord,
+    rows: Vec<StringRecord>,
 }
 
 impl Table {
     /// Reads a file. Errors name it.
     pub fn read(path: &Path) -> Result<Table> {
         crate::tell::verbose::reads(path);
-        let text = std::fs::read_to_string(path).context("cannot be read");
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| FileError::read(path, error))
+            .context("cannot be read");
         text.and_then(|text| Table::parse(&text)).with_context(|| path.display().to_string())
     }
 
     /// Parses a text.
     pub fn parse(text: &str) -> Result<Table> {
-        let split = |line: &str| line.split(',').map(|field| field.trim().to_string()).collect::<Vec<_>>();
-        let mut lines = text.trim_start_matches('\u{feff}').lines().map(split);
-        let names = lines.next().context("is empty")?;
-        let lines: Vec<_> = lines.filter(|line| line.iter().any(|field| !field.is_empty())).collect();
-        for (number, line) in lines.iter().enumerate() {
-            let (have, want) = (line.len(), names.len());
-            ensure!(have == want, "line {}: {have} fields, the first line names {want}", number + 2);
+        let mut rows = rows(text).into_iter();
+        let names = rows.next().ok_or_else(|| error!(LearnError::Data, "is empty"))?.cells;
+        let rows: Vec<_> = rows.filter(|row| row.cells.iter().any(|field| !field.is_empty())).collect();
+        for CsvRow { line, cells } in &rows {
+            let (have, want) = (cells.len(), names.len());
+            require!(
+                have == want,
+                LearnError::Data,
+                "line {line}: {have} fields, the first line names {want}"
+            );
         }
-        Ok(Table { names, lines })
+        Ok(Table { names, rows: rows.into_iter().map(|row| row.cells).collect() })
     }
 
     /// Number of rows below the header.
     pub fn len(&self) -> usize {
-        self.lines.len()
+        self.rows.len()
     }
 
     /// True if there is no row below the header.
     pub fn is_empty(&self) -> bool {
-        self.lines.is_empty()
+        self.rows.is_empty()
     }
 
     /// Fields of a column.
     pub fn column(&self, name: &str) -> Result<Vec<&str>> {
         let index = self.names.iter().position(|known| known == name);
+        let known = || self.names.iter().collect::<Vec<_>>().join(", ");
         let index =
-            index.with_context(|| format!("has no column {name}, known are {}", self.names.join(", ")))?;
-        Ok(self.lines.iter().map(|line| line[index].as_str()).collect())
+            index.ok_or_else(|| error!(LearnError::Data, "has no column {name}, known are {}", known()))?;
+        Ok(self.rows.iter().map(|row| &row[index]).collect())
     }
 }
 
@@ -64,8 +72,8 @@ mod tests {
             "has no column label, known are index, gesture"
         );
         assert_eq!(
-            (sentence(""), sentence("a,b\n1")),
-            ("is empty".into(), "line 2: 1 fields, the first line names 2".into())
+            (sentence(""), sentence("a,b\n\n1")),
+            ("is empty".into(), "line 3: 1 fields, the first line names 2".into())
         );
     }
 }

@@ -56,7 +56,8 @@ pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> 
                     if last.replace(number / THOUSAND) != Some(number / THOUSAND) {
                         folder.folder(&place)?;
                     }
-                    folder.small_file(format!("{place}/{number:08}.png"), image.of(&values, sheet)?)
+                    let bytes = image.of(&values, sheet)?;
+                    anyhow::Ok(folder.small_file(format!("{place}/{number:08}.png"), bytes)?)
                 })
             });
             (queue, work)

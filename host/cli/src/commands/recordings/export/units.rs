@@ -21,7 +21,7 @@ impl Scale {
         let name = format!("{CALIBRATION} of {}", path.display());
         let parsed = attached.map(|bytes| {
             let text = String::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
-            Calibration::parse(&text, &name)
+            anyhow::Ok(Calibration::parse(&text, &name)?)
         });
         Ok(Scale { calibration: parsed.transpose()?, counts_per_newton: overview.counts_per_newton() })
     }

@@ -1,0 +1,432 @@
+// Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs and
+// host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs: TAXEL_BLESS=1 updates it.
+
+/** Garment, scene and firmware of the board, and how the page shows them. */
+export type PageHello = {
+  /** Type of the message. */
+  type: "hello";
+  /** The board's time, us. */
+  time_us: number;
+  /** Name and version of the firmware. */
+  firmware: string;
+  /** Name of the garment. */
+  garment: string;
+  /** Name of the scene. */
+  scene: string;
+  /** Id, date and fit of the calibration in force; empty without one: values are counts. */
+  calibration: string;
+  /** Number of taxels. */
+  taxels: number;
+  /** Names of the regions of the body. */
+  regions: string[];
+  /** The panels, in the order of their taxels. */
+  panels: {
+    /** Name of the panel. */
+    name: string;
+    /** Link of the robot. */
+    link: string;
+    /** Region of the body. */
+    region: string;
+    /** Number of rows. */
+    rows: number;
+    /** Number of columns. */
+    columns: number;
+    /** Distance of columns and of rows, um; 0 if unknown. */
+    pitch_um: [number, number];
+  }[];
+  /** The source. */
+  label: string;
+  /** Colours and scale. */
+  palette: {
+    /** Red, green and blue of each step. */
+    ramp: [number, number, number][];
+    /** Number of equal parts of the scale. */
+    bands: number;
+    /** End of the scale at the beginning, counts. */
+    start: number;
+    /** Least and greatest end of the scale, counts. */
+    ends: [number, number];
+    /** Colour of each intention, `#rrggbb`. */
+    intentions: Record<string, string>;
+  };
+  /** Counts per newton on a taxel; null if unknown. */
+  counts_per_newton: number | null;
+  /** Counts at which a contact ends. */
+  low: number;
+  /** Rectangles of positions without a taxel. */
+  absent: {
+    /** Index of the panel. */
+    panel: number;
+    /** First row. */
+    row: number;
+    /** First column. */
+    column: number;
+    /** Number of rows. */
+    rows: number;
+    /** Number of columns. */
+    columns: number;
+  }[];
+  /** The cognitive map; null if the scene has none. */
+  map: {
+    /** The concepts. */
+    concepts: {
+      /** Name of the concept. */
+      name: string;
+      /** Layer in the drawing, from 0. */
+      layer: number;
+    }[];
+    /** The edges whose weight is not 0. */
+    edges: {
+      /** Index of the cause. */
+      from: number;
+      /** Index of the effect. */
+      to: number;
+      /** Weight, -1 to 1. */
+      weight: number;
+    }[];
+  } | null;
+};
+
+/** Counters of the board, from its start on. */
+export type HealthLine = {
+  /** Type of the message. */
+  type: "health";
+  /** Duration of the last perception, us. */
+  process_us: number;
+  /** Finished scans. */
+  scans: number;
+  /** Scans that failed. */
+  failed: number;
+  /** Complete frames that were never read. */
+  overruns: number;
+  /** Images that were due and not sent, because the link had no room. */
+  thinned_frames: number;
+  /** Contact updates that were due and not sent. */
+  thinned_contacts: number;
+  /** Guaranteed messages that did not fit in the queue. */
+  lost: number;
+  /** Received frames that were refused. */
+  refused: number;
+  /** Duration of the last scan, us. */
+  scan_us: number;
+  /** The board's time, us. */
+  time_us: number;
+};
+
+/** Faulty taxels. */
+export type HealthMapLine = {
+  /** Type of the message. */
+  type: "health_map";
+  /** The board's time, us. */
+  time_us: number;
+  /** True if the list is complete; else more follows. */
+  whole: boolean;
+  /** The faulty taxels, ascending. */
+  ill: {
+    /** Number of the taxel. */
+    taxel: number;
+    /** Its fault, for people. */
+    health: string;
+  }[];
+};
+
+/** Time spent on frames: of each part, the most that any of the frames took. */
+export type BudgetLine = {
+  /** Type of the message. */
+  type: "budget";
+  /** Number of the last of these scans. */
+  frame: number;
+  /** Images that were due and not sent, because the link had no room. */
+  thinned_frames: number;
+  /** Number of frames: 1, or all since the last such message. */
+  frames: number;
+  /** Duration of the scan, us. */
+  scan_us: number;
+  /** Time from the codes to the reactions, us. */
+  process_us: number;
+  /** Time of encoding messages and handing them to the link, us. */
+  encode_us: number;
+  /** Time for which a message waited for room on the link, us. */
+  send_us: number;
+  /** Complete frames that were never read. */
+  overruns: number;
+  /** Start of the last scan, us of the board. */
+  time_us: number;
+};
+
+/** Head of a binary message. */
+export type ImageHead = {
+  /** Line of the image. */
+  frame: {
+    /** Type of the message. */
+    type: "frame";
+    /** Number of the scan. */
+    frame: number;
+    /** Start of the scan, us of the board. */
+    time_us: number;
+    /** Present contacts. */
+    contacts: {
+      /** Number of the contact, unique since the board's start. */
+      id: number;
+      /** `onset`, `held` or `released`. */
+      phase: string;
+      /** Index of the panel. */
+      panel: number;
+      /** Name of the panel. */
+      panel_name: string;
+      /** Region of the body. */
+      region: string;
+      /** Link of the robot. */
+      link: string;
+      /** Sum of the pressure of its taxels, counts. */
+      total: number;
+      /** Greatest pressure of a taxel, counts. */
+      peak: number;
+      /** Row of that taxel, from 0. */
+      peak_row: number;
+      /** Column of that taxel, from 0. */
+      peak_column: number;
+      /** Number of taxels. */
+      area: number;
+      /** Number of taxels at its edge. */
+      perimeter: number;
+      /** Mean slope over those taxels, counts per taxel. */
+      edge: number;
+      /** Centroid along the columns, taxels from the first column. */
+      x: number;
+      /** Centroid along the rows, taxels from the first row. */
+      y: number;
+      /** Direction of the long axis, rad; null if there is no clear direction. */
+      azimuth: number | null;
+      /** Elongation, 0 (round) to 1 (a line). */
+      anisotropy: number;
+      /** Width across the long axis, mm. */
+      breadth_mm: number;
+      /** Normalised moment of inertia; depends on the pressure. */
+      nmi: number;
+      /** `nmi` times the root of the peak. */
+      nmi_peak: number;
+      /** `nmi` times the root of the mean pressure, weighted by the pressure itself. */
+      nmi_s2: number;
+      /** Name of the shape, or `unknown`. */
+      shape: string;
+      /** Share of the votes for that shape, 0 to 1; of an unknown shape, how far it is from all known ones. */
+      confidence: number;
+      /** Displacement along the columns since the onset, taxels. */
+      dx: number;
+      /** Displacement along the rows since the onset, taxels. */
+      dy: number;
+      /** Velocity along the columns, taxels/s. */
+      vx: number;
+      /** Velocity along the rows, taxels/s. */
+      vy: number;
+      /** True if it slides over the surface. */
+      slip: boolean;
+      /** True if all of it may be drift of the baseline. */
+      unsure: boolean;
+      /** Time since the onset, s. */
+      duration: number;
+      /** Greatest total so far, counts. */
+      peak_total: number;
+      /** Width at the greatest total, mm. */
+      peak_breadth_mm: number;
+      /** Centroid along the columns, mm from the first column; absent if the pitch is unknown. */
+      x_mm?: number | null;
+      /** Centroid along the rows, mm from the first row; absent if the pitch is unknown. */
+      y_mm?: number | null;
+      /** Age of the form, frames; absent unless ages were requested. */
+      form_age?: number | null;
+      /** Force by the calibration in force, N; null where the panel has none, absent without a calibration. */
+      force_n?: number | null;
+    }[];
+    /** Meaning of the touch. */
+    intent: {
+      /** The announced intention: `none`, `kindness`, `threat` or `attack`. */
+      leading: string;
+      /** Activation of each concept of the map, -1 to 1. */
+      concepts: Record<string, number>;
+    };
+    /** Ids of the contacts that have ended since the last frame; absent if none has. */
+    released?: number[];
+    /** True for a key frame, which is decoded without the frames before it. */
+    key: boolean;
+    /** True if the image could be decoded. */
+    decoded: boolean;
+    /** Messages lost so far. */
+    lost: number;
+    /** Images left out so far, because the link had no room. */
+    thinned: number;
+    /** Pressure by panel; absent unless requested. */
+    panels?: {
+      /** Name of the panel. */
+      name: string;
+      /** Pressure of each taxel by row, counts. */
+      rows: number[][];
+    }[] | null;
+    /** Force on each panel by the calibration in force, N; null where a panel has none, absent without a calibration. */
+    force_n?: (number | null)[] | null;
+    /** Of a recording: time since its beginning, us. */
+    at_us?: number;
+    /** Of a recording: number of jumps in time. */
+    seeks?: number;
+    /** True if the image is from before the page was opened. */
+    past?: boolean;
+  };
+  /** Time, us of the board, and total, counts, of each frame since the last image, newest last. */
+  samples: [number, number][];
+  /** Images that were not sent because of a newer one. */
+  replaced: number;
+  /** Samples and lines that were dropped, because the page did not read. */
+  missed: number;
+};
+
+/** The pressure just before a moment of a recording. */
+export type GlowLine = {
+  /** Type of the message. */
+  type: "glow";
+  /** The moment, us of the board. */
+  time_us: number;
+  /** Number of jumps in time. */
+  seeks: number;
+  /** Taxels and their pressure, counts, fading with its age. */
+  taxels: [number, number][];
+};
+
+/** Faults of lines and inputs. */
+export type PinsLine = {
+  /** Type of the message. */
+  type: "pins";
+  /** Number of faults. */
+  faults: number;
+  /** A sentence for each, or one if there are none. */
+  told: string[];
+};
+
+/** The taxel under the pointer. */
+export type TaxelLine = {
+  /** Type of the message. */
+  type: "taxel";
+  /** Number of the taxel. */
+  taxel: number;
+  /** Scan of the code; null before it has come. */
+  frame: number | null;
+  /** Raw code; null before it has come. */
+  code: number | null;
+  /** Block that reads it; null if none does. */
+  block: number | null;
+  /** Row in that block; null if it has none. */
+  wired_row: number | null;
+  /** Column in that block; null if it has none. */
+  wired_column: number | null;
+};
+
+/** State of the link. */
+export type LinkLine = {
+  /** Type of the message. */
+  type: "link";
+  /** Frames of the board, 1/s. */
+  rate: number;
+  /** Frames received. */
+  frames: number;
+  /** Messages lost. */
+  lost: number;
+  /** Images left out, because the link had no room. */
+  thinned: number;
+  /** Frames of the wire that were refused. */
+  refused: number;
+  /** Restarts of the board. */
+  restarts: number;
+  /** Half of the last round trip to the board, ms; null if unknown. */
+  latency_ms: number | null;
+  /** Number of open pages. */
+  pages: number;
+};
+
+/** A line of the log. */
+export type SayLine = {
+  /** Type of the message. */
+  type: "say";
+  /** The line with its time. */
+  text: string;
+  /** `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`. */
+  kind: string;
+  /** Its time, us of the board; null if it has none. */
+  time_us: number | null;
+  /** The line without its time. */
+  said: string;
+};
+
+/** The stream has ended. */
+export type EndLine = {
+  /** Type of the message. */
+  type: "end";
+  /** The reason, for people. */
+  text: string;
+};
+
+/** The last message of a type is no longer valid. */
+export type NoneLine = {
+  /** Type of the message. */
+  type: "none";
+  /** The type. */
+  of: string;
+};
+
+/** State of the player of a recording. */
+export type PlayerLine = {
+  /** Type of the message. */
+  type: "player";
+  /** Time since the beginning, s. */
+  at: number;
+  /** Duration of the recording, s. */
+  duration: number;
+  /** First and last moment that is played, s. */
+  range: [number, number];
+  /** Multiple of the recorded speed. */
+  speed: number;
+  /** True if the range is repeated. */
+  loop: boolean;
+  /** False while paused. */
+  playing: boolean;
+  /** Number of jumps in time. */
+  seeks: number;
+};
+
+/** Summary of a recording. */
+export type OverviewLine = {
+  /** Type of the message. */
+  type: "overview";
+  /** Duration of the recording, us. */
+  duration_us: number;
+  /** Time up to which everything is known, us since the beginning. */
+  known_us: number;
+  /** Duration of a part, us. */
+  width_us: number;
+  /** Greatest total of each part, counts. */
+  totals: number[];
+  /** Changes of the leading intention: us since the beginning, name. */
+  intentions: [number, string][];
+  /** Lines of the log: us since the beginning, kind, text. */
+  said: [number, string, string][];
+  /** Number of lines about contacts that were left out. */
+  unlisted: number;
+};
+
+/** A request of a page. */
+export type PageWish = {
+  hover: number | null;
+} | {
+  tare: number;
+} | {
+  play: boolean;
+} | {
+  seek: number;
+} | {
+  speed: number;
+} | {
+  loop: boolean;
+} | {
+  range: [number, number] | null;
+} | {
+  step: number;
+};

@@ -1,0 +1,31 @@
+//! The JSON schemas of the messages between the program and a page.
+
+use super::lines::{
+    EndLine, GlowLine, ImageHead, LinkLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine, SayLine,
+    TaxelLine,
+};
+use super::message::PageWish;
+use serde_json::Value;
+use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine};
+use taxel::json::schema::of;
+
+/// The schema of each message, and of what a page asks, by the name of its struct.
+pub fn derived() -> Vec<(&'static str, Value)> {
+    vec![
+        ("PageHello", of::<PageHello<'static>>()),
+        ("HealthLine", of::<HealthLine>()),
+        ("HealthMapLine", of::<HealthMapLine>()),
+        ("BudgetLine", of::<BudgetLine>()),
+        ("ImageHead", of::<ImageHead>()),
+        ("GlowLine", of::<GlowLine>()),
+        ("PinsLine", of::<PinsLine>()),
+        ("TaxelLine", of::<TaxelLine>()),
+        ("LinkLine", of::<LinkLine>()),
+        ("SayLine", of::<SayLine<'static>>()),
+        ("EndLine", of::<EndLine>()),
+        ("NoneLine", of::<NoneLine>()),
+        ("PlayerLine", of::<PlayerLine>()),
+        ("OverviewLine", of::<OverviewLine<'static>>()),
+        ("PageWish", of::<PageWish>()),
+    ]
+}

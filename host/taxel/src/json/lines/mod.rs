@@ -1,0 +1,51 @@
+//! The JSON messages about a stream: one struct each.
+//!
+//! The docs of the fields are the descriptions in the messages' schemas.
+
+mod board;
+mod frame;
+mod perceived;
+mod touch;
+
+pub use board::{
+    AnswerLine, BootLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, LogLine,
+    PinFaultLine, RefusedLine, SelfTestLine, SyncLine, TemperatureLine, UnusableLine,
+};
+pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
+pub use perceived::{IntentLine, ReactionLine, ReflexLine, RegionLine, SymbolLine, SymbolsLine, WordsLine};
+pub use touch::{ConfidenceLine, FormAge, FormsLine, GestureLine, ShapesLine, UnsureLine};
+
+use serde::Serialize;
+
+/// A message.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+#[allow(clippy::large_enum_variant)] // made, written and dropped
+#[allow(missing_docs)] // see the structs
+pub enum JsonLine<'a> {
+    Hello(HelloLine<'a>),
+    Boot(BootLine),
+    Unusable(UnusableLine<'a>),
+    Frame(FrameLine<'a>),
+    Contacts(ContactsLine<'a>),
+    Symbols(SymbolsLine<'a>),
+    Intent(IntentLine),
+    Gesture(GestureLine<'a>),
+    Confidence(ConfidenceLine),
+    Unsure(UnsureLine<'a>),
+    Forms(FormsLine),
+    Shapes(ShapesLine<'a>),
+    Reaction(ReactionLine<'a>),
+    Reflex(ReflexLine),
+    Health(HealthLine),
+    Budget(BudgetLine),
+    Temperature(TemperatureLine),
+    HealthMap(HealthMapLine),
+    SelfTest(SelfTestLine<'a>),
+    Log(LogLine<'a>),
+    Sync(SyncLine),
+    Answer(AnswerLine<'a>),
+    Raw(RawLine),
+    Refused(RefusedLine),
+}

@@ -1,0 +1,101 @@
+//! What is recognised: gestures, shapes, and how sure that is.
+
+#[cfg(feature = "schema")]
+use crate::json::schema::TypeIs;
+use serde::Serialize;
+
+/// A recognised gesture.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("gesture")))]
+#[serde(tag = "type", rename = "gesture")]
+pub struct GestureLine<'a> {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// Number of the touch, from 1.
+    pub touch: u32,
+    /// Name of the touched panel.
+    pub panel: &'a str,
+    /// Name of the gesture.
+    pub class: &'a str,
+    /// Score of the gesture: 1 for what the model was fitted to, -1 for all else.
+    pub score: f64,
+    /// Lead over the score of the second gesture.
+    pub lead: f64,
+    /// Time for which the touch was observed, ms.
+    pub observed_ms: u32,
+    /// True if the touch is over: the result is for all of it.
+    pub ended: bool,
+    /// Share of touches of that age and lead that are of that gesture, 0 to 1; absent if the model gives
+    /// none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub confidence: Option<f64>,
+}
+
+/// Confidence of the next gesture.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("confidence")))]
+#[serde(tag = "type", rename = "confidence")]
+pub struct ConfidenceLine {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// Number of the touch, from 1.
+    pub touch: u32,
+    /// Share of touches of that age and lead that are of that gesture, 0 to 1.
+    pub confidence: f64,
+}
+
+/// Contacts that may be drift of the baseline.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("unsure")))]
+#[serde(tag = "type", rename = "unsure")]
+pub struct UnsureLine<'a> {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// Ids of the contacts.
+    pub contacts: &'a [u32],
+}
+
+/// Ages of the forms of the next contacts.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("forms")))]
+#[serde(tag = "type", rename = "forms")]
+pub struct FormsLine {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// Forms that are older than this frame.
+    pub ages: Vec<FormAge>,
+}
+
+/// Age of a form.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FormAge {
+    /// Id of the contact.
+    pub contact: u32,
+    /// Age, frames; 255 and more are 255.
+    pub age: u8,
+}
+
+/// The base of shapes in force.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("shapes")))]
+#[serde(tag = "type", rename = "shapes")]
+pub struct ShapesLine<'a> {
+    /// Names of the taught shapes; empty while the built-in base is in force.
+    pub classes: &'a [String],
+    /// Number of prototypes.
+    pub prototypes: u16,
+}
