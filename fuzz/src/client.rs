@@ -49,7 +49,7 @@ impl Port for Silent {
 /// A client, and who looks at it.
 struct Told {
     client: Client,
-    shows: [Box<dyn Show>; 3],
+    shows: [Box<dyn Show<taxel_cli::Error>>; 3],
     picture: View,
     seq: u32,
     /// Number and values of the last image.

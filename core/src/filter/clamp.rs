@@ -1,20 +1,29 @@
 //! Clamps a taxel to the range of its eight neighbours: by single comparisons, or many taxels at once.
 
+use super::points::stands_out;
+
 /// True if the machine has SIMD. Without it, a few comparisons settle most taxels.
 pub(crate) const VECTORS: bool = cfg!(target_pointer_width = "64");
 
 /// Taxels of a run, with one neighbour at each end: as many as fill a vector, or a few without SIMD.
 pub(crate) const SHORT: usize = if VECTORS { 10 } else { 9 };
 
-/// Clamps all taxels of `here` except its ends, each to the range of its eight neighbours.
+/// Clamps all taxels of `here` except its ends, each to the range of its eight neighbours. Sets `points` if one
+/// of them may [stand out](stands_out): with SIMD, to look is as fast as to note it here.
 #[inline(always)]
 pub(crate) fn clamp_run<const N: usize>(
     above: &[u16; N],
     here: &[u16; N],
     below: &[u16; N],
     out: &mut [u16; N],
+    points: &mut bool,
 ) {
-    if VECTORS { by_range(above, here, below, out) } else { by_comparison(above, here, below, out) }
+    if VECTORS {
+        by_range(above, here, below, out);
+        *points = true;
+    } else {
+        by_comparison(above, here, below, out, points);
+    }
 }
 
 /// Clamps all taxels at once.
@@ -37,16 +46,22 @@ pub(crate) fn clamp(above: &[u16; 3], here: &[u16; 3], below: &[u16; 3]) -> u16 
 
 /// Clamps one taxel after another.
 #[inline(never)] // M0+: out of line
-fn by_comparison<const N: usize>(above: &[u16; N], here: &[u16; N], below: &[u16; N], out: &mut [u16; N]) {
+fn by_comparison<const N: usize>(
+    above: &[u16; N],
+    here: &[u16; N],
+    below: &[u16; N],
+    out: &mut [u16; N],
+    points: &mut bool,
+) {
     // Unrolled by hand: the compiler would keep a loop, with an index and five additions per taxel.
-    step::<1, N>(above, here, below, out);
-    step::<2, N>(above, here, below, out);
-    step::<3, N>(above, here, below, out);
-    step::<4, N>(above, here, below, out);
-    step::<5, N>(above, here, below, out);
-    step::<6, N>(above, here, below, out);
-    step::<7, N>(above, here, below, out);
-    step::<8, N>(above, here, below, out);
+    step::<1, N>(above, here, below, out, points);
+    step::<2, N>(above, here, below, out, points);
+    step::<3, N>(above, here, below, out, points);
+    step::<4, N>(above, here, below, out, points);
+    step::<5, N>(above, here, below, out, points);
+    step::<6, N>(above, here, below, out, points);
+    step::<7, N>(above, here, below, out, points);
+    step::<8, N>(above, here, below, out, points);
 }
 
 /// Clamps taxel AT. Only a strict extreme of the nine changes, so one neighbour that is not smaller and one
@@ -57,6 +72,7 @@ fn step<const AT: usize, const N: usize>(
     here: &[u16; N],
     below: &[u16; N],
     out: &mut [u16; N],
+    points: &mut bool,
 ) {
     let (Some(a), Some([left, value, right]), Some(b)) =
         (three(above, AT), three(here, AT), three(below, AT))
@@ -68,6 +84,7 @@ fn step<const AT: usize, const N: usize>(
     if value > right {
         if value > left && around(a, b).all(|other| other < *value) {
             settled = greatest(above, here, below, AT);
+            *points |= stands_out(*value, settled);
         }
     } else if value < right && value < left && around(a, b).all(|other| other > *value) {
         settled = least(above, here, below, AT);
@@ -137,9 +154,12 @@ mod tests {
             });
             let mut out = [[0; SHORT]; 2];
             let [above, here, below] = &rows;
-            by_comparison(above, here, below, &mut out[0]);
+            let mut points = false;
+            by_comparison(above, here, below, &mut out[0], &mut points);
             by_range(above, here, below, &mut out[1]);
             assert_eq!(out[0], out[1]);
+            let mut inside = here.iter().zip(out[0]).skip(1).take(SHORT - 2);
+            assert_eq!(points, inside.any(|(value, out)| stands_out(*value, out)));
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
 use super::clamp_row16::clamp_row16;
+use super::points::stands_out;
 use super::row::FilterRow;
 use crate::garment::Area;
 use crate::image::row16::ROW16;
@@ -35,6 +36,7 @@ pub(crate) fn conservative(
     {
         return smooth_rows16(values, out, groups);
     }
+    let mut points = false;
     let mut next = first;
     while let Some(number) = marks.next(next..end) {
         next = number + 1;
@@ -47,14 +49,14 @@ pub(crate) fn conservative(
         let below = if next == end { above } else { here + columns };
         let row = FilterRow { starts: [above, here, below], columns };
         if columns == ROW16 || groups == there {
-            smooth(&row, values, out, 0..columns);
+            smooth(&row, values, out, 0..columns, &mut points);
             continue;
         }
         for (_, piece) in Pieces::of(area, grain, groups.into()) {
-            smooth(&row, values, out, piece);
+            smooth(&row, values, out, piece, &mut points);
         }
     }
-    true
+    points
 }
 
 /// Smooths a panel of sixteen columns and at least two rows. Returns true if it has points.
@@ -117,15 +119,26 @@ fn narrow(values: &[u16], out: &mut [u16]) {
     }
 }
 
-/// Smooths some columns of a row, run by run.
+/// Smooths some columns of a row, run by run. Sets `points` if it may have points.
 #[inline(never)]
-fn smooth(row: &FilterRow, values: &[u16], out: &mut [u16], columns: Range<usize>) {
+fn smooth(row: &FilterRow, values: &[u16], out: &mut [u16], columns: Range<usize>, points: &mut bool) {
     if row.columns < SHORT {
+        *points = true;
         return smooth_each(row, values, out);
     }
-    row.filter(values, out, columns, clamp_run::<SHORT>, |[above, here, below]| {
-        border(here[0], [here[1], above[0], below[0], above[1], below[1]])
-    });
+    let (mut inside, mut at_end) = (false, false);
+    row.filter(
+        values,
+        out,
+        columns,
+        |above, here, below, out: &mut [u16; SHORT]| clamp_run(above, here, below, out, &mut inside),
+        |[above, here, below]| {
+            let smoothed = border(here[0], [here[1], above[0], below[0], above[1], below[1]]);
+            at_end |= stands_out(here[0], smoothed);
+            smoothed
+        },
+    );
+    *points |= inside | at_end;
 }
 
 /// Smooths a row shorter than a run.
@@ -181,7 +194,7 @@ mod tests {
                     if row + 1 == rows { row - 1 } else { row + 1 },
                 ];
                 let row = FilterRow { starts: around.map(|row| row * ROW16), columns: ROW16 };
-                smooth(&row, values, &mut out[1], 0..ROW16);
+                smooth(&row, values, &mut out[1], 0..ROW16, &mut false);
             }
             assert_eq!(out[0], out[1]);
         }

@@ -22,8 +22,8 @@ impl FilterRow {
         values: &[u16],
         out: &mut [u16],
         columns: Range<usize>,
-        run: impl Fn(&[u16; N], &[u16; N], &[u16; N], &mut [u16; N]),
-        end: impl Fn([[u16; 2]; 3]) -> u16,
+        mut run: impl FnMut(&[u16; N], &[u16; N], &[u16; N], &mut [u16; N]),
+        mut end: impl FnMut([[u16; 2]; 3]) -> u16,
     ) {
         let Some(latest) = self.columns.checked_sub(N) else { return };
         let mut at = columns.start.saturating_sub(1).min(latest);

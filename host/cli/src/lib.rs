@@ -7,6 +7,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`fault`] | who is to blame for an error, and the exit status |
 //! | [`palette`] | colours and scale of pressure, for all that shows it |
 //! | [`watch`] | a followed board: options, loop, sentences about events |
 //! | [`terminal`] | views in the terminal |
@@ -23,6 +24,8 @@
 // First: the modules below use its macros.
 #[macro_use]
 mod told;
+
+pub mod fault;
 
 pub mod palette;
 
@@ -48,3 +51,6 @@ pub mod commands;
 pub mod cli;
 
 pub mod program;
+
+/// The error of commands and views.
+pub use anyhow::Error;

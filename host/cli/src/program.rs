@@ -1,10 +1,12 @@
 //! The program from its arguments to its exit status: prints one sentence about an error, and returns the
-//! status of [`taxel::tell::fault`].
+//! status of [`fault`].
 
 use crate::cli::Cli;
+use crate::fault;
+use std::error::Error as _;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
-use taxel::tell::{fault, words};
+use taxel::tell::words;
 
 /// Beginning of errors about the standard output.
 const OUTPUT: &str = "the standard output cannot be written";
@@ -25,7 +27,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Prints an error. If that fails, the exit status still reports it.
 fn tell(error: anyhow::Error) -> u8 {
-    _ = writeln!(std::io::stderr(), "error: {}", words::sentence(&error));
+    _ = writeln!(std::io::stderr(), "error: {}", words::sentence(error.as_ref()));
     fault::status(&error)
 }
 
@@ -33,7 +35,8 @@ fn tell(error: anyhow::Error) -> u8 {
 /// of links and files have contexts.
 fn of_closed_output(error: &anyhow::Error) -> Option<ErrorKind> {
     let outermost = error.chain().next()?;
-    let error = outermost.downcast_ref::<std::io::Error>()?;
+    let of_library = outermost.downcast_ref::<taxel::Error>().filter(|error| error.source().is_none());
+    let error = outermost.downcast_ref::<std::io::Error>().or_else(|| of_library?.io())?;
     let is_bare = error.raw_os_error().is_some() || error.kind() == ErrorKind::BrokenPipe;
     is_bare.then(|| error.kind())
 }

@@ -34,7 +34,7 @@ fn build(garment: &str, scene: Option<&str>) -> anyhow::Result<Stepped> {
     let garment = garments::load(garment)?;
     let scene =
         scene.map_or_else(|| Ok(Scene::shipped()), |scene| SceneFile::named(scene).map(|file| file.scene))?;
-    Stepped::new(garment, scene)
+    Ok(Stepped::new(garment, scene)?)
 }
 
 #[pymethods]
@@ -68,7 +68,7 @@ impl Board {
                 facts.push(teller.fact(client, event, time_us.saturating_mul(1000)));
                 Ok(())
             })?;
-            Ok(facts)
+            Ok::<_, taxel::Error>(facts)
         };
         let facts = py.detach(step).map_err(raised)?;
         facts.into_iter().map(|fact| event::object(py, fact)).collect()

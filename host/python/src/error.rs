@@ -3,7 +3,8 @@
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::{PyErr, create_exception};
-use taxel::tell::{fault, words};
+use taxel::error::{ErrorKind, UsageError as WrongUse};
+use taxel::tell::words;
 
 create_exception!(
     taxel,
@@ -14,14 +15,20 @@ create_exception!(
 create_exception!(taxel, UsageError, Error, "Wrong use: an unknown name, or a value that is out of range.");
 create_exception!(taxel, BoardError, Error, "The board, or the link to it, is at fault.");
 
-/// The exception for an error, by its blame.
-pub fn raised(error: anyhow::Error) -> PyErr {
-    let sentence = words::sentence(&error);
-    match fault::status(&error) {
-        2 => UsageError::new_err(sentence),
-        3 => BoardError::new_err(sentence),
+/// The exception for an error, by its kind.
+pub fn raised(error: impl Into<anyhow::Error>) -> PyErr {
+    let error = error.into();
+    let sentence = words::sentence(error.as_ref());
+    match error.chain().find_map(|cause| cause.downcast_ref::<taxel::Error>()).map(taxel::Error::kind) {
+        Some(ErrorKind::Usage(_)) => UsageError::new_err(sentence),
+        Some(ErrorKind::Source(error)) if error.blames_board() => BoardError::new_err(sentence),
         _ => Error::new_err(sentence),
     }
+}
+
+/// An error of wrong use, for [`raised`].
+pub fn argument(sentence: impl Into<String>) -> taxel::Error {
+    WrongUse::Argument(sentence.into()).into()
 }
 
 /// An error of wrong use.

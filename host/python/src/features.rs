@@ -40,6 +40,6 @@ pub fn moments<'py>(py: Python<'py>, image: PyReadonlyArray2<'_, u16>) -> PyResu
         return Err(usage("an image has at least one column"));
     }
     let found = py.detach(|| Features::of(values, columns)).map_err(raised)?;
-    let found = serde_json::to_value(&found).map_err(|error| raised(error.into()))?;
+    let found = serde_json::to_value(&found).map_err(raised)?;
     value::dict(py, &found)
 }

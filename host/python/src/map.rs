@@ -1,8 +1,8 @@
 //! Fuzzy cognitive maps.
 
-use crate::error::raised;
+use crate::error::{argument, raised};
 use crate::value;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, ensure};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
@@ -11,7 +11,6 @@ use taxel::fcm::decimal::Decimal;
 use taxel::fcm::engine;
 use taxel::fcm::map::MapFile;
 use taxel::fcm::{check, draw, load, ran, why};
-use taxel::tell::fault::Fault;
 
 /// A map of concepts and causes.
 #[pyclass(frozen, subclass, module = "taxel.fcm")]
@@ -26,7 +25,7 @@ type Given = BTreeMap<String, f64>;
 fn decimals(given: Given) -> Result<Vec<(String, Decimal)>> {
     let each = |(name, value): (String, f64)| {
         let decimal = Decimal::from_f64(value).filter(|value| value.is_fraction());
-        let must = || Fault::usage(format!("{name} must be a number from -1 to 1"));
+        let must = || argument(format!("{name} must be a number from -1 to 1"));
         Ok((name.clone(), decimal.ok_or_else(must)?))
     };
     given.into_iter().map(each).collect()
@@ -54,13 +53,13 @@ impl Map {
     /// A map from the text of its TOML file.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Map> {
-        Map::of(load::parse(text, "the map"))
+        Map::of(load::parse(text, "the map").map_err(Error::from))
     }
 
     /// A shipped map by name (`tactile`, `shape`), or a TOML file.
     #[staticmethod]
     fn load(name_or_path: &str) -> PyResult<Map> {
-        Map::of(load::map(name_or_path))
+        Map::of(load::map(name_or_path).map_err(Error::from))
     }
 
     /// Name of the map.
@@ -77,7 +76,7 @@ impl Map {
 
     /// The map as the keys of its TOML file.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = serde_json::to_value(&self.file).map_err(|error| raised(error.into()))?;
+        let all = serde_json::to_value(&self.file).map_err(raised)?;
         value::dict(py, &all)
     }
 
@@ -92,7 +91,7 @@ impl Map {
         let run = || -> Result<Value> {
             let (problem, settings) = self.file.problem(&decimals(inputs)?)?;
             let values = steps.saturating_mul(problem.names.len());
-            ensure!(values <= 20_000_000, Fault::usage("that many steps are more than 20 million values"));
+            ensure!(values <= 20_000_000, argument("that many steps are more than 20 million values"));
             let float = engine::run(&problem, &settings, steps);
             Ok(ran::report(&float, &engine::q15(&problem, &settings, steps)))
         };
@@ -120,7 +119,7 @@ impl Map {
     /// What is to be said about the map: concepts that cannot be reached, whether it settles, whether it fits
     /// the board.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let check = || Ok(check::report(&self.file, &check::check(&self.file)?));
+        let check = || check::check(&self.file).map(|checked| check::report(&self.file, &checked));
         value::dict(py, &py.detach(check).map_err(raised)?)
     }
 

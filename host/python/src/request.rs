@@ -1,11 +1,11 @@
 //! Requests to a board, as Python's `Requests` hands them over: by name, with values in JSON.
 
+use crate::error::argument;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 use taxel::client::Client;
 use taxel::session::setting;
 use taxel::source::SceneFile;
-use taxel::tell::fault::Fault;
 use taxel_core::fold::{JOINTS, JointAngle, Posture};
 use taxel_core::format::{Q15, name};
 use taxel_core::gesture::ShippedModel;
@@ -19,14 +19,14 @@ impl Values {
     /// A whole number from `least` to `most`.
     fn whole(&self, key: &str, least: i64, most: i64) -> Result<i64> {
         let found = self.0[key].as_i64().filter(|number| (least..=most).contains(number));
-        let must = || Fault::usage(format!("{key} must be a whole number from {least} to {most}"));
+        let must = || argument(format!("{key} must be a whole number from {least} to {most}"));
         Ok(found.ok_or_else(must)?)
     }
 
     /// A number from -1 to 1.
     fn fraction(&self, key: &str) -> Result<Q15> {
         let found = self.0[key].as_f64().filter(|number| (-1.0..=1.0).contains(number));
-        let found = found.ok_or_else(|| Fault::usage(format!("{key} must be a number from -1 to 1")))?;
+        let found = found.ok_or_else(|| argument(format!("{key} must be a number from -1 to 1")))?;
         Ok(Q15((found * f64::from(Q15::ONE.0)).round() as i32))
     }
 
@@ -55,10 +55,10 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         }
         "set_concept" => Request::Feed(feed(&values)?),
         "set_posture" => Request::Posture(posture(client, &values)?),
-        "set_garment" => return setting::set_garment(client, values.text("garment")),
-        "set_scene" => return setting::set_scene(client, &SceneFile::named(values.text("scene"))?),
+        "set_garment" => return Ok(setting::set_garment(client, values.text("garment"))?),
+        "set_scene" => return Ok(setting::set_scene(client, &SceneFile::named(values.text("scene"))?)?),
         "set_gestures" => return gestures(client, &values),
-        _ => bail!(Fault::usage(format!("there is no request {request}"))),
+        _ => bail!(argument(format!("there is no request {request}"))),
     };
     Ok(client.request(&request)?)
 }
@@ -68,7 +68,7 @@ fn feed(values: &Values) -> Result<Feed> {
     let short = name(concept);
     ensure!(
         !short.is_empty() && short == concept,
-        Fault::usage(format!("{concept:?} is not a concept's name: 1 to 16 bytes"))
+        argument(format!("{concept:?} is not a concept's name: 1 to 16 bytes"))
     );
     Ok(Feed {
         concept: short,
@@ -82,7 +82,7 @@ fn feed(values: &Values) -> Result<Feed> {
 /// Angles by the names of the scene's joints, degrees.
 fn posture(client: &Client, values: &Values) -> Result<Posture> {
     let Some(worn) = client.worn() else {
-        bail!(Fault::usage("the board's joints are known once its Hello has been read"));
+        bail!(argument("the board's joints are known once its Hello has been read"));
     };
     let joints = &worn.scene.joints;
     let mut posture = Posture::default();
@@ -90,12 +90,12 @@ fn posture(client: &Client, values: &Values) -> Result<Posture> {
         let Some(index) = joints.iter().position(|known| known == joint.as_str()) else {
             let known: Vec<_> = joints.iter().map(|name| name.as_str()).collect();
             let known = if known.is_empty() { "none".into() } else { known.join(", ") };
-            bail!(Fault::usage(format!("the scene has no joint {joint}; known: {known}")));
+            bail!(argument(format!("the scene has no joint {joint}; known: {known}")));
         };
         let angle = degrees.as_f64().filter(|angle| (-180.0..=180.0).contains(angle));
-        let angle = angle.ok_or_else(|| Fault::usage(format!("{joint} must be -180 to 180 degrees")))?;
+        let angle = angle.ok_or_else(|| argument(format!("{joint} must be -180 to 180 degrees")))?;
         let told = JointAngle { joint: index as u8, centidegrees: (angle * 100.0).round() as i16 };
-        let too_many = || Fault::usage(format!("a posture has at most {JOINTS} joints"));
+        let too_many = || argument(format!("a posture has at most {JOINTS} joints"));
         posture.joints.push(told).map_err(|_| too_many())?;
     }
     Ok(posture)
@@ -106,7 +106,7 @@ fn gestures(client: &mut Client, values: &Values) -> Result<()> {
         None => return Ok(client.request(&Request::SetGestures(None))?),
         Some("gestures") => ShippedModel::Gestures,
         Some("intent") => ShippedModel::Intent,
-        Some(other) => bail!(Fault::usage(format!(
+        Some(other) => bail!(argument(format!(
             "there is no gesture model {other}; known are gestures and intent, and None for no model"
         ))),
     };
@@ -114,5 +114,5 @@ fn gestures(client: &mut Client, values: &Values) -> Result<()> {
     if let Some(certainty) = certainty {
         setting::set_certainty(client, certainty)?;
     }
-    setting::set_gestures(client, model, values.0["gain"].as_f64(), certainty.is_some())
+    Ok(setting::set_gestures(client, model, values.0["gain"].as_f64(), certainty.is_some())?)
 }

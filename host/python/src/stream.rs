@@ -1,6 +1,6 @@
 //! A board's stream: opened, iterated, asked.
 
-use crate::error::raised;
+use crate::error::{argument, raised};
 use crate::event::{self, Fact, Teller};
 use crate::request;
 use pyo3::prelude::*;
@@ -12,7 +12,6 @@ use taxel::client::passed::Passed;
 use taxel::client::{Event, ImageNews};
 use taxel::session::{Returns, Session, Turn, setting};
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::tell::fault::Fault;
 
 /// An open board: an iterator over its events.
 #[pyclass(frozen, subclass, module = "taxel")]
@@ -55,7 +54,7 @@ impl Open {
         if let Some(note) = self.session.note() {
             return Ok(Look::Found(Box::new(self.teller.note(self.session.client(), &note, now_ns))));
         }
-        match self.session.turn(&mut |_, _| Ok(()))? {
+        match self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))? {
             Turn::Bytes | Turn::Waiting => Ok(Look::Nothing),
             Turn::End => {
                 self.over = true;
@@ -78,13 +77,13 @@ impl Open {
 
 /// Opens a source.
 fn open(spec: &str, options: SourceOptions, tare: Option<u16>, returns: Returns) -> anyhow::Result<Open> {
-    let parsed: SourceSpec = spec.parse().map_err(|why| Fault::usage(format!("source {spec}: {why}")))?;
+    let parsed: SourceSpec = spec.parse().map_err(|why| argument(format!("source {spec}: {why}")))?;
     let source = source::open(&parsed, &options)?;
     let (tare, listens, wears_asked) = (tare.unwrap_or(source.tare), source.listens, source.wears_asked);
     let mut session = Session::new(source, returns);
     let (client, _) = session.parts();
     if let Some(garment) = options.garment.as_ref().filter(|_| !wears_asked) {
-        anyhow::ensure!(listens, Fault::usage(format!("{spec}: a recording has a garment of its own")));
+        anyhow::ensure!(listens, argument(format!("{spec}: a recording has a garment of its own")));
         setting::set_garment(client, garment)?;
     }
     client.start(tare)?;
@@ -188,10 +187,10 @@ impl Stream {
             let mut open = self.lock();
             self.asking.fetch_sub(1, Ordering::AcqRel);
             match open.as_mut() {
-                None => Err(Fault::usage("the stream is closed").into()),
+                None => Err(argument("the stream is closed").into()),
                 Some(open) if !open.session.source().listens => {
                     let label = &open.session.source().label;
-                    Err(Fault::usage(format!("{label} is a recording, whose board does not listen")).into())
+                    Err(argument(format!("{label} is a recording, whose board does not listen")).into())
                 }
                 Some(open) => request::ask(open.session.parts().0, name, values),
             }

@@ -1,12 +1,12 @@
 //! The simulated board and its converter.
 
 use super::decode::{Address, Decoder};
+use super::error::ScriptError;
 use super::hardware::{Bus, PINS, SimClock, SimDelay, SimPin, Timing};
 use super::pads;
 use super::script::Script;
 use super::signal::World;
 use super::wiring::Line;
-use anyhow::Result;
 use std::fmt;
 use std::rc::Rc;
 use taxel_core::acquire::{Adc, Lines, Pull, PulledAdc};
@@ -90,12 +90,17 @@ pub struct SimBoard {
 
 impl SimBoard {
     /// A board at time 0 on a garment, playing a script with this seed instead of the script's.
-    pub fn new(garment: &Garment, script: &Script, seed: u64) -> Result<SimBoard> {
+    pub fn new(garment: &Garment, script: &Script, seed: u64) -> Result<SimBoard, ScriptError> {
         SimBoard::with_timing(garment, script, seed, Timing::REFERENCE)
     }
 
     /// A board with another timing.
-    pub fn with_timing(garment: &Garment, script: &Script, seed: u64, timing: Timing) -> Result<SimBoard> {
+    pub fn with_timing(
+        garment: &Garment,
+        script: &Script,
+        seed: u64,
+        timing: Timing,
+    ) -> Result<SimBoard, ScriptError> {
         let bus = Rc::new(Bus::default());
         let from_ns = (script.faults.from_s * 1e9) as u64;
         bus.faults.replace((from_ns, script.faults.pins.clone()));

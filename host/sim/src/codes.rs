@@ -1,10 +1,10 @@
 //! Frames of a scene without pins, for benchmarks, campaigns and the emulator of the real board.
 
 use super::decode::Decoder;
+use super::error::ScriptError;
 use super::script::Script;
 use super::signal::World;
 use super::wiring::Line;
-use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taxel_core::acquire::Rounds;
 use taxel_core::garment::{Circuit, Garment, Layout};
@@ -35,12 +35,13 @@ struct Sample {
 
 impl Player {
     /// A script on a garment, read as by the reference board.
-    pub fn new(script: &Script, garment: &Garment) -> Result<Player> {
-        ensure!(
-            !garment.blocks.is_empty(),
-            "garment {}: it has no blocks, so it cannot be scanned",
-            garment.name
-        );
+    pub fn new(script: &Script, garment: &Garment) -> Result<Player, ScriptError> {
+        if garment.blocks.is_empty() {
+            let name = &garment.name;
+            return Err(ScriptError::Unfit(format!(
+                "garment {name}: it has no blocks, so it cannot be scanned"
+            )));
+        }
         let decoder = Decoder::build(garment);
         let rounds = Rounds::of(decoder.inputs().len(), garment.wiring.settle_ns);
         let mut samples = Vec::new();
@@ -94,7 +95,7 @@ pub fn frame_codes(
     garment: &Garment,
     frame_period_us: u64,
     count: usize,
-) -> Result<Vec<u16>> {
+) -> Result<Vec<u16>, ScriptError> {
     let mut player = Player::new(script, garment)?;
     let mut codes = vec![0; player.taxels() * count];
     for (frame, chunk) in codes.chunks_mut(player.taxels()).enumerate() {
@@ -106,14 +107,15 @@ pub fn frame_codes(
 /// The wiring for the emulator's harness: `lines` with pin and polarity in the order of the circuit's bits,
 /// `inputs` (GPIO numbers), `taxels` by word of asserted lines (bit 0 is the first line; the level word if no
 /// line is inverted), one entry per input, -1 if unconnected, and `count`.
-pub fn wiring_json(garment: &Garment, layout: &Layout, circuit: &Circuit) -> Result<Value> {
+pub fn wiring_json(garment: &Garment, layout: &Layout, circuit: &Circuit) -> Result<Value, ScriptError> {
     let pins = circuit.lines();
-    ensure!(
-        pins.len() <= MOST_LINES,
-        "garment {}: the emulator takes at most {MOST_LINES} select lines, `wiring` has {}",
-        garment.name,
-        pins.len()
-    );
+    if pins.len() > MOST_LINES {
+        return Err(ScriptError::Unfit(format!(
+            "garment {}: the emulator takes at most {MOST_LINES} select lines, `wiring` has {}",
+            garment.name,
+            pins.len()
+        )));
+    }
     let decoder = Decoder::build(garment);
     let inverted = circuit.idle_word();
     let mut last = 0;

@@ -15,6 +15,7 @@
 #![forbid(unsafe_code)]
 
 mod decode;
+mod error;
 mod flash;
 mod noise;
 mod rewire;
@@ -51,6 +52,7 @@ pub use codes::{FRAME_PERIOD_US, Player, frame_codes, wiring_json};
 pub use contact::Contact;
 pub use decode::{Address, Decoder};
 pub use drift::{Course, Drifting, Patch};
+pub use error::ScriptError;
 pub use flash::{Cut, FlashError, SimFlash};
 pub use footprint::Footprint;
 pub use hardware::{PINS, SimClock, SimDelay, SimPin, Timing};

@@ -1,8 +1,8 @@
 //! Reads and checks scripts. Errors are one sentence that names the key.
 
+use super::error::ScriptError;
 use super::script::{Joint, Script};
 use super::touch::Touch;
-use anyhow::{Context, Error, Result, bail, ensure};
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
@@ -14,10 +14,10 @@ const LARGEST_MM: f64 = 1_000.0;
 const MOST_COUNTS: f64 = 1e6;
 
 impl FromStr for Script {
-    type Err = Error;
+    type Err = ScriptError;
 
     /// Reads and checks a script; without a name in the text it has none.
-    fn from_str(text: &str) -> Result<Script> {
+    fn from_str(text: &str) -> Result<Script, ScriptError> {
         let script: Script = toml::from_str(text)?;
         script.check()?;
         Ok(script)
@@ -26,7 +26,7 @@ impl FromStr for Script {
 
 impl Script {
     /// Checks every number; errors name the key.
-    pub fn check(&self) -> Result<()> {
+    pub fn check(&self) -> Result<(), ScriptError> {
         within("duration_s", self.duration_s, 0.0..=LONGEST_S)?;
         let idle = &self.idle;
         within("idle.base_code", idle.base_code, 0.0..=MOST_COUNTS)?;
@@ -43,23 +43,25 @@ impl Script {
         within("sensor.noise", self.sensor.noise, 0.0..=1.0)?;
         within("sensor.half_n", self.sensor.half_n, 0.0..=10_000.0)?;
         for (index, touch) in self.touches.iter().enumerate() {
-            check_touch(touch).with_context(|| format!("touch {}", index + 1))?;
+            check_touch(touch).map_err(|error| error.inside(format_args!("touch {}", index + 1)))?;
         }
         for (index, joint) in self.joints.iter().enumerate() {
-            check_joint(joint).with_context(|| format!("joint {}", index + 1))?;
+            check_joint(joint).map_err(|error| error.inside(format_args!("joint {}", index + 1)))?;
         }
         Ok(())
     }
 }
 
-fn check_touch(touch: &Touch) -> Result<()> {
+fn check_touch(touch: &Touch) -> Result<(), ScriptError> {
     within("force_n", touch.force_n, 0.0..=10_000.0)?;
     for (key, point) in [("at", touch.at), ("at_mm", touch.at_mm)] {
         for value in point.into_iter().flatten() {
             within(key, value, -1e5..=1e5)?;
         }
     }
-    ensure!(touch.at.is_some() != touch.at_mm.is_some(), "give either `at` or `at_mm`");
+    if touch.at.is_some() == touch.at_mm.is_some() {
+        return Err(ScriptError::value("at", "give either `at` or `at_mm`"));
+    }
     for size in touch.size() {
         within("size_mm", size, 1.0..=LARGEST_MM)?;
     }
@@ -71,24 +73,28 @@ fn check_touch(touch: &Touch) -> Result<()> {
     for value in touch.velocity {
         within("velocity", value, -1e4..=1e4)?;
     }
-    ensure!(!touch.levels.is_empty(), "`levels` must name at least one level");
+    if touch.levels.is_empty() {
+        return Err(ScriptError::value("levels", "`levels` must name at least one level"));
+    }
     for level in &touch.levels {
         within("levels", *level, 0.0..=1.0)?;
     }
-    ensure!(touch.repeat >= 1, "`repeat` must be at least 1");
+    if touch.repeat < 1 {
+        return Err(ScriptError::value("repeat", "`repeat` must be at least 1"));
+    }
     if let Some(period) = touch.period_s {
         within("period_s", period, 0.0..=LONGEST_S)?;
-        ensure!(
-            period >= touch.once_s(),
-            "`period_s` must be at least the length of one touch, {} s",
-            touch.once_s()
-        );
+        let once = touch.once_s();
+        if period < once {
+            let text = format!("`period_s` must be at least the length of one touch, {once} s");
+            return Err(ScriptError::value("period_s", text));
+        }
     }
-    within("repeat", touch.end_s(), 0.0..=LONGEST_S).context("the last repetition ends too late")?;
-    Ok(())
+    within("repeat", touch.end_s(), 0.0..=LONGEST_S)
+        .map_err(|error| error.inside("the last repetition ends too late"))
 }
 
-fn check_joint(joint: &Joint) -> Result<()> {
+fn check_joint(joint: &Joint) -> Result<(), ScriptError> {
     within("from_deg", joint.from_deg, -360.0..=360.0)?;
     within("to_deg", joint.to_deg, -360.0..=360.0)?;
     within("start_s", joint.start_s, 0.0..=LONGEST_S)?;
@@ -98,9 +104,10 @@ fn check_joint(joint: &Joint) -> Result<()> {
 }
 
 /// Also refuses NaN.
-fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
+fn within(key: &'static str, value: f64, range: RangeInclusive<f64>) -> Result<(), ScriptError> {
     if !range.contains(&value) {
-        bail!("`{key}` is {value}, it must be {} to {}", range.start(), range.end());
+        let text = format!("`{key}` is {value}, it must be {} to {}", range.start(), range.end());
+        return Err(ScriptError::value(key, text));
     }
     Ok(())
 }

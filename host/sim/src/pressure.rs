@@ -1,9 +1,9 @@
 //! All contacts of a scene on a garment: force on a taxel at a time.
 
 use super::contact::Contact;
+use super::error::ScriptError;
 use super::footprint::is_too_fine;
 use super::script::Script;
-use anyhow::{Result, anyhow, ensure};
 use std::sync::Arc;
 use taxel_core::garment::{Area, Layout, Transform};
 
@@ -32,28 +32,23 @@ struct Image {
 
 impl Pressure {
     /// Contacts of a valid script on a garment.
-    pub fn build(script: &Script, layout: &Layout) -> Result<Pressure> {
+    pub fn build(script: &Script, layout: &Layout) -> Result<Pressure, ScriptError> {
         let mut pressure = Pressure { panels: vec![Vec::new(); layout.areas().len()] };
+        let place = |index: usize| format!("in script {}: touch {}", script.name, index + 1);
         for (index, touch) in script.touches.iter().enumerate() {
             let areas = || layout.areas().iter();
             let home = areas().position(|a| a.name == touch.panel.as_str()).ok_or_else(|| {
                 let names: Vec<_> = areas().map(|a| a.name.as_str()).collect();
-                anyhow!(
-                    "in script {}: touch {}: `panel` is \"{}\", the garment has {}",
-                    script.name,
-                    index + 1,
-                    touch.panel,
-                    names.join(", ")
-                )
+                let text = format!("`panel` is \"{}\", the garment has {}", touch.panel, names.join(", "));
+                ScriptError::value("panel", text).inside(place(index))
             })?;
             let pitch = layout.areas().get(home).map_or([USUAL_PITCH_MM; 2], pitch_mm);
             let ([length, width], [x, y]) = (touch.size(), pitch);
-            ensure!(
-                !is_too_fine(touch.shape, touch.size(), touch.angle_deg, pitch),
-                "in script {}: touch {}: `size_mm` is {length} x {width} mm, too large for taxels of {x} x {y} mm",
-                script.name,
-                index + 1
-            );
+            if is_too_fine(touch.shape, touch.size(), touch.angle_deg, pitch) {
+                let text =
+                    format!("`size_mm` is {length} x {width} mm, too large for taxels of {x} x {y} mm");
+                return Err(ScriptError::value("size_mm", text).inside(place(index)));
+            }
             pressure.add(Arc::new(Contact::build(touch, pitch, script.sensor.hysteresis)), home, layout);
         }
         Ok(pressure)

@@ -1,12 +1,12 @@
 //! From newtons to codes: the converter's code of a taxel at a time.
 
 use super::decode::Decoder;
+use super::error::ScriptError;
 use super::noise::{UNIT_NOISE_RMS, unit_noise};
 use super::pressure::Pressure;
 use super::script::Script;
 use super::sneak::Sneak;
 use super::wiring::{Line, mates, uneven};
-use anyhow::{Result, ensure};
 use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};
 
@@ -69,10 +69,11 @@ enum Fault {
 
 impl World {
     /// World of a valid script on a garment. Errors name the script and the key.
-    pub fn build(script: &Script, garment: &Garment) -> Result<World> {
+    pub fn build(script: &Script, garment: &Garment) -> Result<World, ScriptError> {
         let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)
-            .map_err(|e| anyhow::anyhow!("garment {}: {e}", garment.name))?;
-        script.check().map_err(|e| anyhow::anyhow!("in script {}: {e:#}", script.name))?;
+            .map_err(|why| ScriptError::Garment { garment: garment.name.to_string(), why })?;
+        let place = || format!("in script {}", script.name);
+        script.check().map_err(|error| error.inside(place()))?;
         let crosstalk = script.wiring.crosstalk as f32;
         let rms = script.idle.noise_counts.hypot(script.converter.noise_counts);
         let mut world = World {
@@ -99,16 +100,17 @@ impl World {
         Ok(world)
     }
 
-    fn break_taxels(&mut self, script: &Script) -> Result<()> {
+    fn break_taxels(&mut self, script: &Script) -> Result<(), ScriptError> {
         let faults = &script.faults;
-        let mut set = |key: &str, taxel: u16, fault: Fault| {
+        let mut set = |key: &'static str, taxel: u16, fault: Fault| {
             let count = self.taxels.len();
-            let slot = self.taxels.get_mut(usize::from(taxel)).map(|t| t.fault = fault);
-            ensure!(
-                slot.is_some(),
-                "in script {}: `faults.{key}` names taxel {taxel}, the garment has {count}",
-                script.name
-            );
+            let Some(slot) = self.taxels.get_mut(usize::from(taxel)) else {
+                let name = &script.name;
+                let text =
+                    format!("in script {name}: `faults.{key}` names taxel {taxel}, the garment has {count}");
+                return Err(ScriptError::value(key, text));
+            };
+            slot.fault = fault;
             Ok(())
         };
         faults.dead.iter().try_for_each(|t| set("dead", *t, Fault::Dead))?;

@@ -4,7 +4,7 @@ use taxel::client::Event;
 use taxel::session::Session;
 use taxel_core::intent::Leading;
 
-fn main() -> anyhow::Result<()> {
+fn main() -> taxel::Result<()> {
     let source = std::env::args().nth(1).unwrap_or("sim:pat".into());
     let mut session = Session::open(&source)?;
     let mut leading = Leading::None;

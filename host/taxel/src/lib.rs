@@ -12,7 +12,8 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`tell`] | errors in plain words and the exit status, steps and progress of long work |
+//! | [`error`] | what fails, by concern, for programs and for people |
+//! | [`tell`] | errors in plain words, steps and progress of long work |
 //! | [`sim`] | the simulated garment and its scripts of touches |
 //! | [`files`] | safe outputs, recorded frames, garments, scripts, calibrations |
 //! | [`client`] | the host's end of the wire: bytes in, events out, with host times |
@@ -27,12 +28,31 @@
 //! | [`record`] | recordings of a stream and their topics |
 //! | [`learn`] | training of what a board recognises |
 //!
-//! Errors are `anyhow` errors of one sentence; [`tell::fault`] decides the exit status.
+//! Every error is an [`Error`]: sentences for people, and a [kind](Error::kind) that a program can match:
+//!
+//! ```
+//! use taxel::error::{ErrorKind, SourceError, UsageError};
+//!
+//! fn advice(source: &str) -> &'static str {
+//!     let Err(error) = taxel::open(source) else { return "it streams" };
+//!     match error.kind() {
+//!         ErrorKind::Source(SourceError::NoBoard(_)) => "plug it in",
+//!         ErrorKind::Usage(UsageError::Unknown(_)) => "correct the name",
+//!         _ => "read what it says",
+//!     }
+//! }
+//! assert_eq!(advice("sim:pat"), "it streams");
+//! assert_eq!(advice("serial:/dev/none"), "plug it in");
+//! assert_eq!(advice("sim:pit"), "correct the name");
+//! ```
 #![forbid(unsafe_code)]
 
 // First: the modules below use its macros.
 #[macro_use]
 mod told;
+
+#[macro_use]
+pub mod error;
 
 pub mod tell;
 
@@ -65,6 +85,8 @@ pub mod learn;
 
 use session::Session;
 
+pub use error::{Error, Result};
+
 /// Opens a source by its name: a board (`auto`, `usb`, `serial:PATH`, `tcp:HOST:PORT`), a simulated one
 /// (`sim:pat`), a file or a recording (`replay:touch.mcap`).
 ///
@@ -74,8 +96,8 @@ use session::Session;
 /// let events = taxel::open("sim:pat")?;
 /// let contacts = events.filter(|event| matches!(event, Ok(Event::Contacts { .. })));
 /// assert_eq!(contacts.take(3).count(), 3);
-/// # Ok::<(), anyhow::Error>(())
+/// # Ok::<(), taxel::Error>(())
 /// ```
-pub fn open(source: &str) -> anyhow::Result<Session> {
+pub fn open(source: &str) -> Result<Session> {
     Session::open(source)
 }

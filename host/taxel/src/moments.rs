@@ -1,6 +1,6 @@
 //! Moments, NMI and axis of one image, without conditioning or thresholds.
 
-use anyhow::{Result, bail};
+use crate::error::{ArrayError, Result};
 use serde::Serialize;
 use taxel_core::contact::{Moments, axis};
 use taxel_core::format::Turn;
@@ -55,7 +55,10 @@ impl Features {
     pub fn of(image: &[u16], columns: usize) -> Result<Features> {
         let moments = Moments::of_image(image, columns);
         if wide_jm(&moments) != Some(moments.jm().into()) {
-            bail!("the image is too large and too bright: its J m takes more than 64 bits");
+            fail!(
+                ArrayError::TooLarge,
+                "the image is too large and too bright: its J m takes more than 64 bits"
+            );
         }
         let peak = image.iter().copied().max().unwrap_or(0);
         let area = image.iter().filter(|value| **value > 0).count() as u32;

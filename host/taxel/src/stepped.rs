@@ -23,13 +23,12 @@
 //!     })?;
 //! }
 //! assert!((6..=10).contains(&touched), "only the touch");
-//! # Ok::<(), anyhow::Error>(())
+//! # Ok::<(), taxel::Error>(())
 //! ```
 
 use crate::client::{Client, Event};
+use crate::error::{Context, Result, SourceError, UsageError};
 use crate::source::simulated_info;
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, anyhow, ensure};
 use std::thread;
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, Input, Job, Shipped};
@@ -46,7 +45,8 @@ const NO_FLASH: &str = "a board that is stepped by hand has no flash";
 /// Jobs between two scans: pins to drive, and works that wait. A board never has that many.
 const MOST_JOBS: usize = 1000;
 
-/// Receives an event; the client already includes it.
+/// Receives an event; the client already includes it. [`Error::other`](crate::Error::other) holds an error of
+/// its own.
 pub type EventSink<'a> = dyn FnMut(&Client, &Event) -> Result<()> + 'a;
 
 /// A board without pins, without a converter and without a clock.
@@ -63,7 +63,8 @@ impl Stepped {
     pub fn new(garment: Garment, scene: Scene) -> Result<Stepped> {
         let build = move || Board::new(simulated_info(&garment), garment, scene).map(Box::new);
         let builder = thread::Builder::new().name("board".into()).stack_size(STACK).spawn(build)?;
-        let mut board = builder.join().map_err(|_| anyhow!("the board could not be built"))??;
+        let mut board =
+            builder.join().map_err(|_| error!(SourceError::Unstarted, "the board could not be built"))??;
         board.booted(Boot::default());
         let mut client = Client::new();
         client.start(0)?;
@@ -83,9 +84,11 @@ impl Stepped {
     /// One scan, which started and ended at this time, with the codes of all taxels by their numbers. Hands
     /// over the events that it causes. A scene with a rate of its own takes only the scans that are due.
     pub fn step(&mut self, codes: &[u16], time: Micros, told: &mut EventSink<'_>) -> Result<()> {
-        ensure!(
+        require!(
             self.last.is_none_or(|last| last <= time),
-            Fault::usage(format!("a step at {} us is before the last one", time.0))
+            UsageError::Argument,
+            "a step at {} us is before the last one",
+            time.0
         );
         let first = self.last.replace(time).is_none();
         if first {
@@ -97,9 +100,11 @@ impl Stepped {
         self.send(time, told)?;
         // A request may just have changed the garment.
         let taxels = self.taxels();
-        ensure!(
+        require!(
             codes.len() == taxels,
-            Fault::usage(format!("{} codes for a garment of {taxels} taxels", codes.len()))
+            UsageError::Argument,
+            "{} codes for a garment of {taxels} taxels",
+            codes.len()
         );
         if is_due {
             self.codes.clear();

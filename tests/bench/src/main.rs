@@ -7,8 +7,9 @@ use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use taxel::files::output;
-use taxel::tell::{fault, words};
+use taxel::tell::words;
 use taxel_bench::{Report, acquisition, amplifier, nmi, record, stages};
+use taxel_cli::fault;
 use taxel_cli::watch::Overwrite;
 
 /// Measure speed and error: tables and charts
@@ -59,7 +60,7 @@ fn main() -> ExitCode {
     match run(BenchArgs::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", words::sentence(&error));
+            eprintln!("error: {}", words::sentence(error.as_ref()));
             ExitCode::from(fault::status(&error))
         }
     }

@@ -146,10 +146,11 @@ fn fastest(what: &mut dyn FnMut() -> Result<()>) -> Result<f64> {
 
 fn recorder(path: PathBuf, ros2: bool) -> Result<Recorder> {
     let origin = Origin { label: format!("sim:{SCENE}"), counts_per_newton: Some(1000.0), calibration: None };
-    Recorder::create(Plan { path, rotate: None, ros2, force: true, inputs: Vec::new(), origin, raw: false })
+    let inputs = Vec::new();
+    Ok(Recorder::create(Plan { path, rotate: None, ros2, force: true, inputs, origin, raw: false })?)
 }
 
-fn play(spec: SourceSpec, show: &mut dyn Show) -> Result<()> {
+fn play(spec: SourceSpec, show: &mut dyn Show<anyhow::Error>) -> Result<()> {
     let source = source::open(&spec, &SourceOptions::default())?;
     watch(&LiveArgs::of(spec), source, show)
 }
@@ -158,7 +159,7 @@ fn play(spec: SourceSpec, show: &mut dyn Show) -> Result<()> {
 #[derive(Debug, Default)]
 struct Images(Vec<(u64, Vec<u16>)>);
 
-impl Show for Images {
+impl Show<anyhow::Error> for Images {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         if let (Event::Frame { time, image: ImageNews::Whole, .. }, Some((_, image))) =
             (event, client.image())

@@ -1,8 +1,8 @@
 //! Stand-ins for the commands of features that a build leaves out: they say how to build them in.
 
+use crate::fault::Fault;
 use anyhow::{Result, bail};
 use std::ffi::OsString;
-use taxel::tell::fault::Fault;
 
 /// Accepts any arguments, and repeats them in the error.
 #[derive(Debug, Clone, clap::Args)]

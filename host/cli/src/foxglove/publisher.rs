@@ -26,7 +26,7 @@ impl Publisher {
     }
 }
 
-impl Show for Publisher {
+impl Show<anyhow::Error> for Publisher {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         let stamp = self.stamps.of(client, event);
         let Some((topic, channel)) =

@@ -139,7 +139,7 @@ pub(super) fn of<'v>(area: &Area, values: &'v [u16]) -> &'v [u16] {
     values.get(start..start + usize::from(area.rows) * usize::from(area.columns)).unwrap_or(&[])
 }
 
-impl Show for Seen {
+impl Show<anyhow::Error> for Seen {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => {

@@ -1,7 +1,7 @@
 //! Names of topics in the node's namespace.
 
+use crate::fault::Fault;
 use anyhow::{Result, bail};
-use taxel::tell::fault::Fault;
 
 /// Where a node is, and how it is called.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -70,7 +70,7 @@ impl Services {
         }
         while let Some((id, asked)) = self.scene.receive_request().ok().flatten() {
             let asked = SceneFile::named(&asked.scene).and_then(|scene| setting::set_scene(client, &scene));
-            self.asked(Asks::Scene, Request::SetScene(&[]).number(), id, asked);
+            self.asked(Asks::Scene, Request::SetScene(&[]).number(), id, asked.map_err(Error::from));
         }
         let overdue = |waiting: &Waiting| waiting.since.elapsed() > ANSWER;
         while let Some(at) = self.waiting.iter().position(overdue) {
@@ -86,7 +86,7 @@ impl Services {
             (Some(label), _) => {
                 self.answer(asks, id, false, format!("{label} is a recording, whose board does not listen"));
             }
-            (None, Err(error)) => self.answer(asks, id, false, words::sentence(&error)),
+            (None, Err(error)) => self.answer(asks, id, false, words::sentence(error.as_ref())),
             (None, Ok(())) => self.waiting.push(Waiting { asks, number, id, since: Instant::now() }),
         }
     }

@@ -107,7 +107,7 @@ impl RosShow {
     }
 }
 
-impl Show for RosShow {
+impl Show<anyhow::Error> for RosShow {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         let stamp = self.stamps.of(client, event);
         if self.is_clock {

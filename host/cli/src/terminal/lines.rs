@@ -49,7 +49,7 @@ impl<W: Write> Lines<W> {
     }
 }
 
-impl<W: Write> Show for Lines<W> {
+impl<W: Write> Show<anyhow::Error> for Lines<W> {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         if let Event::Frame { frame, time, .. } = event {
             return self.summary(client, *frame, *time);

@@ -116,7 +116,7 @@ mod tests {
     #[derive(Default)]
     struct Bars(Vec<[String; 2]>);
 
-    impl Show for Bars {
+    impl Show<anyhow::Error> for Bars {
         fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
             let Event::Intent(report) = event else { return Ok(()) };
             let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));

@@ -58,7 +58,7 @@ impl Screen {
     }
 }
 
-impl Show for Screen {
+impl Show<anyhow::Error> for Screen {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         if matches!(event, Event::Sync(report) if report.token == self.token) {
             self.view.latency = Some(self.asked.elapsed() / 2);

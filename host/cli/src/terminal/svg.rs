@@ -31,7 +31,7 @@ impl Painter {
     }
 }
 
-impl Show for Painter {
+impl Show<anyhow::Error> for Painter {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         self.view.event(client, event);
         Ok(())
@@ -40,7 +40,7 @@ impl Show for Painter {
     fn end(&mut self, client: &Client) -> Result<()> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, SIZE[0], SIZE[1]));
         self.view.draw(client, &mut buffer);
-        self.output.take().map_or(Ok(()), |output| output.write(picture(&buffer).as_bytes()))
+        Ok(self.output.take().map_or(Ok(()), |output| output.write(picture(&buffer).as_bytes()))?)
     }
 }
 

@@ -51,7 +51,7 @@ impl<W: Write> TaxelLines<W> {
     }
 }
 
-impl<W: Write> Show for TaxelLines<W> {
+impl<W: Write> Show<anyhow::Error> for TaxelLines<W> {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => {

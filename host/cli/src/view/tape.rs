@@ -65,12 +65,12 @@ impl<S: Store> Copy<S> {
             self.file.close()?;
         }
         self.file.wire(stamp, self.client.line())?;
-        self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)
+        Ok(self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)?)
     }
 
     /// Writes the end.
     pub fn finish(self) -> Result<()> {
-        self.file.finish().map(drop)
+        Ok(self.file.finish().map(drop)?)
     }
 }
 

@@ -84,7 +84,7 @@ impl Viewer {
     }
 }
 
-impl Show for Viewer {
+impl Show<anyhow::Error> for Viewer {
     fn bytes(&mut self, bytes: &[u8]) {
         self.hub.keep(bytes);
     }

@@ -1,12 +1,12 @@
 //! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
 use super::{GestureModel, Overwrite, TaxelPlace, feed, forms};
+use crate::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use taxel::files::calibrate::Calibration;
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
-use taxel::tell::fault::Fault;
 use taxel_core::intent::Feed;
 
 /// A board, and what is requested of it before it is watched.

@@ -2,6 +2,7 @@
 
 use super::asked::Asked;
 use super::{BoardArgs, LiveArgs, gesture_model, stop};
+use crate::fault::Fault;
 use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;
@@ -15,7 +16,6 @@ use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
 use taxel::session::{Returns, Session, Show, Turn, setting};
 use taxel::source::{SceneFile, Source};
-use taxel::tell::fault::Fault;
 use taxel::tell::verbose;
 use taxel_core::wire::Request;
 
@@ -25,7 +25,7 @@ const SILENCE: Duration = Duration::from_secs(10);
 const QUIET: Duration = Duration::from_secs(3);
 
 /// Shows a source until it ends, or until the requested amount has come.
-pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show) -> Result<()> {
+pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>) -> Result<()> {
     let limited = args.frames.is_some() || args.seconds.is_some();
     let returns = match (args.board.once, limited) {
         (true, _) => Returns::Never,

@@ -1,9 +1,9 @@
 //! A taxel, named on the command line.
 
+use crate::fault::Fault;
 use anyhow::{Result, anyhow};
 use std::str::FromStr;
 use taxel::client::Client;
-use taxel::tell::fault::Fault;
 use taxel_core::garment::Place;
 
 /// `PANEL,ROW,COL`; the panel by name or number.

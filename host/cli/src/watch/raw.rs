@@ -1,13 +1,13 @@
 //! A board that streams raw codes, and takes other garments meanwhile.
 
 use super::stop;
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, Worn, cleaned, scene_bytes};
 use taxel::session::{Returns, Session, Turn};
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
-use taxel::tell::fault::Fault;
 use taxel_core::garment::Garment;
 use taxel_core::health::TaxelHealth;
 use taxel_core::scene::{Scene, StreamConfig};
@@ -170,7 +170,7 @@ impl RawBoard {
                     eprintln!("{text}");
                 }
             }
-            let turn = self.session.turn(&mut |_, _| Ok(()))?;
+            let turn = self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))?;
             let label = &self.session.source().label;
             if turn == Turn::End {
                 bail!(Fault::board(format!("{label} ended before {what} came")));

@@ -54,7 +54,7 @@ fn subscribe(socket: &mut WebSocket<TcpStream>, hub: &FoxgloveHub, id: u32, topi
 /// Sends to the clients, and keeps the messages about contacts.
 struct Both(Publisher, Vec<Value>);
 
-impl Show for Both {
+impl Show<anyhow::Error> for Both {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         if let Event::Contacts { .. } = event {
             // Parsed again, because the last digit of a number may differ.

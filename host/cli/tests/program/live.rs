@@ -220,7 +220,7 @@ struct Drawn {
     pictures: Vec<Buffer>,
 }
 
-impl Show for Drawn {
+impl Show<anyhow::Error> for Drawn {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         self.view.event(client, event);
         Ok(())
@@ -384,7 +384,7 @@ struct Teacher {
     compared: usize,
 }
 
-impl Show for Teacher {
+impl Show<anyhow::Error> for Teacher {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         if let Event::Shapes { names, prototypes } = event {
             assert_eq!(

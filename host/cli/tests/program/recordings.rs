@@ -86,11 +86,13 @@ fn what_is_damaged_is_passed_over_and_told() {
     assert_eq!((&after["whole"], &after["torn_bytes"]), (&false.into(), &0.into()));
     assert_eq!((after["damaged_chunks"].as_u64(), after["damaged_bytes"].as_u64()), (Some(1), Some(bytes)));
     let seconds = after["damaged_seconds"].as_f64().unwrap();
-    assert!((0.3..1.1).contains(&seconds), "{seconds}");
+    // On a slow machine, what half a second of its clock has brought is less than that of the board's.
+    assert!(seconds > 0.0 && seconds < 1.1, "{seconds}");
     // The frames behind the damage are there; those of the chunk are counted as lost.
     let frames = |info: &Value| info["frames"].as_u64().unwrap();
     let gone = frames(&before) - frames(&after);
-    assert!((60..=220).contains(&gone) && after["lost"].as_u64() >= Some(gone), "{after}");
+    let expected = seconds * 195.3;
+    assert!((gone as f64 - expected).abs() < 12.0 && after["lost"].as_u64() >= Some(gone), "{after}");
     let told = format!("skipped 1 damaged chunk, {bytes} bytes, {seconds:.2} s");
     let table = taxel(&["info", text(&path)]);
     assert!(String::from_utf8_lossy(&table.stdout).contains(&told), "{table:?}");

@@ -90,7 +90,7 @@ fn watched(hub: &Arc<PageHub>, scene: &str, frames: u64, realtime: bool) -> Join
 #[derive(Default)]
 struct Images(BTreeMap<u64, Vec<u16>>);
 
-impl Show for Images {
+impl Show<anyhow::Error> for Images {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         if let (Event::Frame { frame, image: ImageNews::Whole, .. }, Some((_, image))) =
             (event, client.image())

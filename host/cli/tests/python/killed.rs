@@ -20,7 +20,7 @@ struct Said {
     time: u64,
 }
 
-impl Show for Said {
+impl Show<anyhow::Error> for Said {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         if let Event::Frame { time, .. } = event {
             self.time = time.0;

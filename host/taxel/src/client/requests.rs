@@ -2,7 +2,7 @@
 
 use super::Client;
 use super::wanted::Sets;
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, Result, SettingError};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
 
@@ -15,7 +15,11 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
     // The request around it: its number and the length.
     let room = LONGEST_REQUEST - 3;
     if bytes.len() > room {
-        bail!("the scene takes {} bytes, and a request has room for {room}", bytes.len());
+        fail!(
+            SettingError::TooLong,
+            "the scene takes {} bytes, and a request has room for {room}",
+            bytes.len()
+        );
     }
     Ok(bytes)
 }

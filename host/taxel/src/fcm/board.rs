@@ -3,7 +3,7 @@
 use super::decimal::Decimal;
 use super::engine::{Q15_CONCEPTS, Q15_EDGES};
 use super::map::MapFile;
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use taxel_core::intent::{Inference, Map, Rule, Transfer};
 
 /// The core's map, with room for more concepts than the board has.

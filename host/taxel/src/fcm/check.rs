@@ -5,7 +5,7 @@ use super::decimal::Decimal;
 use super::map::MapFile;
 use super::sweep::{Sweep, sweep};
 use crate::client::scene_bytes;
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use serde_json::{Value, json};
 use taxel_core::intent::{IntentConfig, Leading, MapConfig};
 use taxel_core::scene::Scene;

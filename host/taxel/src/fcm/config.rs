@@ -5,8 +5,8 @@ use super::member::InputFile;
 use super::steps::{decimal, steps};
 use super::weight::Weight;
 use super::wrong::wrong;
+use crate::error::{Error, MapFileError, Result};
 use crate::tell::words::Step::{self, At, Key};
-use anyhow::{Result, anyhow, bail};
 use taxel_core::format::{Name, name};
 use taxel_core::intent::{Edge, MapConfig, Threshold};
 
@@ -15,12 +15,11 @@ impl MapFile {
     pub fn to_config<const N: usize, const E: usize>(&self) -> Result<Box<MapConfig<N, E>>> {
         self.check_numbers()?;
         let decimals = self.decimals();
-        let at = |at: &'static [Step<'static>]| {
-            move |why: anyhow::Error| wrong(at, format!("map {}: {why}", self.name))
-        };
+        let at =
+            |at: &'static [Step<'static>]| move |why: Error| wrong(at, format!("map {}: {why}", self.name));
         let inside = |list: &'static str, index: usize, key: Option<&'static str>| {
             let steps: Vec<_> = [Key(list), At(index)].into_iter().chain(key.map(Key)).collect();
-            move |why: anyhow::Error| wrong(&steps, format!("map {}: {why}", self.name))
+            move |why: Error| wrong(&steps, format!("map {}: {why}", self.name))
         };
         let mut config = Box::new(MapConfig {
             name: fitting(&self.name, "name").map_err(|why| wrong(&[Key("name")], why))?,
@@ -33,7 +32,7 @@ impl MapFile {
             ..MapConfig::default()
         });
         let full = |what: &str, found, room| {
-            anyhow!("map {}: {found} {what}, and there is room for {room}", self.name)
+            error!(MapFileError::TooLarge, "map {}: {found} {what}, and there is room for {room}", self.name)
         };
         for (number, concept) in self.concept.iter().enumerate() {
             let short = fitting(&concept.name, "concept").map_err(inside("concept", number, Some("name")))?;
@@ -45,7 +44,7 @@ impl MapFile {
             }
         }
         for edge in &self.edge {
-            let number = |concept| Ok::<u8, anyhow::Error>(u8::try_from(self.index(concept, "an edge")?)?);
+            let number = |concept| Ok::<u8, Error>(u8::try_from(self.index(concept, "an edge")?)?);
             let weight = steps(edge.weight.value(), decimals, || format!("W[{}][{}]", edge.from, edge.to))?;
             let edge = Edge { from: number(&edge.from)?, to: number(&edge.to)?, weight };
             config.edges.push(edge).map_err(|_| full("edges", self.edge.len(), E))?;
@@ -101,7 +100,7 @@ impl MapFile {
 fn fitting(text: &str, what: &str) -> Result<Name> {
     let short = name(text);
     if short != text {
-        bail!("{what} {text} is longer than 16 bytes");
+        fail!(MapFileError::TooLarge, "{what} {text} is longer than 16 bytes");
     }
     Ok(short)
 }

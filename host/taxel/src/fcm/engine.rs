@@ -4,7 +4,7 @@
 //! The f64 and the exact engine share no code with the core, because they are its reference.
 
 use super::decimal::Decimal;
-use anyhow::{Context, Result, bail};
+use crate::error::{MapFileError, Result};
 use std::collections::HashMap;
 use taxel_core::format::name;
 use taxel_core::intent::infer::ROUNDING;
@@ -196,7 +196,11 @@ pub fn q15(problem: &Problem, settings: &Settings, steps: usize) -> Result<Traje
 /// Builds the core's map.
 pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Box<Map<Q15_CONCEPTS, Q15_EDGES>>> {
     if problem.names.len() > Q15_CONCEPTS {
-        bail!("{} concepts: the core's arithmetic is run for up to {Q15_CONCEPTS}", problem.names.len());
+        fail!(
+            MapFileError::TooLarge,
+            "{} concepts: the core's arithmetic is run for up to {Q15_CONCEPTS}",
+            problem.names.len()
+        );
     }
     let own = problem.thresholds.iter().flatten();
     let numbers = problem.weights.iter().flatten().chain(own).chain([&settings.threshold]);
@@ -205,27 +209,32 @@ pub fn core_map(problem: &Problem, settings: &Settings) -> Result<Box<Map<Q15_CO
     let step = 10i128.pow(decimals);
     let lambda = (settings.lambda * 1000.0).round();
     if settings.lambda > 65.535 {
-        bail!("lambda = {} is above 65.535, the largest of the core", settings.lambda);
+        fail!(
+            MapFileError::TooLarge,
+            "lambda = {} is above 65.535, the largest of the core",
+            settings.lambda
+        );
     }
     let mut config: Box<MapConfig<Q15_CONCEPTS, Q15_EDGES>> = Box::default();
+    let too_many = |what: &str| error!(MapFileError::TooLarge, "too many {what}");
     config.decimals = decimals as u8;
     (config.rule, config.transfer, config.held) = (settings.rule, settings.transfer, settings.held);
     (config.lambda, config.threshold) = (lambda as u16, settings.threshold.scaled(step) as i16);
     for index in 0..problem.names.len() {
         // Index instead of name: long names may be equal after truncation, and the core only needs them to
         // differ.
-        config.concepts.push(name(&index.to_string())).ok().context("too many concepts")?;
+        config.concepts.push(name(&index.to_string())).map_err(|_| too_many("concepts"))?;
     }
     for (concept, own) in problem.thresholds.iter().enumerate() {
         if let Some(own) = own {
             let own = Threshold { concept: concept as u8, value: own.scaled(step) as i16 };
-            config.thresholds.push(own).ok().context("too many thresholds")?;
+            config.thresholds.push(own).map_err(|_| too_many("thresholds"))?;
         }
     }
     for (from, row) in problem.weights.iter().enumerate() {
         for (to, weight) in row.iter().enumerate().filter(|(_, w)| w.digits != 0) {
             let edge = Edge { from: from as u8, to: to as u8, weight: weight.scaled(step) as i16 };
-            config.edges.push(edge).ok().context("too many edges")?;
+            config.edges.push(edge).map_err(|_| too_many("edges"))?;
         }
     }
     Ok(Box::new(Map::build(&*config)?))

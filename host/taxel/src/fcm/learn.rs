@@ -3,7 +3,7 @@
 use super::map::MapFile;
 use super::search::{Verdict, judge, search};
 use super::touches::Touches;
-use anyhow::{Result, bail};
+use crate::error::{MapFileError, Result};
 use serde_json::{Value, json};
 
 /// Result of learning.
@@ -29,7 +29,7 @@ pub fn learn(file: &MapFile, touches: &Touches, folds: usize) -> Result<Learned>
             touches.touches.iter().zip(&part).filter(|(_, own)| **own == fold).map(|(touch, _)| touch);
         let count = left_out.clone().count();
         if count == touches.touches.len() {
-            bail!("all touches are in one fold: nothing is left to learn from");
+            fail!(MapFileError::Unanswerable, "all touches are in one fold: nothing is left to learn from");
         }
         if count > 0 {
             let map = search(file, touches, |at| part[at] != fold)?;

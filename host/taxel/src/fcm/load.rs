@@ -3,10 +3,9 @@
 use super::decimal::Decimal;
 use super::map::MapFile;
 use super::wrong;
+use crate::error::{Context, FileError, MapFileError, Result, UsageError};
 use crate::files::output::Output;
-use crate::tell::fault::Fault;
 use crate::tell::words;
-use anyhow::{Context, Result, anyhow, bail};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -28,10 +27,11 @@ pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
     // A text that cannot be a path is a name.
     if !name_or_path.contains(['.', '/', '\\']) && !Path::new(name_or_path).exists() {
         let known = words::unknown("map", name_or_path, names);
-        bail!(Fault::usage(format!("{known}, or give a .toml file")));
+        fail!(UsageError::Unknown, "{known}, or give a .toml file");
     }
     crate::tell::verbose::reads(name_or_path);
     let read = std::fs::read_to_string(name_or_path).map(Cow::Owned);
+    let read = read.map_err(|error| FileError::read(Path::new(name_or_path), error));
     read.with_context(|| {
         format!("{name_or_path}: cannot be read, and the shipped maps are {}", names.join(", "))
     })
@@ -39,7 +39,8 @@ pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
 
 /// Parses the text of a map from `place`.
 pub fn parse(text: &str, place: &str) -> Result<MapFile> {
-    let map: MapFile = toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, place)))?;
+    let map: MapFile =
+        toml::from_str(text).map_err(|error| MapFileError::Malformed(words::toml(&error, text, place)))?;
     map.check_numbers().map_err(|error| wrong::located(error, text, place))?;
     Ok(map)
 }
@@ -55,7 +56,7 @@ pub fn name(output: &Output) -> Result<String> {
         return Ok("map".into());
     }
     let stem = output.name().file_stem().and_then(|stem| stem.to_str());
-    Ok(stem.context("--output names no file")?.into())
+    Ok(stem.ok_or_else(|| error!(FileError::Output, "--output names no file"))?.into())
 }
 
 /// Parses `NAME=VALUE` with a value in -1 ..= 1.

@@ -6,8 +6,8 @@ use super::member::InputFile;
 use super::steps::steps;
 use super::weight::Weight;
 use super::wrong::wrong;
+use crate::error::{MapFileError, Result};
 use crate::tell::words::Step::{self, At, Key};
-use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use taxel_core::intent::{Rule, Transfer};
@@ -122,8 +122,10 @@ impl MapFile {
 
     /// Number of a concept that must exist; `user` names what refers to it.
     pub fn index(&self, concept: &str, user: &str) -> Result<usize> {
-        self.find(concept)
-            .with_context(|| format!("map {}: {user} names the unknown concept {concept}", self.name))
+        self.find(concept).ok_or_else(|| {
+            let (map, user, concept) = (self.name.clone(), user.into(), concept.into());
+            MapFileError::NoConcept { map, user, concept }.into()
+        })
     }
 
     /// The edge between two concepts.
@@ -177,11 +179,12 @@ impl MapFile {
     pub fn check_numbers(&self) -> Result<()> {
         let wrong = |at: &[Step<'static>], why: &dyn Display| wrong(at, format!("map {}: {why}", self.name));
         if self.version != VERSION {
-            let why = format!("version {} is not known, this program reads {VERSION}", self.version);
-            return Err(wrong(&[Key("version")], &why));
+            let (map, found) = (&self.name, self.version);
+            let text = format!("map {map}: version {found} is not known, this program reads {VERSION}");
+            return Err(MapFileError::Version { found, text }.into());
         }
         if self.concept.is_empty() {
-            bail!("map {}: it has no concept", self.name);
+            fail!(MapFileError::Malformed, "map {}: it has no concept", self.name);
         }
         for (at, concept) in self.concept.iter().enumerate() {
             let name = &concept.name;

@@ -11,7 +11,7 @@
 //! source. Triangle and trapezoid become two inputs of the board, whose activations add up.
 
 use super::steps::steps;
-use anyhow::{Result, bail};
+use crate::error::{MapFileError, Result};
 use serde::{Deserialize, Serialize};
 use taxel_core::intent::{MapInput, Source};
 
@@ -50,7 +50,9 @@ type Ramp = ([i32; 2], [i16; 2]);
 impl InputFile {
     /// One or two ramps for the concept with number `concept`, activations in steps of 10^-`decimals`.
     pub fn inputs(&self, concept: u8, decimals: u32) -> Result<Vec<MapInput>> {
-        let Some(source) = self.source else { bail!("input {}: source is missing", self.concept) };
+        let Some(source) = self.source else {
+            fail!(MapFileError::Malformed, "input {}: source is missing", self.concept)
+        };
         let ramps = self.ramps(decimals)?;
         let input =
             |([low, high], [at_low, at_high]): Ramp| MapInput { concept, source, low, high, at_low, at_high };
@@ -65,7 +67,10 @@ impl InputFile {
         let (out, full) = (at(out)?, at(full)?);
         let hill = |[a, b, c, d]: [i32; 4]| {
             if i32::from(full).abs_diff(out.into()) > 10u32.pow(decimals) {
-                bail!("input {name}: the two activations of a triangle or trapezoid differ by more than 1");
+                fail!(
+                    MapFileError::Malformed,
+                    "input {name}: the two activations of a triangle or trapezoid differ by more than 1"
+                );
             }
             Ok(vec![([a, b], [out, full]), ([c, d], [0, out - full])])
         };
@@ -74,12 +79,15 @@ impl InputFile {
             (None, Some(points), None, None) => vec![(*points, [full, out])],
             (None, None, Some([a, b, c]), None) => hill([*a, *b, *b, *c])?,
             (None, None, None, Some(points)) => hill(*points)?,
-            _ => bail!("input {name}: give exactly one of rise, fall, triangle and trapezoid"),
+            _ => fail!(
+                MapFileError::Malformed,
+                "input {name}: give exactly one of rise, fall, triangle and trapezoid"
+            ),
         };
         let falls = |points: &[i32]| points.windows(2).any(|pair| pair[0] > pair[1]);
         let points: Vec<i32> = ramps.iter().flat_map(|(points, _)| *points).collect();
         if falls(&points) || ramps.iter().any(|([low, high], _)| low == high) {
-            bail!("input {name}: the points {points:?} do not rise");
+            fail!(MapFileError::Malformed, "input {name}: the points {points:?} do not rise");
         }
         Ok(ramps)
     }

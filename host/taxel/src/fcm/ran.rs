@@ -1,7 +1,7 @@
 //! Result of a run of a map, in f64 and in the arithmetic of the board, as JSON.
 
 use super::engine::Trajectory;
-use anyhow::Result;
+use crate::error::Result;
 use serde_json::{Value, json};
 use taxel_core::intent::Outcome;
 

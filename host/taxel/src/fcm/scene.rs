@@ -3,7 +3,7 @@
 
 use super::load;
 use super::map::MapFile;
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use serde_json::Value;
 use std::path::Path;
 use taxel_core::intent::MapConfig;

@@ -11,8 +11,8 @@ use super::board::BoardMap;
 use super::map::MapFile;
 use super::touches::{Labelled, NONE, Touches};
 use super::weight::Weight;
+use crate::error::Result;
 use crate::tell::progress::{Progress, Unit};
-use anyhow::Result;
 
 /// Required lead.
 const MARGIN: f64 = 0.2;

@@ -3,7 +3,7 @@
 use super::board::BoardMap;
 use super::decimal::Decimal;
 use super::map::MapFile;
-use anyhow::Result;
+use crate::error::Result;
 use taxel_core::intent::Outcome;
 
 /// Most initial states of a sweep.

@@ -6,7 +6,7 @@ use super::map::{EdgeFile, MapFile};
 use super::member::InputFile;
 use super::terms::hundredths;
 use super::weight::Weight;
-use anyhow::{Result, bail};
+use crate::error::{MapFileError, Result};
 use serde_json::{Value, json};
 
 /// Treatment of an edge with different weights.
@@ -69,7 +69,7 @@ pub struct United {
 
 /// Unites maps under a name. Settings, notes, thresholds and inputs are those of the first map that has them.
 pub fn unite(maps: &[MapFile], name: &str, shared: EdgeConflict) -> Result<United> {
-    let [first, ..] = maps else { bail!("there is no map to unite") };
+    let [first, ..] = maps else { fail!(MapFileError::Unanswerable, "there is no map to unite") };
     let mut map = MapFile {
         name: name.into(),
         concept: Vec::new(),
@@ -152,7 +152,11 @@ fn opinions(maps: &[MapFile], edge: &EdgeFile, shared: EdgeConflict) -> Result<O
         }
         EdgeConflict::Agree => {
             let each: Vec<String> = said.iter().map(|(map, weight)| format!("{weight} in {map}")).collect();
-            bail!("edge {from} -> {to} is {}: --combine makes them one", each.join(", "));
+            fail!(
+                MapFileError::Unanswerable,
+                "edge {from} -> {to} is {}: --combine makes them one",
+                each.join(", ")
+            );
         }
     };
     Ok(Opinions { from: from.clone(), to: to.clone(), said, weight })

@@ -6,8 +6,7 @@ use super::engine::Q15_CONCEPTS;
 use super::map::MapFile;
 use super::paths::{Shares, shares};
 use super::told::Told;
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, bail};
+use crate::error::{MapFileError, Result, UsageError};
 use serde_json::{Value, json};
 use taxel_core::intent::{Inference, Leading, Outcome, Why};
 
@@ -46,13 +45,14 @@ fn explain_run(
 ) -> Result<Explained> {
     let concept = match of {
         Some(name) => file.index(name, "--of")?,
-        None => strongest(file, &run.state).context("no concept of the map has a cause")?,
+        None => strongest(file, &run.state)
+            .ok_or_else(|| error!(MapFileError::Unanswerable, "no concept of the map has a cause"))?,
     };
     let name = &file.concept[concept].name;
     let why = map
         .map
         .why(&run.state, concept)
-        .with_context(|| format!("{name} has no cause: its value was set"))?;
+        .ok_or_else(|| error!(MapFileError::Unanswerable, "{name} has no cause: its value was set"))?;
     let shares = shares(&map, &run.state, &why);
     Ok(Explained { map, run, why, shares })
 }
@@ -62,9 +62,10 @@ fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result
     for (name, value) in inputs {
         let concept = file.index(name, "--input")?;
         if file.is_driven(name) {
-            bail!(Fault::usage(format!(
+            fail!(
+                UsageError::Argument,
                 "--input: {name} has causes, which would overwrite it; --set holds it"
-            )));
+            );
         }
         numbered.push((concept, *value));
     }
@@ -94,9 +95,10 @@ pub fn what_if(
     for (name, value) in set {
         file.index(name, "--set")?;
         if file.is_driven(name) && !file.held {
-            bail!(Fault::usage(format!(
+            fail!(
+                UsageError::Argument,
                 "--set: the map lets concepts without causes follow the rule, so {name} cannot be held"
-            )));
+            );
         }
         other.edge.retain(|edge| edge.to != *name);
         values.push((name.clone(), *value));

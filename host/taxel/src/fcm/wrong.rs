@@ -1,40 +1,44 @@
 //! Errors about a map, with their place in its file.
 
-use crate::tell::words::{Step, line_of};
-use anyhow::{Error, anyhow};
-use std::fmt;
-
-/// An error about one value of a map.
-#[derive(Debug)]
-pub struct Wrong {
-    at: Vec<Step<'static>>,
-    why: String,
-}
-
-impl fmt::Display for Wrong {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.why)
-    }
-}
-
-impl std::error::Error for Wrong {}
+use crate::error::{Error, ErrorKind, MapFileError};
+use crate::tell::toml_key::line_in;
+use crate::tell::words::Step;
+use std::fmt::Display;
 
 /// Error about the value at the end of these steps from the top of the file.
-pub fn wrong(at: &[Step<'static>], why: impl fmt::Display) -> Error {
-    Wrong { at: at.to_vec(), why: why.to_string() }.into()
+pub fn wrong(at: &[Step<'static>], why: impl Display) -> Error {
+    MapFileError::Value { key: path(at), text: why.to_string() }.into()
+}
+
+/// The steps as a path: `concept[1].name`.
+fn path(at: &[Step<'static>]) -> String {
+    let mut path = String::new();
+    for step in at {
+        match step {
+            Step::Key(key) if path.is_empty() => path += key,
+            Step::Key(key) => path += &format!(".{key}"),
+            Step::At(index) => path += &format!("[{index}]"),
+        }
+    }
+    path
 }
 
 /// Prefixes the error with file, line and key.
 pub fn located(error: Error, text: &str, file: &str) -> Error {
-    let Some(found) = error.chain().find_map(|cause| cause.downcast_ref::<Wrong>()) else {
-        return error.context(file.to_string());
+    let place = |key: &str| {
+        let line = line_in(text, key)?;
+        // Of `edge[2].from` the last key, of `edge[2]` the list.
+        let last = key.rsplit('.').next().and_then(|part| part.split('[').next()).unwrap_or(key);
+        Some(format!("{file}, line {line}, `{last}`: {error:#}"))
     };
-    let key = found.at.iter().rev().find_map(|step| match step {
-        Step::Key(key) => Some(format!(", `{key}`")),
-        Step::At(_) => None,
-    });
-    match line_of(text, &found.at) {
-        Some(line) => anyhow!("{file}, line {line}{}: {error:#}", key.unwrap_or_default()),
-        None => error.context(file.to_string()),
+    match error.kind() {
+        ErrorKind::Map(MapFileError::Value { key, .. }) => {
+            place(key).map(|text| MapFileError::Value { key: key.clone(), text }.into())
+        }
+        ErrorKind::Map(MapFileError::Version { found, .. }) => {
+            place("version").map(|text| MapFileError::Version { found: *found, text }.into())
+        }
+        _ => None,
     }
+    .unwrap_or_else(|| error.context(file))
 }

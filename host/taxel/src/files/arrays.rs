@@ -14,8 +14,7 @@ mod npy;
 mod npz;
 mod room;
 
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, anyhow, bail};
+use crate::error::{ArrayError, Context, Error, FileError, Result, UsageError};
 use room::Room;
 use std::fs::File;
 use std::io::Read;
@@ -52,7 +51,7 @@ pub fn read(path: &Path, array: Option<&str>) -> Result<Frames> {
         (OpenFile::Archive(mut archive), Some(name)) => archive.named(name),
         (OpenFile::Archive(mut archive), None) => archive.only(),
         (_, Some(name)) => {
-            bail!(Fault::usage(format!("holds one array without a name, so array {name} cannot be chosen")))
+            fail!(UsageError::Argument, "holds one array without a name, so array {name} cannot be chosen")
         }
         (single, None) => single.frames(),
     };
@@ -109,7 +108,7 @@ impl OpenFile {
             // Values are uncompressed, so they take at most twice the size of the file.
             OpenFile::Array(file, size) => npy::read(file, size, &mut Room::endless()),
             OpenFile::Archive(mut archive) => archive.only(),
-            OpenFile::Text(file) => csv::read(file),
+            OpenFile::Text(file) => Ok(csv::read(file)?),
         }
     }
 }
@@ -117,20 +116,21 @@ impl OpenFile {
 /// Opens a file. Its kind is detected by its first bytes; by its name if they are not conclusive.
 fn open(path: &Path) -> Result<OpenFile> {
     crate::tell::verbose::reads(path);
-    let file = File::open(path).context("cannot be read")?;
+    let unread = |error| FileError::read(path, error);
+    let file = File::open(path).map_err(unread).context("cannot be read")?;
     let mut start = Vec::new();
-    (&file).take(8).read_to_end(&mut start).context("cannot be read")?;
+    (&file).take(8).read_to_end(&mut start).map_err(unread).context("cannot be read")?;
     let size = file.metadata().context("cannot be read")?.len();
     // Read from the start; the handle above is at byte 8.
-    let file = File::open(path).context("cannot be read")?;
+    let file = File::open(path).map_err(unread).context("cannot be read")?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
         _ if start.starts_with(npy::MAGIC) => Ok(OpenFile::Array(file, size)),
         _ if start.starts_with(b"PK") => npz::Archive::open(file).map(OpenFile::Archive),
         "csv" | "txt" => Ok(OpenFile::Text(file)),
-        "npy" => bail!("not a NumPy array"),
-        "npz" => bail!("not a NumPy archive"),
-        _ => bail!("not an array file: expected .npy, .npz or .csv"),
+        "npy" => fail!(ArrayError::NotAnArray, "not a NumPy array"),
+        "npz" => fail!(ArrayError::NotAnArray, "not a NumPy archive"),
+        _ => fail!(ArrayError::NotAnArray, "not an array file: expected .npy, .npz or .csv"),
     }
 }
 
@@ -150,10 +150,13 @@ impl Shape {
             [frames, rows, columns] => (frames, rows, columns),
             // Recordings of equal length, one after the other.
             [recordings, frames, rows, columns] => (recordings.saturating_mul(frames), rows, columns),
-            _ => bail!("shape {dimensions:?}: expected [frames, rows, columns] or [rows, columns]"),
+            _ => fail!(
+                ArrayError::Unfit,
+                "shape {dimensions:?}: expected [frames, rows, columns] or [rows, columns]"
+            ),
         };
         if dimensions.contains(&0) {
-            bail!("shape {dimensions:?}: there are no values");
+            fail!(ArrayError::Unfit, "shape {dimensions:?}: there are no values");
         }
         let small = |n: u64| u16::try_from(n).ok();
         let checked = || {
@@ -161,14 +164,18 @@ impl Shape {
                 Shape { frames: frames.try_into().ok()?, rows: small(rows)?, columns: small(columns)? };
             shape.frames.checked_mul(shape.area()).map(|_| shape)
         };
-        checked().with_context(|| format!("shape {dimensions:?}: a frame has at most 65535 rows and columns"))
+        checked().ok_or_else(|| {
+            error!(ArrayError::Unfit, "shape {dimensions:?}: a frame has at most 65535 rows and columns")
+        })
     }
 
     /// Shape of a one-dimensional array: one frame of one row.
     fn of_list(dimensions: &[u64]) -> Result<Shape> {
         match *dimensions {
             [n @ 1..=65535] => Ok(Shape { frames: 1, rows: 1, columns: n as u16 }),
-            _ => bail!("shape {dimensions:?}: expected one dimension of 1 to 65535 values"),
+            _ => {
+                fail!(ArrayError::Unfit, "shape {dimensions:?}: expected one dimension of 1 to 65535 values")
+            }
         }
     }
 
@@ -188,7 +195,7 @@ impl Shape {
     }
 
     /// Error about the value at `index`, in frame and row order.
-    fn unfit(self, index: usize, value: impl std::fmt::Display) -> anyhow::Error {
+    fn unfit(self, index: usize, value: impl std::fmt::Display) -> Error {
         let (frame, taxel) = (index / self.area(), index % self.area());
         let (row, column) = (taxel / usize::from(self.columns), taxel % usize::from(self.columns));
         unfit(frame, row, column, value)
@@ -199,8 +206,11 @@ impl Shape {
     }
 }
 
-fn unfit(frame: usize, row: usize, column: usize, value: impl std::fmt::Display) -> anyhow::Error {
-    anyhow!("frame {frame}, row {row}, column {column}: {value} is not an integer in 0 ..= 65535")
+fn unfit(frame: usize, row: usize, column: usize, value: impl std::fmt::Display) -> Error {
+    error!(
+        ArrayError::Unfit,
+        "frame {frame}, row {row}, column {column}: {value} is not an integer in 0 ..= 65535"
+    )
 }
 
 /// Converts a float that is exactly a count.

@@ -2,9 +2,8 @@
 
 mod key;
 
-use crate::tell::fault::Fault;
+use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
 use crate::tell::{toml_key, verbose, words};
-use anyhow::{Context, Error, Result, anyhow, bail};
 use std::fmt::Display;
 use std::path::Path;
 use taxel_core::garment::{Garment, GarmentError};
@@ -35,7 +34,7 @@ impl Read {
 
     /// Error about one of its keys, with its line.
     pub fn error_at(&self, key: &str, error: impl Display) -> Error {
-        toml_key::error(&self.name, &self.text, key, error)
+        toml_key::error(&self.name, &self.text, key, error).into()
     }
 }
 
@@ -48,11 +47,14 @@ pub fn read(name_or_path: &str) -> Result<Read> {
     if !name.ends_with(".toml") && !Path::new(&name).is_file() {
         let known = PRESETS.map(|(preset, _)| preset);
         let unknown = words::unknown("garment", &name, known);
-        bail!(Fault::usage(format!("{unknown}, or give a .toml file")));
+        fail!(UsageError::Unknown, "{unknown}, or give a .toml file");
     }
     verbose::reads(Path::new(&name));
-    let text = std::fs::read_to_string(&name).with_context(|| format!("cannot read {name}"))?;
-    let garment = toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
+    let text = std::fs::read_to_string(&name)
+        .map_err(|error| FileError::read(Path::new(&name), error))
+        .with_context(|| format!("cannot read {name}"))?;
+    let garment =
+        toml::from_str(&text).map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
     Ok(Read { name, text, garment })
 }
 

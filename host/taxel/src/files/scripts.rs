@@ -2,9 +2,8 @@
 //! key.
 
 use super::garments;
-use crate::tell::fault::Fault;
+use crate::error::{Context, FileError, Result, SettingError, UsageError};
 use crate::tell::{verbose, words};
-use anyhow::{Context, Result, anyhow, bail};
 use std::path::Path;
 use taxel_core::garment::Garment;
 
@@ -13,12 +12,12 @@ use crate::sim::{self, Script};
 /// Reads a script; `file` names it in errors, and its stem the script if the text does not.
 pub fn parse(text: &str, file: &str) -> Result<Script> {
     let mut script: Script =
-        toml::from_str(text).map_err(|error| anyhow!(words::toml(&error, text, file)))?;
+        toml::from_str(text).map_err(|error| SettingError::Malformed(words::toml(&error, text, file)))?;
     if script.name.is_empty() {
         let stem = Path::new(file).file_stem().and_then(|s| s.to_str());
         script.name = stem.unwrap_or(file).into();
     }
-    script.check().with_context(|| format!("in {file}")).map_err(|e| anyhow!("{e:#}"))?;
+    script.check().map_err(|error| error.inside(format_args!("in {file}")))?;
     Ok(script)
 }
 
@@ -29,18 +28,17 @@ pub fn load(name_or_path: &str) -> Result<Script> {
     }
     if !name_or_path.ends_with(".toml") && !Path::new(name_or_path).is_file() {
         let known = words::unknown("script of touches", name_or_path, sim::names());
-        bail!(Fault::usage(format!("{known}, or give a .toml file")));
+        fail!(UsageError::Unknown, "{known}, or give a .toml file");
     }
     verbose::reads(name_or_path);
-    let text = std::fs::read_to_string(name_or_path);
+    let text = std::fs::read_to_string(name_or_path)
+        .map_err(|error| FileError::read(Path::new(name_or_path), error));
     parse(&text.with_context(|| format!("{name_or_path} cannot be read"))?, name_or_path)
 }
 
 /// Loads the garment that a script names.
 pub fn garment(script: &Script) -> Result<Garment> {
-    garments::load(&script.garment)
-        .with_context(|| format!("in script {}: `garment`", script.name))
-        .map_err(|e| anyhow!("{e:#}"))
+    garments::load(&script.garment).with_context(|| format!("in script {}: `garment`", script.name))
 }
 
 #[cfg(test)]
@@ -84,7 +82,7 @@ mod tests {
         let error = format!("{:#}", load("no/such.toml").unwrap_err());
         assert!(error.starts_with("no/such.toml cannot be read: "), "{error}");
         let script = Script { garment: "shirt".into(), ..load("pat").unwrap() };
-        let error = garment(&script).unwrap_err().to_string();
+        let error = format!("{:#}", garment(&script).unwrap_err());
         assert!(
             error.starts_with(
                 "in script pat: `garment`: there is no garment \"shirt\"; known are reference, "

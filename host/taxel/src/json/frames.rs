@@ -3,7 +3,7 @@
 use super::contact::ContactLine;
 use super::meaning::MeaningOfTouch;
 use crate::client::growths::Growths;
-use anyhow::Result;
+use crate::error::Result;
 use serde::Serialize;
 use serde_json::Value;
 use taxel_core::body::Placed;

@@ -7,9 +7,9 @@
 use super::lines::{FrameLine, JsonLine, PanelPixels};
 use super::messages::line;
 use crate::client::{Client, Event, ImageNews};
+use crate::error::{Error, Result};
 use crate::files::calibrate::{Calibration, Forces};
 use crate::session::Show;
-use anyhow::Result;
 use serde_json::{Value, json};
 use std::io::Write;
 use taxel_core::body::Placed;
@@ -47,30 +47,30 @@ impl<W: Write> MessagePrinter<W> {
     }
 }
 
-impl<W: Write> Show for MessagePrinter<W> {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl<W: Write, E: From<Error>> Show<E> for MessagePrinter<W> {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
         let mut line = line(client, event);
         if let (Some(JsonLine::Frame(frame)), Event::Frame { image: ImageNews::Whole, .. }) =
             (&mut line, event)
         {
             self.complete(client, frame);
         }
-        let mut line = serde_json::to_value(line)?;
+        let mut line = serde_json::to_value(line).map_err(Error::from)?;
         let board = line.get("time_us").and_then(Value::as_u64);
         if let Some(time) = board.and_then(|board| client.host_time(Micros(board))) {
             line["host_time_us"] = json!(time.us);
             line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
         }
-        Ok(writeln!(self.out, "{line}")?)
+        Ok(writeln!(self.out, "{line}").map_err(Error::from)?)
     }
 
-    fn idle(&mut self, _: &mut Client) -> Result<bool> {
-        self.out.flush()?;
+    fn idle(&mut self, _: &mut Client) -> Result<bool, E> {
+        self.out.flush().map_err(Error::from)?;
         Ok(true)
     }
 
-    fn end(&mut self, _: &Client) -> Result<()> {
-        Ok(self.out.flush()?)
+    fn end(&mut self, _: &Client) -> Result<(), E> {
+        Ok(self.out.flush().map_err(Error::from)?)
     }
 }
 

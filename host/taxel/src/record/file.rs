@@ -6,8 +6,8 @@ use super::provenance::{self, Origin};
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
 use crate::client::{Client, Event, Worn};
+use crate::error::Result;
 use crate::recording::{HELLO, Store, Writer};
-use anyhow::Result;
 use taxel_core::fold::Posture;
 
 /// A file of a recording.

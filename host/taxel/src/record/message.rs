@@ -2,10 +2,10 @@
 
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
+use crate::error::Result;
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;
 use crate::json::{self, HostTimed, HostTimes};
-use anyhow::Result;
 use serde::Serialize;
 
 /// Encodes an event as JSON with its times.

@@ -1,6 +1,6 @@
 //! Names of files.
 
-use anyhow::{Result, bail};
+use crate::error::{FileError, Result};
 use std::path::{Path, PathBuf};
 
 /// Path of file `number`, from 1: the first as given, then `NAME-0002.mcap`, `NAME-0003.mcap`.
@@ -29,7 +29,7 @@ pub fn are_free(path: &Path) -> Result<()> {
                 && [&file, &beside(&file)].iter().any(|file| file.file_name() == Some(&entry.file_name()))
         };
         if number.is_some_and(is_one) {
-            bail!("{} already exists: give another name, or --force to replace it", entry.path().display());
+            return Err(FileError::Exists { path: entry.path() }.into());
         }
     }
     Ok(())

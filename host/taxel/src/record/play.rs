@@ -1,8 +1,8 @@
 //! Plays a recording through a client.
 
 use crate::client::{Client, Event};
+use crate::error::Result;
 use crate::recording::{Skipped, WireReader};
-use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
 

@@ -1,10 +1,10 @@
 //! Origin of a recording: its attachments and metadata.
 
 use crate::client::Worn;
+use crate::error::Result;
 use crate::files::calibrate::Calibration;
 use crate::files::garments;
 use crate::recording::{Store, Writer};
-use anyhow::Result;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use taxel_core::garment::Layout;

@@ -9,13 +9,12 @@ use super::stamps::{Stamp, Stamps};
 use super::standing::Standing;
 use super::tally::{COUNTS, Tally};
 use crate::client::passed::Passed;
-use crate::client::{Client, Event, Worn};
+use crate::client::{Client, Event, Worn, request_name};
+use crate::error::{Context, Error, Result, SourceError};
 use crate::files::output::{Begun, Force, Output};
 use crate::recording;
 use crate::session::Show;
-use crate::tell::fault::Fault;
 use crate::tell::progress::{self, Unit};
-use anyhow::{Context, Result};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -203,7 +202,11 @@ impl Recorder {
             return Ok(());
         }
         match refusal {
-            Some(why) => Err(Fault::board(format!("--raw: the board refuses raw codes: {why}")).into()),
+            Some(why) => {
+                let what = "--raw: the board refuses raw codes".into();
+                let (request, reason) = (request_name(*request), why.to_string());
+                Err(SourceError::Refused { request, what, reason }.into())
+            }
             None => Ok(()),
         }
     }
@@ -246,15 +249,15 @@ fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
     }
 }
 
-impl Show for Recorder {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl<E: From<Error>> Show<E> for Recorder {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
         let done = self.take(client, event);
         self.guard(done)?;
-        self.answered(event)
+        Ok(self.answered(event)?)
     }
 
     /// Also printed to standard error: a recording may not be looked at for days.
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<(), E> {
         if let Event::Log { text, .. } = note {
             self.shown.clear();
             eprintln!("{text}");
@@ -262,10 +265,10 @@ impl Show for Recorder {
         let stamp = self.stamps.now(client);
         let Some(file) = &mut self.file else { return Ok(()) };
         let done = file.event(client, note, stamp, self.plan.origin.counts_per_newton);
-        self.guard(done)
+        Ok(self.guard(done)?)
     }
 
-    fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {
+    fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<(), E> {
         let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
         let stamp = self.stamps.now(client);
         let mut done = file.requests(stamp, bytes);
@@ -277,19 +280,19 @@ impl Show for Recorder {
                 done = file.posture(stamp, &posture, names);
             }
         }
-        self.guard(done)
+        Ok(self.guard(done)?)
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> Result<bool, E> {
         if client.worn().is_some() && std::mem::take(&mut self.plan.raw) {
-            self.waits_for_raw = client.request_codes()?;
+            self.waits_for_raw = client.request_codes().map_err(Error::from)?;
         }
         let done = self.keep();
         self.guard(done)?;
         Ok(true)
     }
 
-    fn end(&mut self, _: &Client) -> Result<()> {
-        self.finish()
+    fn end(&mut self, _: &Client) -> Result<(), E> {
+        Ok(self.finish()?)
     }
 }

@@ -1,6 +1,6 @@
 //! Encodes one record: its number, its length, its body.
 
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use binrw::BinWrite;
 use std::io::Cursor;
 

@@ -2,7 +2,7 @@
 
 use super::append::append;
 use super::lz4;
-use anyhow::{Context, Result, bail, ensure};
+use crate::error::{Context, Error, RecordingError, Result};
 use lz4_flex::frame::{FrameDecoder, FrameEncoder};
 use mcap::records::{ChunkHeader, ChunkIndex, MessageHeader, MessageIndex, MessageIndexEntry, op};
 use std::collections::BTreeMap;
@@ -52,7 +52,7 @@ impl Chunk {
         let Some([first, last]) = self.span.take() else { return Ok(None) };
         let mut encoder = FrameEncoder::new(Vec::new());
         encoder.write_all(&self.body)?;
-        let data = encoder.finish().context("a chunk cannot be compressed")?;
+        let data = encoder.finish().map_err(Error::other).context("a chunk cannot be compressed")?;
         let header = ChunkHeader {
             message_start_time: first,
             message_end_time: last,
@@ -122,11 +122,15 @@ pub fn plain(header: &ChunkHeader, data: &[u8], body: &mut Vec<u8>) -> Result<()
     let size = header.uncompressed_size;
     // LZ4 expands a byte to 255 at most.
     let possible = size <= LARGEST && size / 256 <= data.len() as u64;
-    ensure!(possible, "a chunk of {} bytes claims to hold {size}", data.len());
+    require!(possible, RecordingError::Record, "a chunk of {} bytes claims to hold {size}", data.len());
     body.resize(size as usize, 0);
     match header.compression.as_str() {
         "" => {
-            ensure!(data.len() == body.len(), "a chunk holds less or more than it says");
+            require!(
+                data.len() == body.len(),
+                RecordingError::Record,
+                "a chunk holds less or more than it says"
+            );
             body.copy_from_slice(data);
         }
         // A chunk without a checksum relies on those of LZ4.
@@ -134,11 +138,17 @@ pub fn plain(header: &ChunkHeader, data: &[u8], body: &mut Vec<u8>) -> Result<()
         LZ4 => {
             let mut decoder = FrameDecoder::new(data);
             decoder.read_exact(body).context("a chunk cannot be decompressed")?;
-            ensure!(decoder.read(&mut [0])? == 0, "a chunk holds more than it says");
+            require!(decoder.read(&mut [0])? == 0, RecordingError::Record, "a chunk holds more than it says");
         }
-        other => bail!("a chunk is compressed with {other}: known are lz4 and none"),
+        other => {
+            fail!(RecordingError::Unsupported, "a chunk is compressed with {other}: known are lz4 and none")
+        }
     }
     let sum = header.uncompressed_crc;
-    ensure!(sum == 0 || sum == crc32fast::hash(body), "a chunk does not fit its checksum");
+    require!(
+        sum == 0 || sum == crc32fast::hash(body),
+        RecordingError::Record,
+        "a chunk does not fit its checksum"
+    );
     Ok(())
 }

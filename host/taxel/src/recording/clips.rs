@@ -5,7 +5,7 @@ use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
 use super::texts::parse_record;
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, Error, RecordingError, Result};
 use mcap::records::{Channel, MessageHeader, Record, op};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -151,7 +151,10 @@ impl Clips {
                     _ => {}
                 }
             }
-            op::MESSAGE => bail!("it has messages outside of chunks, which are not supported here"),
+            op::MESSAGE => fail!(
+                RecordingError::Unsupported,
+                "it has messages outside of chunks, which are not supported here"
+            ),
             _ => {}
         }
         self.records.go_to(head.end())
@@ -164,7 +167,8 @@ impl Clips {
             self.held.push(known);
         } else {
             let read = self.read(chunk);
-            let clip = read.with_context(|| format!("{} is damaged", self.path.display()))?;
+            let clip =
+                read.map_err(|why| Error::caused(RecordingError::Damaged { path: self.path.clone() }, why))?;
             self.held.push((chunk, clip));
             while self.held.len() > HELD || self.held_bytes() > HELD_BYTES {
                 self.held.remove(0);
@@ -181,10 +185,13 @@ impl Clips {
     }
 
     fn read(&mut self, chunk: usize) -> Result<Arc<[ClipMessage]>> {
-        self.records.go_to(self.places.get(chunk).context("there is no such chunk")?.offset)?;
-        let record = self.records.next_record()?.context("a chunk is cut off")?;
+        let place = self.places.get(chunk);
+        let place = place.ok_or_else(|| error!(RecordingError::Record, "there is no such chunk"))?;
+        self.records.go_to(place.offset)?;
+        let record = self.records.next_record()?;
+        let record = record.ok_or_else(|| error!(RecordingError::Record, "a chunk is cut off"))?;
         let Record::Chunk { header, data } = parse_record(record.op, record.body)? else {
-            bail!("a chunk was overwritten");
+            fail!(RecordingError::Record, "a chunk was overwritten");
         };
         chunk::plain(&header, &data, &mut self.plain)?;
         let mut pieces = Vec::new();

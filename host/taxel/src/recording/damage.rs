@@ -3,7 +3,7 @@
 use super::append::HEAD;
 use super::records::{Head, Records};
 use super::summary::{chunk_indexes, footer};
-use anyhow::Result;
+use crate::error::Result;
 use mcap::records::op;
 use std::fmt;
 use std::path::Path;

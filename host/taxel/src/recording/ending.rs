@@ -4,7 +4,7 @@
 use super::append::{HEAD, append, sized, write};
 use super::chunk::{Closed, is_known};
 use super::contents::{Contents, Stretch};
-use anyhow::Result;
+use crate::error::Result;
 use crc32fast::Hasher;
 use mcap::MAGIC;
 use mcap::records::{DataEnd, Footer, Statistics, SummaryOffset, op};

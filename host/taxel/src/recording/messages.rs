@@ -5,7 +5,7 @@ use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
 use super::texts::parse_record;
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use mcap::records::{Channel, MessageHeader, Record, op};
 use std::collections::BTreeMap;
 use std::ops::Range;

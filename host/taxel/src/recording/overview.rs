@@ -6,7 +6,7 @@ use super::records::Records;
 use super::summary::{Summary, summary};
 use super::texts::{LONGEST, parse_record};
 use super::{Scan, scan};
-use anyhow::{Context, Result};
+use crate::error::{RecordingError, Result};
 use mcap::records::{AttachmentIndex, Metadata, Record};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -90,13 +90,16 @@ impl Overview {
 
     /// Newest attachment of this name; none if there is none.
     pub fn attached(&self, name: &str) -> Result<Option<Vec<u8>>> {
-        let place = || format!("{}: attachment {name} cannot be read", self.path.display());
+        let cut_off = || {
+            let path = self.path.display();
+            error!(RecordingError::Record, "{path}: attachment {name} cannot be read")
+        };
         let Some(index) = self.attachments.iter().rfind(|index| index.name == name) else {
             return Ok(None);
         };
         let mut records = Records::open_at(&self.path, index.offset)?;
-        let record = records.next_short(LONGEST as u64)?.with_context(place)?;
-        let (_, data, _) = attached(record.body).with_context(place)?;
+        let record = records.next_short(LONGEST as u64)?.ok_or_else(cut_off)?;
+        let (_, data, _) = attached(record.body).ok_or_else(cut_off)?;
         Ok(Some(data.to_vec()))
     }
 }

@@ -1,7 +1,7 @@
 //! Iterates over the records of a recording up to the last intact one. One buffer serves them all.
 
 use super::append::HEAD;
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, FileError, RecordingError, Result};
 use mcap::MAGIC;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -63,15 +63,15 @@ impl Records {
     pub fn open(path: &Path) -> Result<Records> {
         let place = || format!("{} cannot be read", path.display());
         crate::tell::verbose::reads(path);
-        let file = File::open(path).with_context(place)?;
+        let file = File::open(path).map_err(|error| FileError::read(path, error)).with_context(place)?;
         if path.is_dir() {
-            bail!("{} is a folder", path.display());
+            return Err(FileError::Folder { path: path.into() }.into());
         }
         let length = file.metadata().with_context(place)?.len();
         let mut input = BufReader::new(file);
         let mut magic = [0; MAGIC.len()];
         if input.read_exact(&mut magic).is_err() || magic != MAGIC {
-            bail!("{} is not an MCAP file", path.display());
+            return Err(RecordingError::NotMcap { path: path.into() }.into());
         }
         Ok(Records { input, offset: MAGIC.len() as u64, length, body: Vec::new() })
     }

@@ -3,8 +3,8 @@
 use super::chunk::Index;
 use super::contents::Contents;
 use super::salvage::{Kind, Piece, Unreadable, Walk, WalkStep};
+use crate::error::Result;
 use crate::tell::progress::{Progress, Unit};
-use anyhow::Result;
 use mcap::records::{Header, Metadata, Statistics};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Reads bytes of a file at any offset.
 
 use super::append::HEAD;
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, FileError, Result};
 use mcap::MAGIC;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -32,10 +32,10 @@ impl RandomAccess {
     pub fn open(path: &Path) -> Result<RandomAccess> {
         let place = || format!("{} cannot be read", path.display());
         crate::tell::verbose::reads(path);
-        let file = File::open(path).with_context(place)?;
+        let file = File::open(path).map_err(|error| FileError::read(path, error)).with_context(place)?;
         let known = file.metadata().with_context(place)?;
         if known.is_dir() {
-            bail!("{} is a folder", path.display());
+            return Err(FileError::Folder { path: path.into() }.into());
         }
         Ok(RandomAccess { input: BufReader::with_capacity(1 << 16, file), at: 0, length: known.len() })
     }

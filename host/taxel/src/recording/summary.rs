@@ -3,7 +3,7 @@
 use super::append::HEAD;
 use super::source::{RandomAccess, RawHead};
 use super::texts::{LONGEST, parse_record};
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use mcap::MAGIC;
 use mcap::records::{AttachmentIndex, Channel, ChunkIndex, Footer, MetadataIndex, Record, Statistics, op};
 use std::collections::BTreeMap;

@@ -2,6 +2,7 @@
 
 use super::append::append;
 use super::{Format, Messages, Skipped, Store, Writer, chunk_indexes, repair, scan};
+use crate::error::{Error, Result};
 use mcap::Summary;
 use std::collections::BTreeSet;
 use std::io::{self, Read, Write};
@@ -50,7 +51,7 @@ const JSON: Format<'_> =
     Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: "{\"type\":\"object\"}" };
 
 /// Writes three chunks of four messages. Returns the first error and the result of the end.
-fn write(disk: &mut Disk) -> anyhow::Result<(Option<anyhow::Error>, anyhow::Result<u64>)> {
+fn write(disk: &mut Disk) -> Result<(Option<Error>, Result<u64>)> {
     let mut writer = Writer::create(disk, "")?;
     let channels = [writer.channel("/a", &JSON)?, writer.channel("/b", &JSON)?];
     writer.attach("words.txt", "text/plain", b"hello", 1)?;

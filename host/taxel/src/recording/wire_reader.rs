@@ -1,8 +1,8 @@
 //! Reads the board's frames of the wire from a recording.
 
 use super::lost;
+use crate::error::Result;
 use crate::recording::{Message, Messages, Skipped};
-use anyhow::Result;
 use mcap::records::MessageHeader;
 use std::path::Path;
 

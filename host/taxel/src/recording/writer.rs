@@ -10,7 +10,7 @@ use super::contents::Contents;
 use super::ending::Ending;
 use super::store::Store;
 use super::written::Written;
-use anyhow::Result;
+use crate::error::{Error, Result};
 use mcap::MAGIC;
 use mcap::records::{
     AttachmentHeader, AttachmentIndex, Channel, Header, MessageHeader, Metadata, MetadataIndex, SchemaHeader,
@@ -77,7 +77,7 @@ impl<S: Store> Writer<S> {
         }
         let written = self.store.write_all(bytes).and_then(|()| self.store.flush());
         if let Err(error) = written {
-            let error = anyhow::Error::from(error);
+            let error = Error::from(error);
             return Err(match self.cut(self.length) {
                 Ok(()) => error,
                 Err(_) => error.context("its last record is incomplete"),

@@ -5,7 +5,7 @@ use super::append::HEAD;
 use super::chunk::{Closed, LZ4};
 use super::records::Head;
 use super::store::Store;
-use anyhow::{Context, Result};
+use crate::error::{Context, RecordingError, Result};
 use binrw::BinRead;
 use mcap::MAGIC;
 use mcap::records::{ChunkHeader, ChunkIndex, MessageIndexEntry, op};
@@ -100,6 +100,7 @@ impl Written {
         let count = store.look(offset, &mut self.block)?;
         self.block.truncate(count);
         self.at = offset;
-        inside(&self.block, offset).context("what was written cannot be read again")
+        inside(&self.block, offset)
+            .ok_or_else(|| error!(RecordingError::Record, "what was written cannot be read again"))
     }
 }

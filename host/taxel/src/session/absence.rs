@@ -1,8 +1,8 @@
 //! A lost source, until it is back.
 
+use crate::error::Error;
 use crate::source::{Return, Source};
 use crate::tell::verbose;
-use anyhow::Error;
 use std::thread;
 use std::time::{Duration, Instant};
 

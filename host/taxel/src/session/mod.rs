@@ -7,7 +7,7 @@
 //! let session = Session::open("sim:pat")?;
 //! let contacts = session.filter(|event| matches!(event, Ok(Event::Contacts { .. })));
 //! assert!(contacts.take(3).count() == 3);
-//! # Ok::<(), anyhow::Error>(())
+//! # Ok::<(), taxel::Error>(())
 //! ```
 //!
 //! A board that restarts, is unplugged or loses its connection is waited for, and all its settings are
@@ -31,10 +31,9 @@ pub use show::Show;
 
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Restored, request_name};
+use crate::error::{Error, Result, SourceError, UsageError};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
-use crate::tell::fault::{Blame, Fault};
 use absence::Absence;
-use anyhow::{Context, Result, bail};
 use outgoing::Outgoing;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -98,7 +97,7 @@ impl Session {
     /// `tcp:HOST:PORT` ...) and requests the whole stream, after a tare if a simulation wants one.
     pub fn open(source: &str) -> Result<Session> {
         let spec: SourceSpec =
-            source.parse().map_err(|why| Fault::usage(format!("source {source}: {why}")))?;
+            source.parse().map_err(|why| UsageError::Unknown(format!("source {source}: {why}")))?;
         Session::over(source::open(&spec, &SourceOptions::default())?)
     }
 
@@ -161,7 +160,7 @@ impl Session {
         if let Some(event) = self.next_event().or_else(|| self.note()) {
             return Ok(Poll::Event(event));
         }
-        Ok(match self.turn(&mut |_, _| Ok(()))? {
+        Ok(match self.turn::<Error>(&mut |_, _| Ok(()))? {
             Turn::Bytes | Turn::Waiting => Poll::Nothing,
             Turn::End => Poll::End,
         })
@@ -180,12 +179,15 @@ impl Session {
     }
 
     /// Sends queued requests after passing them to `sent`, and reads. Error if the source is lost for good,
-    /// or if its board refuses a setting that it had accepted before.
-    pub fn turn(&mut self, sent: &mut dyn FnMut(&Client, &[u8]) -> Result<()>) -> Result<Turn> {
+    /// or if its board refuses a setting that it had accepted before; `sent` has errors of the caller's own.
+    pub fn turn<E: From<Error>>(
+        &mut self,
+        sent: &mut dyn FnMut(&Client, &[u8]) -> Result<(), E>,
+    ) -> Result<Turn, E> {
         self.buffer.clear();
         self.taken = 0;
         if self.absence.is_some() {
-            return self.come_back();
+            return Ok(self.come_back()?);
         }
         self.restored()?;
         self.ask_again();
@@ -200,8 +202,8 @@ impl Session {
             }
             // Recordings and simulations end; a board streams as long as there is a link.
             Ok(false) if self.source.returns.is_none() => Ok(Turn::End),
-            Ok(false) => self.lose(std::io::Error::other("the connection was closed").into()),
-            Err(error) => self.lose(error),
+            Ok(false) => Ok(self.lose(std::io::Error::other("the connection was closed").into())?),
+            Err(error) => Ok(self.lose(error)?),
         }
     }
 
@@ -253,10 +255,10 @@ impl Session {
         if count > 0 {
             self.heard = now;
         } else if self.source.real_time && self.client.worn().is_some() && now - self.heard > SILENCE {
-            bail!("it has sent nothing for {} s", SILENCE.as_secs());
+            fail!(SourceError::Silent, "it has sent nothing for {} s", SILENCE.as_secs());
         }
         if self.client.worn().is_some() && !self.client.is_met() && now - self.opened > SILENCE {
-            bail!("it has sent no Hello for {} s", SILENCE.as_secs());
+            fail!(SourceError::Silent, "it has sent no Hello for {} s", SILENCE.as_secs());
         }
         Ok(true)
     }
@@ -282,15 +284,12 @@ impl Session {
         match restored {
             Restored::Refused(request, why) => {
                 let request = request_name(request);
-                bail!(Fault::board(format!(
-                    "{label}: after it came back, the board refuses {request}: {why}"
-                )))
+                let what = format!("{label}: after it came back, the board refuses {request}");
+                return Err(SourceError::Refused { request, what, reason: why }.into());
             }
             Restored::Silent(request) => {
                 let request = request_name(request);
-                bail!(Fault::board(format!(
-                    "{label}: after it came back, the board does not answer {request}"
-                )))
+                fail!(SourceError::Silent, "{label}: after it came back, the board does not answer {request}")
             }
             Restored::Done { set, untared } => {
                 let mut names: Vec<&str> = set.iter().map(|number| request_name(*number)).collect();
@@ -309,10 +308,10 @@ impl Session {
     }
 
     /// Handles a lost source.
-    fn lose(&mut self, why: anyhow::Error) -> Result<Turn> {
-        let label = &self.source.label;
+    fn lose(&mut self, why: Error) -> Result<Turn> {
+        let label = self.source.label.clone();
         if self.source.returns.is_none() || self.returns == Returns::Never {
-            return Err(why).with_context(|| format!("{label} is gone")).board();
+            return Err(Error::caused(SourceError::Gone { label, patience: None }, why));
         }
         let text = format!("{label} is gone: {}; waiting for it", crate::tell::words::sentence(&why));
         self.say(Level::Error, text);
@@ -329,12 +328,10 @@ impl Session {
         if let Returns::Within(patience) = self.returns
             && absence.lasts() > patience
         {
-            let label = &self.source.label;
-            let seconds = patience.as_secs();
-            let why = format!("{label} is gone, and has not come back within {seconds} s");
-            return Err(self.absence.take().map_or_else(|| anyhow::anyhow!("it is gone"), Absence::why))
-                .context(why)
-                .board();
+            let label = self.source.label.clone();
+            let why = self.absence.take().map(Absence::why);
+            let why = why.unwrap_or_else(|| Error::other("it is gone"));
+            return Err(Error::caused(SourceError::Gone { label, patience: Some(patience) }, why));
         }
         if let Some(returns) = &mut self.source.returns
             && let Some(again) = absence.try_open(returns.as_mut())

@@ -1,7 +1,7 @@
 //! Requests on their way to a board that may read slowly or not at all, without blocking the reader.
 
+use crate::error::{Result, SourceError};
 use crate::source::Port;
-use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 
 /// Time after which a board that reads nothing is an error.
@@ -29,7 +29,8 @@ impl Outgoing {
                 let stuck = self.stuck.get_or_insert_with(Instant::now);
                 if stuck.elapsed() > PATIENCE {
                     let seconds = PATIENCE.as_secs();
-                    bail!(
+                    fail!(
+                        SourceError::Silent,
                         "the board has read nothing for {seconds} s; {} bytes are waiting",
                         self.bytes.len()
                     );

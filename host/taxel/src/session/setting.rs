@@ -1,13 +1,12 @@
 //! Garments, scenes and models of the user, queued as requests to a board.
 
 use crate::client::Client;
+use crate::error::{Context, Result, SettingError, UsageError};
 use crate::files::garments;
 use crate::source::SceneFile;
-use crate::tell::fault::Blame;
 use crate::tell::verbose;
-use anyhow::{Context, Result};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
-use taxel_core::gesture::{Certainty, GestureConfig, Gestures, ShippedModel};
+use taxel_core::gesture::{Certainty, GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::wire::Request;
 
@@ -39,7 +38,7 @@ pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
 pub fn set_certainty(client: &mut Client, share: f64) -> Result<()> {
     // Negative, or NaN: a value that is refused.
     let thousandths = if share >= 0.0 { (share * 1000.0).round() as u16 } else { u16::MAX };
-    Certainty::of(thousandths).usage()?;
+    Certainty::of(thousandths).map_err(|error| of_caller(error.into()))?;
     Ok(client.request(&Request::SetCertainty(thousandths))?)
 }
 
@@ -60,6 +59,11 @@ pub fn set_gestures(
     if by_certainty {
         (config.decide_ms, config.onset_ms) = (100, 0);
     }
-    Gestures::build(&config).usage()?;
+    Gestures::build(&config).map_err(of_caller)?;
     Ok(client.request(&Request::SetGestures(Some(config)))?)
+}
+
+/// An error of the arguments, not of a file.
+fn of_caller(error: GestureError) -> UsageError {
+    SettingError::from(error).into()
 }

@@ -1,33 +1,34 @@
 //! Receivers of a session's stream.
 
 use crate::client::{Client, Event};
-use anyhow::Result;
+use crate::error::{Error, Result};
 
-/// Receiver of a stream: shows or stores it.
-pub trait Show {
+/// Receiver of a stream: shows or stores it. `E` is the error of the program that drives it; receivers of
+/// this library take any that is made from an [`Error`].
+pub trait Show<E = Error> {
     /// Handles received bytes; their events follow in [`event`](Show::event).
     fn bytes(&mut self, _bytes: &[u8]) {}
 
     /// Handles an event; the client already includes it.
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()>;
+    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E>;
 
     /// Handles an [`Event::Log`] of the host itself: the source is lost, or is back.
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<(), E> {
         self.event(client, note)
     }
 
     /// Called before these bytes are sent to the board.
-    fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<()> {
+    fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<(), E> {
         Ok(())
     }
 
     /// Called after bytes were handled, or after a while without any. Returns false to stop.
-    fn idle(&mut self, _client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, _client: &mut Client) -> Result<bool, E> {
         Ok(true)
     }
 
     /// Called once at the end of the stream.
-    fn end(&mut self, _client: &Client) -> Result<()> {
+    fn end(&mut self, _client: &Client) -> Result<(), E> {
         Ok(())
     }
 }

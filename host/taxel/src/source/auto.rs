@@ -3,10 +3,9 @@
 use super::serial::Serial;
 use super::{Port, Source, SourceOptions, SourceSpec, open as open_source};
 use crate::client::{Client, Event};
-use crate::tell::fault::Fault;
+use crate::error::{Result, SourceError};
 use crate::tell::verbose;
 use crate::tell::words::printable;
-use anyhow::{Context, Result, bail};
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -58,10 +57,11 @@ pub fn usb() -> Result<Source> {
     }
     let (vendor, product, name) = BOARD;
     match why.len() {
-        0 => bail!(Fault::board(format!(
+        0 => fail!(
+            SourceError::NoBoard,
             "no board on USB: no serial port has the id {vendor:04x}:{product:04x} {name}"
-        ))),
-        _ => bail!(Fault::board(format!("no board on USB can be used: {}", why.join(", ")))),
+        ),
+        _ => fail!(SourceError::NoBoard, "no board on USB can be used: {}", why.join(", ")),
     }
 }
 
@@ -92,7 +92,7 @@ fn named(label: String, port: SerialPortInfo, serial: Serial, baud: u32) -> Sour
 /// with the same name if ports have no description.
 fn returned(lost: &SerialPortInfo, ports: Vec<SerialPortInfo>, baud: u32) -> Result<Source> {
     let found = match usb_of(lost) {
-        Some(_) => back(lost, &ports).context("it is not plugged in")?,
+        Some(_) => back(lost, &ports).ok_or_else(|| SourceError::NoBoard("it is not plugged in".into()))?,
         None => lost,
     };
     let serial = Serial::open(&found.port_name, baud)?;

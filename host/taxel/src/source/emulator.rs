@@ -2,9 +2,9 @@
 
 use super::tcp::{CONNECT, Tcp};
 use super::{Port, Source, SourceOptions};
+use crate::error::{Result, SourceError};
 use crate::files::scripts;
 use crate::sim::{self, COUNTS_PER_NEWTON, FRAME_PERIOD_US, FULL_SCALE, frame_codes, wiring_json};
-use anyhow::{Context, Result, anyhow, bail};
 use serde_json::Value;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -26,7 +26,8 @@ pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
     let script = scripts::load(scene)?;
     let garment = scripts::garment(&script)?;
     if garment != Garment::reference() {
-        bail!(
+        fail!(
+            SourceError::Unstarted,
             "emulator:{scene}: the image starts with the garment reference, the scene wants {}",
             garment.name
         );
@@ -67,7 +68,7 @@ pub fn open(scene: &str, options: &SourceOptions) -> Result<Source> {
 fn wiring(garment: &Garment) -> Result<Value> {
     let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)?;
     let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
-    wiring_json(garment, &layout, &circuit)
+    Ok(wiring_json(garment, &layout, &circuit)?)
 }
 
 /// Folder of the harness: `TAXEL_EMULATOR`, or found upwards from the working folder.
@@ -76,22 +77,23 @@ fn harness() -> Result<PathBuf> {
         Some(told) => {
             let folder =
                 if told.is_file() { told.parent().map(Path::to_path_buf) } else { Some(told.clone()) };
-            folder
-                .filter(|folder| folder.join(PROGRAM).is_file())
-                .ok_or_else(|| anyhow!("TAXEL_EMULATOR={} has no {PROGRAM}", told.display()))?
+            folder.filter(|folder| folder.join(PROGRAM).is_file()).ok_or_else(|| {
+                error!(SourceError::Unstarted, "TAXEL_EMULATOR={} has no {PROGRAM}", told.display())
+            })?
         }
         None => std::env::current_dir()?
             .ancestors()
             .map(|above| above.join("tests/emulator"))
             .find(|folder| folder.join(PROGRAM).is_file())
             .ok_or_else(|| {
-                anyhow!(
+                error!(
+                    SourceError::Unstarted,
                     "there is no tests/emulator/{PROGRAM} here or above; set TAXEL_EMULATOR to its folder"
                 )
             })?,
     };
     if !folder.join("node_modules").is_dir() {
-        bail!("the emulator is not installed: run `npm ci` in {}", folder.display());
+        fail!(SourceError::Unstarted, "the emulator is not installed: run `npm ci` in {}", folder.display());
     }
     Ok(folder)
 }
@@ -102,7 +104,7 @@ fn image(harness: &Path) -> Result<PathBuf> {
         return if told.is_file() {
             Ok(told)
         } else {
-            bail!("TAXEL_FIRMWARE={} is not a file", told.display())
+            fail!(SourceError::Unstarted, "TAXEL_FIRMWARE={} is not a file", told.display())
         };
     }
     let told = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
@@ -115,7 +117,9 @@ fn image(harness: &Path) -> Result<PathBuf> {
         .filter_map(|way| Some(way.ok()?.path().join(IMAGE)))
         .filter(|path| path.is_file())
         .max_by_key(built)
-        .ok_or_else(|| anyhow!("there is no firmware image: build it with `cargo xtask firmware`"))
+        .ok_or_else(|| {
+            error!(SourceError::Unstarted, "there is no firmware image: build it with `cargo xtask firmware`")
+        })
 }
 
 /// A folder that is deleted with its owner.
@@ -146,8 +150,9 @@ struct Emulator {
 impl Emulator {
     fn start(mut node: Command, folder: TempFolder) -> Result<Emulator> {
         let spawned = node.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child =
-            spawned.map_err(|error| anyhow!("node, which runs the emulator, cannot be started: {error}"))?;
+        let mut child = spawned.map_err(|error| {
+            error!(SourceError::Unstarted, "node, which runs the emulator, cannot be started: {error}")
+        })?;
         match connect(&mut child) {
             Ok(tcp) => Ok(Emulator { child, tcp, _folder: folder }),
             Err(error) => {
@@ -160,13 +165,16 @@ impl Emulator {
 
 /// Connects to the port that the harness prints in its first line.
 fn connect(child: &mut Child) -> Result<Tcp> {
-    let mut out = BufReader::new(child.stdout.take().context("the emulator has no output")?);
+    let mut out = BufReader::new(
+        child.stdout.take().ok_or_else(|| error!(SourceError::Unstarted, "the emulator has no output"))?,
+    );
     let mut line = String::new();
     out.read_line(&mut line)?;
-    let told: Value =
-        serde_json::from_str(&line).map_err(|_| anyhow!("the emulator ended before it began"))?;
-    let port =
-        told["port"].as_u64().ok_or_else(|| anyhow!("the emulator printed no port, but {}", line.trim()))?;
+    let told: Value = serde_json::from_str(&line)
+        .map_err(|_| error!(SourceError::Unstarted, "the emulator ended before it began"))?;
+    let port = told["port"]
+        .as_u64()
+        .ok_or_else(|| error!(SourceError::Unstarted, "the emulator printed no port, but {}", line.trim()))?;
     // Further output is drained, so that the emulator never blocks on it.
     std::thread::spawn(move || io::copy(&mut out, &mut io::sink()));
     Tcp::open(&format!("127.0.0.1:{port}"), CONNECT)

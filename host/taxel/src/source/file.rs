@@ -1,7 +1,7 @@
 //! Bytes that were saved with `--save`.
 
 use super::Port;
-use anyhow::{Result, anyhow};
+use crate::error::{Context, FileError, Result};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -12,12 +12,10 @@ pub struct Saved(File);
 impl Saved {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<Saved> {
-        let wrong =
-            |error: &dyn std::fmt::Display| anyhow!("file {} cannot be read: {error}", path.display());
-        if path.is_dir() {
-            return Err(wrong(&"it is a folder"));
-        }
-        File::open(path).map(Saved).map_err(|error| wrong(&error))
+        let folder = || io::Error::other("it is a folder");
+        let opened = if path.is_dir() { Err(folder()) } else { File::open(path) };
+        let opened = opened.map_err(|error| FileError::read(path, error));
+        opened.map(Saved).with_context(|| format!("file {} cannot be read", path.display()))
     }
 }
 

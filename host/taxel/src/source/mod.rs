@@ -19,9 +19,9 @@ pub use scene::{SceneFile, read_scene, scene_of};
 pub(crate) use sim::info as simulated_info;
 pub use spec::SourceSpec;
 
+use crate::error::Result;
 use crate::sim::Script;
 use crate::tell::verbose;
-use anyhow::Result;
 use std::io;
 use std::time::Duration;
 

@@ -1,9 +1,9 @@
 //! Plays a recording: the board's bytes in their original timing, scaled, or as fast as possible.
 
 use super::{Port, Source, SourceOptions};
+use crate::error::{Context, RecordingError, Result};
 use crate::recording::{Overview, WIRE, WireReader};
 use crate::tell::progress::{Progress, Unit};
-use anyhow::{Context, Result, bail};
 use std::fmt;
 use std::io::{self, IsTerminal};
 use std::path::Path;
@@ -58,7 +58,7 @@ pub fn open(path: &Path, speed: Speed, options: &SourceOptions) -> Result<Source
     };
     let overview = Overview::of(path)?;
     if !overview.channels.iter().any(|info| info.channel.topic == WIRE) {
-        bail!("{} has no topic {WIRE}: it is not a recording of taxel", path.display());
+        return Err(RecordingError::NotTaxel { path: path.into(), topic: WIRE }.into());
     }
     let scale = overview.counts_per_newton().map(|counts| counts as f32);
     let wire = WireReader::open(path)?;

@@ -1,9 +1,9 @@
 //! Scene files: the shipped scene, with the values of a script or a file.
 
+use crate::error::{Context, Error, FileError, Result, SettingError};
 use crate::fcm;
 use crate::sim::Script;
 use crate::tell::{toml_key, words};
-use anyhow::{Context, Error, Result, anyhow};
 use serde_json::Value;
 use std::fmt::Display;
 use std::path::Path;
@@ -12,8 +12,11 @@ use taxel_core::scene::Scene;
 /// The shipped scene with the values of a script's `[scene]`.
 pub fn scene_of(script: &Script) -> Result<Scene> {
     let said = serde_json::to_value(&script.scene)?;
-    filled(said, Path::new("."))
-        .map_err(|SceneFault { key, why }| anyhow!("script {}: `scene.{key}`: {why}", script.name))
+    filled(said, Path::new(".")).map_err(|SceneFault { key, why }| {
+        let key = format!("scene.{key}");
+        let text = format!("script {}: `{key}`: {why}", script.name);
+        SettingError::Key { key, text }.into()
+    })
 }
 
 /// A scene's file and its contents.
@@ -30,7 +33,9 @@ impl SceneFile {
     pub fn read(path: &Path) -> Result<SceneFile> {
         let name = path.display().to_string();
         crate::tell::verbose::reads(path);
-        let text = std::fs::read_to_string(path).with_context(|| format!("{name} cannot be read"))?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| FileError::read(path, error))
+            .with_context(|| format!("{name} cannot be read"))?;
         SceneFile::parse(text, name, path.parent().unwrap_or(Path::new(".")))
     }
 
@@ -44,8 +49,8 @@ impl SceneFile {
 
     /// Parses a scene's text. `name` names it in errors; paths of maps are relative to `folder`.
     pub fn parse(text: String, name: String, folder: &Path) -> Result<SceneFile> {
-        let said: toml::Table =
-            toml::from_str(&text).map_err(|error| anyhow!(words::toml(&error, &text, &name)))?;
+        let said: toml::Table = toml::from_str(&text)
+            .map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
         let said = serde_json::to_value(said)?;
         let scene = filled(said, folder)
             .map_err(|SceneFault { key, why }| toml_key::error(&name, &text, &key, why))?;
@@ -59,7 +64,7 @@ impl SceneFile {
 
     /// Error about one of its keys, with its line.
     pub fn error(&self, key: &str, why: impl Display) -> Error {
-        toml_key::error(&self.name, &self.text, key, why)
+        toml_key::error(&self.name, &self.text, key, why).into()
     }
 }
 
@@ -78,7 +83,7 @@ struct SceneFault {
 fn filled(mut said: Value, folder: &Path) -> Result<Scene, SceneFault> {
     fcm::scene::resolve(&mut said, folder).map_err(|error| SceneFault {
         key: "intent.map".into(),
-        why: error.chain().skip(1).map(words::cause).collect::<Vec<_>>().join(": "),
+        why: words::chain(&error).skip(1).map(words::cause).collect::<Vec<_>>().join(": "),
     })?;
     scene_as(&said).map_err(|why| SceneFault { key: key_of(&why, &said), why })
 }

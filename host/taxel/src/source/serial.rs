@@ -1,8 +1,7 @@
 //! A serial port.
 
 use super::Port;
-use crate::tell::fault::Fault;
-use anyhow::Result;
+use crate::error::{Result, SourceError};
 use serialport::SerialPort;
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
@@ -24,7 +23,7 @@ impl Serial {
         let port =
             serialport::new(path, baud).timeout(PATIENCE).dtr_on_open(true).open().map_err(|error| {
                 let why = why(&error);
-                Fault::board(format!("serial port {path} at {baud} Bd cannot be opened: {why}"))
+                SourceError::NoBoard(format!("serial port {path} at {baud} Bd cannot be opened: {why}"))
             })?;
         Ok(Serial { port, heard: Vec::new() })
     }

@@ -2,9 +2,9 @@
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
+use crate::error::{Context, Error, Result, SourceError};
 use crate::files::{garments, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
-use anyhow::{Context, Result, anyhow};
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -71,7 +71,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
         let made = play.board().map(Box::new);
         // Built here for the check only; it is built again for each round.
-        let made = SimBoard::new(&play.garment, &play.script, play.seed).and(made);
+        let made = SimBoard::new(&play.garment, &play.script, play.seed).map_err(Error::from).and(made);
         match made {
             Ok(mut board) => {
                 let _ = told.send(Ok(()));
@@ -82,7 +82,10 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
             Err(error) => drop(told.send(Err(error))),
         }
     })?;
-    ready.recv().unwrap_or_else(|_| Err(anyhow!("its thread ended"))).with_context(|| label.clone())?;
+    ready
+        .recv()
+        .unwrap_or_else(|_| Err(error!(SourceError::Unstarted, "its thread ended")))
+        .with_context(|| label.clone())?;
     let wears_asked = options.garment.is_some();
     Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), wears_asked, ..Source::new(label, host) })
 }
@@ -153,7 +156,8 @@ impl Playing {
     /// Restarts the board from its stored settings.
     fn restart(&self, board: &mut Shipped, flash: &mut SimFlash) -> Result<()> {
         *board = self.board()?;
-        let found = Store::new(flash, 0..SimFlash::BYTES)?.load(board)?;
+        let found = Store::new(flash, 0..SimFlash::BYTES).and_then(|mut store| store.load(board));
+        let found = found.map_err(Error::other)?;
         let aside = if found == Found::Aside { Aside::Request } else { Aside::No };
         board.booted(Boot { cause: BootCause::Request, resets: 0, aside });
         Ok(())

@@ -1,8 +1,7 @@
 //! A board behind TCP.
 
 use super::Port;
-use crate::tell::fault::Fault;
-use anyhow::Result;
+use crate::error::{Result, SourceError};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::Duration;
@@ -19,9 +18,11 @@ pub struct Tcp(TcpStream);
 impl Tcp {
     /// Connects to `HOST:PORT`, with this time limit for each of its addresses.
     pub fn open(address: &str, longest: Duration) -> Result<Tcp> {
-        let wrong = |error: io::Error| Fault::board(format!("tcp:{address} cannot be reached: {error}"));
+        let wrong =
+            |error: io::Error| SourceError::NoBoard(format!("tcp:{address} cannot be reached: {error}"));
         let mut last = io::Error::new(ErrorKind::NotFound, "the host has no address");
-        let unknown = |_| Fault::board(format!("tcp:{address} cannot be reached: its name has no address"));
+        let unknown =
+            |_| SourceError::NoBoard(format!("tcp:{address} cannot be reached: its name has no address"));
         for target in address.to_socket_addrs().map_err(unknown)? {
             match TcpStream::connect_timeout(&target, longest) {
                 Ok(stream) => {

@@ -1,7 +1,6 @@
-//! What a user is told: errors in plain words and whose fault they are, steps of the program, progress.
+//! What a user is told: errors in plain words, steps of the program, progress.
 
 pub mod date;
-pub mod fault;
 pub mod progress;
 pub mod starts;
 pub mod toml_key;

@@ -1,18 +1,24 @@
 //! Errors about a key of a TOML file, with its line.
 
 use super::words::{Step, line_of};
-use anyhow::{Error, anyhow};
+use crate::error::SettingError;
 use std::fmt::Display;
 
 /// Error about a key of a file, in one sentence: ``mine.toml, line 12, `blocks[3].input`: ...``. A path is
 /// keys joined by dots, with indices from 0. If the file has only a part of the path, the line is that of
 /// this part.
-pub fn error(file: &str, text: &str, path: &str, error: impl Display) -> Error {
+pub fn error(file: &str, text: &str, path: &str, error: impl Display) -> SettingError {
+    let text = match line_in(text, path) {
+        Some(line) => format!("{file}, line {line}, `{path}`: {error}"),
+        None => format!("{file}, `{path}`: {error}"),
+    };
+    SettingError::Key { key: path.into(), text }
+}
+
+/// Line of a key in a text, or of the part of its path that the text has.
+pub fn line_in(text: &str, path: &str) -> Option<usize> {
     let steps: Vec<Step<'_>> = steps(path).collect();
-    match line_of(text, &steps) {
-        Some(line) => anyhow!("{file}, line {line}, `{path}`: {error}"),
-        None => anyhow!("{file}, `{path}`: {error}"),
-    }
+    line_of(text, &steps)
 }
 
 /// Splits `blocks[3].input` into `blocks`, 3, `input`.

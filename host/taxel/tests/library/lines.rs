@@ -53,7 +53,9 @@ fn simulate(scene: &str, lines: &mut Lines) {
         keep(lines, &format!("{scene} recorded"), std::str::from_utf8(&recorded).unwrap());
         if let Event::Frame { .. } = event {
             let mut printed = Vec::new();
-            MessagePrinter::new(true, &mut printed).event(client, &event).unwrap();
+            let told: Result<(), taxel::Error> =
+                MessagePrinter::new(true, &mut printed).event(client, &event);
+            told.unwrap();
             keep(lines, &format!("{scene} printed"), std::str::from_utf8(&printed).unwrap());
         }
         if let (Event::Hello, Some(worn)) = (&event, client.worn()) {

@@ -5,6 +5,7 @@ mod clock;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
 mod drift;
+mod errors;
 mod faults;
 mod fcm;
 mod health;

@@ -1,12 +1,12 @@
 //! `taxel flash`: writes the firmware to a board, by its boot loader's drive or a debug probe.
 
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use taxel::tell::fault::Fault;
 
 /// Bytes of a UF2 block.
 const BLOCK: usize = 512;

@@ -5,6 +5,7 @@ mod ghosts;
 pub use ghosts::candidates;
 use taxel::json::pins;
 
+use crate::fault::{Blame, Fault};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
@@ -14,7 +15,6 @@ use taxel::client::{Client, Event};
 use taxel::files::garments;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::tell::fault::{Blame, Fault};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::health::TaxelHealth;
 use taxel_core::selftest::Findings;
@@ -116,7 +116,7 @@ impl Known {
     }
 }
 
-impl Show for Known {
+impl Show<anyhow::Error> for Known {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => self.garment = client.worn().map(|worn| worn.garment.clone()),
@@ -216,7 +216,7 @@ pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel::tell::fault;
+    use crate::fault;
 
     #[test]
     fn a_line_at_fault_is_told_and_fails_the_command() {

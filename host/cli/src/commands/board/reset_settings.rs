@@ -1,5 +1,6 @@
 //! `taxel reset-settings`: restarts a board with the shipped settings, and keeps its saved ones aside.
 
+use crate::fault::Fault;
 use crate::watch::{self, LiveArgs};
 use anyhow::{Result, bail};
 use clap::Args;
@@ -7,7 +8,6 @@ use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::tell::fault::Fault;
 use taxel_core::wire::Request;
 
 /// Arguments of `taxel reset-settings`.
@@ -53,7 +53,7 @@ struct Asking {
     done: bool,
 }
 
-impl Show for Asking {
+impl Show<anyhow::Error> for Asking {
     fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         match refusal {

@@ -1,12 +1,12 @@
 //! `taxel save`: saves a board's settings to its flash.
 
+use crate::fault::Fault;
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
 use taxel::session::Show;
 use taxel::source::SourceOptions;
-use taxel::tell::fault::Fault;
 use taxel_core::wire::Request;
 
 /// Arguments of `taxel save`.
@@ -43,7 +43,7 @@ struct Saving {
     done: bool,
 }
 
-impl Show for Saving {
+impl Show<anyhow::Error> for Saving {
     fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         if let Some(why) = refusal {

@@ -1,10 +1,10 @@
 //! `taxel features`: moments, NMI and axis of one recorded image, without conditioning or thresholds.
 
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use taxel::files::arrays;
 use taxel::moments::Features;
-use taxel::tell::fault::Fault;
 
 /// Arguments of `taxel features`.
 #[derive(Debug, Clone, clap::Args)]

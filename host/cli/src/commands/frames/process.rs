@@ -1,5 +1,6 @@
 //! `taxel process`: runs the board's pipeline over recorded frames, one JSON object per frame.
 
+use crate::fault::Fault;
 use crate::watch::forms;
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -9,7 +10,6 @@ use std::path::{Path, PathBuf};
 use taxel::files::arrays::{self, Frames};
 use taxel::json::Replay;
 use taxel::learn::doubts;
-use taxel::tell::fault::Fault;
 use taxel::tell::progress::{Progress, Unit};
 use taxel_core::contact::Forms;
 use taxel_core::format::Micros;
@@ -66,7 +66,7 @@ pub fn run(args: ProcessArgs) -> Result<()> {
 pub fn recordings(file: &Path, array: Option<&str>) -> Result<Vec<(String, Frames)>> {
     match array {
         Some(name) => Ok(vec![(name.to_string(), arrays::read(file, array)?)]),
-        None => arrays::read_all(file),
+        None => Ok(arrays::read_all(file)?),
     }
 }
 

@@ -19,5 +19,5 @@ pub fn write(garment: &Garment, comment: &str, output: Option<Output>) -> Result
         print!("\n{text}");
         return Ok(());
     };
-    output.write(text.as_bytes()).inspect_err(|_| print!("\n{text}"))
+    Ok(output.write(text.as_bytes()).inspect_err(|_| print!("\n{text}"))?)
 }

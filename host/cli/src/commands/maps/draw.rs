@@ -46,7 +46,7 @@ pub fn run(args: DrawArgs) -> Result<()> {
             (map, activations)
         }
     };
-    output.write(svg(&map, activations.as_deref()).as_bytes())
+    Ok(output.write(svg(&map, activations.as_deref()).as_bytes())?)
 }
 
 fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {

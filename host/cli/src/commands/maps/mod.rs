@@ -10,8 +10,8 @@ pub mod run;
 pub mod told;
 pub mod why;
 
+use crate::fault::Fault;
 use anyhow::{Result, bail};
-use taxel::tell::fault::Fault;
 
 /// Arguments of `taxel fcm`.
 #[derive(Debug, Clone, clap::Args)]

@@ -137,7 +137,7 @@ fn concept(map: &mut MapFile, text: &str) -> Result<()> {
         bail!("concept {name} is named twice");
     }
     map.concept.push(ConceptFile { name: name.into(), note: note.into(), threshold: None });
-    map.to_config::<1024, 0>().map(drop)
+    Ok(map.to_config::<1024, 0>().map(drop)?)
 }
 
 fn edge(map: &mut MapFile, text: &str) -> Result<()> {

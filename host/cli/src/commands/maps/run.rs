@@ -1,12 +1,12 @@
 //! `taxel fcm MAP`: runs a fuzzy cognitive map in f64 and in the arithmetic of the board, side by side.
 
+use crate::fault::Fault;
 use anyhow::{Result, bail};
 use std::path::Path;
 use taxel::fcm::decimal::Decimal;
 use taxel::fcm::engine::{self, Problem, Settings, Trajectory};
 use taxel::fcm::ran::report;
 use taxel::fcm::{json, load};
-use taxel::tell::fault::Fault;
 use taxel_core::intent::{Outcome, Rule, Transfer};
 
 /// Arguments of `taxel fcm MAP`.
@@ -131,7 +131,7 @@ fn ending(t: &Trajectory) -> String {
 }
 
 /// Readable form: one line for each concept.
-pub fn table(problem: &Problem, float: &Trajectory, fixed: &Result<Trajectory>) -> String {
+pub fn table(problem: &Problem, float: &Trajectory, fixed: &taxel::Result<Trajectory>) -> String {
     use std::fmt::Write as _;
     let width = problem.names.iter().map(|n| n.chars().count()).max().unwrap_or(0).max(7);
     let mut text = format!("{:width$} {:>9} {:>12} {:>12}\n", "concept", "start", "f64", "q15");

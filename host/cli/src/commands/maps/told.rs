@@ -100,7 +100,7 @@ impl Ear {
     }
 }
 
-impl Show for Ear {
+impl Show<anyhow::Error> for Ear {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         if self.done {
             return Ok(());

@@ -1,12 +1,12 @@
 //! The command `taxel record`.
 
+use crate::fault::Fault;
 use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
-use anyhow::{Result, bail};
+use anyhow::{Error, Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use taxel::record::{Origin, Plan, Recorder, Rotate};
 use taxel::source::SourceOptions;
-use taxel::tell::fault::Fault;
 
 /// Arguments of `taxel record`.
 #[derive(Debug, Clone, Args)]
@@ -79,5 +79,5 @@ pub fn run(args: RecordArgs) -> Result<()> {
     if label.starts_with("sim:") && unlimited && done.is_ok() && !stop::asked() {
         eprintln!("{label} is over: a simulated scene is played once, --seconds S records for longer");
     }
-    done.and(ended)
+    done.and(ended.map_err(Error::from))
 }

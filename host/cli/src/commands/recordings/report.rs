@@ -1,5 +1,6 @@
 //! The command `taxel report`.
 
+use crate::fault::Fault;
 use crate::report::{Seen, page};
 use crate::watch::{self, LiveArgs, Overwrite};
 use anyhow::{Result, bail};
@@ -11,7 +12,6 @@ use taxel::record::Play;
 use taxel::recording::Overview;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::tell::fault::Fault;
 use taxel::tell::progress::{Progress, Unit};
 
 /// Arguments of `taxel report`.

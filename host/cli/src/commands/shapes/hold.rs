@@ -93,7 +93,7 @@ impl<'a> Hold<'a> {
     }
 }
 
-impl Show for Hold<'_> {
+impl Show<anyhow::Error> for Hold<'_> {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             // Another garment: present contacts will not end.

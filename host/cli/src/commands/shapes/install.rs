@@ -1,5 +1,6 @@
 //! `taxel shapes install`: sends a base to a board, which uses it until it is switched off.
 
+use crate::fault::Fault;
 use crate::watch::{self, LiveArgs};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
@@ -9,7 +10,6 @@ use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::tell::fault::Fault;
 use taxel_core::wire::Request;
 
 /// Arguments of `taxel shapes install`.
@@ -49,7 +49,7 @@ struct Installing {
     installed: Option<(usize, u16)>,
 }
 
-impl Show for Installing {
+impl Show<anyhow::Error> for Installing {
     fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Answer { request, refusal: Some(why) }

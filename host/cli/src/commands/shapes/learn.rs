@@ -80,7 +80,7 @@ fn output(args: &ShapesLearnArgs) -> Result<Output> {
     let force = Force { force: args.force.force || extends };
     let base = args.base.iter().filter(|_| !extends);
     let inputs = base.chain(&args.images).cloned().chain(args.board.files());
-    Output::file(&args.output, force, inputs)
+    Ok(Output::file(&args.output, force, inputs)?)
 }
 
 /// A point for each image with a touch.

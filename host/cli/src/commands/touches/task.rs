@@ -48,7 +48,7 @@ impl TouchesTrainArgs {
     /// The output file of the model.
     pub fn output(&self) -> Result<Output> {
         let inputs = [Some(&self.files.frames), self.files.labels.as_ref()];
-        Output::file(&self.output, self.force, inputs.into_iter().flatten())
+        Ok(Output::file(&self.output, self.force, inputs.into_iter().flatten())?)
     }
 }
 

@@ -23,7 +23,7 @@ pub fn run(args: LiveArgs) -> Result<()> {
     };
     let (source, calibration) = args.board.open(options)?;
     let out = std::io::BufWriter::new(stdout());
-    let mut show: Box<dyn Show> = if let Some(file) = &args.svg {
+    let mut show: Box<dyn Show<anyhow::Error>> = if let Some(file) = &args.svg {
         let inputs = args.board.files().into_iter().chain(args.save.clone());
         Box::new(Painter::new(View::new(&source), Output::stream(file, args.force, inputs)?))
     } else if let Some(place) = &args.taxel {

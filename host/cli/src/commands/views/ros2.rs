@@ -1,11 +1,11 @@
 //! `taxel ros2`: a ROS 2 node that publishes a board's stream, and takes joint states and concepts.
 
+use crate::fault::Fault;
 use crate::ros2::{DOMAINS, RosNode, RosParameters, RosPlace, RosShow};
 use crate::watch::{self, BoardArgs, LiveArgs, seconds, stop};
 use anyhow::Result;
 use clap::Args;
 use taxel::source::SourceOptions;
-use taxel::tell::fault::Fault;
 
 /// Arguments of `taxel ros2`.
 #[derive(Debug, Clone, Args)]

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
 use taxel::recording::{ClipMessage, Clips, HELLO, lost};
 use taxel::source::shared::Shared;
+use taxel::tell::words;
 use taxel_core::wire::{self, Report};
 
 /// Time between two progress messages.
@@ -142,7 +143,8 @@ impl Surveyor {
             match self.clips.clip(chunk) {
                 Ok(clip) => clip.iter().for_each(|piece| self.take(piece)),
                 Err(error) => {
-                    let text = format!("a part of the recording cannot be read: {}", error.root_cause());
+                    let cause = words::chain(&error).last().map(ToString::to_string).unwrap_or_default();
+                    let text = format!("a part of the recording cannot be read: {cause}");
                     self.overview.say(at, Said { kind: LineKind::Gap, time_us: None, text });
                 }
             }

@@ -77,7 +77,7 @@ fn gesture() -> GestureReport {
 fn control_codes_of_a_board_never_reach_a_terminal() {
     let source = source::open(&"sim:idle".parse().unwrap(), &SourceOptions::default()).unwrap();
     let (mut client, lines, json) = (Client::new(), Sink::default(), Sink::default());
-    let mut shows: [Box<dyn Show>; 2] =
+    let mut shows: [Box<dyn Show<anyhow::Error>>; 2] =
         [Box::new(Lines::new(&source, lines.clone())), Box::new(MessagePrinter::new(false, json.clone()))];
     for event in events(&mut client, &says()) {
         shows.iter_mut().for_each(|show| show.event(&client, &event).unwrap());

@@ -66,7 +66,7 @@ fn whatever_a_hello_says_the_page_and_the_terminal_stand_it() {
             *(if event == Event::Hello { &mut known } else { &mut refused }) += 1;
             shows.page.event(&client, &event).unwrap();
             shows.lines.event(&client, &event).unwrap();
-            shows.json.event(&client, &event).unwrap();
+            Show::<anyhow::Error>::event(&mut shows.json, &client, &event).unwrap();
             shows.picture.event(&client, &event);
         }
         let mut buffer = Buffer::empty(Rect::new(0, 0, 100, 30));

@@ -94,7 +94,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
         raw: false,
     };
     let recorder = Recorder::create(plan).unwrap();
-    let mut shows: Vec<Box<dyn Show>> = vec![
+    let mut shows: Vec<Box<dyn Show<anyhow::Error>>> = vec![
         Box::new(Viewer::new(&source, Arc::new(PageHub::default()))),
         Box::new(Lines::new(&source, Sink::default())),
         Box::new(MessagePrinter::new(true, Sink::default())),

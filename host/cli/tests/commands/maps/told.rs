@@ -95,7 +95,7 @@ fn what_the_host_feeds_counts_until_it_is_too_old() {
 /// A view that shows nothing.
 struct Silent;
 
-impl Show for Silent {
+impl Show<anyhow::Error> for Silent {
     fn event(&mut self, _client: &Client, _event: &Event) -> anyhow::Result<()> {
         Ok(())
     }

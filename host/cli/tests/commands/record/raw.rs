@@ -4,7 +4,7 @@ use super::stage::{file, plan, record};
 use taxel::client::{Client, Event};
 use taxel::record::{Plan, Play, Recorder};
 use taxel::session::Show;
-use taxel::tell::fault::status;
+use taxel_cli::fault::status;
 
 /// A client after the `Hello` of a board that sends no raw codes.
 fn acquainted() -> Client {
@@ -16,6 +16,16 @@ fn acquainted() -> Client {
     play.client().clone()
 }
 
+/// Hands an event to a recorder.
+fn hand(recorder: &mut Recorder, client: &Client, event: &Event) -> anyhow::Result<()> {
+    recorder.event(client, event)
+}
+
+/// Lets a recorder ask for raw codes.
+fn idle(recorder: &mut Recorder, client: &mut Client) -> anyhow::Result<bool> {
+    recorder.idle(client)
+}
+
 #[test]
 fn a_refusal_of_raw_codes_ends_the_recording() {
     let mut client = acquainted();
@@ -23,26 +33,26 @@ fn a_refusal_of_raw_codes_ends_the_recording() {
     let answer = |refusal: Option<&str>| Event::Answer { request: 21, refusal: refusal.map(String::from) };
     let mut refused = begin("raw-refused.mcap");
     // No request was made yet: the answer is for another program.
-    refused.event(&client, &answer(Some("no"))).unwrap();
-    assert!(refused.idle(&mut client).unwrap());
-    let error = refused.event(&client, &answer(Some("the link is too slow"))).unwrap_err();
+    hand(&mut refused, &client, &answer(Some("no"))).unwrap();
+    assert!(idle(&mut refused, &mut client).unwrap());
+    let error = hand(&mut refused, &client, &answer(Some("the link is too slow"))).unwrap_err();
     let told = "--raw: the board refuses raw codes: the link is too slow";
     assert_eq!((error.to_string().as_str(), status(&error)), (told, 3));
     refused.finish().unwrap();
     // A board without the request answers that it cannot read it.
     let mut older = begin("raw-older.mcap");
-    older.idle(&mut client).unwrap();
+    idle(&mut older, &mut client).unwrap();
     let unread = Event::Answer { request: 255, refusal: Some("no message".into()) };
-    let error = older.event(&client, &unread).unwrap_err();
+    let error = hand(&mut older, &client, &unread).unwrap_err();
     assert_eq!(
         (error.to_string().as_str(), status(&error)),
         ("--raw: the board refuses raw codes: no message", 3)
     );
     older.finish().unwrap();
     let mut done = begin("raw-done.mcap");
-    assert!(done.idle(&mut client).unwrap());
-    done.event(&client, &answer(None)).unwrap();
+    assert!(idle(&mut done, &mut client).unwrap());
+    hand(&mut done, &client, &answer(None)).unwrap();
     // A later refusal is for another program.
-    done.event(&client, &answer(Some("no"))).unwrap();
+    hand(&mut done, &client, &answer(Some("no"))).unwrap();
     done.finish().unwrap();
 }

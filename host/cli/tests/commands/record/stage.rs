@@ -18,7 +18,7 @@ pub struct Seen {
     pub wire: Vec<u8>,
 }
 
-impl Show for Seen {
+impl Show<anyhow::Error> for Seen {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         self.wire.extend_from_slice(client.line());
         match event {
@@ -34,7 +34,7 @@ impl Show for Seen {
 /// Shows and records at once.
 struct Both<'a>(&'a mut Seen, &'a mut Recorder);
 
-impl Show for Both<'_> {
+impl Show<anyhow::Error> for Both<'_> {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
         self.0.event(client, event)?;
         self.1.event(client, event)
@@ -81,7 +81,7 @@ pub fn record(spec: &str, plan: Plan) -> Seen {
 }
 
 /// Shows a source to its end.
-pub fn play(spec: &str, show: &mut dyn Show) {
+pub fn play(spec: &str, show: &mut dyn Show<anyhow::Error>) {
     let spec = spec.parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     watch(&LiveArgs::of(spec), source, show).unwrap();

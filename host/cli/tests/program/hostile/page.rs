@@ -13,7 +13,7 @@ use taxel_cli::watch::{LiveArgs, watch};
 /// Keeps the bytes of a board for the pages.
 struct Keeper(Arc<PageHub>);
 
-impl Show for Keeper {
+impl Show<anyhow::Error> for Keeper {
     fn bytes(&mut self, bytes: &[u8]) {
         self.0.keep(bytes);
     }

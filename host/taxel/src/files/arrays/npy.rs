@@ -2,7 +2,7 @@
 
 use super::room::Room;
 use super::{Frames, Shape, count};
-use anyhow::{Context, Error, Result, bail, ensure};
+use crate::error::{ArrayError, Context, Error, Result};
 use npyz::{DType, Deserialize, Endianness, NpyFile, NpyHeader, Order, TypeChar};
 use std::fmt::Display;
 use std::io::{self, BufReader, ErrorKind, Read};
@@ -32,10 +32,13 @@ pub fn list(source: impl Read, size: u64) -> Result<Vec<u16>> {
 /// Texts of a one-dimensional array in NumPy's encoding: four bytes per character, padded with 0.
 pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
     let header = parse(&head(&mut source)?)?;
-    let DType::Plain(kind) = header.dtype() else { bail!("holds records, expected texts") };
+    let DType::Plain(kind) = header.dtype() else {
+        fail!(ArrayError::Unfit, "holds records, expected texts")
+    };
     let width = kind.num_bytes().unwrap_or(0);
-    ensure!(
+    require!(
         kind.type_char() == TypeChar::UnicodeStr && width > 0,
+        ArrayError::Unfit,
         "holds values of type {kind}, expected texts"
     );
     let mut body = Vec::new();
@@ -47,7 +50,9 @@ pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
             words.map(|word| if little { u32::from_le_bytes(word) } else { u32::from_be_bytes(word) });
         codes.take_while(|code| *code != 0).map(char::from_u32).collect()
     };
-    body.chunks_exact(width).map(|cell| text(cell).context("holds something that is not text")).collect()
+    body.chunks_exact(width)
+        .map(|cell| text(cell).ok_or_else(|| error!(ArrayError::Unfit, "holds something that is not text")))
+        .collect()
 }
 
 /// Values of an array whose dimensions `shape_of` accepts.
@@ -60,7 +65,9 @@ fn read_as(
     let head = head(&mut source)?;
     let header = parse(&head)?;
     let shape = shape_of(header.shape())?;
-    let DType::Plain(kind) = header.dtype() else { bail!("holds records, expected numbers") };
+    let DType::Plain(kind) = header.dtype() else {
+        fail!(ArrayError::Unfit, "holds records, expected numbers")
+    };
     let width = kind.num_bytes().unwrap_or(0) as u64;
     let claimed = (shape.values() as u64).saturating_mul(width);
     let there = size.saturating_sub(head.len() as u64);
@@ -81,7 +88,7 @@ fn read_as(
         (TypeChar::Int, 8) => counts::<i64>(file, shape),
         (TypeChar::Float, 4) => counts::<f32>(file, shape),
         (TypeChar::Float, 8) => counts::<f64>(file, shape),
-        _ => bail!("holds values of type {kind}, expected integers, f32 or f64"),
+        _ => fail!(ArrayError::Unfit, "holds values of type {kind}, expected integers, f32 or f64"),
     };
     if frames.as_ref().is_err_and(|error| !is_end(error)) {
         return frames;
@@ -94,8 +101,15 @@ fn read_as(
 
 /// True if the values ended too early.
 fn is_end(error: &Error) -> bool {
-    let cause = error.root_cause().downcast_ref::<io::Error>();
-    cause.is_some_and(|cause| cause.kind() == ErrorKind::UnexpectedEof)
+    error.io().is_some_and(|cause| cause.kind() == ErrorKind::UnexpectedEof)
+}
+
+/// An error of the bytes, unless it is one of the system.
+fn damaged(error: io::Error) -> Error {
+    match error.raw_os_error() {
+        None if error.kind() != ErrorKind::UnexpectedEof => ArrayError::Damaged(error.to_string()).into(),
+        _ => error.into(),
+    }
 }
 
 /// Counts the bytes read.
@@ -118,8 +132,12 @@ pub fn dimensions(mut source: impl Read) -> Result<usize> {
 }
 
 fn check_size(shape: &[u64], claimed: u64, there: u64) -> Result<()> {
-    ensure!(there >= claimed, "truncated: shape {shape:?} takes {claimed} bytes, there are {there}");
-    ensure!(there == claimed, "shape {shape:?} takes {claimed} bytes, there are more");
+    require!(
+        there >= claimed,
+        ArrayError::Damaged,
+        "truncated: shape {shape:?} takes {claimed} bytes, there are {there}"
+    );
+    require!(there == claimed, ArrayError::Damaged, "shape {shape:?} takes {claimed} bytes, there are more");
     Ok(())
 }
 
@@ -129,21 +147,25 @@ fn head(source: &mut impl Read) -> Result<Vec<u8>> {
     let mut more = |count: usize| -> Result<Vec<u8>> {
         let start = head.len();
         head.resize(start + count, 0);
-        source.read_exact(&mut head[start..]).context("truncated in its header")?;
+        source.read_exact(&mut head[start..]).map_err(damaged).context("truncated in its header")?;
         Ok(head[start..].to_vec())
     };
     let start = more(8)?;
-    ensure!(start.starts_with(MAGIC), "not a NumPy array");
+    require!(start.starts_with(MAGIC), ArrayError::NotAnArray, "not a NumPy array");
     let length = more(if start[6] == 1 { 2 } else { 4 })?;
     let length = length.iter().rev().fold(0, |sum, byte| sum << 8 | usize::from(*byte));
-    ensure!(length <= LONGEST_HEADER, "has a header of {length} bytes, expected at most {LONGEST_HEADER}");
+    require!(
+        length <= LONGEST_HEADER,
+        ArrayError::Damaged,
+        "has a header of {length} bytes, expected at most {LONGEST_HEADER}"
+    );
     more(length)?;
     Ok(head)
 }
 
 fn parse(head: &[u8]) -> Result<NpyHeader> {
-    ensure!(is_tame(head), "has a header that is not one of a NumPy array");
-    NpyHeader::from_reader(head).context("has a header that is not one of a NumPy array")
+    require!(is_tame(head), ArrayError::Damaged, "has a header that is not one of a NumPy array");
+    NpyHeader::from_reader(head).map_err(damaged).context("has a header that is not one of a NumPy array")
 }
 
 /// npyz multiplies dimensions without a check, nests brackets without a limit, and tries each bracket that is
@@ -205,10 +227,14 @@ cells! {
 
 fn counts<T: Cell>(file: NpyFile<impl Read>, shape: Shape) -> Result<Frames> {
     let fortran = file.order() == Order::Fortran;
-    ensure!(!fortran || file.shape().len() < 4, "has four dimensions in Fortran order, expected C order");
+    require!(
+        !fortran || file.shape().len() < 4,
+        ArrayError::Unfit,
+        "has four dimensions in Fortran order, expected C order"
+    );
     let mut counts = vec![0; shape.values()];
-    for (index, value) in file.data::<T>()?.enumerate() {
-        let value = value.context("damaged")?;
+    for (index, value) in file.data::<T>().map_err(Error::other)?.enumerate() {
+        let value = value.map_err(damaged).context("damaged")?;
         let index = if fortran { shape.place_of_fortran(index) } else { index };
         counts[index] = value.count().ok_or_else(|| shape.unfit(index, value))?;
     }

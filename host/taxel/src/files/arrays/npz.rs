@@ -2,8 +2,7 @@
 
 use super::room::Room;
 use super::{Frames, npy};
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, anyhow, bail};
+use crate::error::{ArrayError, Context, Result, UsageError};
 use std::fs::File;
 use std::io::{BufReader, Read};
 use zip::ZipArchive;
@@ -26,8 +25,14 @@ impl Archive {
     /// Reads the table of contents.
     pub fn open(file: File) -> Result<Archive> {
         let room = Room::of(file.metadata().context("cannot be read")?.len(), BEYOND);
-        let archive = ZipArchive::new(BufReader::new(file)).context("not a NumPy archive")?;
-        let files: Vec<_> = archive.file_names().collect::<Result<_, _>>().context("damaged")?;
+        let archive = ZipArchive::new(BufReader::new(file));
+        let archive = archive.map_err(|error| ArrayError::NotAnArray(error.to_string()));
+        let archive = archive.context("not a NumPy archive")?;
+        let files: Vec<_> = archive
+            .file_names()
+            .collect::<Result<_, _>>()
+            .map_err(|error| ArrayError::Damaged(error.to_string()))
+            .context("damaged")?;
         let arrays = files.iter().filter_map(|name| name.strip_suffix(ENDING));
         let mut names: Vec<String> = arrays.map(String::from).collect();
         names.sort();
@@ -37,7 +42,7 @@ impl Archive {
     /// Reads the array with this name.
     pub fn named(&mut self, name: &str) -> Result<Frames> {
         if !self.names.iter().any(|known| known == name) {
-            bail!(Fault::usage(format!("there is no array {name}; known are {}", listed(&self.names))));
+            fail!(UsageError::Unknown, "there is no array {name}; known are {}", listed(&self.names));
         }
         let mut room = self.room;
         let frames = self.entry(name, |entry, size| npy::read(entry, size, &mut room));
@@ -77,12 +82,13 @@ impl Archive {
         let candidates = if self.names.len() == 1 { self.names.clone() } else { self.candidates()? };
         match candidates.as_slice() {
             [name] => self.named(name),
-            [] => bail!("holds no array [frames, rows, columns] or [rows, columns]"),
+            [] => fail!(ArrayError::NotAnArray, "holds no array [frames, rows, columns] or [rows, columns]"),
             several => {
-                bail!(Fault::usage(format!(
+                fail!(
+                    UsageError::Unknown,
                     "holds several arrays, choose one with --array: {}",
                     listed(several)
-                )))
+                )
             }
         }
     }
@@ -91,7 +97,7 @@ impl Archive {
     pub fn all(&mut self) -> Result<Vec<(String, Frames)>> {
         let candidates = self.candidates()?;
         if candidates.is_empty() {
-            bail!("holds no array [frames, rows, columns] or [rows, columns]");
+            fail!(ArrayError::NotAnArray, "holds no array [frames, rows, columns] or [rows, columns]");
         }
         candidates.into_iter().map(|name| self.named(&name).map(|frames| (name, frames))).collect()
     }
@@ -111,7 +117,7 @@ impl Archive {
     /// Applies `read` to an entry's reader and size.
     fn entry<T>(&mut self, name: &str, read: impl FnOnce(&mut dyn Read, u64) -> Result<T>) -> Result<T> {
         let entry = self.archive.by_name(&format!("{name}{ENDING}"));
-        let mut entry = entry.map_err(|error| anyhow!("damaged: {error}"))?;
+        let mut entry = entry.map_err(|error| error!(ArrayError::Damaged, "damaged: {error}"))?;
         let size = entry.size();
         read(&mut entry, size)
     }

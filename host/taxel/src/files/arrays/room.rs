@@ -1,6 +1,6 @@
 //! Limits the memory of arrays.
 
-use anyhow::{Result, ensure};
+use crate::error::{ArrayError, Result};
 
 /// Bytes of a value in memory.
 const VALUE: u64 = size_of::<u16>() as u64;
@@ -28,8 +28,9 @@ impl Room {
     pub fn take(&mut self, values: u64) -> Result<()> {
         let bytes = values.saturating_mul(VALUE);
         let mib = |bytes: u64| bytes.div_ceil(1 << 20);
-        ensure!(
+        require!(
             bytes <= self.left,
+            ArrayError::TooLarge,
             "its {values} values take {} MiB of memory, and of a compressed file of {} MiB {} more are read: save it \
              uncompressed (numpy.savez), or in parts",
             mib(bytes),

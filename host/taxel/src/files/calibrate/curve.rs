@@ -1,6 +1,6 @@
 //! A piecewise linear curve from counts to newtons on a taxel, in integers.
 
-use anyhow::{Result, ensure};
+use crate::error::{Result, SettingError};
 use serde::{Deserialize, Serialize};
 
 /// Fractions of a count in a knot.
@@ -17,10 +17,10 @@ pub struct Curve(Vec<Knot>);
 impl Curve {
     /// A curve through knots that rise in both coordinates.
     pub fn new(knots: Vec<Knot>) -> Result<Curve> {
-        ensure!(!knots.is_empty(), "a curve needs at least one knot");
+        require!(!knots.is_empty(), SettingError::Calibration, "a curve needs at least one knot");
         let rises = |at: usize| [&[[0, 0]], knots.as_slice()].concat().is_sorted_by(|a, b| a[at] < b[at]);
-        ensure!(rises(0), "the counts of a curve's knots must rise from above 0");
-        ensure!(rises(1), "the forces of a curve's knots must rise from above 0");
+        require!(rises(0), SettingError::Calibration, "the counts of a curve's knots must rise from above 0");
+        require!(rises(1), SettingError::Calibration, "the forces of a curve's knots must rise from above 0");
         Ok(Curve(knots))
     }
 

@@ -4,9 +4,9 @@ use super::curve::Curve;
 use super::fit::Fitted;
 use super::reading::Rest;
 use super::residuals::{OfWeight, Residuals};
+use crate::error::{Context, FileError, Result, SettingError};
 use crate::files::output::Output;
 use crate::tell::date;
-use anyhow::{Context, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::condition::Certificate;
@@ -98,14 +98,16 @@ impl Calibration {
     pub fn read(file: &Path) -> Result<Calibration> {
         let name = file.display().to_string();
         crate::tell::verbose::reads(file);
-        let text = std::fs::read_to_string(file).with_context(|| format!("{name} cannot be read"))?;
+        let text = std::fs::read_to_string(file)
+            .map_err(|error| FileError::read(file, error))
+            .with_context(|| format!("{name} cannot be read"))?;
         Calibration::parse(&text, &name)
     }
 
     /// Parses and checks the text of a file with this name.
     pub fn parse(text: &str, name: &str) -> Result<Calibration> {
-        let read: Calibration =
-            toml::from_str(text).map_err(|error| anyhow!(crate::tell::words::toml(&error, text, name)))?;
+        let read: Calibration = toml::from_str(text)
+            .map_err(|error| SettingError::Malformed(crate::tell::words::toml(&error, text, name)))?;
         read.check().with_context(|| name.to_string())?;
         Ok(read)
     }
@@ -115,11 +117,24 @@ impl Calibration {
             Curve::new(panel.knots.knots().to_vec())
                 .with_context(|| format!("panel {}: knots", panel.name))?;
         }
-        ensure!(self.rest.len() == self.gains.len(), "`rest` and `gains` must have the same length");
-        ensure!(date::parts(&self.date).is_some(), "`date` must be a day, such as 2026-11-21");
-        ensure!(self.fit.error.is_finite() && self.fit.error >= 0.0, "`fit.error` must be 0 or more");
-        ensure!(
+        require!(
+            self.rest.len() == self.gains.len(),
+            SettingError::Calibration,
+            "`rest` and `gains` must have the same length"
+        );
+        require!(
+            date::parts(&self.date).is_some(),
+            SettingError::Calibration,
+            "`date` must be a day, such as 2026-11-21"
+        );
+        require!(
+            self.fit.error.is_finite() && self.fit.error >= 0.0,
+            SettingError::Calibration,
+            "`fit.error` must be 0 or more"
+        );
+        require!(
             self.id == format!("{:08x}", self.sum()),
+            SettingError::Calibration,
             "`id` does not match the gains and knots: the file was changed"
         );
         Ok(())

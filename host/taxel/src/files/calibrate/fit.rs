@@ -4,7 +4,7 @@ use super::curve::{Curve, PARTS};
 use super::plates::Plate;
 use super::reading::{Reading, mean};
 use super::residuals::{OfWeight, Residuals, felt, of_weights};
-use anyhow::{Context, Result, ensure};
+use crate::error::{Context, Result, SettingError};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;
 
@@ -95,7 +95,7 @@ fn fit_panel(plates: &[Plate], readings: &[&Reading], silent: &[u16], gains: &mu
     levels.sort_by(f64::total_cmp);
     levels.dedup();
     let points = points(plates, readings, silent, &levels);
-    ensure!(!points.is_empty(), "no taxel responds to the weights");
+    require!(!points.is_empty(), SettingError::Calibration, "no taxel responds to the weights");
     let mut live: Vec<usize> = points.iter().map(|point| point.taxel).collect();
     live.sort_unstable();
     live.dedup();
@@ -120,9 +120,17 @@ fn fit_panel(plates: &[Plate], readings: &[&Reading], silent: &[u16], gains: &mu
     let knots: Vec<[f64; 2]> =
         means.iter().zip(&levels).map(|(counts, each)| [*counts, each * 1e6]).collect();
     let loud: Vec<[f64; 2]> = knots.iter().copied().filter(|[counts, _]| *counts >= FAINT).collect();
-    ensure!(!loud.is_empty(), "under {FAINT} counts a taxel under the heaviest weight: put on heavier ones");
+    require!(
+        !loud.is_empty(),
+        SettingError::Calibration,
+        "under {FAINT} counts a taxel under the heaviest weight: put on heavier ones"
+    );
     let full = f64::from(u16::MAX / PARTS as u16);
-    ensure!(loud.iter().all(|[counts, _]| *counts < full), "the weights exceed the range of the converter");
+    require!(
+        loud.iter().all(|[counts, _]| *counts < full),
+        SettingError::Calibration,
+        "the weights exceed the range of the converter"
+    );
     Curve::through(&loud)
 }
 

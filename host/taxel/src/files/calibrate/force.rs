@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, PARTS};
 use super::file::Calibration;
-use anyhow::{Result, ensure};
+use crate::error::{Result, SettingError};
 use taxel_core::garment::{Layout, Place, Rect};
 
 /// Curves of a garment's panels.
@@ -14,8 +14,9 @@ pub struct Forces {
 impl Forces {
     /// Forces by a calibration for this garment. Error if it is for another garment.
     pub fn new(calibration: &Calibration, layout: &Layout) -> Result<Forces> {
-        ensure!(
+        require!(
             calibration.gains.len() == layout.taxels(),
+            SettingError::Calibration,
             "the calibration {} is of a garment of {} taxels, this one has {}",
             calibration.id,
             calibration.gains.len(),

@@ -1,6 +1,6 @@
 //! Places for the weights: plates that cover a panel, a block, or one taxel.
 
-use anyhow::{Result, anyhow};
+use crate::error::{Result, SettingError};
 use taxel_core::garment::{Garment, Layout, Place, Rect};
 
 /// Area covered by a plate.
@@ -73,7 +73,10 @@ pub fn plates(garment: &Garment, layout: &Layout, over: Over) -> Result<Vec<Plat
         }
     }
     if found.is_empty() {
-        return Err(anyhow!("garment {}: it has no taxels that a plate could cover", garment.name));
+        return Err(error!(
+            SettingError::Calibration,
+            "garment {}: it has no taxels that a plate could cover", garment.name
+        ));
     }
     Ok(found)
 }

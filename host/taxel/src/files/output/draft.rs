@@ -3,8 +3,8 @@
 use super::named::{Named, folder};
 use super::part::{self, Part};
 use super::place::{self, Place};
+use crate::error::{Context, Result};
 use crate::tell::verbose;
-use anyhow::{Context, Result};
 use std::fs::File;
 use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
 

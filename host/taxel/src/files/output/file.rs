@@ -5,8 +5,7 @@ use super::force::Force;
 use super::named::{Named, exists, folder};
 use super::part::{self, Part};
 use super::place::{self, Place};
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, bail, ensure};
+use crate::error::{Context, FileError, Result, UsageError};
 use std::fs::File;
 use std::io::Write;
 use std::path::Path;
@@ -23,9 +22,10 @@ impl Output {
         inputs: impl IntoIterator<Item = P>,
     ) -> Result<Output> {
         let output = Output::stream(name, force, inputs)?;
-        ensure!(
+        require!(
             !output.is_standard(),
-            Fault::usage("-o -: this cannot be written to the standard output, name a file")
+            UsageError::Argument,
+            "-o -: this cannot be written to the standard output, name a file"
         );
         Ok(output)
     }
@@ -79,7 +79,9 @@ impl Output {
     pub fn begin(self) -> Result<(File, Begun)> {
         let place = || format!("{} cannot be written", self.0.name.display());
         let (file, part) = match &self.0.place {
-            Place::Standard => bail!("the standard output cannot be truncated: name a file"),
+            Place::Standard => {
+                fail!(FileError::Output, "the standard output cannot be truncated: name a file")
+            }
             Place::Device(path) => (place::device(path).with_context(place)?, None),
             Place::File(path, _) => {
                 let (file, part) =

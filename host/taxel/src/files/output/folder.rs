@@ -4,9 +4,8 @@ use super::force::Force;
 use super::named::folder as parent;
 use super::part;
 use super::same::is_same;
-use crate::tell::fault::Fault;
+use crate::error::{Context, FileError, Result, UsageError};
 use crate::tell::verbose;
-use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -36,15 +35,22 @@ impl Folder {
     ) -> Result<Folder> {
         let (shown, place) = (name.display(), || format!("{} cannot be written", name.display()));
         if name == Path::new("-") {
-            bail!(Fault::usage("-o -: a folder cannot be written to the standard output, name a folder"));
+            fail!(
+                UsageError::Argument,
+                "-o -: a folder cannot be written to the standard output, name a folder"
+            );
         }
         let path = place_of(name).with_context(place)?;
         if path.exists() && !path.is_dir() {
-            bail!("{shown} is a file: name a folder");
+            fail!(FileError::Output, "{shown} is a file: name a folder");
         }
         for input in inputs.into_iter().filter_map(|input| fs::canonicalize(input).ok()) {
             if input.ancestors().any(|folder| is_same(folder, &path)) {
-                bail!("{shown} is the folder of {}, which this command reads: name another", input.display());
+                fail!(
+                    FileError::Output,
+                    "{shown} is the folder of {}, which this command reads: name another",
+                    input.display()
+                );
             }
         }
         let mut folder = Folder { name: name.into(), path, part: PathBuf::new(), force: force.into(), ours };
@@ -58,11 +64,15 @@ impl Folder {
         let shown = self.name.display();
         for file in files(&self.path).with_context(|| format!("{shown} cannot be written"))? {
             if !self.force.force {
-                bail!("{shown} is not empty: name another folder, or --force to replace its content");
+                fail!(
+                    FileError::Output,
+                    "{shown} is not empty: name another folder, or --force to replace its content"
+                );
             }
-            let inside = file.strip_prefix(&self.path)?;
+            let inside = file.strip_prefix(&self.path).unwrap_or(&file);
             if !(self.ours)(inside) {
-                bail!(
+                fail!(
+                    FileError::Output,
                     "{shown} contains {}, which is not part of such an output: name another folder",
                     inside.display()
                 );
@@ -108,7 +118,7 @@ impl Folder {
         let place = || format!("{shown} cannot be written");
         // Files or a link may have appeared since the first check.
         if fs::symlink_metadata(&self.path).is_ok_and(|known| !known.is_dir()) {
-            bail!("{}: it has become a link or a file meanwhile", place());
+            fail!(FileError::Output, "{}: it has become a link or a file meanwhile", place());
         }
         self.may_be_replaced()?;
         if self.part.starts_with(&self.path) {
@@ -169,9 +179,9 @@ fn place_of(name: &Path) -> Result<PathBuf> {
         return Ok(fs::canonicalize(name)?);
     }
     if fs::symlink_metadata(name).is_ok() {
-        bail!("it is a link to what does not exist: name that");
+        fail!(FileError::Output, "it is a link to what does not exist: name that");
     }
-    let last = name.file_name().context("it names no folder")?;
+    let last = name.file_name().ok_or_else(|| error!(FileError::Output, "it names no folder"))?;
     let around = name.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     fs::create_dir_all(around)?;
     Ok(fs::canonicalize(around)?.join(last))

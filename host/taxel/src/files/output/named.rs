@@ -4,8 +4,7 @@ use super::force::Force;
 use super::part;
 use super::place::Place;
 use super::same::is_same;
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, Error, FileError, Result, UsageError};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -30,11 +29,11 @@ impl Named {
         let Some(same) = self.inputs.iter().find(|input| is_same(path, input)) else { return Ok(()) };
         let name = self.name.display();
         if *same == self.name {
-            bail!(Fault::usage(format!("{name} is read by this command: give another name for the output")));
+            fail!(UsageError::Argument, "{name} is read by this command: give another name for the output");
         }
         let same = same.display();
         let told = format!("{name} is the same file as {same}, which this command reads: give another name");
-        bail!(Fault::usage(told))
+        fail!(UsageError::Argument, "{}", told)
     }
 
     /// Renames a temporary file to the output's name.
@@ -51,7 +50,7 @@ impl Named {
         } else {
             part::name(part, path).map_err(|error| match error.kind() {
                 ErrorKind::AlreadyExists => exists(&self.name),
-                _ => anyhow::Error::new(error).context(place()),
+                _ => Error::from(error).context(place()),
             })?;
         }
         part::sync_folder(folder(path)).with_context(place)
@@ -59,8 +58,8 @@ impl Named {
 }
 
 /// Error about a file that may not be replaced.
-pub fn exists(name: &Path) -> anyhow::Error {
-    anyhow::anyhow!("{} already exists: give another name, or --force to replace it", name.display())
+pub fn exists(name: &Path) -> Error {
+    FileError::Exists { path: name.into() }.into()
 }
 
 /// Folder of a path found by [`Place::of`].

@@ -1,6 +1,6 @@
 //! Temporary files and folders, and flushing of names to the disk.
 
-use anyhow::{Context, Result};
+use crate::error::{Context, Result};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! Resolves the name of an output.
 
-use anyhow::{Context, Result, bail, ensure};
+use crate::error::{Context, FileError, Result};
 use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -29,13 +29,13 @@ impl Place {
             Err(error) => return Err(error).with_context(|| format!("{shown} cannot be written")),
         };
         if known.is_dir() {
-            bail!("{shown} is a folder: name a file");
+            fail!(FileError::Output, "{shown} is a folder: name a file");
         }
         if !known.is_file() {
             return taken(name, known.file_type());
         }
         if known.permissions().readonly() {
-            bail!("{shown} is read-only: give another name");
+            fail!(FileError::Output, "{shown} is read-only: give another name");
         }
         let path = fs::canonicalize(name).with_context(|| format!("{shown} cannot be written"))?;
         Ok(Place::File(path, true))
@@ -46,11 +46,11 @@ impl Place {
 fn new(name: &Path) -> Result<Place> {
     let shown = name.display();
     if fs::symlink_metadata(name).is_ok() {
-        bail!("{shown} is a link to a file that does not exist: name that file");
+        fail!(FileError::Output, "{shown} is a link to a file that does not exist: name that file");
     }
     let text = name.to_string_lossy();
     let (Some(last), false) = (name.file_name(), text.ends_with(std::path::is_separator)) else {
-        bail!("\"{shown}\" names no file");
+        fail!(FileError::Output, "\"{shown}\" names no file");
     };
     let folder = match name.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -64,7 +64,7 @@ fn new(name: &Path) -> Result<Place> {
 /// Opens a device. Error if a file has replaced it meanwhile, which would be overwritten.
 pub fn device(path: &Path) -> Result<File> {
     let file = File::options().write(true).open(path)?;
-    ensure!(!file.metadata()?.is_file(), "it was a device, and is a file now");
+    require!(!file.metadata()?.is_file(), FileError::Output, "it was a device, and is a file now");
     Ok(file)
 }
 
@@ -73,7 +73,7 @@ pub fn device(path: &Path) -> Result<File> {
 fn taken(name: &Path, kind: fs::FileType) -> Result<Place> {
     use std::os::unix::fs::FileTypeExt;
     if kind.is_block_device() || kind.is_socket() {
-        bail!("{} is a disk or a socket: name a file", name.display());
+        fail!(FileError::Output, "{} is a disk or a socket: name a file", name.display());
     }
     Ok(Place::Device(name.into()))
 }

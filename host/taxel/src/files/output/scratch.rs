@@ -2,7 +2,7 @@
 
 use super::named::folder;
 use super::part;
-use anyhow::Result;
+use crate::error::Result;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 

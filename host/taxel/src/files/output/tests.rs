@@ -1,6 +1,7 @@
 //! Every name by which an input could be taken for an output, and what is left if writing fails.
 
 use super::{Folder, Force, Output};
+use crate::error::Result;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ impl TestFolder {
         names
     }
 
-    fn output(&self, name: &str, force: bool) -> anyhow::Result<Output> {
+    fn output(&self, name: &str, force: bool) -> Result<Output> {
         Output::file(&self.at(name), Force { force }, [self.at("in.mcap")])
     }
 

@@ -2,10 +2,9 @@
 
 use super::train::Known;
 use super::view::View;
+use crate::error::{Context, FileError, LearnError, Result, UsageError};
 use crate::files::output::Output;
-use crate::tell::fault::Fault;
 use crate::tell::words;
-use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::shape::{DIMENSIONS, GALLERY_CLASSES, GALLERY_PROTOTYPES, MEASURE_NAMES, MEASURES};
@@ -114,19 +113,21 @@ impl Base {
             return Base::parse(shipped.text).with_context(|| format!("base {}", shipped.name));
         }
         crate::tell::verbose::reads(name);
+        let unread = |error| FileError::read(name, error);
         let read = || {
-            let size = std::fs::metadata(name).context("cannot be read")?.len();
-            ensure!(
+            let size = std::fs::metadata(name).map_err(unread).context("cannot be read")?.len();
+            require!(
                 size <= LONGEST,
+                LearnError::Base,
                 "is not a base of shapes: it has {size} bytes, expected at most {LONGEST}"
             );
-            Base::parse(&std::fs::read_to_string(name).context("cannot be read")?)
+            Base::parse(&std::fs::read_to_string(name).map_err(unread).context("cannot be read")?)
         };
         // A text that cannot be a path is a name.
         let said = name.to_str().filter(|said| !name.exists() && !said.contains(['.', '/', '\\']));
         if let Some(said) = said {
             let known = words::unknown("base", said, shipped_names());
-            bail!(Fault::usage(format!("{known}, or give a .json file")));
+            fail!(UsageError::Unknown, "{known}, or give a .json file");
         }
         read().with_context(|| name.display().to_string())
     }
@@ -146,8 +147,9 @@ impl Base {
                 best = Some((worth, name, base));
             }
         }
-        let (_, name, base) = best.with_context(|| {
-            format!("no shipped base knows any of the classes {}: give --base", classes.join(", "))
+        let (_, name, base) = best.ok_or_else(|| {
+            let classes = classes.join(", ");
+            error!(LearnError::Data, "no shipped base knows any of the classes {classes}: give --base")
         })?;
         Ok((name, base))
     }
@@ -157,18 +159,22 @@ impl Base {
         let value: serde_json::Value = serde_json::from_str(text).context("is not a base of shapes")?;
         match value.get("kind").and_then(|kind| kind.as_str()) {
             Some(KIND) => {}
-            Some(other) => bail!("is of kind {other:?}, expected {KIND:?}"),
-            None => bail!("is not a base of shapes: it has no `kind`"),
+            Some(other) => fail!(LearnError::Version, "is of kind {other:?}, expected {KIND:?}"),
+            None => fail!(LearnError::Base, "is not a base of shapes: it has no `kind`"),
         }
         check_sizes(&value)?;
         let base: Base = serde_json::from_value(value)
-            .map_err(|error| anyhow!("is not a base of shapes: {}", words::cause(&error)))?;
-        ensure!(base.measures == MEASURE_NAMES, "was made for other measures than this program has");
-        base.gallery.check().map_err(|invalid| anyhow!("{invalid}"))?;
+            .map_err(|error| error!(LearnError::Base, "is not a base of shapes: {}", words::cause(&error)))?;
+        require!(
+            base.measures == MEASURE_NAMES,
+            LearnError::Base,
+            "was made for other measures than this program has"
+        );
+        base.gallery.check().map_err(|invalid| error!(LearnError::Base, "{invalid}"))?;
         let classes = base.gallery.names.len();
         let fits = base.card.confusion.len() == classes
             && base.card.confusion.iter().all(|row| row.len() == classes + 1);
-        ensure!(fits, "has a card of other classes than its own");
+        require!(fits, LearnError::Base, "has a card of other classes than its own");
         Ok(base)
     }
 
@@ -203,7 +209,11 @@ fn check_sizes(value: &serde_json::Value) -> Result<()> {
         ("/gallery/space/origin", "measures", MEASURES),
     ] {
         let have = length(path);
-        ensure!(have <= most, "is too large for a board: {have} {what}, at most {most}");
+        require!(
+            have <= most,
+            LearnError::TooLarge,
+            "is too large for a board: {have} {what}, at most {most}"
+        );
     }
     Ok(())
 }

@@ -2,9 +2,8 @@
 
 use super::classes::Classes;
 use super::view::{Choice, View};
+use crate::error::{LearnError, Result, UsageError};
 use crate::files::arrays::{self, Frames};
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, bail, ensure};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -100,8 +99,9 @@ impl Images {
         let file = self.images.display();
         let names = sorted(kept.iter().map(|(_, class, ..)| class));
         let kinds = sorted(kept.iter().map(|(_, _, kind, ..)| kind));
-        ensure!(
+        require!(
             names.len() > 1,
+            LearnError::Data,
             "{file}: holds {} of the classes asked for, at least 2 are needed",
             names.len()
         );
@@ -135,15 +135,16 @@ impl Images {
         let file = self.images.display();
         let known: Vec<String> = arrays::names(&self.images)?;
         let known: Vec<&str> = known.iter().filter_map(|name| name.strip_suffix("_img")).collect();
-        ensure!(
+        require!(
             !known.is_empty(),
+            LearnError::Data,
             "{file}: has no set of images with labels; give the file of labels with --labels"
         );
         let asked = |set: &str| self.set.is_empty() || self.set.iter().any(|pattern| matches(pattern, set));
         let sets: Vec<&str> = known.iter().copied().filter(|set| asked(set)).collect();
         if sets.is_empty() {
             let known = known.join(", ");
-            bail!(Fault::usage(format!("{file}: no set NAME_img was selected; known are {known}")));
+            fail!(UsageError::Unknown, "{file}: no set NAME_img was selected; known are {known}");
         }
         let classes = arrays::texts(&self.images, "classes")?;
         sets.into_iter().map(|set| self.labelled(set, classes.as_deref())).collect()
@@ -153,9 +154,11 @@ impl Images {
         let file = self.images.display();
         let frames = arrays::read(&self.images, Some(&format!("{set}_img")))?;
         let labels = arrays::list(&self.images, &format!("{set}_label"))?;
-        let labels = labels.with_context(|| format!("{file}: there is no array {set}_label"))?;
-        ensure!(
+        let labels =
+            labels.ok_or_else(|| error!(LearnError::Data, "{file}: there is no array {set}_label"))?;
+        require!(
             labels.len() == frames.count,
+            LearnError::Data,
             "{file}: {set} has {} images and {} labels",
             frames.count,
             labels.len()
@@ -165,7 +168,7 @@ impl Images {
             Some(names) => names
                 .get(usize::from(*label))
                 .cloned()
-                .with_context(|| format!("{file}: {set}: there is no class {label}")),
+                .ok_or_else(|| error!(LearnError::Data, "{file}: {set}: there is no class {label}")),
         };
         Ok(LabelledImages { set: set.into(), names: labels.iter().map(name).collect::<Result<_>>()?, frames })
     }

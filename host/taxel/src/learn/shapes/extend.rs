@@ -3,15 +3,19 @@
 use super::base::{Base, LEFT_OUT};
 use super::calibrate::count;
 use super::cluster::centres;
+use crate::error::{LearnError, Result};
 use crate::learn::confusion::Confusion;
-use anyhow::{Result, ensure};
 use taxel_core::format::name;
 use taxel_core::shape::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Point, Recognised};
 
 /// Checks that a board can hold a class of this name.
 pub fn check_name(class: &str) -> Result<()> {
     let bytes = class.len();
-    ensure!((1..=16).contains(&bytes), "the name {class:?} has {bytes} bytes, expected 1 to 16");
+    require!(
+        (1..=16).contains(&bytes),
+        LearnError::Data,
+        "the name {class:?} has {bytes} bytes, expected 1 to 16"
+    );
     Ok(())
 }
 
@@ -19,8 +23,9 @@ pub fn check_name(class: &str) -> Result<()> {
 pub fn extend(base: &mut Base, class: &str, points: &[Point], most: usize) -> Result<usize> {
     let added = centres(points, most.max(1));
     let (count, left) = (added.len(), GALLERY_PROTOTYPES - base.gallery.prototypes.len());
-    ensure!(
+    require!(
         count <= left,
+        LearnError::Data,
         "{count} prototypes do not fit, there is room for {left}: prune the base or add fewer"
     );
     let index = named(base, class)?;
@@ -40,7 +45,11 @@ fn named(base: &mut Base, class: &str) -> Result<usize> {
         return Ok(known);
     }
     let room = names.push(name(class)).is_ok();
-    ensure!(room, "the base holds {GALLERY_CLASSES} classes, which is all that a board holds");
+    require!(
+        room,
+        LearnError::TooLarge,
+        "the base holds {GALLERY_CLASSES} classes, which is all that a board holds"
+    );
     // A new row and column of the card: this class has not been tested.
     base.card.confusion.push(Vec::new());
     let columns = names.len() + 1;

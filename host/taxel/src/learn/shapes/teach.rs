@@ -2,7 +2,7 @@
 
 use super::base::Base;
 use crate::client::Client;
-use anyhow::Result;
+use crate::error::Result;
 use taxel_core::shape::GalleryHead;
 use taxel_core::wire::{Request, SHAPES_ADDED};
 

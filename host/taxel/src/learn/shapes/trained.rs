@@ -6,9 +6,9 @@ use super::cross::{FOLDS, SEED, deal, predict};
 use super::data::{Example, Examples, Images};
 use super::select::select;
 use super::train::{Known, Recipe, fit};
+use crate::error::{LearnError, Result};
 use crate::learn::confusion::Confusion;
 use crate::learn::fingerprint::Fingerprint;
-use anyhow::{Result, ensure};
 use taxel_core::shape::{GALLERY_CLASSES, Recognised};
 
 /// A gallery of all examples, completed by five folds of them. Also returns the results of the folds.
@@ -41,14 +41,19 @@ pub fn train(images: &Images, examples: &Examples, recipe: &Recipe) -> Result<Ba
 /// Checks that there are enough examples, and not too many classes for a board.
 pub fn check(examples: &Examples) -> Result<()> {
     let classes = examples.names.len();
-    ensure!(
+    require!(
         classes <= GALLERY_CLASSES,
+        LearnError::TooLarge,
         "there are {classes} classes, a board holds at most {GALLERY_CLASSES}"
     );
     for (class, name) in examples.names.iter().enumerate() {
         let members = examples.list.iter().filter(|example| example.class == class).count();
-        ensure!(members >= FOLDS, "class {name} has {members} images, at least {FOLDS} are needed");
-        ensure!(name.len() <= 16, "the name {name:?} is longer than 16 bytes");
+        require!(
+            members >= FOLDS,
+            LearnError::Data,
+            "class {name} has {members} images, at least {FOLDS} are needed"
+        );
+        require!(name.len() <= 16, LearnError::Data, "the name {name:?} is longer than 16 bytes");
     }
     Ok(())
 }

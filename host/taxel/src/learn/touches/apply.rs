@@ -1,8 +1,8 @@
 //! Applies a model to recorded touches as the board does.
 
 use super::data::{Data, Touch};
+use crate::error::{LearnError, Result};
 use crate::tell::progress::{Progress, Unit};
-use anyhow::{Result, bail};
 use taxel_core::format::Q15;
 use taxel_core::gesture::{Decision, Model, TouchClassifier, TouchState};
 
@@ -40,7 +40,12 @@ pub fn apply(model: &Model<'_>, data: &Data, touches: &[&Touch], times: &[usize]
         (0..model.classes()).filter_map(|class| model.name(class)).map(|n| n.to_string()).collect();
     let place = |name: &String| data.classes.iter().position(|known| known == name);
     let Some(places) = names.iter().map(place).collect::<Option<Vec<usize>>>() else {
-        bail!("the model knows {}, the labels {}", names.join(", "), data.classes.join(", "));
+        fail!(
+            LearnError::Data,
+            "the model knows {}, the labels {}",
+            names.join(", "),
+            data.classes.join(", ")
+        );
     };
     let recogniser = TouchClassifier::new(*model, data.rows, data.columns);
     let mut progress = Progress::of("applying the model", Unit::Steps("touches"), Some(touches.len() as u64));

@@ -10,8 +10,8 @@ use super::map::mapped;
 use super::model::train;
 use super::report::{Outcome, Report, accuracy};
 use super::settings::{EARLY, TrainSettings};
+use crate::error::{LearnError, Result};
 use crate::tell::progress::{Progress, Unit};
-use anyhow::{Result, ensure};
 use serde_json::{Value, json};
 use taxel_core::gesture::{Features, Model};
 
@@ -146,7 +146,7 @@ pub fn as_it_is(model: &Model<'_>, data: &Data, times: &Times) -> Result<Report>
 /// nearest neighbours and a cognitive map, on the same features.
 pub fn cross(data: &Data, settings: &TrainSettings, times: &Times) -> Result<Report> {
     let groups = data.groups();
-    ensure!(groups.len() >= 2, "there is only one group: it cannot be left out");
+    require!(groups.len() >= 2, LearnError::Data, "there is only one group: it cannot be left out");
     let courses = courses(data, settings);
     let (mut found, mut by_group) = (Found::default(), serde_json::Map::new());
     let (mut near, mut map) = (Vec::new(), Vec::new());

@@ -1,7 +1,7 @@
 //! Labelled touches and their files.
 
+use crate::error::Result;
 use crate::learn::fingerprint::Fingerprint;
-use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Encodes a trained model for the board.
 
 use super::experts::Trained;
-use anyhow::{Context, Result, ensure};
+use crate::error::{Context, LearnError, Result};
 use taxel_core::gesture::{MAGIC, Model, checksum};
 
 /// Parts of a model besides its experts.
@@ -26,7 +26,7 @@ pub fn export(experts: &[Trained], head: ModelHead<'_>) -> Result<Vec<u8>> {
         [head.names.len().try_into()?, experts.len().try_into()?, head.pressed, head.concludes.into()];
     numbers.into_iter().for_each(|number: u16| bytes.extend(number.to_le_bytes()));
     for name in head.names {
-        ensure!(name.len() <= 16, "class {name}: the name is longer than 16 bytes");
+        require!(name.len() <= 16, LearnError::Data, "class {name}: the name is longer than 16 bytes");
         let mut padded = [0; 16];
         padded[..name.len()].copy_from_slice(name.as_bytes());
         bytes.extend(padded);

@@ -1,7 +1,6 @@
 //! Files of recorded touches.
 
-use crate::tell::fault::Fault;
-use anyhow::{Result, ensure};
+use crate::error::{Result, UsageError};
 use std::path::{Path, PathBuf};
 
 /// Recorded touches.
@@ -17,11 +16,10 @@ pub struct Files {
 /// Path of the labels of recorded touches; error if it is missing.
 pub fn labels(files: &Files) -> Result<&Path> {
     let frames = files.frames.display();
-    ensure!(
+    require!(
         files.labels.is_some(),
-        Fault::usage(format!(
-            "{frames}: frames of touches hold no labels of their own, name their file with --labels"
-        ))
+        UsageError::Argument,
+        "{frames}: frames of touches hold no labels of their own, name their file with --labels"
     );
     Ok(files.labels.as_deref().unwrap_or(&files.frames))
 }

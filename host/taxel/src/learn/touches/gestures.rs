@@ -1,10 +1,9 @@
 //! Recorded gestures, and the settings with which their model is trained.
 
 use super::{Data, Files, Report, Table, Times, Touch, TouchesFile, TrainSettings, Windows, cross, labels};
+use crate::error::{Context, Error, LearnError, Result, UsageError};
 use crate::files::arrays;
 use crate::learn::doubts::start_ups;
-use crate::tell::fault::Fault;
-use anyhow::{Context, Result, ensure};
 use taxel_core::gesture::CLASSES;
 
 /// Chosen by cross-validation by participant. Recordings are cut from ongoing touches, so windows may begin
@@ -32,9 +31,10 @@ pub fn across_people(files: &Files) -> Result<Report> {
 
 /// Observation times at this frame rate.
 pub fn times(rate: f64) -> Result<Times> {
-    ensure!(
+    require!(
         rate > 0.0 && rate.is_finite(),
-        Fault::usage(format!("--rate {rate}: expected a number above 0"))
+        UsageError::Argument,
+        "--rate {rate}: expected a number above 0"
     );
     let frames = |seconds: &f64| ((seconds * rate).round() as usize).max(1);
     let steps = TIMES.iter().map(|t| (*t, frames(t))).collect();
@@ -46,11 +46,12 @@ pub fn load(files: &Files) -> Result<Data> {
     let (path, labels) = (&files.frames, labels(files)?);
     let frames = arrays::read(path, None)?;
     let table = Table::read(labels)?;
-    let columns = || Ok::<_, anyhow::Error>((table.column("gesture")?, table.column("participant")?));
+    let columns = || Ok::<_, Error>((table.column("gesture")?, table.column("participant")?));
     let (gestures, people) = columns().with_context(|| labels.display().to_string())?;
-    ensure!(!table.is_empty(), "{}: there are no labels", labels.display());
-    ensure!(
+    require!(!table.is_empty(), LearnError::Data, "{}: there are no labels", labels.display());
+    require!(
         frames.count % table.len() == 0,
+        LearnError::Data,
         "{}: {} frames cannot be split evenly among the {} recordings that {} lists",
         path.display(),
         frames.count,
@@ -60,7 +61,13 @@ pub fn load(files: &Files) -> Result<Data> {
     let mut classes: Vec<String> = gestures.iter().map(|gesture| gesture.to_string()).collect();
     classes.sort();
     classes.dedup();
-    ensure!(classes.len() <= CLASSES, "{}: {} gestures, at most {CLASSES}", labels.display(), classes.len());
+    require!(
+        classes.len() <= CLASSES,
+        LearnError::TooLarge,
+        "{}: {} gestures, at most {CLASSES}",
+        labels.display(),
+        classes.len()
+    );
     let touches =
         frames.values.chunks_exact(frames.values.len() / table.len()).zip(gestures.iter().zip(people));
     let touches = touches.map(|(values, (gesture, group))| Touch {

@@ -1,9 +1,9 @@
 //! Recorded intentions, and the settings with which their model is trained.
 
 use super::{Data, Files, Report, Table, Times, Touch, TouchesFile, TrainSettings, Windows, cross, labels};
+use crate::error::{Context, Error, LearnError, Result};
 use crate::files::arrays;
 use crate::learn::doubts::start_ups;
-use anyhow::{Context, Result, bail, ensure};
 
 /// Chosen by cross-validation by day.
 pub const SETTINGS: TrainSettings = TrainSettings {
@@ -51,10 +51,10 @@ pub fn load(files: &Files, apart: Apart) -> Result<Data> {
     let (path, labels) = (&files.frames, labels(files)?);
     let frames = arrays::read(path, None)?;
     let table = Table::read(labels)?;
-    let columns = || Ok::<_, anyhow::Error>((table.column("recording")?, table.column("label")?));
+    let columns = || Ok::<_, Error>((table.column("recording")?, table.column("label")?));
     let (recordings, names) = columns().with_context(|| labels.display().to_string())?;
     let (count, lines) = (frames.count, table.len());
-    ensure!(count == lines, "{}: {lines} labels for {count} frames", labels.display());
+    require!(count == lines, LearnError::Data, "{}: {lines} labels for {count} frames", labels.display());
     let lines: Vec<(&str, &str)> = recordings.into_iter().zip(names).collect();
     let area = usize::from(frames.rows) * usize::from(frames.columns);
     let (mut touches, mut idle, mut start) = (Vec::new(), Vec::new(), 0);
@@ -68,10 +68,10 @@ pub fn load(files: &Files, apart: Apart) -> Result<Data> {
         match class {
             Some(_) => touches.push(touch),
             None if label.eq_ignore_ascii_case("none") => idle.push(touch),
-            None => bail!("{}: the label {label} has no meaning here", labels.display()),
+            None => fail!(LearnError::Data, "{}: the label {label} has no meaning here", labels.display()),
         }
     }
-    ensure!(!touches.is_empty(), "{}: there are no touches", labels.display());
+    require!(!touches.is_empty(), LearnError::Data, "{}: there are no touches", labels.display());
     let mut rest = frames.values.chunks_exact(area);
     let recordings = lines.chunk_by(|a, b| a.0 == b.0);
     let named = recordings.map(|lines| {

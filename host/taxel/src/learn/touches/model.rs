@@ -4,8 +4,8 @@ use super::data::{Data, TouchesFile};
 use super::experts::{TouchExample, train_experts};
 use super::export::{ModelHead, export};
 use super::settings::TrainSettings;
+use crate::error::{Context, FileError, LearnError, Result};
 use crate::tell::date::today;
-use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::gesture::Model;
@@ -37,7 +37,7 @@ impl Provenance {
 
 /// Trains on touches. Returns the bytes of a model.
 pub fn train(data: &Data, examples: &[TouchExample<'_>], settings: &TrainSettings) -> Result<Vec<u8>> {
-    ensure!(data.classes.len() >= 2, "touches of one class only: at least two are needed");
+    require!(data.classes.len() >= 2, LearnError::Data, "touches of one class only: at least two are needed");
     let experts = train_experts(examples, data.classes.len(), settings);
     let notes = Provenance {
         date: today(),
@@ -53,7 +53,9 @@ pub fn train(data: &Data, examples: &[TouchExample<'_>], settings: &TrainSetting
 /// Reads the bytes of a model. Errors name the file.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
     crate::tell::verbose::reads(path);
-    let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    let bytes = std::fs::read(path)
+        .map_err(|error| FileError::read(path, error))
+        .with_context(|| format!("{}: cannot be read", path.display()))?;
     Model::read(&bytes).with_context(|| path.display().to_string())?;
     Ok(bytes)
 }

@@ -5,21 +5,28 @@ use super::course::courses;
 use super::data::Data;
 use super::report::{Outcome, Report, accuracy};
 use super::settings::TrainSettings;
+use crate::error::{LearnError, Result};
 use crate::tell::progress::{Progress, Unit};
-use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
 /// For each group: chooses the settings that perform best in cross-validation on the other groups, trains
 /// with them on all the others, and applies to the group.
 pub fn nested(data: &Data, candidates: &[TrainSettings]) -> Result<Report> {
     let groups = data.groups();
-    ensure!(groups.len() >= 3, "nested selection takes three groups or more, there are {}", groups.len());
+    require!(
+        groups.len() >= 3,
+        LearnError::Data,
+        "nested selection takes three groups or more, there are {}",
+        groups.len()
+    );
     let same = |a: &TrainSettings, b: &TrainSettings| {
         (a.pressed, a.halves, a.mirrored) == (b.pressed, b.halves, b.mirrored)
     };
-    let first = candidates.first().context("there are no settings to choose from")?;
-    ensure!(
+    let first = candidates.first();
+    let first = first.ok_or_else(|| error!(LearnError::Data, "there are no settings to choose from"))?;
+    require!(
         candidates.iter().all(|other| same(first, other)),
+        LearnError::Data,
         "settings differ in the training data of a touch"
     );
     let courses = courses(data, first);

@@ -8,7 +8,7 @@ use super::likely::Judge;
 use super::marks::Marks;
 use super::opened;
 use super::piece::{Kind, Piece, parse};
-use anyhow::{Context, Result, bail};
+use crate::error::{Context, RecordingError, Result};
 use mcap::MAGIC;
 use mcap::records::{MessageIndex, op};
 use std::collections::BTreeSet;
@@ -67,7 +67,7 @@ impl Walk {
         if has_magic {
             walk.at = begin;
         } else if !walk.marks.is_sound && !walk.begins_with_header(begin).with_context(place)? {
-            bail!("{} is not an MCAP file", path.display());
+            return Err(RecordingError::NotMcap { path: path.into() }.into());
         }
         Ok(walk)
     }

@@ -22,16 +22,24 @@ use std::error::Error;
 
 /// Formats an error and its causes as one sentence on one line, without control characters: causes quote
 /// files and boards.
-pub fn sentence(error: &anyhow::Error) -> String {
-    let mut causes: Vec<String> = error.chain().map(cause).collect();
+pub fn sentence(error: &(dyn Error + 'static)) -> String {
+    let mut causes: Vec<String> = chain(error).map(cause).collect();
     // Some libraries quote their cause in addition to returning it.
     causes.dedup_by(|cause, quoting| quoting.ends_with(cause.as_str()));
     let line = causes.join(": ").lines().map(str::trim).collect::<Vec<_>>().join(" ");
     printable(&line).into_owned()
 }
 
+/// An error and its causes, from the outermost to the first.
+pub fn chain<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn Error + 'static)> {
+    std::iter::successors(Some(error), |&error| error.source())
+}
+
 /// Formats one error without its causes.
 pub fn cause(error: &(dyn Error + 'static)) -> String {
+    if let Some(other) = error.downcast_ref::<crate::Error>().and_then(crate::Error::bare) {
+        return cause(other);
+    }
     if let Some(error) = error.downcast_ref::<serde_json::Error>() {
         return json::without_text(error);
     }
@@ -64,14 +72,14 @@ fn io(message: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use anyhow::{Context, anyhow};
+    use crate::error::Context;
 
     #[test]
     fn causes_are_told_without_numbers_of_the_system() {
         let missing = std::io::Error::from_raw_os_error(2);
-        let flat = anyhow!("tcp:a:1 cannot be reached: {missing}");
+        let flat = crate::Error::other(format!("tcp:a:1 cannot be reached: {missing}"));
         assert_eq!(sentence(&flat), "tcp:a:1 cannot be reached: no such file or directory");
-        let deep = anyhow::Error::from(missing).context("x.toml cannot be read");
+        let deep = crate::Error::from(missing).context("x.toml cannot be read");
         assert_eq!(sentence(&deep), "x.toml cannot be read: no such file or directory");
         let number = serde_json::from_str::<u8>("-3").context("age").unwrap_err();
         assert_eq!(

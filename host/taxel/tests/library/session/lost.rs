@@ -5,8 +5,8 @@ use super::rig::{Rig, source};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use taxel::client::Event;
+use taxel::error::{Error, ErrorKind, SourceError};
 use taxel::session::{Returns, Session};
-use taxel::tell::fault::status;
 use taxel_core::format::Code;
 use taxel_core::garment::Pins;
 use taxel_core::wire::Request;
@@ -14,7 +14,7 @@ use taxel_core::wire::Request;
 const TARE: Request<'_> = Request::Tare { frames: 8 };
 
 /// The error at the end of a session.
-fn ends(session: &mut Session) -> anyhow::Error {
+fn ends(session: &mut Session) -> Error {
     let begun = Instant::now();
     loop {
         if let Err(error) = session.poll() {
@@ -43,7 +43,10 @@ fn a_board_that_refuses_what_it_had_taken_is_an_error() {
     let error = ends(&mut session);
     let text = format!("{error:#}");
     assert!(text.starts_with("rig: after it came back, the board refuses set-garment: "), "{text}");
-    assert_eq!(status(&error), 3);
+    let ErrorKind::Source(SourceError::Refused { request, reason, .. }) = error.kind() else {
+        panic!("{text}")
+    };
+    assert_eq!((*request, text.ends_with(reason.as_str())), ("set-garment", true));
 }
 
 #[test]
@@ -66,7 +69,11 @@ fn a_source_that_does_not_come_back_ends_after_a_stated_time_or_at_once() {
         }
         let begun = Instant::now();
         let error = ends(&mut session);
-        assert_eq!((format!("{error:#}").as_str(), status(&error)), (words, 3));
+        assert_eq!(format!("{error:#}"), words);
+        let ErrorKind::Source(SourceError::Gone { label, patience, .. }) = error.kind() else {
+            panic!("{error}")
+        };
+        assert_eq!((label.as_str(), patience.is_some()), ("rig", returns != Returns::Never));
         assert!(begun.elapsed() < Duration::from_secs(3));
     }
 }
@@ -115,7 +122,9 @@ fn a_board_that_does_not_read_holds_nothing_up() {
     assert!(frames > 100, "{frames} frames came meanwhile");
     let text = format!("{error:#}");
     assert!(text.starts_with("rig is gone: the board has read nothing for 5 s; "), "{text}");
-    assert_eq!(status(&error), 3);
+    assert!(matches!(error.kind(), ErrorKind::Source(SourceError::Gone { .. })), "{error:?}");
+    let why = error.cause().map(Error::kind);
+    assert!(matches!(why, Some(ErrorKind::Source(SourceError::Silent(_)))), "{why:?}");
 }
 
 #[test]

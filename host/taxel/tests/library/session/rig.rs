@@ -194,9 +194,11 @@ pub fn source(rig: &Arc<Mutex<Rig>>) -> Source {
     open(rig).unwrap()
 }
 
-fn open(rig: &Arc<Mutex<Rig>>) -> anyhow::Result<Source> {
+fn open(rig: &Arc<Mutex<Rig>>) -> taxel::Result<Source> {
     let known = rig.lock().unwrap();
-    anyhow::ensure!(known.plugged, "nothing is plugged in");
+    if !known.plugged {
+        return Err(taxel::Error::other("nothing is plugged in"));
+    }
     let (again, wire) = (rig.clone(), Wire { rig: rig.clone(), number: known.link });
     Ok(Source::real("rig", wire, move || open(&again)))
 }

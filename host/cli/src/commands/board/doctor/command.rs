@@ -3,13 +3,13 @@
 use super::facts::Facts;
 use super::finding::{Finding, Grade};
 use super::judge::judge;
+use crate::fault::Fault;
 use crate::watch::{self, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel::tell::date;
-use taxel::tell::fault::Fault;
 
 /// Arguments of `taxel doctor`.
 #[derive(Debug, Clone, Args)]

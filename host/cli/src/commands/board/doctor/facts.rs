@@ -53,7 +53,7 @@ impl Facts {
     }
 }
 
-impl Show for Facts {
+impl Show<anyhow::Error> for Facts {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => self.firmware = client.worn().map(|worn| worn.firmware.clone()),

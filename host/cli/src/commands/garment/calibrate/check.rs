@@ -1,6 +1,7 @@
 //! The command `taxel calibrate check`.
 
 use super::dialogue::Dialogue;
+use crate::fault::{Blame, Fault};
 use crate::watch::raw::RawBoard;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
@@ -10,7 +11,6 @@ use std::time::Duration;
 use taxel::files::calibrate::{Calibration, Over, Plate, Reading, Reason, Seen, judge, plates};
 use taxel::source::SourceSpec;
 use taxel::tell::date;
-use taxel::tell::fault::{Blame, Fault};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;
 

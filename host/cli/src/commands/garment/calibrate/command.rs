@@ -3,6 +3,7 @@
 use super::check::{self, CalibrationCheckArgs};
 use super::task::{CalibrationTask, calibrate};
 use super::{install, operator};
+use crate::fault::Fault;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
 use anyhow::{Result, bail, ensure};
@@ -13,7 +14,6 @@ use taxel::files::calibrate::{Calibration, OfWeight, Over, plates};
 use taxel::files::output::Output;
 use taxel::sim::Sensor;
 use taxel::source::{self, SourceSpec};
-use taxel::tell::fault::Fault;
 use taxel_core::garment::Layout;
 use taxel_core::wire::Request;
 
@@ -135,7 +135,7 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
 /// again.
 fn keep(made: &Calibration, output: Output) -> Result<()> {
     let text = made.text()?;
-    output.write(text.as_bytes()).inspect_err(|_| println!("{text}"))
+    Ok(output.write(text.as_bytes()).inspect_err(|_| println!("{text}"))?)
 }
 
 /// The weights in N, validated, ascending.

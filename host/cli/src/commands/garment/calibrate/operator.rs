@@ -59,7 +59,7 @@ pub fn script(
     text.insert("seed".into(), toml::Value::Integer((seed & 0xffff_ffff) as i64));
     text.insert("sensor".into(), toml::Value::try_from(sensor).context("the sensor")?);
     text.insert("touch".into(), touches.into());
-    scripts::parse(&text.to_string(), "calibration.toml")
+    Ok(scripts::parse(&text.to_string(), "calibration.toml")?)
 }
 
 fn pair(values: [f64; 2]) -> toml::Value {

@@ -1,10 +1,10 @@
 //! A complete calibration on a board.
 
 use super::dialogue::Dialogue;
+use crate::fault::Blame;
 use crate::watch::raw::RawBoard;
 use anyhow::{Context, Result};
 use taxel::files::calibrate::{Calibration, Over, fit, plates};
-use taxel::tell::fault::Blame;
 use taxel_core::garment::Layout;
 use taxel_core::wire::Request;
 

@@ -1,6 +1,6 @@
 //! Checks that the standard board can run a garment's file and a scene's file.
 
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use std::path::Path;
 use taxel::files::garments;
 use taxel::source::SceneFile;
@@ -22,7 +22,7 @@ pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
     let refused = |error: SetupError| match error {
         SetupError::Garment(error) => read.error(&error),
         SetupError::Slow(error) => read.error_at("wiring.settle_ns", error),
-        SetupError::Scene(error) => anyhow!("{name}: {error}"),
+        SetupError::Scene(error) => taxel::Error::from(error).context(name),
         SetupError::Interlaced(_) => read.error_at("wiring", error),
     };
     let mut setup = Setup::build(&BOARD, garment.clone(), bare(), TAXELS).map_err(refused)?;

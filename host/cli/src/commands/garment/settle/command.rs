@@ -2,6 +2,7 @@
 
 use super::search::{Scanner, Settled, settle};
 use crate::commands::garment;
+use crate::fault::Fault;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
 use anyhow::{Result, bail};
@@ -12,7 +13,6 @@ use std::path::PathBuf;
 use taxel::files::output::Output;
 use taxel::sim::FULL_SCALE;
 use taxel::source::SourceSpec;
-use taxel::tell::fault::Fault;
 use taxel_core::acquire::{Plan, Rounds, frame_us};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::wire::Request;

@@ -6,6 +6,7 @@ use super::solver::{Found, Next, Solver};
 use super::touch::Touch;
 use super::user::User;
 use crate::commands::garment;
+use crate::fault::Fault;
 use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
 use anyhow::{Context, Result, bail};
@@ -16,7 +17,6 @@ use std::path::PathBuf;
 use taxel::files::output::Output;
 use taxel::sim;
 use taxel::source::SourceSpec;
-use taxel::tell::fault::Fault;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 
 /// Frames after a change of garment that may still be of the old one.

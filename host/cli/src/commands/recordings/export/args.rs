@@ -1,11 +1,11 @@
 //! Arguments of `taxel export`.
 
+use crate::fault::Fault;
 use crate::watch::Overwrite;
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use std::num::{NonZeroU16, NonZeroU64};
 use std::path::PathBuf;
-use taxel::tell::fault::Fault;
 
 /// Format of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -24,11 +24,11 @@ mod units;
 
 pub use args::{ExportArgs, Form};
 
+use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use frames::Frames;
 use std::io::Write;
 use taxel::files::output::{Folder, Output};
-use taxel::tell::fault::Fault;
 
 /// Runs the command.
 pub fn run(args: ExportArgs) -> Result<()> {

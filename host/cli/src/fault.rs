@@ -3,16 +3,17 @@
 //! | status | when | how an error says so |
 //! |---|---|---|
 //! | 0 | done | |
-//! | 1 | failed: a file, the disk, a result that is not good enough | not marked |
+//! | 1 | failed: a file, the disk, a result that is not good enough | anything else |
 //! | 2 | wrong use: another command line is needed | [`Fault::usage`], [`Blame::usage`] |
 //! | 3 | the board is at fault: no answer, a refusal, faulty lines or taxels | [`Fault::board`], [`Blame::board`] |
 //!
-//! A mark adds no words to the error, and contexts above it keep it. The innermost mark counts.
-//! `anyhow!("{error:#}")` loses it; use `context`.
+//! An error of the library says so by its kind ([`ErrorKind::Usage`], [`SourceError::blames_board`]), one of
+//! the program's own by such a mark. A mark adds no words to the error, and contexts above it keep it. The
+//! innermost blame counts. `anyhow!("{error:#}")` loses it; use `context`.
 //!
 //! ```
 //! use anyhow::{Context, Result, ensure};
-//! use taxel::tell::fault::{Blame, Fault, status};
+//! use taxel_cli::fault::{Blame, Fault, status};
 //!
 //! fn rate(hz: f64) -> Result<()> {
 //!     ensure!(hz > 0.0, Fault::usage(format!("--rate {hz}: it must be above 0")));
@@ -29,6 +30,7 @@
 
 use anyhow::Error;
 use std::fmt;
+use taxel::error::{ErrorKind, SourceError};
 
 /// An error with its blame.
 #[derive(Debug)]
@@ -88,7 +90,19 @@ fn marked(status: u8, error: Error) -> Error {
 }
 
 fn mark(error: &Error) -> Option<u8> {
-    error.chain().find_map(|cause| cause.downcast_ref::<Fault>()).map(|fault| fault.status)
+    error.chain().find_map(|cause| match cause.downcast_ref::<Fault>() {
+        Some(fault) => Some(fault.status),
+        None => cause.downcast_ref::<taxel::Error>().and_then(|error| blamed(error.kind())),
+    })
+}
+
+/// Whom the library blames.
+fn blamed(kind: &ErrorKind) -> Option<u8> {
+    match kind {
+        ErrorKind::Usage(_) => Some(2),
+        ErrorKind::Source(error) if SourceError::blames_board(error) => Some(3),
+        _ => None,
+    }
 }
 
 /// Exit status for this error.
@@ -100,6 +114,12 @@ pub fn status(error: &Error) -> u8 {
 mod tests {
     use super::*;
     use anyhow::{Context, anyhow};
+
+    #[test]
+    fn the_kind_of_a_library_s_error_blames() {
+        let of = |source: &str| status(&Error::from(taxel::open(source).err().unwrap()).context("record"));
+        assert_eq!((of("sim:no-such"), of("replay:no/such.mcap"), of("serial:/dev/none")), (2, 1, 3));
+    }
 
     #[test]
     fn a_mark_adds_no_words_and_the_first_counts() {

@@ -1,0 +1,50 @@
+//! Errors of cognitive maps.
+
+use taxel_core::intent::MapError;
+
+/// Why a map, or what was asked of it, is invalid.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapFileError {
+    /// The file is of another version of the format.
+    #[error("{text}")]
+    Version {
+        /// Its version.
+        found: u32,
+        /// What is wrong; with file and line if it was read from a file.
+        text: String,
+    },
+    /// A value is invalid.
+    #[error("{text}")]
+    Value {
+        /// Path of its key: `concept[1].name`.
+        key: String,
+        /// What is wrong; with file and line if it was read from a file.
+        text: String,
+    },
+    /// A concept is named that the map does not have.
+    #[error("map {map}: {user} names the unknown concept {concept}")]
+    NoConcept {
+        /// Name of the map.
+        map: String,
+        /// What names the concept: "an edge", "--of".
+        user: String,
+        /// The name.
+        concept: String,
+    },
+    /// The map is incomplete, or its text is none of a map: not TOML or JSON, or with unknown keys.
+    #[error("{0}")]
+    Malformed(String),
+    /// The core, which runs the map, refuses it.
+    #[error(transparent)]
+    Core(#[from] MapError),
+    /// A number is out of its range, or has too many decimals.
+    #[error("{0}")]
+    Range(String),
+    /// It is too large or too fine for the board's arithmetic.
+    #[error("{0}")]
+    TooLarge(String),
+    /// Maps cannot be united, touches cannot be learned from, or a question has no answer.
+    #[error("{0}")]
+    Unanswerable(String),
+}

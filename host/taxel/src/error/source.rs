@@ -1,0 +1,54 @@
+//! Errors of sources and sessions.
+
+use std::time::Duration;
+use taxel_core::wire::WireError;
+
+/// Why there is no stream, or no more of it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// No board is there: nothing is plugged in, the port is missing or in use, nobody listens.
+    #[error("{0}")]
+    NoBoard(String),
+    /// The board is connected, and sends, reads or answers nothing.
+    #[error("{0}")]
+    Silent(String),
+    /// The board is gone, and is not waited for any longer. The [cause](super::Error::cause) says why it was
+    /// lost.
+    #[error("{label} is gone{}", waited(*patience))]
+    Gone {
+        /// Label of the source.
+        label: String,
+        /// How long it was waited for; none if it was not.
+        patience: Option<Duration>,
+    },
+    /// The board refuses a request.
+    #[error("{what}: {reason}")]
+    Refused {
+        /// Name of the request, such as `set-garment`.
+        request: &'static str,
+        /// What is refused, and when.
+        what: String,
+        /// The board's reason, as it has sent it.
+        reason: String,
+    },
+    /// A request is too long for the wire.
+    #[error(transparent)]
+    Request(#[from] WireError),
+    /// The emulator or a simulation cannot be started.
+    #[error("{0}")]
+    Unstarted(String),
+}
+
+impl SourceError {
+    /// True if the board, or the link to it, is at fault.
+    pub fn blames_board(&self) -> bool {
+        use SourceError::{Gone, NoBoard, Refused, Silent};
+        matches!(self, NoBoard(_) | Silent(_) | Gone { .. } | Refused { .. })
+    }
+}
+
+fn waited(patience: Option<Duration>) -> String {
+    patience
+        .map_or(String::new(), |patience| format!(", and has not come back within {} s", patience.as_secs()))
+}
