@@ -81,6 +81,9 @@ pub enum Returns {
     Never,
 }
 
+/// Receives the requests that go to the board, as bytes.
+pub type OnSent<'a, E> = dyn FnMut(&Client, &[u8]) -> Result<(), E> + 'a;
+
 /// Result of [`Session::turn`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turn {
@@ -180,10 +183,7 @@ impl Session {
 
     /// Sends queued requests after passing them to `sent`, and reads. Error if the source is lost for good,
     /// or if its board refuses a setting that it had accepted before; `sent` has errors of the caller's own.
-    pub fn turn<E: From<Error>>(
-        &mut self,
-        sent: &mut dyn FnMut(&Client, &[u8]) -> Result<(), E>,
-    ) -> Result<Turn, E> {
+    pub fn turn<E: From<Error>>(&mut self, sent: &mut OnSent<'_, E>) -> Result<Turn, E> {
         self.buffer.clear();
         self.taken = 0;
         if self.absence.is_some() {

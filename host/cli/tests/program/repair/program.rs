@@ -34,13 +34,12 @@ impl Folder {
         String::from_utf8(done.stderr).unwrap()
     }
 
-    /// A recording with a flipped bit in a chunk.
-    fn damaged(&self, name: &str) -> Vec<u8> {
+    /// A recording of four seconds with a flipped bit in the n-th chunk's data.
+    fn damaged(&self, name: &str, chunk: usize) -> Vec<u8> {
         self.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", name]);
+        let place = &taxel::recording::chunk_indexes(&self.at(name)).unwrap()[chunk];
         let mut bytes = fs::read(self.at(name)).unwrap();
-        // Behind the first chunk, which has the `Hello`.
-        let at = bytes.len() * 7 / 10;
-        bytes[at] ^= 1;
+        bytes[(place.chunk_start_offset + place.chunk_length) as usize - 40] ^= 1;
         fs::write(self.at(name), &bytes).unwrap();
         bytes
     }
@@ -59,7 +58,7 @@ fn info(folder: &Folder, name: &str) -> serde_json::Value {
 #[test]
 fn a_repaired_recording_is_played_and_exported_and_the_damaged_one_stays() {
     let folder = Folder::new("played");
-    let before = folder.damaged("touch.mcap");
+    let before = folder.damaged("touch.mcap", 2);
     let found = info(&folder, "touch.mcap");
     assert_eq!(found["whole"], false);
     assert_eq!(found["has_end"], true, "a file with a footer has its end");
@@ -83,7 +82,7 @@ fn a_repaired_recording_is_played_and_exported_and_the_damaged_one_stays() {
 #[test]
 fn a_repair_takes_no_name_that_it_was_not_given() {
     let folder = Folder::new("names");
-    let before = folder.damaged("touch.mcap");
+    let before = folder.damaged("touch.mcap", 2);
     fs::write(folder.at("touch.repaired.mcap"), "precious").unwrap();
     assert!(folder.refused(&["info", "touch.mcap", "--repair"]).contains("--force"));
     for name in ["touch.mcap", "./touch.mcap"] {
@@ -108,12 +107,9 @@ fn a_repair_takes_no_name_that_it_was_not_given() {
 #[test]
 fn a_recording_without_its_first_chunk_is_played() {
     let folder = Folder::new("first");
-    folder.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", "touch.mcap"]);
-    let whole = info(&folder, "touch.mcap")["frames"].as_u64().unwrap();
-    let first = &taxel::recording::chunk_indexes(&folder.at("touch.mcap")).unwrap()[0];
-    let mut bytes = fs::read(folder.at("touch.mcap")).unwrap();
-    bytes[(first.chunk_start_offset + first.chunk_length) as usize - 40] ^= 1;
-    fs::write(folder.at("touch.mcap"), &bytes).unwrap();
+    folder.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", "whole.mcap"]);
+    let whole = info(&folder, "whole.mcap")["frames"].as_u64().unwrap();
+    folder.damaged("touch.mcap", 0);
     folder.good(&["info", "touch.mcap", "--repair"]);
     for name in ["touch.mcap", "touch.repaired.mcap"] {
         let played = folder.good(&["replay", name, "--speed", "max", "--json"]);

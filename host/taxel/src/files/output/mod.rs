@@ -24,7 +24,7 @@
 //! use std::io::Write;
 //! use taxel::files::output::{Force, Output};
 //!
-//! # fn main() -> Result<()> {
+//! # fn main() -> taxel::error::Result<()> {
 //! # let folder = std::env::temp_dir().join(format!("taxel-output-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
 //! # let (recording, table) = (folder.join("touch.mcap"), folder.join("touch.csv"));
