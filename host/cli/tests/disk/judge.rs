@@ -171,7 +171,7 @@ fn keys(bytes: &[u8]) -> Option<Vec<String>> {
 
 /// Number of readable messages of a recording after a repair; error if some of it is damaged.
 fn messages(path: &Path, must_be_whole: bool) -> Result<u64, String> {
-    let told = |error: anyhow::Error| format!("{error:#}");
+    let told = |error: taxel::Error| format!("{error:#}");
     let found = scan(path).map_err(told)?;
     let (chunks, bytes) = found.damaged();
     if chunks > 0 || bytes > 0 || must_be_whole && !found.whole {
