@@ -154,6 +154,8 @@ def silent_board() -> tuple[socket.socket, str]:
 
 
 def test_the_wait_lets_other_threads_run_and_ctrl_c_through() -> None:
+    # Ignored where the tests run in the background of a shell: then nobody could interrupt the wait.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     server, source = silent_board()
     counted = 0
     over = threading.Event()
