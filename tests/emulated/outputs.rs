@@ -2,6 +2,7 @@
 //! still. `cargo xtask test --only emulator-outputs`.
 
 use crate::board::Emulated;
+use fastrand::Rng;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use taxel_core::format::name;
@@ -86,16 +87,6 @@ fn edges(board: &mut Emulated) -> Vec<(u64, Option<bool>, f64)> {
     edges
 }
 
-/// Random numbers, always the same.
-struct Random(u32);
-
-impl Random {
-    fn below(&mut self, end: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        ((u64::from(self.0 >> 8) * u64::from(end)) >> 24) as u32
-    }
-}
-
 /// What pins show and what messages tell, side by side.
 #[derive(Default)]
 struct Told {
@@ -172,7 +163,7 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
     board.receive();
     done(&mut board, &Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
     done(&mut board, &Request::Tare { frames: 4 });
-    let (mut told, mut random) = (Told::default(), Random(1));
+    let (mut told, mut random) = (Told::default(), Rng::with_seed(1));
     board.ask(&Request::Start);
     read(&mut board, 0.3, &scene, &mut told);
     board.look("stats");
@@ -183,9 +174,9 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
     for sequence in 0..sequences {
         for _ in 0..3 {
             done += 1;
-            match random.below(7) {
+            match random.u32(..7) {
                 0 => _ = board.play(),
-                1 => board.starve(3 + random.below(9)),
+                1 => board.starve(3 + random.u32(..9)),
                 2 => {
                     board.stall(true);
                     when_into(&mut board, "guard blind", &scene, &mut told);
@@ -193,10 +184,10 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
                 }
                 3 => {
                     let mut other = scene.clone();
-                    other.symbol.span_ms[0] += random.below(9);
+                    other.symbol.span_ms[0] += random.u32(..9);
                     board.ask(&Request::SetScene(&postcard::to_allocvec(&other).unwrap()));
                 }
-                4 => board.ask(&Request::SetRaw { hz: random.below(5) as u16 }),
+                4 => board.ask(&Request::SetRaw { hz: random.u32(..5) as u16 }),
                 5 => board.ask(&Request::SelfTest),
                 _ => board.ask(&Request::Start),
             }

@@ -2,6 +2,7 @@
 //! `cargo xtask test --only emulator-stack`.
 
 use crate::board::Emulated;
+use fastrand::Rng;
 use taxel_core::capacity::TAXELS;
 use taxel_core::condition::Filter;
 use taxel_core::format::{Name, name};
@@ -24,31 +25,21 @@ const STEPS: u16 = 64;
 /// Code at rest.
 const REST: u16 = 90;
 
-/// Random numbers, always the same.
-struct Random(u32);
-
-impl Random {
-    fn below(&mut self, end: u16) -> u16 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (((self.0 >> 16) * u32::from(end)) >> 16) as u16
-    }
-}
-
 /// Rounds of a saturated frame with texture, noise over the full scale, forty contacts and a checkerboard.
 fn codes() -> Vec<u16> {
-    let mut random = Random(1);
+    let mut random = Rng::with_seed(1);
     let mut codes = Vec::new();
     for _ in 0..ROUNDS {
-        codes.extend((0..TAXELS).map(|_| 2048 + random.below(2048)));
-        codes.extend((0..TAXELS).map(|_| random.below(4096)));
+        codes.extend((0..TAXELS).map(|_| 2048 + random.u16(..2048)));
+        codes.extend((0..TAXELS).map(|_| random.u16(..4096)));
         codes.extend((0..TAXELS).map(|taxel| {
             let (row, column) = (taxel / COLUMNS % 32, taxel % COLUMNS);
             let touched = row % 6 < 3 && row < 30 && column % 8 < 3;
-            REST + if touched { 800 + random.below(200) } else { random.below(6) }
+            REST + if touched { 800 + random.u16(..200) } else { random.u16(..6) }
         }));
         codes.extend((0..TAXELS).map(|taxel| {
             let touched = (taxel / COLUMNS + taxel).is_multiple_of(2);
-            REST + if touched { 900 + random.below(200) } else { 0 }
+            REST + if touched { 900 + random.u16(..200) } else { 0 }
         }));
     }
     codes

@@ -118,18 +118,13 @@ impl Consensus {
                 *known = baseline.get(at).copied().unwrap_or(0);
             });
         }
-        // Drift of each witness beyond the known drift; none if it does not vote.
         let mut beyond = [None; WITNESSES];
         for ((at, known), beyond) in places().zip(&panel.known).zip(&mut beyond) {
-            // Absent and dead taxels do not vote, nor touched ones beyond noise.
+            // Absent and dead taxels do not vote.
             if gain.get(at).is_some_and(|gain| *gain != 0)
                 && let (Some(code), Some(rest)) = (codes.get(at), baseline.get(at))
             {
-                let (code, rest, known) = (i32::from(code.0), i32::from(*rest), i32::from(*known));
-                *beyond = match (code - rest).abs() > NOISE {
-                    true => (!touched(at)).then_some(code - known),
-                    false => Some(rest - known),
-                };
+                *beyond = drift_beyond(*known, *rest, *code, || touched(at));
             }
         }
         let mut sorted = if is_middle_zero(&beyond) { SortedVotes::NONE } else { SortedVotes::of(&beyond) };
@@ -162,6 +157,16 @@ impl Consensus {
             false => panel.lately.saturating_sub(1),
         };
         self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
+    }
+}
+
+/// Drift of a witness beyond the known drift; none if it does not vote: it is touched beyond noise.
+#[inline(always)]
+fn drift_beyond(known: u16, rest: u16, code: Code, touched: impl FnOnce() -> bool) -> Option<i32> {
+    let (code, rest, known) = (i32::from(code.0), i32::from(rest), i32::from(known));
+    match (code - rest).abs() > NOISE {
+        true => (!touched()).then_some(code - known),
+        false => Some(rest - known),
     }
 }
 

@@ -5,9 +5,10 @@ use super::refusal::Refusal;
 use super::{Board, Work, reading};
 use crate::condition::Certificate;
 use crate::contact::Forms;
-use crate::format::{Invalid, LEFT_OUT, Micros};
+use crate::format::{Invalid, LEFT_OUT, Micros, Q15};
 use crate::garment::Garment;
 use crate::gesture::{Certainty, GestureConfig, Gestures};
+use crate::intent::{Feed, Intent};
 use crate::pipeline::CONTACTS;
 use crate::scene::Scene;
 use crate::shape::{Exemplar, Taught};
@@ -36,7 +37,7 @@ pub(super) fn number_of(work: Work) -> u8 {
 
 /// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
 #[inline(never)]
-pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
+fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
     decode(bytes).map_err(|error| match error {
         WireError::LeftOver => format_args!("{what}: bytes after its end").into(),
         _ => format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into(),
@@ -79,10 +80,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.rebuilds.charge(now);
         }
         let result = match request {
-            Request::Concept { .. } | Request::Feed(_) if !cfg!(feature = "intent") => {
-                Err(left_out("intent"))
-            }
-            Request::SetRaw { hz: 1.. } if !cfg!(feature = "raw") => Err(left_out("raw")),
+            Request::Concept { slot, value } => self.set_concept(slot, value),
+            Request::Feed(feed) => self.feed(&feed, now),
             Request::SetGarment(bytes) => self.take_garment(bytes, now),
             Request::SetScene(bytes) => self.take_scene(bytes, now),
             Request::Tare { frames } => match self.tare(frames) {
@@ -90,16 +89,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 refused => refused,
             },
             Request::Start => {
-                // From here on the same codes give the same reports, whatever came before.
-                self.monitor.again();
-                self.outbox.start();
-                self.tell_lasting(now);
-                if self.state.taught.gallery().is_some() {
-                    self.outbox.tell_shapes();
-                }
-                if self.state.unsure().ids().next().is_some() {
-                    self.outbox.tell_unsure();
-                }
+                self.begin_stream(now);
                 Ok(())
             }
             Request::Stop => {
@@ -109,11 +99,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Request::Sync { token } => return self.outbox.sync(token, now),
             Request::Posture(posture) => {
                 self.state.fold.accept(&posture, &self.setup.scene.joints, now).map_err(Refusal::of)
-            }
-            Request::Concept { slot, value } => self.state.fed.set(slot, value).map_err(Refusal::of),
-            Request::Feed(feed) => {
-                let map = self.setup.pipeline.intent().map(crate::intent::Intent::map);
-                self.state.fed.accept(&feed, map, now).map_err(Refusal::of)
             }
             Request::KeyFrame => {
                 self.outbox.forget_image();
@@ -140,22 +125,54 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 self.ledger.report(hz);
                 Ok(())
             }
-            Request::SetRaw { hz } => {
-                self.outbox.send_raw(hz, &self.setup.scene.stream);
-                Ok(())
-            }
+            Request::SetRaw { hz } => self.send_raw(hz),
         };
         self.outbox.answer(number, result.err());
+    }
+
+    /// Reports everything from now on: the same codes give the same reports, whatever came before.
+    fn begin_stream(&mut self, now: Micros) {
+        self.monitor.again();
+        self.outbox.start();
+        self.tell_lasting(now);
+        if self.state.taught.gallery().is_some() {
+            self.outbox.tell_shapes();
+        }
+        if self.state.unsure().ids().next().is_some() {
+            self.outbox.tell_unsure();
+        }
+    }
+
+    fn set_concept(&mut self, slot: u8, value: Q15) -> Result<(), Refusal> {
+        if !cfg!(feature = "intent") {
+            return Err(left_out("intent"));
+        }
+        self.state.fed.set(slot, value).map_err(Refusal::of)
+    }
+
+    fn feed(&mut self, feed: &Feed, now: Micros) -> Result<(), Refusal> {
+        if !cfg!(feature = "intent") {
+            return Err(left_out("intent"));
+        }
+        let map = self.setup.pipeline.intent().map(Intent::map);
+        self.state.fed.accept(feed, map, now).map_err(Refusal::of)
+    }
+
+    fn send_raw(&mut self, hz: u16) -> Result<(), Refusal> {
+        if hz > 0 && !cfg!(feature = "raw") {
+            return Err(left_out("raw"));
+        }
+        self.outbox.send_raw(hz, &self.setup.scene.stream);
+        Ok(())
     }
 
     // Own frames, here and below: each needs much stack, and most requests need none of it.
     #[inline(never)]
     fn take_garment(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
-        // Used in place: the stack has no room for a second garment.
-        let mut read = read::<Garment>("garment", bytes);
-        let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
+        let mut garment = Garment::default();
+        reading::garment(bytes, &mut garment)?;
         let lasting = self.lasting();
-        self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of)?;
+        self.setup.change_garment(&self.info, &mut garment, TAXELS).map_err(Refusal::of)?;
         self.garment_changed();
         self.end_all(&lasting, now);
         Ok(())

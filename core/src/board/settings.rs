@@ -2,7 +2,7 @@
 
 use super::refusal::Refusal;
 use super::setup::Setup;
-use super::{Board, request};
+use super::{Board, reading};
 use crate::capacity::TAXELS;
 use crate::condition::Certificate;
 use crate::format::{Code, Micros};
@@ -166,10 +166,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Sets a stored garment, with a scene that fits any garment; the stored scene follows.
     #[inline(never)]
     fn restore_garment(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let mut read = request::read::<Garment>("garment", bytes);
-        let garment = read.as_mut().map_err(|refusal| refusal.clone())?;
+        let mut garment = Garment::default();
+        reading::garment(bytes, &mut garment)?;
         let reactions = core::mem::take(&mut self.setup.scene.react);
-        let done = self.setup.change_garment(&self.info, garment, TAXELS).map_err(Refusal::of);
+        let done = self.setup.change_garment(&self.info, &mut garment, TAXELS).map_err(Refusal::of);
         match done {
             Ok(()) => self.garment_changed(),
             Err(_) => self.setup.scene.react = reactions,

@@ -18,6 +18,7 @@
 //! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests
 //! and set-up code; no function of the per-frame path calls them.
 
+mod crc32;
 mod extremes;
 mod invalid;
 mod inverse;
@@ -27,6 +28,7 @@ mod root;
 mod scaled;
 mod shift;
 
+pub use crc32::crc32;
 pub(crate) use extremes::Extremes;
 pub use invalid::{Invalid, InvalidRow, LEFT_OUT};
 pub use inverse::Inverse;

@@ -44,7 +44,7 @@ pub use course::{COURSE, LAGS};
 pub use expert::{Expert, LEADS, LIMIT, Scores};
 pub use gestures::{Gesture, GestureState, Gestures};
 pub use grid::GRID;
-pub use model::{MAGIC, Model, checksum};
+pub use model::{MAGIC, Model};
 pub use model_error::{CLASSES, EXPERTS, LARGEST, ModelError};
 pub use motion::MOTION;
 pub use signal::{NAMES, SIGNALS, Signals};

@@ -20,8 +20,7 @@
 
 use super::expert::{Expert, Head};
 use super::model_error::{CLASSES, EXPERTS, LARGEST, ModelError};
-use crate::format::{Name, name};
-use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
+use crate::format::{Name, crc32, name};
 
 /// First bytes of a model; the last of them is the version.
 pub const MAGIC: [u8; 8] = *b"taxel-t\x03";
@@ -153,10 +152,5 @@ fn check_end(bytes: &[u8], rest: &[u8]) -> Result<(), ModelError> {
         return Err(ModelError::Longer(rest.len()));
     }
     let summed = bytes.split_last_chunk::<4>().ok_or(short)?.0;
-    if checksum(summed) == u32::from_le_bytes(*sum) { Ok(()) } else { Err(ModelError::Damaged) }
-}
-
-/// Returns the checksum that ends a model.
-pub fn checksum(bytes: &[u8]) -> u32 {
-    Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC).checksum(bytes)
+    if crc32(summed) == u32::from_le_bytes(*sum) { Ok(()) } else { Err(ModelError::Damaged) }
 }

@@ -271,16 +271,8 @@ mod tests {
     use super::super::walk::Walk;
     use super::*;
     use crate::garment::{Garment, Layout};
+    use fastrand::Rng;
     use std::vec::Vec;
-
-    struct Random(u32);
-
-    impl Random {
-        fn below(&mut self, n: u32) -> u32 {
-            self.0 = self.0.wrapping_mul(1664525).wrapping_add(1013904223);
-            (self.0 >> 8) % n
-        }
-    }
 
     fn shown<'a>(codes: &'a [Code], rest: &'a [u16]) -> Shown<'a> {
         let limits = Limits::of(20, 1);
@@ -288,19 +280,19 @@ mod tests {
     }
 
     /// Codes of a garment with three quarters of its taxels pressed, and codes at rest.
-    fn images(layout: &Layout, random: &mut Random) -> (Vec<Code>, Vec<u16>) {
-        let codes = (0..layout.taxels()).map(|_| Code(if random.below(4) > 0 { 900 } else { 310 }));
-        (codes.collect(), (0..layout.taxels()).map(|_| 200 + random.below(200) as u16).collect())
+    fn images(layout: &Layout, random: &mut Rng) -> (Vec<Code>, Vec<u16>) {
+        let codes = (0..layout.taxels()).map(|_| Code(if random.u32(..4) > 0 { 900 } else { 310 }));
+        (codes.collect(), (0..layout.taxels()).map(|_| 200 + random.u32(..200) as u16).collect())
     }
 
     #[test]
     fn those_around_are_those_of_a_ring() {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
-        let mut random = Random(1);
+        let mut random = Rng::with_seed(1);
         for _ in 0..20 {
             let (codes, rest) = images(&layout, &mut random);
             let shown = shown(&codes, &rest);
-            let faulty: Vec<usize> = (0..40).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let faulty: Vec<usize> = (0..40).map(|_| random.usize(..layout.taxels())).collect();
             let is_faulty = |taxel| faulty.contains(&taxel);
             let mut walk = Walk::new(&layout);
             for spot in (0..layout.taxels()).step_by(3).filter_map(|taxel| walk.to(taxel)) {
@@ -331,11 +323,11 @@ mod tests {
     #[test]
     fn what_is_bare_is_not_covered() {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
-        let (mut random, mut found) = (Random(3), [0; 4]);
+        let (mut random, mut found) = (Rng::with_seed(3), [0; 4]);
         for _ in 0..40 {
             let (codes, rest) = images(&layout, &mut random);
             let shown = shown(&codes, &rest);
-            let faulty: Vec<usize> = (0..2).map(|_| random.below(layout.taxels() as u32) as usize).collect();
+            let faulty: Vec<usize> = (0..2).map(|_| random.usize(..layout.taxels())).collect();
             let mut walk = Walk::new(&layout);
             for spot in (0..layout.taxels()).filter_map(|taxel| walk.to(taxel)) {
                 let covered = shown.is_covered(&spot, |taxel| faulty.contains(&taxel));
@@ -350,15 +342,15 @@ mod tests {
     #[test]
     fn those_beside_a_pressed_one_are_suspects() {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
-        let mut random = Random(2);
+        let mut random = Rng::with_seed(2);
         for round in 0..200 {
             let (codes, rest) = images(&layout, &mut random);
             let shown = shown(&codes, &rest);
-            let first = if round % 4 == 0 { 0 } else { random.below(2048) as usize };
+            let first = if round % 4 == 0 { 0 } else { random.u32(..2048) as usize };
             let mut seen = [Seen::NOTHING; 23];
             for seen in &mut seen {
                 seen.begin(Code(300));
-                seen.see(Code(if random.below(4) == 0 { 300 } else { 302 }));
+                seen.see(Code(if random.u32(..4) == 0 { 300 } else { 302 }));
             }
             let seen = &seen[..23.min(layout.taxels() - first)];
             let is_far =

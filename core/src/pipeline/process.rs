@@ -35,9 +35,7 @@ impl Pipeline {
         let dropped = touches.dropped.saturating_add(touches.overflow);
         let faint = touches.faint;
         self.place(contact, layout);
-        if taught.gallery().is_some() {
-            look(taught, contact, layout, &image);
-        }
+        look(taught, contact, layout, &image);
         let contact = &*contact;
         let (present, released) = (contact.present(), contact.released());
         unsure.process(present, faint, |panel| condition.drifted(panel), now);
@@ -54,15 +52,11 @@ impl Pipeline {
         let gesture = None;
         probe.begin(Stage::Intent);
         let meaning = self.intent().and_then(|stage| {
-            let press = |placed: &Placed| placed.contact.peak_total;
-            let sure = || present.iter().enumerate().filter(|(index, _)| !unsure.is_unsure(*index));
-            let strongest = sure()
-                .map(|(_, placed)| placed)
-                .reduce(|most, next| if press(next) > press(most) { next } else { most });
-            // The touch that the stage would choose itself.
+            let indexed = || present.iter().enumerate();
+            let sure = || indexed().filter(|(index, _)| !unsure.is_unsure(*index)).map(|(_, placed)| placed);
             let own = state.fold.moves(now);
-            let touch = strongest.map(|placed| Touch { own, ..self.touch(layout, placed) });
-            let felt = self.felt(layout, sure().map(|(_, placed)| placed));
+            let touch = strongest(sure()).map(|placed| Touch { own, ..self.touch(layout, placed) });
+            let felt = self.felt(layout, sure());
             stage.process(intent, touch.as_slice(), &felt, &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
@@ -143,7 +137,13 @@ impl Pipeline {
     }
 }
 
-/// Classifies one contact with the taught base, and sets the class of every contact to the last result for
+/// The contact of the largest press, which the intent stage would choose itself.
+fn strongest<'p>(contacts: impl Iterator<Item = &'p Placed>) -> Option<&'p Placed> {
+    let press = |placed: &Placed| placed.contact.peak_total;
+    contacts.reduce(|most, next| if press(next) > press(most) { next } else { most })
+}
+
+/// Classifies one contact with the taught base, if there is one, and sets the class of every contact to the last result for
 /// it.
 fn look<const RUNS: usize, const PARTS: usize>(
     taught: &mut Taught<CONTACTS>,
@@ -151,6 +151,9 @@ fn look<const RUNS: usize, const PARTS: usize>(
     layout: &Layout,
     image: &Image<'_>,
 ) {
+    if taught.gallery().is_none() {
+        return;
+    }
     let present = contact.present();
     let chosen = taught.choose(present.iter().map(|placed| placed.contact.id));
     if let Some((index, placed)) = chosen.and_then(|index| Some((index, present.get(index)?))) {

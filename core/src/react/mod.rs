@@ -222,6 +222,7 @@ impl Reactions {
 }
 
 /// Updates a row with its present value.
+#[inline]
 fn follow(
     index: u8,
     row: &ReactionConfig,

@@ -16,6 +16,7 @@ pub(crate) struct Strip<'a> {
 
 impl Strip<'_> {
     /// Widens a rectangle of the panel so that it holds the runs.
+    #[inline]
     pub fn widen(&self, rect: &mut Rect) {
         // The rows are in ascending order.
         if let [first, ..] = self.runs {
@@ -35,6 +36,7 @@ impl Strip<'_> {
 }
 
 /// Returns the values from the first to the last column of a run.
+#[inline]
 pub(crate) fn values_of<'a>(run: &Run, area: &Area, values: &'a [u16]) -> &'a [u16] {
     let row = row_of(values, area, run.row - area.first_row);
     row.get(run.left.into()..=run.right.into()).unwrap_or(&[])

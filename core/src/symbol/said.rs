@@ -127,6 +127,7 @@ pub(super) fn said_of<'a>(
 
 /// Index of the word for `measure` among ascending limits. From `before`, the present word, it changes only
 /// if a limit is passed by an eighth (hysteresis).
+#[inline]
 fn word(measure: u32, limits: &[u32], before: Option<usize>) -> usize {
     let plain = limits.iter().take_while(|limit| measure >= **limit).count();
     match before {

@@ -10,13 +10,17 @@
 //! is an error. The length of a frame has a bound before it is written: [`frame_bound`].
 
 use super::error::WireError;
-use super::{cobs, crc32, writer};
+use super::{cobs, writer};
+use crate::format::crc32;
 use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
+/// Number of bytes of the CRC.
+const CRC_BYTES: usize = 4;
+
 /// Greatest length of a frame, with its 0x00, for a message of `bytes` bytes.
 pub const fn frame_bound(bytes: usize) -> usize {
-    let body = bytes.saturating_add(crc32::BYTES);
+    let body = bytes.saturating_add(CRC_BYTES);
     body.saturating_add(cobs::between(body)).saturating_add(2)
 }
 
@@ -41,27 +45,27 @@ pub(crate) fn frame<T: Serialize + ?Sized>(message: &T, out: &mut [u8]) -> Resul
 /// Turns the range `message` into a frame in place; returns the range of the frame with its 0x00. It needs
 /// [`lead`] bytes before the message. `None` if there is no room.
 pub(crate) fn close(place: &mut [u8], message: Range<usize>) -> Option<Range<usize>> {
-    let crc = crc32::of(place.get(message.clone())?);
+    let crc = crc32(place.get(message.clone())?);
     *place.get_mut(message.end..)?.first_chunk_mut()? = crc.to_le_bytes();
-    cobs::stuff(place, message.start..message.end + crc32::BYTES)
+    cobs::stuff(place, message.start..message.end + CRC_BYTES)
 }
 
 /// Bytes needed before a message of `bytes` bytes that becomes a frame in place.
 pub(crate) const fn lead(bytes: usize) -> usize {
-    1 + cobs::between(bytes + crc32::BYTES)
+    1 + cobs::between(bytes + CRC_BYTES)
 }
 
 /// Opens one received `frame` (without its 0x00) in place. Checks length, COBS and CRC; returns the bytes of
 /// the message.
 pub fn open(frame: &mut [u8]) -> Result<&[u8], WireError> {
-    if frame.len() <= crc32::BYTES + 1 {
+    if frame.len() <= CRC_BYTES + 1 {
         return Err(WireError::TooShort);
     }
     let bytes = cobs::unstuff(frame).ok_or(WireError::Cobs)?;
     let whole = frame.get(..bytes).ok_or(WireError::Cobs)?;
-    match whole.split_last_chunk::<{ crc32::BYTES }>() {
+    match whole.split_last_chunk::<{ CRC_BYTES }>() {
         None | Some(([], _)) => Err(WireError::TooShort),
-        Some((message, tail)) if crc32::of(message) == u32::from_le_bytes(*tail) => Ok(message),
+        Some((message, tail)) if crc32(message) == u32::from_le_bytes(*tail) => Ok(message),
         Some(_) => Err(WireError::Crc),
     }
 }
@@ -86,7 +90,7 @@ mod tests {
         for bytes in 1..1200 {
             let start = lead(bytes);
             // Without a zero, each full group takes an extra byte.
-            let mut place = vec![0x55; start + bytes + crc32::BYTES + 1];
+            let mut place = vec![0x55; start + bytes + CRC_BYTES + 1];
             let frame = close(&mut place, start..start + bytes).expect("there is room");
             assert!(frame.len() <= frame_bound(bytes) && frame.end <= place.len(), "{bytes} bytes");
             assert_eq!(start, 1 + (bytes + 4) / 254, "{bytes} bytes");

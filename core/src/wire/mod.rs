@@ -43,7 +43,6 @@
 
 mod cobs;
 mod codec;
-mod crc32;
 mod error;
 mod image_decode;
 mod image_encode;

@@ -1,5 +1,6 @@
 //! The baseline follows drift and swallows no touch; noise is no touch.
 
+use crate::random::Noise;
 use taxel_core::condition::{Condition, ConditionState, Sampled};
 use taxel_core::contact::{Contact, ContactState, Contacts};
 use taxel_core::format::{Code, Micros};
@@ -11,32 +12,8 @@ const FULL_SCALE: f64 = 4095.0;
 const MINUTE: u32 = 195 * 60;
 const HOUR: u32 = 60 * MINUTE;
 
-/// xorshift64*.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
-    }
-
-    /// 0 .. 1.
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Two normal numbers (Box and Muller): the tails are those of the distribution.
-    fn normal(&mut self) -> [f64; 2] {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        let (sin, cos) = (std::f64::consts::TAU * self.unit()).sin_cos();
-        [radius * cos, radius * sin]
-    }
-}
-
 /// A garment from its codes to its contacts.
-struct Rig {
+struct BaselineRig {
     layout: Layout,
     condition: Condition,
     contacts: Contacts,
@@ -46,12 +23,12 @@ struct Rig {
     frame: u64,
 }
 
-impl Rig {
-    fn new(garment: &Garment, scene: &Scene) -> Rig {
+impl BaselineRig {
+    fn new(garment: &Garment, scene: &Scene) -> BaselineRig {
         let layout = Layout::build(garment, 2048, 4095).expect("it fits");
         let mut calibration = Box::new(ConditionState::new());
         calibration.reset(&layout, Code(0));
-        Rig {
+        BaselineRig {
             condition: scene.condition.build().expect("settings in range"),
             contacts: scene.contact.build().expect("settings in range"),
             codes: vec![Code(0); layout.taxels()],
@@ -68,7 +45,7 @@ impl Rig {
             *held = Code(code(taxel).round().clamp(0.0, FULL_SCALE) as u16);
         }
         self.frame += 1;
-        let Rig { layout, condition, contacts, calibration, tracks, codes, .. } = self;
+        let BaselineRig { layout, condition, contacts, calibration, tracks, codes, .. } = self;
         let now = Micros(self.frame * 5128);
         let sampled = Sampled { codes, falling: false, panels: 0xff, now };
         let image = condition.process(calibration, layout, &sampled, tracks.feedback());
@@ -79,7 +56,7 @@ impl Rig {
 /// Uniform noise of up to two counts, over and over: a prime number of values, so that no taxel sees a short
 /// period.
 fn small_noise() -> impl FnMut() -> f64 {
-    let mut random = Random(7);
+    let mut random = Noise(7);
     let values: Vec<f64> = (0..65_521).map(|_| random.unit() * 4.0 - 2.0).collect();
     let mut at = 0;
     move || {
@@ -96,7 +73,7 @@ fn held(taxel: usize) -> bool {
 /// Holds 16 taxels at 1,000 counts for `frames` under a drift of so many counts per frame (which some taxels
 /// do not make), then lets go; the largest error of the pressure.
 fn hold(frames: u32, drift: f64, moves: impl Fn(usize) -> bool) -> f64 {
-    let mut rig = Rig::new(&Garment::recorded(16, 16), &Scene::shipped());
+    let mut rig = BaselineRig::new(&Garment::recorded(16, 16), &Scene::shipped());
     let mut noise = small_noise();
     let base = |frame: u32, taxel: usize| 1500.0 + if moves(taxel) { drift * f64::from(frame) } else { 0.0 };
     rig.calibration.tare(64);
@@ -148,7 +125,7 @@ fn frozen_taxels_follow_the_median_not_the_mean() {
 fn an_hour_of_idle_drift_leaves_no_contact() {
     // The reference garment has 128 rows: the longest turn.
     for sign in [1.0, -1.0] {
-        let mut rig = Rig::new(&Garment::recorded(128, 2), &Scene::shipped());
+        let mut rig = BaselineRig::new(&Garment::recorded(128, 2), &Scene::shipped());
         let mut noise = small_noise();
         rig.calibration.tare(64);
         for frame in 0..HOUR {
@@ -164,9 +141,10 @@ fn an_hour_of_idle_drift_leaves_no_contact() {
 /// Two percent of full scale, as a standard deviation.
 const NOISE: f64 = 0.02 * FULL_SCALE;
 
-fn noisy() -> (Rig, Random) {
-    let mut rig = Rig::new(&Garment::reference(), &Scene::shipped().against_noise(NOISE.ceil() as u16));
-    let mut random = Random(0x5eed);
+fn noisy() -> (BaselineRig, Noise) {
+    let mut rig =
+        BaselineRig::new(&Garment::reference(), &Scene::shipped().against_noise(NOISE.ceil() as u16));
+    let mut random = Noise(0x5eed);
     rig.calibration.tare(64);
     for _ in 0..64 {
         noisy_frame(&mut rig, &mut random, |_| 0.0);
@@ -174,16 +152,8 @@ fn noisy() -> (Rig, Random) {
     (rig, random)
 }
 
-fn noisy_frame(rig: &mut Rig, random: &mut Random, press: impl Fn(usize) -> f64) -> Vec<Contact> {
-    let mut spare = None;
-    rig.frame(|taxel| {
-        let noise = spare.take().unwrap_or_else(|| {
-            let [one, other] = random.normal();
-            spare = Some(other);
-            one
-        });
-        800.0 + press(taxel) + NOISE * noise
-    })
+fn noisy_frame(rig: &mut BaselineRig, random: &mut Noise, press: impl Fn(usize) -> f64) -> Vec<Contact> {
+    rig.frame(|taxel| 800.0 + press(taxel) + NOISE * random.normal())
 }
 
 #[test]
@@ -200,8 +170,8 @@ fn under_that_noise_a_light_touch_is_found_within_two_frames_each_of_1_000_times
     let (mut rig, mut random) = noisy();
     let mut first = 0;
     for trial in 0..1_000 {
-        let panel = (random.next() % 4) as usize;
-        let (row, column) = ((random.next() % 31) as usize, (random.next() % 15) as usize);
+        let panel = random.below(4) as usize;
+        let (row, column) = (random.below(31) as usize, random.below(15) as usize);
         let corner = panel * 512 + row * 16 + column;
         let touched = [corner, corner + 1, corner + 16, corner + 17];
         let mut found = false;

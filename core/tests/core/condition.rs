@@ -1,6 +1,7 @@
 //! Conditioning that leaves out what is quiet equals conditioning that does not, bit for bit.
 
 use crate::dense::Dense;
+use crate::random::Noise;
 use proptest::prelude::*;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image, Pressed, Sampled};
 use taxel_core::format::{Code, Micros, name};
@@ -9,16 +10,6 @@ use taxel_core::garment::{Absent, Garment, Layout, Rect};
 const TAXELS: usize = 1024;
 const FILTERS: [Filter; 5] =
     [Filter::Off, Filter::Conservative, Filter::Median, Filter::Square, Filter::Persistent];
-
-/// A small generator: the frames of one case.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self, below: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 33) as u32) % below.max(1)
-    }
-}
 
 /// Panels of the given sizes, with a hole in the first.
 fn garment(sizes: &[(u16, u16)], hole: Option<(u16, u16)>) -> Garment {
@@ -37,10 +28,14 @@ fn garment(sizes: &[(u16, u16)], hole: Option<(u16, u16)>) -> Garment {
 
 /// Frames as they come: idle ones with noise, touches of any size, texture everywhere.
 fn scene(noise: &mut Noise, rest: &[u16], falling: bool, full: u32) -> Vec<Code> {
-    let share = [0, 0, 1, 10, 50, 95, 100][noise.next(7) as usize];
-    let depth = [3, 60, full / 4, full][noise.next(4) as usize];
+    let share = [0, 0, 1, 10, 50, 95, 100][noise.below(7) as usize];
+    let depth = [3, 60, full / 4, full][noise.below(4) as usize];
     let one = |rest: &u16| {
-        let press = if noise.next(100) < share { noise.next(depth) as i32 } else { noise.next(5) as i32 - 2 };
+        let press = if noise.below(100) < share {
+            noise.below(depth.into()) as i32
+        } else {
+            noise.below(5) as i32 - 2
+        };
         let code = i32::from(*rest) + if falling { -press } else { press };
         Code(code.clamp(0, full as i32) as u16)
     };
@@ -49,8 +44,8 @@ fn scene(noise: &mut Noise, rest: &[u16], falling: bool, full: u32) -> Vec<Code>
 
 /// Every second frame most codes are those of the frame before: what stands out stays so.
 fn stay(noise: &mut Noise, codes: &mut [Code], before: &[Code]) {
-    if noise.next(2) == 1 {
-        let same = codes.iter_mut().zip(before).filter(|_| noise.next(5) > 0);
+    if noise.below(2) == 1 {
+        let same = codes.iter_mut().zip(before).filter(|_| noise.below(5) > 0);
         same.for_each(|(code, before)| *code = *before);
     }
 }
@@ -118,9 +113,9 @@ proptest! {
             if frame % 13 == 3 {
                 // Calibration changes under way; both ends of the scale come up.
                 for _ in 0..20 {
-                    let taxel = noise.next(layout.taxels() as u32) as usize;
-                    let gain = [0, 1, 2000, 4096, 5000, 16384, 65535][noise.next(7) as usize];
-                    let code = [0, 90, 110, full - 3, full][noise.next(5) as usize] as u16;
+                    let taxel = noise.below(layout.taxels() as u64) as usize;
+                    let gain = [0, 1, 2000, 4096, 5000, 16384, 65535][noise.below(7) as usize];
+                    let code = [0, 90, 110, full - 3, full][noise.below(5) as usize] as u16;
                     state.set_gain(taxel, gain);
                     dense.gain[taxel] = gain;
                     state.set_baseline(taxel, Code(code));
@@ -133,11 +128,11 @@ proptest! {
             stay(&mut noise, &mut codes, &before);
             before.clone_from(&codes);
             if frame % 17 == 11 {
-                codes.truncate(noise.next(layout.taxels() as u32) as usize);
+                codes.truncate(noise.below(layout.taxels() as u64) as usize);
             }
-            let panels = if frame % 7 == 5 { noise.next(8) as u8 } else { 0xff };
+            let panels = if frame % 7 == 5 { noise.below(8) as u8 } else { 0xff };
             // As far apart as frames may be: from a fraction of a row's turn to more than all of them.
-            now += [640, 5_128, 40_000, 900_000][noise.next(4) as usize];
+            now += [640, 5_128, 40_000, 900_000][noise.below(4) as usize];
             let sampled = Sampled { codes: &codes, falling, panels, now: Micros(now) };
             let image = stage.process(&mut state, &layout, &sampled, &feedback);
             let want = dense.process(&layout, &sampled, &feedback.home);
@@ -145,11 +140,11 @@ proptest! {
             prop_assert_eq!(&state.baseline().expect("no tare")[..layout.taxels()], &dense.rest);
             feedback.home.clear();
             let area = &layout.areas()[0];
-            if noise.next(2) == 1 {
-                let (top, left) = (noise.next(area.rows.into()) as u16, noise.next(area.columns.into()) as u16);
+            if noise.below(2) == 1 {
+                let (top, left) = (noise.below(area.rows.into()) as u16, noise.below(area.columns.into()) as u16);
                 let (bottom, right) = ((top + 2).min(area.rows - 1), (left + 2).min(area.columns - 1));
                 let rect = Rect { panel: 0, top, bottom, left, right };
-                let _ = feedback.home.push(Pressed { rect, peak: [40, 400, 4000][noise.next(3) as usize] });
+                let _ = feedback.home.push(Pressed { rect, peak: [40, 400, 4000][noise.below(3) as usize] });
             }
         }
     }

@@ -16,6 +16,7 @@ mod interlaced;
 mod moments;
 mod outputs;
 mod plain;
+mod random;
 mod reflex;
 mod shape;
 mod sweep;

@@ -1,5 +1,6 @@
 //! The reflex: who begins it, how late, and who never does.
 
+use crate::random::Noise;
 use taxel_core::acquire::{Depth, Fields, Plan};
 use taxel_core::board::{BoardInfo, Setup};
 use taxel_core::capacity::TAXELS;
@@ -39,7 +40,7 @@ fn scene(agree: Agree) -> Scene {
 }
 
 /// A scan of the reference garment and its reflex.
-struct Rig {
+struct ReflexRig {
     reflex: Box<Reflex<TAXELS>>,
     setup: Setup,
     /// By the order of the scan.
@@ -54,8 +55,8 @@ fn circuit_of(garment: &Garment) -> Circuit {
     Circuit::build(garment, &layout, taxel_core::garment::Pins::ANY).unwrap()
 }
 
-impl Rig {
-    fn new(agree: Agree, falling: bool) -> Rig {
+impl ReflexRig {
+    fn new(agree: Agree, falling: bool) -> ReflexRig {
         let mut garment = Garment::reference();
         garment.wiring.falling = falling;
         let info = BoardInfo::feather("test");
@@ -72,7 +73,7 @@ impl Rig {
             there.for_each(|(taxel, of)| of.push(usize::from(*taxel)));
         });
         let taxels = taxels.into_iter().map(|inputs| inputs.concat()).collect();
-        let mut rig = Rig { reflex, setup, taxels, frame: Box::new([Code(0); TAXELS]), fields: 0 };
+        let mut rig = ReflexRig { reflex, setup, taxels, frame: Box::new([Code(0); TAXELS]), fields: 0 };
         (0..TAXELS / 64).for_each(|_| rig.watch(0, &[]));
         rig
     }
@@ -118,7 +119,7 @@ fn touched(corner: usize, side: usize) -> Vec<u16> {
 fn a_footprint_is_met_at_once_and_agrees_soon() {
     let corners = (0..2 * PANEL).filter(|taxel| taxel % PANEL / COLUMNS < 30 && taxel % COLUMNS < 14);
     for (agree, most) in [(Agree::One, 1), (Agree::Two, 3)] {
-        let mut rig = Rig::new(agree, false);
+        let mut rig = ReflexRig::new(agree, false);
         let mut latest = 0;
         for corner in corners.clone() {
             // From another sub-field on each time.
@@ -154,7 +155,7 @@ fn a_footprint_is_met_at_once_and_agrees_soon() {
 #[test]
 fn what_is_silenced_unwatched_or_not_tared_begins_nothing() {
     for falling in [false, true] {
-        let mut rig = Rig::new(Agree::One, falling);
+        let mut rig = ReflexRig::new(Agree::One, falling);
         // Panel 2 and 3 are arms, which no row watches.
         assert!((0..16).all(|_| rig.field(&touched(2 * PANEL + 40, 3)) == 0));
         let corner = 5 * COLUMNS + 5;
@@ -172,7 +173,7 @@ fn what_is_silenced_unwatched_or_not_tared_begins_nothing() {
 
 #[test]
 fn other_rows_forget_what_was_begun() {
-    let mut rig = Rig::new(Agree::One, false);
+    let mut rig = ReflexRig::new(Agree::One, false);
     assert!((0..8).any(|_| rig.field(&touched(100, 3)) == 1));
     rig.setup =
         Setup::build(&BoardInfo::feather("test"), Garment::reference(), scene(Agree::Two), TAXELS).unwrap();
@@ -183,22 +184,12 @@ fn other_rows_forget_what_was_begun() {
     assert!((0..8).any(|_| rig.field(&touched(100, 3)) == 1));
 }
 
-/// Numbers that look random, the same each time.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize * n) >> 31
-    }
-}
-
 /// Impulses of a hundredth of the taxels, of any height, each one frame long; and none again on a taxel or
 /// its neighbours within 8 frames, nor within 5 x 5 taxels of another one of its frame, if they are `apart`.
 /// How many rows began in so many frames.
 fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
-    let mut rig = Rig::new(agree, false);
-    let mut random = Random(9);
+    let mut rig = ReflexRig::new(agree, false);
+    let mut random = Noise(9);
     let mut hit = vec![usize::MAX; TAXELS];
     let mut began = 0;
     let mut pressure = vec![REST; TAXELS];
@@ -209,7 +200,7 @@ fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
             .for_each(|p| *p = REST - 10 + (0..4).map(|_| random.below(6) as u16).sum::<u16>());
         let mut here: Vec<usize> = Vec::new();
         for _ in 0..TAXELS / 100 {
-            let taxel = random.below(TAXELS);
+            let taxel = random.below(TAXELS as u64) as usize;
             let near = |other: usize, reach: usize| {
                 taxel / PANEL == other / PANEL
                     && (taxel / COLUMNS).abs_diff(other / COLUMNS) <= reach
@@ -226,7 +217,7 @@ fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
             }
             hit[taxel] = frame;
             here.push(taxel);
-            pressure[taxel] = REST + random.below(4_096 - usize::from(REST)) as u16;
+            pressure[taxel] = REST + random.below(4_096 - u64::from(REST)) as u16;
         }
         for _ in 0..8 {
             let begun = rig.field(&pressure);

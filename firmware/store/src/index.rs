@@ -1,14 +1,12 @@
 //! The index: the parts of the settings that are in force, with their checksums.
 
-use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 use taxel_core::board::Part;
+use taxel_core::format::crc32;
 
 /// Version of the storage format.
 pub const VERSION: u8 = 1;
-
-static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// Entry of a part in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -26,12 +24,12 @@ pub struct Entry {
 impl Entry {
     /// Entry of a part with this content in this place.
     pub fn of(part: Part, place: u8, content: &[u8]) -> Entry {
-        Entry { part: part as u8, place, length: content.len() as u16, sum: CRC.checksum(content) }
+        Entry { part: part as u8, place, length: content.len() as u16, sum: crc32(content) }
     }
 
     /// True if that is its content.
     pub fn holds(&self, content: &[u8]) -> bool {
-        usize::from(self.length) == content.len() && self.sum == CRC.checksum(content)
+        usize::from(self.length) == content.len() && self.sum == crc32(content)
     }
 }
 

@@ -4,6 +4,7 @@
 mod flash;
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
+use fastrand::Rng;
 use flash::{Cut, FlashError, SimFlash};
 use taxel_core::acquire::ScanError;
 use taxel_core::board::{Board, BoardInfo, Input, Job, PART_BYTES, Part, Saved, Settings};
@@ -15,19 +16,9 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{Request, encode};
 use taxel_store::{CHUNK, Found, Store, StoreError, in_force, keep_levels};
 
-/// Pseudo-random numbers with a fixed seed.
-struct Random(u32);
-
-impl Random {
-    fn below(&mut self, end: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        ((u64::from(self.0 >> 8) * u64::from(end)) >> 24) as u32
-    }
-}
-
 /// Settings that a host may make.
 #[derive(Debug, Clone, PartialEq)]
-struct Kept {
+struct HostSettings {
     garment: Garment,
     scene: Scene,
     gain: Vec<u16>,
@@ -38,9 +29,15 @@ struct Kept {
 /// Number of saves left, in every save of these tests.
 const SAVES: u8 = 7;
 
-impl Kept {
-    fn new(garment: Garment, taxels: usize) -> Kept {
-        Kept { garment, scene: Scene::shipped(), gain: vec![4096; taxels], baseline: None, calibration: None }
+impl HostSettings {
+    fn new(garment: Garment, taxels: usize) -> HostSettings {
+        HostSettings {
+            garment,
+            scene: Scene::shipped(),
+            gain: vec![4096; taxels],
+            baseline: None,
+            calibration: None,
+        }
     }
 
     fn settings(&self) -> Settings<'_> {
@@ -56,25 +53,26 @@ impl Kept {
     }
 
     /// Changes one to four of the parts.
-    fn change(&mut self, random: &mut Random) {
-        let parts = 1 + random.below(15);
+    fn change(&mut self, random: &mut Rng) {
+        let parts = 1 + random.u32(..15);
         if parts & 1 != 0 {
-            self.garment.wiring.settle_ns = 1_000 + random.below(100_000);
-            self.garment.name = name(&"longer and longer"[..1 + random.below(15) as usize]);
+            self.garment.wiring.settle_ns = 1_000 + random.u32(..100_000);
+            self.garment.name = name(&"longer and longer"[..1 + random.usize(..15)]);
         }
         if parts & 2 != 0 {
-            self.scene.contact.high = 20 + random.below(1_000) as u16;
-            self.scene.joints.truncate(random.below(3) as usize);
+            self.scene.contact.high = 20 + random.u16(..1_000);
+            self.scene.joints.truncate(random.usize(..3));
         }
         if parts & 4 != 0 {
-            self.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
-            let (id, taxels) = (random.below(1 << 24), self.gain.len() as u16);
+            self.gain.iter_mut().for_each(|gain| *gain = random.u16(..));
+            let (id, taxels) = (random.u32(..1 << 24), self.gain.len() as u16);
             self.calibration = Some(Certificate { id, taxels, year: 2026, month: 11, day: 21, error: 99 })
-                .filter(|_| random.below(4) > 0);
+                .filter(|_| random.u32(..4) > 0);
         }
         if parts & 8 != 0 {
-            let codes = self.gain.iter().map(|_| random.below(4_096) as u16).collect();
-            self.baseline = Some(codes).filter(|_| random.below(8) > 0);
+            let codes = self.gain.iter().map(|_| random.u16(..4_096)).collect();
+            // Without a baseline before and after, nothing would change.
+            self.baseline = Some(codes).filter(|_| self.baseline.is_none() || random.u32(..8) > 0);
         }
     }
 }
@@ -87,24 +85,24 @@ fn range(taxels: usize) -> std::ops::Range<u32> {
     0..if taxels == 64 { FOUR_SECTORS } else { SimFlash::BYTES }
 }
 
-fn save(flash: &mut SimFlash, kept: &Kept) -> Result<Saved, StoreError> {
+fn save(flash: &mut SimFlash, kept: &HostSettings) -> Result<Saved, StoreError> {
     Store::new(flash, range(kept.gain.len())).unwrap().save(&kept.settings())
 }
 
 /// Settings of a board after start-up; none if the flash holds nothing.
-fn load<const TAXELS: usize>(flash: &mut SimFlash) -> Result<Option<Kept>, StoreError> {
+fn load<const TAXELS: usize>(flash: &mut SimFlash) -> Result<Option<HostSettings>, StoreError> {
     load_from::<TAXELS>(flash, range(TAXELS))
 }
 
 fn load_from<const TAXELS: usize>(
     flash: &mut SimFlash,
     range: std::ops::Range<u32>,
-) -> Result<Option<Kept>, StoreError> {
+) -> Result<Option<HostSettings>, StoreError> {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<TAXELS, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
     let found = Store::new(flash, range).unwrap().load(&mut board)?;
     let Settings { garment, scene, gain, baseline, calibration, .. } = board.settings();
-    Ok((found == Found::Settings).then(|| Kept {
+    Ok((found == Found::Settings).then(|| HostSettings {
         garment: garment.clone(),
         scene: scene.clone(),
         gain: gain.to_vec(),
@@ -115,9 +113,9 @@ fn load_from<const TAXELS: usize>(
 
 #[test]
 fn power_may_fail_at_any_step_of_200_changes() {
-    let mut random = Random(1);
+    let mut random = Rng::with_seed(1);
     let mut flash = SimFlash::default();
-    let mut kept = Kept::new(Garment::block(), 64);
+    let mut kept = HostSettings::new(Garment::block(), 64);
     let mut old = None;
     let mut cuts = 0;
     for change in 0..200 {
@@ -149,14 +147,14 @@ fn power_may_fail_at_any_step_of_200_changes() {
 
 #[test]
 fn the_greatest_garment_fits_however_often_it_is_saved() {
-    let mut random = Random(2);
+    let mut random = Rng::with_seed(2);
     let mut flash = SimFlash::default();
-    let mut kept = Kept::new(Garment::reference(), 2048);
+    let mut kept = HostSettings::new(Garment::reference(), 2048);
     for _ in 0..60 {
-        kept.garment.wiring.settle_ns = 1_000 + random.below(1_000);
-        kept.scene.contact.high = 20 + random.below(1_000) as u16;
-        kept.gain.iter_mut().for_each(|gain| *gain = random.below(65_536) as u16);
-        kept.baseline = Some(kept.gain.iter().map(|_| random.below(4_096) as u16).collect());
+        kept.garment.wiring.settle_ns = 1_000 + random.u32(..1_000);
+        kept.scene.contact.high = 20 + random.u16(..1_000);
+        kept.gain.iter_mut().for_each(|gain| *gain = random.u16(..));
+        kept.baseline = Some(kept.gain.iter().map(|_| random.u16(..4_096)).collect());
         assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
         assert_eq!(load::<2048>(&mut flash).unwrap().as_ref(), Some(&kept));
     }
@@ -167,7 +165,7 @@ fn the_greatest_garment_fits_however_often_it_is_saved() {
 #[test]
 fn what_has_not_changed_is_not_written() {
     let mut flash = SimFlash::default();
-    let mut kept = Kept::new(Garment::block(), 64);
+    let mut kept = HostSettings::new(Garment::block(), 64);
     assert_eq!(save(&mut flash, &kept), Ok(Saved::Written));
     assert_eq!(flash.erased(), 0, "blank sectors need no erasure");
     let steps = flash.steps();
@@ -183,11 +181,11 @@ fn an_empty_or_alien_flash_is_said_to_be_so() {
     use embedded_storage::nor_flash::NorFlash;
     let mut flash = SimFlash::default();
     assert_eq!(load::<64>(&mut flash), Ok(None));
-    let mut random = Random(3);
-    let noise: Vec<u8> = (0..SimFlash::BYTES).map(|_| random.below(256) as u8).collect();
+    let mut random = Rng::with_seed(3);
+    let noise: Vec<u8> = (0..SimFlash::BYTES).map(|_| random.u8(..)).collect();
     flash.write(0, &noise).unwrap();
     assert!(matches!(load::<64>(&mut flash), Ok(None) | Err(StoreError::Damaged)));
-    let kept = Kept::new(Garment::block(), 64);
+    let kept = HostSettings::new(Garment::block(), 64);
     save(&mut flash, &kept).unwrap();
     assert_eq!(load::<64>(&mut flash).unwrap(), Some(kept));
     let short = Store::new(&mut flash, 0..4096).err();
@@ -199,7 +197,8 @@ fn a_part_that_does_not_fit_leaves_the_others() {
     let mut flash = SimFlash::default();
     // A board of 64 taxels loads settings stored by one of 2,048.
     let calibration = Some(Certificate { id: 7, taxels: 2048, year: 2026, month: 11, day: 21, error: 99 });
-    let kept = Kept { gain: vec![1; 2048], calibration, ..Kept::new(Garment::reference(), 2048) };
+    let kept =
+        HostSettings { gain: vec![1; 2048], calibration, ..HostSettings::new(Garment::reference(), 2048) };
     save(&mut flash, &kept).unwrap();
     let found = load_from::<64>(&mut flash, range(2048)).unwrap().unwrap();
     assert_eq!((found.garment, found.gain, found.calibration), (Garment::block(), vec![4096; 64], None));
@@ -242,7 +241,7 @@ fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
     let aside = |flash: &mut SimFlash, aside| Store::new(flash, range(64)).unwrap().put_aside(aside);
     assert_eq!(aside(&mut flash, true), Ok(Saved::Unchanged), "there is nothing to be put aside");
     let garment = Garment { name: name("worn"), ..Garment::block() };
-    let kept = Kept::new(garment.clone(), 64);
+    let kept = HostSettings::new(garment.clone(), 64);
     save(&mut flash, &kept).unwrap();
     assert_eq!(start(&mut flash), (Found::Settings, garment.clone(), SAVES.into()));
     assert_eq!([true, true].map(|it| aside(&mut flash, it)), [Ok(Saved::Written), Ok(Saved::Unchanged)]);
@@ -258,7 +257,7 @@ fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
 fn power_may_fail_while_settings_are_put_aside() {
     let mut flash = SimFlash::default();
     let garment = Garment { name: name("worn"), ..Garment::block() };
-    save(&mut flash, &Kept::new(garment.clone(), 64)).unwrap();
+    save(&mut flash, &HostSettings::new(garment.clone(), 64)).unwrap();
     for round in 0..40 {
         let (before, old) = (flash.clone(), start(&mut flash));
         Store::new(&mut flash, range(64)).unwrap().put_aside(round % 2 == 0).unwrap();
@@ -281,7 +280,7 @@ fn power_may_fail_while_settings_are_put_aside() {
 #[test]
 fn a_flash_that_cannot_be_read_is_said_to_be_so() {
     let mut flash = SimFlash::default();
-    let kept = Kept::new(Garment::block(), 64);
+    let kept = HostSettings::new(Garment::block(), 64);
     save(&mut flash, &kept).unwrap();
     flash.cut_at(flash.steps(), Cut::Before);
     assert!(flash.write(0, &[0]).is_err(), "the power is off from here on");
@@ -308,12 +307,12 @@ fn levels(flash: &mut SimFlash) -> Levels {
 
 #[test]
 fn power_may_fail_while_levels_are_kept() {
-    let (mut flash, mut random) = (SimFlash::default(), Random(5));
+    let (mut flash, mut random) = (SimFlash::default(), Rng::with_seed(5));
     assert_eq!(keep_levels(&mut flash, LEVELS, Levels::default()), Ok(Saved::Unchanged), "none are needed");
     assert_eq!(flash.steps(), 0);
     for round in 0..60 {
-        let pins = 1 + random.below(1 << 20);
-        let wanted = Levels { pins, high: pins & random.below(1 << 20) };
+        let pins = 1 + random.u32(..1 << 20);
+        let wanted = Levels { pins, high: pins & random.u32(..1 << 20) };
         let (before, old) = (flash.clone(), levels(&mut flash));
         keep_levels(&mut flash, LEVELS, wanted).unwrap();
         assert_eq!(levels(&mut flash), wanted);
@@ -339,16 +338,16 @@ fn power_may_fail_while_levels_are_kept() {
 /// Contents left by boot loaders, other firmware and half an erasure: a flash need not be blank at first use.
 #[test]
 fn a_flash_that_something_else_has_written_takes_settings() {
-    let mut random = Random(19);
+    let mut random = Rng::with_seed(19);
     for round in 0..200 {
         let mut flash = SimFlash::default();
-        for _ in 0..1 + random.below(9) {
-            let place = random.below(FOUR_SECTORS - 600);
-            let bytes: Vec<u8> = (0..random.below(600)).map(|_| random.below(256) as u8).collect();
+        for _ in 0..1 + random.u32(..9) {
+            let place = random.u32(..FOUR_SECTORS - 600);
+            let bytes: Vec<u8> = (0..random.u32(..600)).map(|_| random.u8(..)).collect();
             // Bits that would have to rise stay 0.
             let _ = flash.write(place, &bytes);
         }
-        let mut kept = Kept::new(Garment::block(), 64);
+        let mut kept = HostSettings::new(Garment::block(), 64);
         (0..3).for_each(|_| kept.change(&mut random));
         assert_eq!(save(&mut flash, &kept), Ok(Saved::Written), "round {round}");
         assert_eq!(load::<64>(&mut flash), Ok(Some(kept)), "round {round}");
@@ -357,8 +356,9 @@ fn a_flash_that_something_else_has_written_takes_settings() {
 
 #[test]
 fn settings_that_do_not_fit_are_refused_and_leave_the_old_ones() {
-    let small = Kept::new(Garment::block(), 64);
-    let large = Kept { baseline: Some(vec![9; 2048]), ..Kept::new(Garment::reference(), 2048) };
+    let small = HostSettings::new(Garment::block(), 64);
+    let large =
+        HostSettings { baseline: Some(vec![9; 2048]), ..HostSettings::new(Garment::reference(), 2048) };
     // At least four items in each sector but one; the index is one.
     let mut buffer = [0; PART_BYTES];
     let lengths =
@@ -367,7 +367,7 @@ fn settings_that_do_not_fit_are_refused_and_leave_the_old_ones() {
     let mut full = 0;
     for sectors in 2..16u32 {
         let (mut flash, range) = (SimFlash::default(), 0..4096 * sectors);
-        let save = |flash: &mut SimFlash, kept: &Kept| {
+        let save = |flash: &mut SimFlash, kept: &HostSettings| {
             Store::new(flash, range.clone()).unwrap().save(&kept.settings())
         };
         assert_eq!(save(&mut flash, &small), Ok(Saved::Written));
@@ -380,7 +380,7 @@ fn settings_that_do_not_fit_are_refused_and_leave_the_old_ones() {
         assert_eq!(found.garment, if taken { &large } else { &small }.garment, "{sectors} sectors");
         full += u32::from(refused);
         // Sectors that hold the settings once need not hold the old and the new ones together.
-        let other = Kept { gain: vec![5; 2048], baseline: Some(vec![8; 2048]), ..large.clone() };
+        let other = HostSettings { gain: vec![5; 2048], baseline: Some(vec![8; 2048]), ..large.clone() };
         if items <= 4 * (sectors as usize - 1) {
             assert_eq!(save(&mut flash, &other), Ok(Saved::Written), "{sectors} sectors");
             assert_eq!(load_from::<2048>(&mut flash, range.clone()), Ok(Some(other)), "{sectors} sectors");
@@ -392,7 +392,7 @@ fn settings_that_do_not_fit_are_refused_and_leave_the_old_ones() {
 #[test]
 fn what_is_damaged_is_written_again() {
     let mut flash = SimFlash::default();
-    let kept = Kept { baseline: Some(vec![0x123; 64]), ..Kept::new(Garment::block(), 64) };
+    let kept = HostSettings { baseline: Some(vec![0x123; 64]), ..HostSettings::new(Garment::block(), 64) };
     save(&mut flash, &kept).unwrap();
     let mut held = vec![0; FOUR_SECTORS as usize];
     flash.read(0, &mut held).unwrap();
@@ -447,16 +447,16 @@ impl NorFlash for Silent {
 
 #[test]
 fn what_a_flash_did_not_take_is_noticed() {
-    let mut random = Random(23);
-    let mut kept = Kept::new(Garment::block(), 64);
+    let mut random = Rng::with_seed(23);
+    let mut kept = HostSettings::new(Garment::block(), 64);
     for round in 0..300 {
         let mut flash = Silent(SimFlash::default());
         let range = 0..FOUR_SECTORS;
         Store::new(&mut flash, range.clone()).unwrap().save(&kept.settings()).unwrap();
         // Bits are lost where the next items will lie.
-        for _ in 0..1 + random.below(4) {
-            let place = random.below(4096);
-            flash.write(place, &[random.below(256) as u8]).unwrap();
+        for _ in 0..1 + random.u32(..4) {
+            let place = random.u32(..4096);
+            flash.write(place, &[random.u8(..)]).unwrap();
         }
         kept.change(&mut random);
         Store::new(&mut flash, range).unwrap().save(&kept.settings()).unwrap();

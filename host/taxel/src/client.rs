@@ -52,8 +52,9 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello, IntentReport, Raw,
-    Receiver, Report, Request, SelfTestReport, WireError, decode, decode_image,
+    Answer, Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello,
+    IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode,
+    decode_image,
 };
 use wanted::Sets;
 
@@ -226,13 +227,7 @@ impl Client {
                 self.regions = list.regions.to_vec();
                 Event::Symbols(Box::new(list))
             }
-            Report::Intent(report) => {
-                if leads(self.concepts(), &report) {
-                    self.led = Some(report.clone());
-                }
-                self.intention = Some(report.clone());
-                Event::Intent(Box::new(report))
-            }
+            Report::Intent(report) => self.take_intent(report),
             Report::Gesture(mut report) => {
                 cleaned::name(&mut report.name);
                 Event::Gesture(report)
@@ -249,21 +244,13 @@ impl Client {
                 self.forms = Some(report.clone());
                 Event::Forms(Box::new(report))
             }
-            Report::Shapes(report) => {
-                self.shapes = report.names.iter().map(|name| printable(name).into_owned()).collect();
-                self.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
-                Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
-            }
+            Report::Shapes(report) => self.take_shapes(&report),
             Report::Reaction(mut report) => {
                 cleaned::name(&mut report.reaction.name);
                 Event::Reaction(report)
             }
             Report::Reflex(report) => Event::Reflex(report),
-            Report::Health(health) => {
-                self.health = Some(health);
-                self.told_time(health.time);
-                Event::Health(health)
-            }
+            Report::Health(health) => self.take_health(health),
             Report::Log(log) => {
                 Event::Log { time: log.time, level: log.level, text: printable(log.text).into_owned() }
             }
@@ -271,11 +258,7 @@ impl Client {
                 self.syncs.take(&report);
                 Event::Sync(report)
             }
-            Report::Answer(answer) => {
-                let refusal = answer.refusal.map(|why| printable(why).into_owned());
-                self.answered(answer.request, refusal.as_deref());
-                Event::Answer { request: answer.request, refusal }
-            }
+            Report::Answer(answer) => self.take_answer(&answer),
             Report::Raw(raw) => self.take_raw(&raw),
             Report::Budget(budget) => {
                 self.budget = Some(budget);
@@ -295,6 +278,32 @@ impl Client {
                 Event::SelfTest(report)
             }
         }
+    }
+
+    fn take_intent(&mut self, report: IntentReport) -> Event {
+        if leads(self.concepts(), &report) {
+            self.led = Some(report.clone());
+        }
+        self.intention = Some(report.clone());
+        Event::Intent(Box::new(report))
+    }
+
+    fn take_shapes(&mut self, report: &ShapesReport) -> Event {
+        self.shapes = report.names.iter().map(|name| printable(name).into_owned()).collect();
+        self.contacts.iter_mut().for_each(|placed| placed.shape.forget_class());
+        Event::Shapes { names: self.shapes.clone(), prototypes: report.prototypes }
+    }
+
+    fn take_health(&mut self, health: Health) -> Event {
+        self.health = Some(health);
+        self.told_time(health.time);
+        Event::Health(health)
+    }
+
+    fn take_answer(&mut self, answer: &Answer<'_>) -> Event {
+        let refusal = answer.refusal.map(|why| printable(why).into_owned());
+        self.answered(answer.request, refusal.as_deref());
+        Event::Answer { request: answer.request, refusal }
     }
 
     fn take_hello(&mut self, hello: &Hello<'_>) -> Event {

@@ -7,7 +7,7 @@
 
 use super::Report;
 use super::chart::{Axis, Better, Chart, Series};
-use super::touch::{Shape, Touch, VARIED};
+use super::touch::{Shape, TouchPlacement, VARIED};
 use anyhow::{Context, Result};
 use serde_json::json;
 use std::fmt::Write;
@@ -40,7 +40,7 @@ impl Grid {
     }
 
     /// Codes of a touch.
-    pub fn draw(&self, shape: Shape, touch: &Touch) -> Vec<u16> {
+    pub fn draw(&self, shape: Shape, touch: &TouchPlacement) -> Vec<u16> {
         let mut covered = vec![0.0; usize::from(self.rows) * usize::from(self.columns)];
         let centre = [(self.columns, touch.shift[0]), (self.rows, touch.shift[1])]
             .map(|(count, shift)| (f64::from(count) - 1.0) / 2.0 + shift);
@@ -75,7 +75,7 @@ struct FormSpread {
 fn row(grid: &Grid, shape: Shape, variation: usize) -> Result<FormSpread> {
     let name = format!("{} x {}", grid.rows, grid.columns);
     let mut all = Vec::new();
-    for touch in Touch::varied(variation) {
+    for touch in TouchPlacement::varied(variation) {
         let forms = grid.measure(&grid.draw(shape, &touch))?;
         let forms = forms.with_context(|| format!("{} on {name}: no contact", shape.name()))?;
         all.push(
@@ -215,7 +215,8 @@ mod tests {
     fn pressure_moves_the_published_form_alone() {
         let rows = all();
         // f -> a f: sqrt(J) / m goes as the root of 1 / a.
-        let steps: Vec<f64> = Touch::varied(3).iter().map(|touch| touch.gain.sqrt().recip()).collect();
+        let steps: Vec<f64> =
+            TouchPlacement::varied(3).iter().map(|touch| touch.gain.sqrt().recip()).collect();
         let mean = steps.iter().sum::<f64>() / steps.len() as f64;
         let law = 100.0 * (steps[0] - steps[steps.len() - 1]) / mean;
         for (rows_columns, off, rest) in [("16 x 16", 0.5, 0.3), ("32 x 64", 0.2, 0.13)] {

@@ -2,7 +2,7 @@
 
 use super::outline::Outline;
 
-/// Varied parameters, in the order of [`Touch::varied`].
+/// Varied parameters, in the order of [`TouchPlacement::varied`].
 pub const VARIED: [&str; 4] = ["rotation", "scale", "shift", "pressure"];
 /// Layers of a finger's dome.
 const LAYERS: usize = 8;
@@ -58,7 +58,7 @@ impl Shape {
 
 /// One touch of a shape.
 #[derive(Debug, Clone, Copy)]
-pub struct Touch {
+pub struct TouchPlacement {
     /// Rotation, radians.
     pub angle: f64,
     /// Scale relative to the grid's size.
@@ -70,21 +70,22 @@ pub struct Touch {
 }
 
 /// Values of the parameters that do not vary.
-pub const STILL: Touch = Touch { angle: 17.0 * DEGREE, scale: 1.0, shift: [0.13, 0.29], gain: 0.5 };
+pub const STILL: TouchPlacement =
+    TouchPlacement { angle: 17.0 * DEGREE, scale: 1.0, shift: [0.13, 0.29], gain: 0.5 };
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-impl Touch {
+impl TouchPlacement {
     /// Touches of one variation, by its index in [`VARIED`].
-    pub fn varied(variation: usize) -> Vec<Touch> {
+    pub fn varied(variation: usize) -> Vec<TouchPlacement> {
         let part = |step: i32, of: i32| f64::from(step) / f64::from(of);
         match variation {
-            0 => (0..=30).map(|i| Touch { angle: 90.0 * DEGREE * part(i, 30), ..STILL }).collect(),
-            1 => (0..=30).map(|i| Touch { scale: 0.5 * 4f64.powf(part(i, 30)), ..STILL }).collect(),
+            0 => (0..=30).map(|i| TouchPlacement { angle: 90.0 * DEGREE * part(i, 30), ..STILL }).collect(),
+            1 => (0..=30).map(|i| TouchPlacement { scale: 0.5 * 4f64.powf(part(i, 30)), ..STILL }).collect(),
             2 => {
                 let at = |i: i32| [part(i % 8, 8) - 0.5, part(i / 8, 8) - 0.5];
-                (0..64).map(|i| Touch { shift: at(i), ..STILL }).collect()
+                (0..64).map(|i| TouchPlacement { shift: at(i), ..STILL }).collect()
             }
-            _ => (0..=14).map(|i| Touch { gain: 0.2 + 0.7 * part(i, 14), ..STILL }).collect(),
+            _ => (0..=14).map(|i| TouchPlacement { gain: 0.2 + 0.7 * part(i, 14), ..STILL }).collect(),
         }
     }
 }

@@ -21,29 +21,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Own frame: its buffers are on the stack only here.
     #[inline(never)]
     pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
-        let About {
-            info,
-            boot,
-            setup,
-            monitor,
-            examined,
-            certificate,
-            present,
-            form_ages,
-            took_picture,
-            unsure,
-            taught,
-        } = about;
         let tx_frame = &mut self.tx_frame;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
             self.greeted = true;
-            put_hello(tx_frame, now, info, setup, certificate)
-        } else if let Some(boot) = boot.filter(|_| core::mem::take(&mut self.greeted)) {
+            put_hello(tx_frame, now, about.info, about.setup, about.certificate)
+        } else if let Some(boot) = about.boot.filter(|_| core::mem::take(&mut self.greeted)) {
             tx_frame.put(Report::BOOT, &boot)
-        } else if let Some(report) = examined.filter(|_| core::mem::take(&mut self.examined)) {
+        } else if let Some(report) = about.examined.filter(|_| core::mem::take(&mut self.examined)) {
             tx_frame.put(Report::SELF_TEST, report)
         } else if let Some((request, refusal)) = self.answers.pop_front() {
             let refusal = refusal.as_ref().map(|why| why.0.as_str());
@@ -54,13 +41,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             tx_frame.put(Report::REACTION, &report)
         } else if core::mem::take(&mut self.shapes) {
             // Before the contacts, whose classes are indices of these names.
-            put_shapes(tx_frame, taught)
+            put_shapes(tx_frame, about.taught)
         } else if core::mem::take(&mut self.ages_wait) {
-            put_forms(tx_frame, &self.contacts, present, form_ages)
+            put_forms(tx_frame, &self.contacts, about.present, about.form_ages)
         } else if core::mem::take(&mut self.contacts.waits) {
-            tx_frame.put(Report::CONTACTS, &List { queue: &self.contacts, present })
+            tx_frame.put(Report::CONTACTS, &List { queue: &self.contacts, present: about.present })
         } else if core::mem::take(&mut self.unsure) {
-            put_unsure(tx_frame, self.contacts.frame, self.contacts.time, unsure)
+            put_unsure(tx_frame, self.contacts.frame, self.contacts.time, about.unsure)
         } else if self.symbols_wait {
             self.symbols_wait = false;
             tx_frame.put(Report::SYMBOLS, &self.symbols)
@@ -76,7 +63,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some((level, text)) = self.logs.pop_front() {
             tx_frame.put(Report::LOG, &Log { time: now, level, text: &text })
         } else if let Some(first) = self.map.take_if(|_| self.streaming) {
-            self.put_map(now, first, setup.layout.taxels(), monitor)
+            self.put_map(now, first, about.setup.layout.taxels(), about.monitor)
         } else if self.health.is_some_and(|due| due <= now) {
             self.health = None;
             tx_frame.put(Report::HEALTH, &Health { time: now, ..*health })
@@ -85,8 +72,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some(temperature) = self.temperature.take() {
             tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some((frame, time)) = self.image.due.take() {
-            let is_light = || !took_picture && measures_little(present, form_ages);
-            self.put_image(frame, time, &setup.layout, image, is_light, health)
+            let is_light = || !about.took_picture && measures_little(about.present, about.form_ages);
+            self.put_image(frame, time, &about.setup.layout, image, is_light, health)
         } else if let Some((frame, time)) = self.raw.take().filter(|_| cfg!(feature = "raw")) {
             self.put_raw(frame, time)
         } else {

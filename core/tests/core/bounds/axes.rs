@@ -1,9 +1,10 @@
 //! Azimuth, anisotropy and breadth against 60 digits.
 
 use crate::bounds::exact::{Real, pi};
-use crate::bounds::images::{self, Noise, moments};
+use crate::bounds::images::{self, moments};
 use crate::bounds::table::bound;
 use crate::plain::Plain;
+use crate::random::Noise;
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use taxel_core::contact::{Axis, Central, Moments, axis, breadth};

@@ -1,25 +1,25 @@
 //! Calibration and baseline: rounded to the nearest count, exactly.
 
-use crate::bounds::images::Noise;
 use crate::bounds::table::bound;
+use crate::random::Noise;
 use taxel_core::capacity::TAXELS;
 use taxel_core::condition::{Condition, ConditionConfig, ConditionState, Feedback, Filter, Sampled, UNITY};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 
-struct Rig {
+struct CalibrationRig {
     stage: Condition,
     layout: Layout,
     state: Box<ConditionState<TAXELS>>,
 }
 
-impl Rig {
-    fn new() -> Rig {
+impl CalibrationRig {
+    fn new() -> CalibrationRig {
         let config = ConditionConfig { floor: 1, filter: Filter::Off, track_baseline: false };
         let layout = Layout::build(&Garment::recorded(64, 32), TAXELS, u16::MAX).unwrap();
         let mut state: Box<ConditionState<TAXELS>> = Box::default();
         state.reset(&layout, Code(0));
-        Rig { stage: config.build().unwrap(), layout, state }
+        CalibrationRig { stage: config.build().unwrap(), layout, state }
     }
 
     fn frame(&mut self, codes: &[Code], falling: bool) -> &[u16] {
@@ -33,7 +33,7 @@ impl Rig {
 #[test]
 fn calibration_is_rounded_to_nearest() {
     let stated = bound("pressure of a taxel", "calibration_is_rounded_to_nearest");
-    let mut rig = Rig::new();
+    let mut rig = CalibrationRig::new();
     let (mut count, mut worst) = (0u32, 0f64);
     let gains =
         [0, 1, 2, 1000, 2047, 2048, 2049, 4095, UNITY, 4097, 6144, 8192, 12_345, 32_768, 61_440, u16::MAX];
@@ -66,7 +66,7 @@ fn calibration_is_rounded_to_nearest() {
 /// Below the baseline is no pressure, not a large one.
 #[test]
 fn codes_outside_their_range_saturate() {
-    let mut rig = Rig::new();
+    let mut rig = CalibrationRig::new();
     for taxel in 0..TAXELS {
         rig.state.set_baseline(taxel, Code(1000));
         rig.state.set_gain(taxel, if taxel % 2 == 0 { UNITY } else { u16::MAX });
@@ -96,7 +96,7 @@ fn a_baseline_is_the_mean_rounded_to_nearest() {
     let mut noise = Noise(6);
     let (mut count, mut worst) = (0, 0f64);
     for frames in (1..=64).chain([100, 195, 999, 1000]) {
-        let mut rig = Rig::new();
+        let mut rig = CalibrationRig::new();
         let mut sums = vec![0i64; TAXELS];
         rig.state.tare(frames);
         for _ in 0..frames {

@@ -1,5 +1,6 @@
 //! Images that are hard on moments.
 
+use crate::random::Noise;
 use std::ops::RangeInclusive;
 use taxel_core::contact::Moments;
 
@@ -18,17 +19,6 @@ pub fn moments(taxels: &Taxels) -> Moments {
         sum.add(&Moments::of_run(run[0].0, run[0].1, &values));
     }
     sum
-}
-
-/// A small generator.
-pub struct Noise(pub u64);
-
-impl Noise {
-    pub fn below(&mut self, limit: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        let mixed = (self.0 ^ (self.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd) >> 16;
-        mixed % limit
-    }
 }
 
 fn filled(columns: RangeInclusive<u32>, rows: RangeInclusive<u32>, value: u16) -> Taxels {

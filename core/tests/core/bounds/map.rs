@@ -1,8 +1,8 @@
 //! The cognitive map against 60 digits: one step from any state, and where the shipped map settles.
 
 use crate::bounds::exact::Real;
-use crate::bounds::images::Noise;
 use crate::bounds::table::bound;
+use crate::random::Noise;
 use num_bigint::BigInt;
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::{

@@ -1,7 +1,7 @@
 //! Quotients and conversions of `format`: exact or rounded to the nearest, and total.
 
-use crate::bounds::images::Noise;
 use crate::bounds::table::bound;
+use crate::random::Noise;
 use taxel_core::format::{Fixed16, Inverse, Micros, Q15, Scaled};
 
 #[test]

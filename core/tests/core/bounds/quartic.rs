@@ -1,6 +1,6 @@
 //! Ratios of the fourth order against floats.
 
-use crate::bounds::images::Noise;
+use crate::random::Noise;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{ContactConfig, ContactState, Quartic};
 use taxel_core::format::Micros;

@@ -1,9 +1,9 @@
 //! Speed over the surface, which is a length without a root.
 
 use crate::bounds::exact::Real;
-use crate::bounds::images::Noise;
 use crate::bounds::nmi::contact;
 use crate::bounds::table::bound;
+use crate::random::Noise;
 use taxel_core::body::Placed;
 use taxel_core::format::Fixed16;
 use taxel_core::garment::{Garment, Layout, PITCH_UM};

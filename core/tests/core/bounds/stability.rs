@@ -1,18 +1,19 @@
 //! What becomes of the same touches in the arithmetic that is usual for them: raw moments in f32, and in
 //! Q16.16.
 
-use crate::bounds::images::{self, Noise, Taxels, moments};
+use crate::bounds::images::{self, Taxels, moments};
 use crate::plain::Plain;
+use crate::random::Noise;
 use taxel_core::contact::axis;
 
 /// Variances along x and y and the covariance, each as its arithmetic gives it.
-struct Central {
+struct Variances {
     xx: f64,
     yy: f64,
     xy: f64,
 }
 
-impl Central {
+impl Variances {
     fn negative(&self) -> bool {
         self.xx < 0.0 || self.yy < 0.0
     }
@@ -26,20 +27,20 @@ impl Central {
     }
 
     /// Largest of the two variances' errors, as a share of the exact sum of both.
-    fn error(&self, exact: &Central) -> f64 {
+    fn error(&self, exact: &Variances) -> f64 {
         let off = (self.xx - exact.xx).abs().max((self.yy - exact.yy).abs());
         off / (exact.xx + exact.yy).max(1.0 / 12.0)
     }
 }
 
-fn exact(plain: &Plain) -> Central {
+fn exact(plain: &Plain) -> Variances {
     let square = plain.m as f64 * plain.m as f64;
     let [xx, yy, xy] = plain.central().map(|sum| sum as f64 / square);
-    Central { xx, yy, xy }
+    Variances { xx, yy, xy }
 }
 
 /// As the core, `m sum x^2 f - (sum x f)^2`, with all of it in f32.
-fn single(taxels: &Taxels) -> Central {
+fn single(taxels: &Taxels) -> Variances {
     let mut sums = [0f32; 6];
     for (x, y, f) in taxels {
         let (x, y, f) = (*x as f32, *y as f32, f32::from(*f));
@@ -51,12 +52,12 @@ fn single(taxels: &Taxels) -> Central {
     let [xx, yy, xy] = [m * sxx - sx * sx, m * syy - sy * sy, m * sxy - sx * sy];
     let square = f64::from(m) * f64::from(m);
     let [xx, yy, xy] = [xx, yy, xy].map(|sum| f64::from(sum) / square);
-    Central { xx, yy, xy }
+    Variances { xx, yy, xy }
 }
 
 /// E[x^2] - E[x]^2 in Q16.16, as a fixed-point library makes it, with 4096 counts for 1; none where a sum
 /// does not fit.
-fn fixed(taxels: &Taxels) -> Option<Central> {
+fn fixed(taxels: &Taxels) -> Option<Variances> {
     let mut sums = [0i32; 6];
     for (x, y, f) in taxels {
         let (x, y, f) = (i64::from(*x), i64::from(*y), i64::from(*f));
@@ -68,7 +69,7 @@ fn fixed(taxels: &Taxels) -> Option<Central> {
     let over = |sum: i64| (sum << 16) / m;
     let (cx, cy) = (over(sx), over(sy));
     let variance = |sum: i64, product: i64| (over(sum) - (product >> 16)) as f64 / 65536.0;
-    Some(Central { xx: variance(sxx, cx * cx), yy: variance(syy, cy * cy), xy: variance(sxy, cx * cy) })
+    Some(Variances { xx: variance(sxx, cx * cx), yy: variance(syy, cy * cy), xy: variance(sxy, cx * cy) })
 }
 
 /// What an arithmetic did to the touches of a kind.
@@ -85,7 +86,7 @@ struct Record {
 }
 
 impl Record {
-    fn take(&mut self, have: Option<Central>, exact: &Central) {
+    fn take(&mut self, have: Option<Variances>, exact: &Variances) {
         self.touches += 1;
         let Some(have) = have else {
             self.overflows += 1;
@@ -115,11 +116,11 @@ impl Record {
 }
 
 /// The core: exact sums, so the only error is that of a float that shows them.
-fn core(taxels: &Taxels) -> Central {
+fn core(taxels: &Taxels) -> Variances {
     let moments = moments(taxels);
     let central = moments.central();
     let square = moments.m as f64 * moments.m as f64;
-    Central { xx: central.a as f64 / square, yy: central.b as f64 / square, xy: central.c as f64 / square }
+    Variances { xx: central.a as f64 / square, yy: central.b as f64 / square, xy: central.c as f64 / square }
 }
 
 /// Up to 3 x 3 taxels of any pressure in the last quarter of both axes.
@@ -193,8 +194,9 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
 /// Q16.16 can hold.
 #[test]
 fn an_isotropic_square_and_the_ninth_taxel() {
-    let by_anisotropy =
-        |(a, _): &(Central, Taxels), (b, _): &(Central, Taxels)| a.anisotropy().total_cmp(&b.anisotropy());
+    let by_anisotropy = |(a, _): &(Variances, Taxels), (b, _): &(Variances, Taxels)| {
+        a.anisotropy().total_cmp(&b.anisotropy())
+    };
     let squares = saturated_squares().map(|square| (single(&square), square));
     let (wrong, square) = squares.max_by(by_anisotropy).expect("squares");
     println!("f32: a square of {} taxels points to {:.0} degrees", square.len(), wrong.degrees());

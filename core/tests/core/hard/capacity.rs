@@ -1,6 +1,6 @@
 //! More contacts than there is room for, images that are too short, memory.
 
-use crate::hard::rig::{Rig, taxels};
+use crate::hard::rig::{ContactRig, taxels};
 use std::sync::Mutex;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Phase};
@@ -9,7 +9,7 @@ use taxel_core::garment::{Garment, Layout};
 
 #[test]
 fn checkerboard_of_dots() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     rig.draw(|x, y| x % 2 == 0 && y % 2 == 0, 1000).set(0, 62, 30, 2000);
     let frame = rig.frame();
     assert_eq!((frame.present.len(), frame.dropped, frame.overflow), (16, 496, 0));
@@ -63,7 +63,7 @@ fn too_many_runs_are_counted() {
 
 #[test]
 fn more_than_fit() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     for i in 0..20u16 {
         rig.set(0, 3 * i, 5, 1000 + 10 * i);
     }
@@ -75,7 +75,7 @@ fn more_than_fit() {
 #[test]
 fn a_drop_out_of_any_size_does_not_panic() {
     // An image shorter than the layout, and none at all.
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     rig.fill([0, 63], [0, 31], 900).frame();
     let stage = ContactConfig::default().build().unwrap();
     for length in [0, 1, 31, 33, 2047] {
@@ -96,7 +96,7 @@ fn memory_is_as_documented() {
 
 #[test]
 fn a_contact_travels_whole_and_small() {
-    let mut rig = Rig::new(&Garment::reference());
+    let mut rig = ContactRig::new(&Garment::reference());
     rig.bar(0, 9, 12..16, 3000);
     rig.bar(1, 9, 0..3, 3000);
     let contact = rig.only();

@@ -1,13 +1,13 @@
 //! Components against a flood fill.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 use taxel_core::garment::{Garment, Place};
 
 /// Sums of a component: area, total, peak, contour; and where the peak is first.
 type Sums = (u16, u32, u16, u16, (u8, u16, u16));
 
 /// Components by flood fill over places, seams included.
-fn flood(rig: &Rig, low: u16) -> Vec<Sums> {
+fn flood(rig: &ContactRig, low: u16) -> Vec<Sums> {
     let layout = &rig.layout;
     let value = |place: Place| layout.taxel(place).map_or(0, |taxel| rig.values[taxel]);
     let step = |place: Place, dy: i32, dx: i32| {
@@ -55,7 +55,7 @@ fn flood(rig: &Rig, low: u16) -> Vec<Sums> {
 /// Random images of a garment of few rows at a time, and so few contacts: how many were compared, and how
 /// many of them had a contact across a seam.
 fn compare(garment: &Garment, rounds: usize) -> (u32, u32) {
-    let mut rig = Rig::new(garment);
+    let mut rig = ContactRig::new(garment);
     let mut state = 9u32;
     let mut next = |n: u32| {
         state = state.wrapping_mul(1664525).wrapping_add(1013904223);

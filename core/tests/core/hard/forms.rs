@@ -1,6 +1,6 @@
 //! Contacts of every form on one panel: nothing, everything, combs, spirals.
 
-use crate::hard::rig::{Rig, taxels};
+use crate::hard::rig::{ContactRig, taxels};
 use crate::plain::Plain;
 use taxel_core::contact::{Contact, Moments, Phase};
 use taxel_core::format::Q15;
@@ -8,7 +8,7 @@ use taxel_core::garment::{Garment, Place, Rect};
 
 #[test]
 fn no_taxel() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let frame = rig.frame();
     assert!(frame.present.is_empty() && frame.released.is_empty());
     // Below the high threshold nothing begins.
@@ -18,7 +18,7 @@ fn no_taxel() {
 
 #[test]
 fn one_taxel() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let contact = rig.set(0, 20, 7, 1000).only();
     assert_eq!((contact.id, contact.phase, contact.panel), (1, Phase::Onset, 0));
     assert_eq!((contact.total, contact.peak, contact.area, contact.perimeter), (1000, 1000, 1, 1));
@@ -41,7 +41,7 @@ fn one_taxel() {
 
 #[test]
 fn two_taxels() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let contact = rig.set(0, 20, 7, 1000).set(0, 21, 8, 500).only();
     assert_eq!((contact.area, contact.x, contact.y), (2, taxels(7.0 + 1.0 / 3.0), taxels(20.0 + 1.0 / 3.0)));
     let azimuth = contact.azimuth.unwrap().to_radians().to_degrees();
@@ -53,7 +53,7 @@ fn two_taxels() {
 
 #[test]
 fn corners() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     for (row, column) in [(0, 0), (0, 31), (63, 0), (63, 31)] {
         rig.set(0, row, column, 4095);
     }
@@ -65,7 +65,7 @@ fn corners() {
 #[test]
 fn all_saturated() {
     for value in [4095, u16::MAX] {
-        let mut rig = Rig::mat();
+        let mut rig = ContactRig::mat();
         let contact = rig.draw(|_, _| true, value).only();
         assert_eq!(contact.total, 2048 * u32::from(value));
         assert_eq!((contact.area, contact.perimeter), (2048, 2 * 64 + 2 * 30));
@@ -83,26 +83,26 @@ fn all_saturated() {
 #[test]
 fn comb_spiral_diagonal_ring() {
     // Teeth that meet only in the last row.
-    let contact = Rig::mat().draw(|x, y| x % 2 == 0 || y == 63, 300).only();
+    let contact = ContactRig::mat().draw(|x, y| x % 2 == 0 || y == 63, 300).only();
     assert_eq!(contact.area, 16 * 64 + 16);
     // Teeth upwards and downwards, not touching.
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     rig.draw(|x, y| (x % 4 == 0 && y < 62) || y == 0, 300).draw(|x, y| (x % 4 == 2 && y > 1) || y == 63, 301);
     assert_eq!(rig.frame().present.len(), 2);
     // A square spiral, one taxel wide.
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let area = draw_spiral(&mut rig);
     let contact = rig.only();
     assert_eq!(contact.area, area);
     assert_eq!(contact.perimeter, area);
     // Diagonals, which hang together by corners only.
-    let down = Rig::mat().draw(|x, y| x == y, 300).only();
-    let up = Rig::mat().draw(|x, y| x + y == 31, 300).only();
+    let down = ContactRig::mat().draw(|x, y| x == y, 300).only();
+    let up = ContactRig::mat().draw(|x, y| x + y == 31, 300).only();
     let degrees = |c: &Contact| c.azimuth.unwrap().to_radians().to_degrees();
     assert!((degrees(&down) - 45.0).abs() < 1e-3 && (degrees(&up) + 45.0).abs() < 1e-3);
     assert_eq!((down.area, down.anisotropy.0, up.area), (32, 32768, 32));
     // A ring: the centroid lies where nothing touches, and there is no direction.
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     rig.draw(|x, y| (8..12).contains(&((x - 15).pow(2) + (y - 30).pow(2)).isqrt()), 300);
     let ring = rig.only();
     assert_eq!((ring.x, ring.y, ring.azimuth), (taxels(15.0), taxels(30.0), None));
@@ -111,7 +111,7 @@ fn comb_spiral_diagonal_ring() {
 }
 
 /// Draws a spiral with one free taxel between its turns; its number of taxels.
-fn draw_spiral(rig: &mut Rig) -> u16 {
+fn draw_spiral(rig: &mut ContactRig) -> u16 {
     let (mut x, mut y, mut dx, mut dy) = (0i32, 0i32, 1i32, 0i32);
     let mut cells = vec![[false; 32]; 64];
     let free = |cells: &Vec<[bool; 32]>, x: i32, y: i32| {
@@ -141,7 +141,7 @@ fn draw_spiral(rig: &mut Rig) -> u16 {
 /// step.
 #[test]
 fn discs_and_squares_have_no_direction() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     for size in 1..=32i32 {
         for (left, top) in [(0, 0), (32 - size, 64 - size), ((32 - size) / 2, 7)] {
             let [column, row] = [left, top].map(|first| [first as u16, (first + size - 1) as u16]);
@@ -178,7 +178,7 @@ fn unequal_pitch() {
         ([0, 0], [3, 9], 300),
     ] {
         garment.panels[0].pitch_um = pitch;
-        let mut rig = Rig::new(&garment);
+        let mut rig = ContactRig::new(&garment);
         let [columns, rows] = size;
         let contact = rig.fill([10, 9 + rows], [4, 3 + columns], 1000).only();
         assert_eq!(contact.breadth, breadth, "{pitch:?} {size:?}");
@@ -205,7 +205,7 @@ fn every_form_has_its_exact_sums() {
         ("nested frames", |x, y| x.min(31 - x).min(y).min(63 - y) % 2 == 0 || (x == 15 && y < 32)),
     ];
     for (name, inside) in forms {
-        let mut rig = Rig::mat();
+        let mut rig = ContactRig::mat();
         let mut drawn = Vec::new();
         for (x, y) in (0..64).flat_map(|y| (0..32).map(move |x| (x, y))).filter(|(x, y)| inside(*x, *y)) {
             let value = u16::MAX - (x * 331 + y * 97) as u16;

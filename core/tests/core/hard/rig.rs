@@ -8,7 +8,7 @@ use taxel_core::garment::{Garment, Layout, Place};
 pub type State = ContactState<16, 1024>;
 
 /// A garment, its image and the stage, at 195 frames/s.
-pub struct Rig {
+pub struct ContactRig {
     pub layout: Layout,
     pub values: Vec<u16>,
     pub stage: Contacts,
@@ -17,7 +17,7 @@ pub struct Rig {
 }
 
 /// What one frame gave.
-pub struct Frame {
+pub struct MeasuredContacts {
     pub present: Vec<Contact>,
     pub moments: Vec<Moments>,
     /// Whether the form of each is of this frame.
@@ -30,10 +30,10 @@ pub struct Frame {
     pub overflow: u16,
 }
 
-impl Rig {
-    pub fn new(garment: &Garment) -> Rig {
+impl ContactRig {
+    pub fn new(garment: &Garment) -> ContactRig {
         let layout = Layout::build(garment, 2048, u16::MAX).unwrap();
-        Rig {
+        ContactRig {
             values: vec![0; layout.taxels()],
             stage: ContactConfig::default().build().unwrap(),
             state: Box::default(),
@@ -42,23 +42,23 @@ impl Rig {
         }
     }
 
-    pub fn mat() -> Rig {
-        Rig::new(&Garment::mat())
+    pub fn mat() -> ContactRig {
+        ContactRig::new(&Garment::mat())
     }
 
-    pub fn clear(&mut self) -> &mut Rig {
+    pub fn clear(&mut self) -> &mut ContactRig {
         self.values.fill(0);
         self
     }
 
-    pub fn set(&mut self, panel: u8, row: u16, column: u16, value: u16) -> &mut Rig {
+    pub fn set(&mut self, panel: u8, row: u16, column: u16, value: u16) -> &mut ContactRig {
         let taxel = self.layout.taxel(Place { panel, row, column }).expect("on the panel");
         self.values[taxel] = value;
         self
     }
 
     /// Fills a rectangle of panel 0: rows and columns, last included.
-    pub fn fill(&mut self, [top, bottom]: [u16; 2], [left, right]: [u16; 2], value: u16) -> &mut Rig {
+    pub fn fill(&mut self, [top, bottom]: [u16; 2], [left, right]: [u16; 2], value: u16) -> &mut ContactRig {
         for (row, column) in (top..=bottom).flat_map(|row| (left..=right).map(move |c| (row, c))) {
             self.set(0, row, column, value);
         }
@@ -73,7 +73,7 @@ impl Rig {
     }
 
     /// Sets what `inside(x, y)` says on panel 0.
-    pub fn draw(&mut self, inside: impl Fn(i32, i32) -> bool, value: u16) -> &mut Rig {
+    pub fn draw(&mut self, inside: impl Fn(i32, i32) -> bool, value: u16) -> &mut ContactRig {
         let (rows, columns) = (self.layout.areas()[0].rows, self.layout.areas()[0].columns);
         for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |c| (row, c))) {
             if inside(column.into(), row.into()) {
@@ -83,7 +83,7 @@ impl Rig {
         self
     }
 
-    pub fn frame(&mut self) -> Frame {
+    pub fn frame(&mut self) -> MeasuredContacts {
         self.now += 5128;
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
@@ -94,7 +94,7 @@ impl Rig {
         for (contact, moments) in present.iter().zip(&moments) {
             assert_eq!(u64::from(contact.total), moments.m);
         }
-        Frame {
+        MeasuredContacts {
             present: present.to_vec(),
             moments,
             looked: ages.iter().map(|age| *age == 0).collect(),

@@ -1,13 +1,13 @@
 //! Contacts across seams and at every border.
 
-use crate::hard::rig::{Rig, taxels};
+use crate::hard::rig::{ContactRig, taxels};
 use taxel_core::garment::{Garment, Seam, SeamEdge, Side};
 
 #[test]
 fn across_the_seam_it_is_one() {
     // The chest's right side is sewn to the back's left side. A bar of 8 x 2 slides over, half a column at a
     // time.
-    let mut rig = Rig::new(&Garment::reference());
+    let mut rig = ContactRig::new(&Garment::reference());
     let mut way = Vec::new();
     for step in 0..=24 {
         rig.clear();
@@ -36,7 +36,7 @@ fn across_the_seam_it_is_one() {
 
 #[test]
 fn both_sides_of_the_seam_are_fed_back() {
-    let mut rig = Rig::new(&Garment::reference());
+    let mut rig = ContactRig::new(&Garment::reference());
     rig.set(0, 5, 15, 800).set(1, 6, 0, 700).only();
     let feedback = rig.state.feedback();
     assert!(feedback.holds(0, 4, 14) && feedback.holds(1, 7, 1));
@@ -49,7 +49,7 @@ fn both_sides_of_the_seam_are_fed_back() {
 #[test]
 fn a_hug_and_a_belt() {
     // From the chest around both flanks: three parts, each carried over its own seam.
-    let mut rig = Rig::new(&Garment::reference());
+    let mut rig = ContactRig::new(&Garment::reference());
     for row in 3..5 {
         rig.bar(0, row, 0..16, 500);
         rig.set(1, row, 0, 500).set(1, row, 1, 500).set(1, row, 14, 500).set(1, row, 15, 500);
@@ -72,7 +72,7 @@ fn a_sleeve_closes_on_itself() {
     let edge = |side| SeamEdge { panel: 0, side, start: 0 };
     let seam = Seam { a: edge(Side::Right), b: edge(Side::Left), length: 20, reversed: false };
     garment.seams.push(seam).unwrap();
-    let mut rig = Rig::new(&garment);
+    let mut rig = ContactRig::new(&garment);
     for step in 0..24u16 {
         rig.clear();
         for i in 0..4 {

@@ -1,6 +1,6 @@
 //! Contacts over a seam of any two sides, in either direction: as if the cloth lay flat.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 use crate::plain::Plain;
 use proptest::prelude::*;
 use taxel_core::format::name;
@@ -63,7 +63,7 @@ proptest! {
         there in prop::collection::vec(60u16.., 9),
     ) {
         let (a, b) = (SIDES[sides.0], SIDES[sides.1]);
-        let mut rig = Rig::new(&sewn(a, b, reversed));
+        let mut rig = ContactRig::new(&sewn(a, b, reversed));
         let (mut flat_a, mut flat_b) = (Vec::new(), Vec::new());
         // A strip of up to three taxels along the seam and three deep on both sides of it.
         for (index, (near, far)) in here.iter().zip(&there).enumerate() {
@@ -105,7 +105,7 @@ proptest! {
         let (a, b) = (SIDES[sides.0], SIDES[sides.1]);
         let length = (1 + length).min(N - start_a).min(N - start_b);
         let starts = [start_a, start_b].map(|start| start as u16);
-        let mut rig = Rig::new(&sewn_in_part([a, b], starts, length as u16, reversed));
+        let mut rig = ContactRig::new(&sewn_in_part([a, b], starts, length as u16, reversed));
         let mut taxels = Vec::new();
         for (panel, side, row) in [(0u8, a, &here), (1, b, &there)] {
             for (along, _) in (0..N).zip(row).filter(|(_, pressed)| **pressed) {
@@ -132,7 +132,7 @@ proptest! {
 /// A touch at every place of a panel, its borders and corners included, is told where it is.
 #[test]
 fn every_taxel_is_told_where_it_is() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     for (row, column) in (0..64).flat_map(|row| (0..32).map(move |column| (row, column))) {
         rig.state.reset();
         let contact = rig.clear().set(0, row, column, 4095).only();
@@ -146,7 +146,7 @@ fn every_taxel_is_told_where_it_is() {
 /// A square of 3 x 3 pushed over every border, a taxel at a time, until only its corner is left.
 #[test]
 fn a_touch_is_cut_by_every_border() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     for (top, left) in (-2i32..64).flat_map(|top| (-2i32..32).map(move |left| (top, left))) {
         let on_border = !(0..=61).contains(&top) || !(0..=29).contains(&left);
         if !on_border {

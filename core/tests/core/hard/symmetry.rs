@@ -1,6 +1,6 @@
 //! What must not change when a touch moves, turns, is mirrored or pressed harder.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 use crate::plain::Plain;
 use proptest::prelude::*;
 use taxel_core::condition::{Image, Rows};
@@ -12,7 +12,7 @@ use taxel_core::shape::nmi;
 #[test]
 fn translation_is_exact() {
     let shape = [[300u16, 900, 0], [4095, 4095, 700], [0, 61, 60]];
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let mut first: Option<Contact> = None;
     for (top, left) in [(0, 0), (7, 3), (61, 29), (30, 29), (61, 0)] {
         rig.clear();
@@ -45,7 +45,7 @@ fn mapped(
     values: &[u16],
     map: impl Fn(i32, i32) -> (i32, i32),
 ) -> (Contact, Moments) {
-    let mut rig = Rig::new(&Garment::recorded(SIDE as u16, SIDE as u16));
+    let mut rig = ContactRig::new(&Garment::recorded(SIDE as u16, SIDE as u16));
     for (index, value) in values.iter().enumerate() {
         let (x, y) = map(left + (index % width) as i32, top + (index / width) as i32);
         rig.set(0, y as u16, x as u16, *value);

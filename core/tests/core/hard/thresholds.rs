@@ -1,14 +1,14 @@
 //! Values at each threshold, and one off.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
 use taxel_core::contact::{Contact, ContactConfig, Moments, Quartic};
 use taxel_core::format::{Code, Micros, Q15};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::shape::{Base, Class, FEATURES, Prototype, Shape, ShapeConfig, features, nmi};
 
-fn rig(config: ContactConfig) -> Rig {
-    Rig { stage: config.build().unwrap(), ..Rig::mat() }
+fn rig(config: ContactConfig) -> ContactRig {
+    ContactRig { stage: config.build().unwrap(), ..ContactRig::mat() }
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn low_and_high() {
 #[test]
 fn a_faint_touch_goes_on_within_one_taxel() {
     for (shift, goes_on) in [(0, true), (1, true), (2, false)] {
-        let mut rig = Rig::mat();
+        let mut rig = ContactRig::mat();
         rig.set(0, 9, 9, 120).only();
         let frame = rig.clear().set(0, 9, 9 + shift, 119).frame();
         assert_eq!(
@@ -105,7 +105,7 @@ fn shape(
 
 #[test]
 fn reject() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let frame = rig.fill([20, 24], [7, 13], 1000).frame();
     let at = |apart, reject| {
         let Shape { class, confidence, .. } =

@@ -1,10 +1,10 @@
 //! Speed and slip; `tests/tracking` has more.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 
 #[test]
 fn speed_and_slip() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     // A still finger with noise of +-3 counts never slips.
     let mut state = 1u32;
     for _ in 0..2000 {

@@ -1,10 +1,10 @@
 //! Whose form is looked at: that of the new ones, and of one of the others in turn.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 use taxel_core::contact::{Contact, Forms};
 
 /// Bars along the rows (1 x 4) or the columns (4 x 1), 12 columns apart.
-fn bars(rig: &mut Rig, upright: &[bool]) {
+fn bars(rig: &mut ContactRig, upright: &[bool]) {
     rig.clear();
     for (left, upright) in (0..).step_by(12).zip(upright) {
         match upright {
@@ -20,7 +20,7 @@ fn degrees(contact: &Contact) -> i32 {
 
 #[test]
 fn a_form_is_as_old_as_there_are_contacts_at_most() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     bars(&mut rig, &[false; 3]);
     assert_eq!(rig.frame().looked, [true; 3], "all are new");
     bars(&mut rig, &[true; 3]);
@@ -44,7 +44,7 @@ fn a_form_is_as_old_as_there_are_contacts_at_most() {
 #[test]
 fn as_many_forms_are_looked_at_as_are_asked_for() {
     for (in_frame, oldest) in [(0, 0), (1, 4), (2, 2), (3, 1), (5, 0), (200, 0)] {
-        let mut rig = Rig::mat();
+        let mut rig = ContactRig::mat();
         rig.stage.forms = Forms::of(in_frame);
         for row in [4, 14, 24, 34, 44] {
             rig.fill([row, row], [4, 7], 400);
@@ -60,7 +60,7 @@ fn as_many_forms_are_looked_at_as_are_asked_for() {
 
 #[test]
 fn what_is_new_takes_nobodys_turn() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     bars(&mut rig, &[false; 2]);
     rig.frame();
     // Something flickers beside them all the time, and begins anew in every other frame.
@@ -79,7 +79,7 @@ fn what_is_new_takes_nobodys_turn() {
 
 #[test]
 fn the_only_contact_is_looked_at_in_every_frame() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     for upright in [false, true, false, false, true] {
         bars(&mut rig, &[upright]);
         let frame = rig.frame();
@@ -89,7 +89,7 @@ fn the_only_contact_is_looked_at_in_every_frame() {
 
 #[test]
 fn the_breadth_at_the_peak_is_one_that_was_seen() {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let mut breadths = Vec::new();
     for value in [200, 300, 900, 500, 400] {
         // Broader the harder it is pressed.

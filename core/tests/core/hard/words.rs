@@ -1,6 +1,6 @@
 //! Limits between words, and levels of reactions: at each, and one off.
 
-use crate::hard::rig::Rig;
+use crate::hard::rig::ContactRig;
 use taxel_core::body::Placed;
 use taxel_core::format::{Micros, name};
 use taxel_core::garment::{Garment, Layout};
@@ -10,7 +10,7 @@ use taxel_core::symbol::{Extent, RegionState, Span, Strength, SymbolConfig, Symb
 
 /// The first words that are said of a contact.
 fn said(peak_total: u32, area: u16, duration_ms: u32) -> (Strength, Extent, Span) {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let contact = rig.set(0, 3, 3, 500).only();
     let contact = taxel_core::contact::Contact { peak_total, area, duration_ms, ..contact };
     let placed = [Placed::new(&rig.layout, contact, Shape::default())];
@@ -22,7 +22,7 @@ fn said(peak_total: u32, area: u16, duration_ms: u32) -> (Strength, Extent, Span
 
 /// How large a contact of one taxel is said to be, while it has these pressures in turn.
 fn sharp(peaks: &[u16]) -> Vec<Extent> {
-    let mut rig = Rig::mat();
+    let mut rig = ContactRig::mat();
     let mut state: SymbolState<4> = SymbolState::default();
     let stage = SymbolConfig::default().build().unwrap();
     let mut said = Vec::new();

@@ -1,7 +1,8 @@
 //! The built-in base, from codes to class, on a generator that it was not learned from: discs, rotated
 //! rectangles and fingers of 1 : 1.8 to 1 : 2.5 at gains of 0.2 to 0.9.
 
-use crate::shape::drawn::{CLASSES, Rng, Touch};
+use crate::random::Noise;
+use crate::shape::drawn::{CLASSES, DrawnTouch};
 use crate::shape::rig::{recorded, shape_of_codes};
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{ContactConfig, ContactState};
@@ -10,12 +11,12 @@ use taxel_core::shape::{Base, Class, ShapeConfig};
 
 #[test]
 fn drawn_shapes_are_recognised() {
-    let mut rng = Rng(42);
+    let mut noise = Noise(42);
     for (rows, columns, least) in [(4u16, 16u16, 84), (16, 16, 86), (32, 64, 85)] {
         let layout = recorded(rows, columns);
         let (mut right, mut all) = (0, 0);
         for class in CLASSES.into_iter().cycle().take(600) {
-            let touch = Touch::random(class, rows, columns, &mut rng);
+            let touch = DrawnTouch::random(class, rows, columns, &mut noise);
             let shape = shape_of_codes(&layout, &touch.codes(rows, columns)).expect("a contact");
             right += u32::from(shape.class == class);
             all += 1;
@@ -29,7 +30,7 @@ fn drawn_shapes_are_recognised() {
 #[test]
 fn forms_do_not_follow_pressure() {
     let layout = recorded(32, 64);
-    let mut touch = Touch::random(Class::ROUND, 32, 64, &mut Rng(3));
+    let mut touch = DrawnTouch::random(Class::ROUND, 32, 64, &mut Noise(3));
     (touch.size, touch.x, touch.y) = (7.3, 31.2, 15.9);
     let mut at = |gain: f64| {
         touch.gain = gain;
@@ -74,7 +75,7 @@ fn settings_are_checked() {
     for k in 1..=9 {
         let shape = ShapeConfig { k, ..config }.build(Base::BUILT_IN).unwrap();
         let layout = recorded(16, 16);
-        let codes = Touch::random(Class::FINGER, 16, 16, &mut Rng(5)).codes(16, 16);
+        let codes = DrawnTouch::random(Class::FINGER, 16, 16, &mut Noise(5)).codes(16, 16);
         let values: Vec<u16> = codes.iter().map(|code| code.0).collect();
         let mut state: ContactState<8, 128> = ContactState::new();
         let image = Image { values: &values, rows: &Rows::ALL };

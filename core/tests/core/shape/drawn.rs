@@ -1,25 +1,15 @@
 //! Discs, rectangles and fingers, drawn at random.
 #![allow(dead_code)] // each test that uses this takes a part of it
 
+use crate::random::Noise;
 use taxel_core::format::Code;
 use taxel_core::shape::Class;
 
 /// The drawn classes.
 pub const CLASSES: [Class; 3] = [Class::RECTANGLE, Class::ROUND, Class::FINGER];
 
-/// A seeded random generator.
-pub struct Rng(pub u64);
-
-impl Rng {
-    /// A number in a range.
-    pub fn range(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        low + (high - low) * (self.0 >> 33) as f64 / (1u64 << 31) as f64
-    }
-}
-
 /// A drawn touch; lengths in taxels.
-pub struct Touch {
+pub struct DrawnTouch {
     class: Class,
     /// Centre.
     pub x: f64,
@@ -31,22 +21,22 @@ pub struct Touch {
     pub gain: f64,
 }
 
-impl Touch {
+impl DrawnTouch {
     /// A random touch of a class near the middle of a panel.
-    pub fn random(class: Class, rows: u16, columns: u16, rng: &mut Rng) -> Touch {
+    pub fn random(class: Class, rows: u16, columns: u16, noise: &mut Noise) -> DrawnTouch {
         let (low, high) = match rows.min(columns) {
             ..=4 => (1.2, 1.6),
             5..=16 => (2.2, 3.6),
             _ => (4.0, 8.0),
         };
-        Touch {
+        DrawnTouch {
             class,
-            x: f64::from(columns - 1) / 2.0 + rng.range(-0.5, 0.5),
-            y: f64::from(rows - 1) / 2.0 + rng.range(-0.5, 0.5),
-            angle: if rows <= 4 { rng.range(-0.15, 0.15) } else { rng.range(0.0, std::f64::consts::PI) },
-            size: rng.range(low, high),
-            ratio: if class == Class::FINGER { rng.range(0.5, 0.68) } else { rng.range(1.0, 1.7) },
-            gain: rng.range(0.2, 0.9),
+            x: f64::from(columns - 1) / 2.0 + noise.range(-0.5, 0.5),
+            y: f64::from(rows - 1) / 2.0 + noise.range(-0.5, 0.5),
+            angle: if rows <= 4 { noise.range(-0.15, 0.15) } else { noise.range(0.0, std::f64::consts::PI) },
+            size: noise.range(low, high),
+            ratio: if class == Class::FINGER { noise.range(0.5, 0.68) } else { noise.range(1.0, 1.7) },
+            gain: noise.range(0.2, 0.9),
         }
     }
 

@@ -1,13 +1,13 @@
 //! Who stays who: through motion, across seams, merging and splitting.
 
-use crate::tracking::rig::{Frame, Rig};
+use crate::tracking::rig::{FoundContacts, TrackingRig};
 use taxel_core::contact::{Contact, ContactConfig};
 use taxel_core::garment::{Garment, Place};
 
 /// Rows and columns, last included, and the pressure there, on panel 0.
 type Patch = ([u16; 2], [u16; 2], u16);
 
-fn show(rig: &mut Rig, patches: &[Patch]) -> Frame {
+fn show(rig: &mut TrackingRig, patches: &[Patch]) -> FoundContacts {
     rig.values.fill(0);
     for ([top, bottom], [left, right], value) in patches {
         for (row, column) in (*top..=*bottom).flat_map(|row| (*left..=*right).map(move |c| (row, c))) {
@@ -30,7 +30,7 @@ fn large_and_small(left: u16) -> [Patch; 2] {
 #[test]
 fn of_two_that_merge_the_greater_goes_on() {
     for small_first in [true, false] {
-        let mut rig = Rig::mat();
+        let mut rig = TrackingRig::mat();
         let [large, small] = large_and_small(2);
         show(&mut rig, &[if small_first { small } else { large }]);
         let (large_id, small_id) = if small_first { (2, 1) } else { (1, 2) };
@@ -49,7 +49,7 @@ fn of_two_that_merge_the_greater_goes_on() {
 
 #[test]
 fn of_two_equals_that_merge_one_goes_on() {
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     for gap in (1..=6).rev() {
         let frame = show(&mut rig, &[([10, 12], [10 - gap, 12 - gap], 800), ([10, 12], [13, 15], 800)]);
         assert_eq!(ids(&frame.present), [1, 2]);
@@ -62,7 +62,7 @@ fn of_two_equals_that_merge_one_goes_on() {
 fn one_that_covers_another_goes_on_as_it() {
     // A palm lands on a resting finger, in one frame and with its middle far away: the touch there has not
     // ended.
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     show(&mut rig, &[([10, 11], [2, 3], 900)]);
     let frame = show(&mut rig, &[([8, 40], [2, 20], 900)]);
     assert_eq!((ids(&frame.present), frame.released.len()), (vec![1], 0));
@@ -71,7 +71,7 @@ fn one_that_covers_another_goes_on_as_it() {
 
 #[test]
 fn of_one_that_splits_the_greater_part_goes_on() {
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     let whole = show(&mut rig, &[([10, 13], [8, 19], 900)]);
     assert_eq!(ids(&whole.present), [1]);
     // The sixth of it at the right comes away.
@@ -89,7 +89,7 @@ fn of_one_that_splits_the_greater_part_goes_on() {
 
 #[test]
 fn a_gap_of_a_taxel_parts_nothing() {
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     let halves = |gap: u16| [([10, 13], [8, 13], 900), ([10, 13], [14 + gap, 19 + gap], 800)];
     show(&mut rig, &halves(0));
     let whole = show(&mut rig, &halves(1)).present;
@@ -108,7 +108,7 @@ fn a_gap_of_a_taxel_parts_nothing() {
 
 #[test]
 fn fingers_beside_each_other_that_do_not_touch_stay_two() {
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     for frame in 0..20u16 {
         let pressed = 800 + 20 * (frame % 3);
         let frame = show(&mut rig, &[([10, 12], [8, 10], pressed), ([10, 12], [12, 14], 900)]);
@@ -118,7 +118,7 @@ fn fingers_beside_each_other_that_do_not_touch_stay_two() {
 
 #[test]
 fn a_merge_and_a_split_leave_the_greater_its_id() {
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     show(&mut rig, &large_and_small(10)[..1]);
     for left in (10..=17).chain((10..=16).rev()) {
         let frame = show(&mut rig, &large_and_small(left));
@@ -131,7 +131,7 @@ fn a_merge_and_a_split_leave_the_greater_its_id() {
 #[test]
 fn paths_that_cross_are_kept_apart() {
     // Past each other with one free row between them, two taxels a frame each.
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     for step in 0..13u16 {
         let (a, b) = (2 * step, 26 - 2 * step);
         let frame = show(&mut rig, &[([10, 12], [a, a + 2], 900), ([14, 16], [b, b + 2], 900)]);
@@ -144,7 +144,7 @@ fn paths_that_cross_are_kept_apart() {
 #[test]
 fn a_contact_keeps_its_id_over_a_seam() {
     // From the chest over its right side to the back, one column a frame, and on.
-    let mut rig = Rig::new(&Garment::reference(), ContactConfig::default());
+    let mut rig = TrackingRig::new(&Garment::reference(), ContactConfig::default());
     for step in 0..28u16 {
         rig.values.fill(0);
         for (row, column) in (10..13).flat_map(|row| (step..step + 3).map(move |column| (row, column))) {
@@ -166,14 +166,14 @@ fn the_gate_is_the_farthest_leap() {
     {
         let mut garment = Garment::mat();
         garment.panels[0].pitch_um = [1_000 * mm; 2];
-        let mut rig = Rig::new(&garment, ContactConfig::default());
+        let mut rig = TrackingRig::new(&garment, ContactConfig::default());
         show(&mut rig, &[([10, 10], [5, 5], 900)]);
         let frame = show(&mut rig, &[([10, 10], [5 + leap, 5 + leap], 900)]);
         let expected: (&[u32], &[u32]) = if same { (&[1], &[]) } else { (&[2], &[1]) };
         assert_eq!((&ids(&frame.present)[..], &ids(&frame.released)[..]), expected, "{leap} at {mm} mm");
     }
     // One that gets faster is looked for where it is going: six taxels a frame in the end.
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     let mut row = 0;
     for step in [1, 2, 3, 4, 4, 4, 5, 5, 6, 6, 6] {
         row += step;

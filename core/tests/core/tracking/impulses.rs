@@ -1,7 +1,8 @@
 //! Impulses on the reference garment, from the code of a taxel to the contact: none where each is one frame
 //! long and alone, and how many where nothing keeps them apart.
 
-use crate::tracking::rig::{FRAME_US, Noise};
+use crate::random::Noise;
+use crate::tracking::rig::FRAME_US;
 use taxel_core::capacity::TAXELS;
 use taxel_core::condition::{Condition, ConditionState, Sampled};
 use taxel_core::contact::{ContactState, Contacts};
@@ -48,7 +49,7 @@ impl Worn {
 
 /// Noise of 3 counts on every taxel.
 fn idle(noise: &mut Noise, codes: &mut [Code]) {
-    codes.iter_mut().for_each(|code| code.0 = (f64::from(REST) + 3.0 * noise.gauss()).round() as u16);
+    codes.iter_mut().for_each(|code| code.0 = (f64::from(REST) + 3.0 * noise.normal()).round() as u16);
 }
 
 /// 10,000 frames, or 100,000 in a campaign. In each, one taxel in a hundred is hit where it and its
@@ -65,7 +66,7 @@ fn impulses_of_one_frame_begin_no_contact() {
     for frame in 0..frames {
         idle(&mut noise, &mut codes);
         for _ in 0..TAXELS / 100 {
-            let mut below = |count: u16| (rng.next() * f64::from(count)) as u16;
+            let mut below = |count: u16| (rng.unit() * f64::from(count)) as u16;
             let area = &areas[usize::from(below(areas.len() as u16))];
             let (row, column, height) = (below(area.rows), below(area.columns), below(FULL - REST - 20));
             let rows = row.saturating_sub(1)..=(row + 1).min(area.rows - 1);
@@ -101,7 +102,7 @@ fn independent_impulses_begin_as_many_contacts_as_is_told() {
     let mut begun = 0;
     for _ in 0..frames {
         codes.fill(Code(REST));
-        let hit = codes.iter_mut().filter(|_| noise.next() < part);
+        let hit = codes.iter_mut().filter(|_| noise.unit() < part);
         hit.for_each(|code| code.0 = FULL);
         begun += worn.begin(&codes);
     }

@@ -1,5 +1,6 @@
 //! Scenes of pressure over the plane of a panel, as its taxels feel them, and the stage that follows contacts.
 
+use crate::random::Noise;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Contacts};
 use taxel_core::format::Micros;
@@ -10,7 +11,7 @@ pub const FRAME_US: u64 = 5128;
 /// Full scale of 12 bits.
 pub const FULL: f64 = 4095.0;
 
-pub struct Rig {
+pub struct TrackingRig {
     pub layout: Layout,
     pub values: Vec<u16>,
     stage: Contacts,
@@ -19,15 +20,15 @@ pub struct Rig {
 }
 
 /// What one frame gave.
-pub struct Frame {
+pub struct FoundContacts {
     pub present: Vec<Contact>,
     pub released: Vec<Contact>,
 }
 
-impl Rig {
-    pub fn new(garment: &Garment, config: ContactConfig) -> Rig {
+impl TrackingRig {
+    pub fn new(garment: &Garment, config: ContactConfig) -> TrackingRig {
         let layout = Layout::build(garment, 2048, u16::MAX).unwrap();
-        Rig {
+        TrackingRig {
             values: vec![0; layout.taxels()],
             stage: config.build().unwrap(),
             state: Box::default(),
@@ -37,8 +38,8 @@ impl Rig {
     }
 
     /// A panel of 64 x 32 taxels.
-    pub fn mat() -> Rig {
-        Rig::new(&Garment::mat(), ContactConfig::default())
+    pub fn mat() -> TrackingRig {
+        TrackingRig::new(&Garment::mat(), ContactConfig::default())
     }
 
     /// Draws on panel 0 what `pressure(x, y)` says, in shares of full scale.
@@ -46,9 +47,9 @@ impl Rig {
         self.draw_with(|x, y| pressure(x, y) * FULL);
     }
 
-    /// [`Rig::draw`] with noise of `sigma` (a share of full scale) on every taxel.
+    /// [`TrackingRig::draw`] with noise of `sigma` (a share of full scale) on every taxel.
     pub fn draw_noisy(&mut self, noise: &mut Noise, sigma: f64, pressure: impl Fn(f64, f64) -> f64) {
-        self.draw_with(|x, y| (pressure(x, y) + sigma * noise.gauss()) * FULL);
+        self.draw_with(|x, y| (pressure(x, y) + sigma * noise.normal()) * FULL);
     }
 
     fn draw_with(&mut self, mut counts: impl FnMut(f64, f64) -> f64) {
@@ -60,17 +61,17 @@ impl Rig {
         }
     }
 
-    pub fn frame(&mut self) -> Frame {
+    pub fn frame(&mut self) -> FoundContacts {
         self.frame_after(FRAME_US)
     }
 
-    pub fn frame_after(&mut self, us: u64) -> Frame {
+    pub fn frame_after(&mut self, us: u64) -> FoundContacts {
         self.now += us;
         let rows = Rows::of(&self.layout, &self.values);
         let image = Image { values: &self.values, rows: &rows };
         let touches = self.stage.process(&mut self.state, &self.layout, &image, Micros(self.now));
         assert_eq!((touches.dropped, touches.overflow), (0, 0));
-        Frame { present: touches.present.to_vec(), released: touches.released.to_vec() }
+        FoundContacts { present: touches.present.to_vec(), released: touches.released.to_vec() }
     }
 
     pub fn only(&mut self) -> Contact {
@@ -87,28 +88,6 @@ pub fn felt(x: f64, y: f64, pressure: impl Fn(f64, f64) -> f64) -> f64 {
     places.map(|(i, j)| pressure(x + (i - 3.5) / 8.0, y + (j - 3.5) / 8.0)).sum::<f64>() / 64.0
 }
 
-/// A small generator, the same on every machine.
-pub struct Noise(pub u64);
-
-impl Noise {
-    /// Uniform in 0 .. 1.
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 40) as f64 / f64::from(1 << 24)
-    }
-
-    /// Normal with mean 0 and variance 1 (the polar method).
-    pub fn gauss(&mut self) -> f64 {
-        loop {
-            let (u, v) = (2.0 * self.next() - 1.0, 2.0 * self.next() - 1.0);
-            let r = u * u + v * v;
-            if r > 0.0 && r < 1.0 {
-                return u * (-2.0 * r.ln() / r).sqrt();
-            }
-        }
-    }
-}
-
 /// A texture: waves of pressure around one half, each of 5 to 12 taxels.
 pub struct Texture(Vec<[f64; 3]>);
 
@@ -116,9 +95,9 @@ impl Texture {
     pub fn new(seed: u64) -> Texture {
         let mut noise = Noise(seed);
         let wave = |_| {
-            let (length, angle) = (5.0 + 7.0 * noise.next(), noise.next() * std::f64::consts::TAU);
+            let (length, angle) = (5.0 + 7.0 * noise.unit(), noise.unit() * std::f64::consts::TAU);
             let k = std::f64::consts::TAU / length;
-            [k * angle.cos(), k * angle.sin(), noise.next() * std::f64::consts::TAU]
+            [k * angle.cos(), k * angle.sin(), noise.unit() * std::f64::consts::TAU]
         };
         Texture((0..8).map(wave).collect())
     }

@@ -1,6 +1,7 @@
 //! Slip: told within three frames of the start of a motion, and of no contact that is held.
 
-use crate::tracking::rig::{FRAME_US, Noise, Rig, Texture, felt};
+use crate::random::Noise;
+use crate::tracking::rig::{FRAME_US, Texture, TrackingRig, felt};
 use taxel_core::contact::{ContactConfig, NO_SLIP};
 use taxel_core::garment::Garment;
 
@@ -29,7 +30,7 @@ fn above_noise() -> ContactConfig {
 /// Held for 60 frames, then moving: frames from the first that differs until the slip is told; none of the
 /// held ones is one.
 fn onset(config: ContactConfig, noise: f64, speed: f64, degrees: f64, pressure: Pressure) -> Option<usize> {
-    let mut rig = Rig::new(&Garment::mat(), config);
+    let mut rig = TrackingRig::new(&Garment::mat(), config);
     let mut random = Noise(11);
     let (sin, cos) = degrees.to_radians().sin_cos();
     for frame in 0..90usize {
@@ -59,7 +60,7 @@ fn a_slip_is_one_of_cm_per_second() {
         // A dome of 4 cm, whose speed is told in cm/s.
         let (taxels, pressure) = (10.0 / f64::from(mm), dome(20.0 / f64::from(mm)));
         let onset = |speed: f64| {
-            let mut rig = Rig::new(&mat_of(mm), config);
+            let mut rig = TrackingRig::new(&mat_of(mm), config);
             (0..120usize).find(|frame| {
                 let way = speed * taxels * FRAME_US as f64 / 1e6 * frame.saturating_sub(60) as f64;
                 rig.draw(|x, y| pressure(x - 15.4, y - 25.3 - way));
@@ -123,7 +124,7 @@ fn with_noise_a_slip_that_is_clear_of_it_is_told_within_three_frames() {
 
 /// 24,000 frames of things that are held, with noise of 2 %; frames with a slip.
 fn slips(held: Pressure) -> usize {
-    let mut rig = Rig::new(&Garment::mat(), above_noise());
+    let mut rig = TrackingRig::new(&Garment::mat(), above_noise());
     let mut random = Noise(5);
     let still: Vec<f64> = (0..2048).map(|i| held(f64::from(i % 32), f64::from(i / 32))).collect();
     let mut slips = 0;
@@ -158,7 +159,7 @@ fn a_texture_that_is_held_with_noise_never_slips() {
 #[test]
 fn a_slip_ends_with_the_motion() {
     let pressure = dome(3.0);
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     let mut ended = None;
     for frame in 0..140usize {
         // Ten taxels per second for 60 frames.
@@ -181,7 +182,7 @@ fn a_slip_ends_with_the_motion() {
 fn pressing_and_lifting_is_no_slip() {
     let texture = Texture::new(2);
     for what in [&dome(2.6) as Pressure, &dome(6.0), &|x, y| texture.at(x, y) * dome(7.0)(x, y)] {
-        let mut rig = Rig::mat();
+        let mut rig = TrackingRig::mat();
         for frame in 0..80 {
             let force = f64::from(frame.min(79 - frame)) / 20.0;
             rig.draw(|x, y| force.min(1.0) * what(x - 15.4, y - 31.3));
@@ -197,7 +198,7 @@ fn pressing_and_lifting_is_no_slip() {
 /// slides along y by `speed` taxels a frame.
 fn slide(left: f64, speed: f64) -> Vec<(bool, f64)> {
     let texture = Texture::new(4);
-    let mut rig = Rig::mat();
+    let mut rig = TrackingRig::mat();
     let frames = (30.0 / speed.abs()).min(120.0) as usize;
     let course = (0..frames).map(|frame| {
         let way = speed * (frame as f64 - frames as f64 / 2.0);

@@ -1,6 +1,7 @@
 //! Velocities of things that move, against their true speed: at most 5 % off, or 0.05 taxel a frame.
 
-use crate::tracking::rig::{FRAME_US, Noise, Rig, Texture, felt};
+use crate::random::Noise;
+use crate::tracking::rig::{FRAME_US, Texture, TrackingRig, felt};
 use taxel_core::contact::ContactConfig;
 use taxel_core::garment::Garment;
 
@@ -13,7 +14,7 @@ const DIRECTIONS: [f64; 4] = [0.0, 23.0, 90.0, -151.0];
 type Moving<'a> = &'a dyn Fn([f64; 2], [f64; 2]) -> f64;
 
 /// A motion with noise, and how its velocity is smoothed.
-struct Motion {
+struct NoisyMotion {
     speed: f64,
     degrees: f64,
     noise: f64,
@@ -23,16 +24,16 @@ struct Motion {
     settled: usize,
 }
 
-impl Motion {
+impl NoisyMotion {
     /// The velocity of each frame as it is, over a way of 12 taxels at most.
-    fn clean(speed: f64, degrees: f64) -> Motion {
+    fn clean(speed: f64, degrees: f64) -> NoisyMotion {
         let frames = (12.0 / speed) as usize;
-        Motion { speed, degrees, noise: 0.0, smoothing_ms: 0, frames: frames.min(60), settled: 4 }
+        NoisyMotion { speed, degrees, noise: 0.0, smoothing_ms: 0, frames: frames.min(60), settled: 4 }
     }
 
     /// With noise of 2 % of full scale, and the smoothing of 40 ms, five of which it takes to settle.
-    fn noisy(speed: f64, degrees: f64) -> Motion {
-        Motion { speed, degrees, noise: 0.02, smoothing_ms: 40, frames: 120, settled: 40 }
+    fn noisy(speed: f64, degrees: f64) -> NoisyMotion {
+        NoisyMotion { speed, degrees, noise: 0.02, smoothing_ms: 40, frames: 120, settled: 40 }
     }
 
     /// The greatest error of the velocity, in taxels per frame.
@@ -41,7 +42,7 @@ impl Motion {
         let low = if self.noise > 0.0 { 330 } else { 60 };
         let config =
             ContactConfig { low, high: 2 * low, smoothing_ms: self.smoothing_ms, ..ContactConfig::default() };
-        let mut rig = Rig::new(&Garment::mat(), config);
+        let mut rig = TrackingRig::new(&Garment::mat(), config);
         let (sin, cos) = self.degrees.to_radians().sin_cos();
         let (mut random, mut worst) = (Noise(7), 0.0f64);
         for frame in 0..self.frames {
@@ -61,7 +62,7 @@ impl Motion {
 }
 
 /// The greatest error over speeds and directions is within 5 % of the speed, or 0.05 taxel a frame.
-fn check(what: &str, speeds: &[f64], motion: impl Fn(f64, f64) -> Motion, moving: Moving) {
+fn check(what: &str, speeds: &[f64], motion: impl Fn(f64, f64) -> NoisyMotion, moving: Moving) {
     for speed in speeds {
         let worst = DIRECTIONS.map(|degrees| motion(*speed, degrees).worst(moving));
         let worst = worst.into_iter().fold(0.0, f64::max);
@@ -82,15 +83,15 @@ fn whole(reach: f64, pressure: impl Fn(f64, f64) -> f64) -> impl Fn([f64; 2], [f
 fn discs_and_fingers() {
     for radius in [1.5f64, 3.0, 6.3] {
         let disc = whole(radius, |x, y| if x.hypot(y) <= radius { 0.6 } else { 0.0 });
-        check(&format!("a disc of radius {radius}"), &SPEEDS, Motion::clean, &disc);
+        check(&format!("a disc of radius {radius}"), &SPEEDS, NoisyMotion::clean, &disc);
         let dome = |x: f64, y: f64| 0.8 * (1.0 - (x * x + y * y) / (radius * radius)).max(0.0).sqrt();
         let finger = whole(radius, dome);
-        check(&format!("a finger of radius {radius}"), &SPEEDS, Motion::clean, &finger);
+        check(&format!("a finger of radius {radius}"), &SPEEDS, NoisyMotion::clean, &finger);
         if radius > 2.0 {
             // As far as the panel goes.
             let motion = |speed: f64, degrees| {
-                let motion = Motion::noisy(speed, degrees);
-                Motion { frames: motion.frames.min((18.0 / speed) as usize), ..motion }
+                let motion = NoisyMotion::noisy(speed, degrees);
+                NoisyMotion { frames: motion.frames.min((18.0 / speed) as usize), ..motion }
             };
             check(&format!("a noisy finger of radius {radius}"), &SPEEDS[..4], motion, &finger);
         }
@@ -102,13 +103,13 @@ fn a_texture_that_slides_under_the_whole_panel() {
     for seed in [1, 2] {
         let texture = Texture::new(seed);
         let sliding = |at: [f64; 2], way: [f64; 2]| texture.at(at[0] - way[0], at[1] - way[1]);
-        check("a texture", &SPEEDS, Motion::clean, &sliding);
-        check("a noisy texture", &SPEEDS, Motion::noisy, &sliding);
+        check("a texture", &SPEEDS, NoisyMotion::clean, &sliding);
+        check("a noisy texture", &SPEEDS, NoisyMotion::noisy, &sliding);
     }
     let ridges = Texture::ridges(6.0);
     let sliding = |at: [f64; 2], way: [f64; 2]| ridges.at(at[0] - way[0], at[1] - way[1]);
-    check("ridges", &SPEEDS, |speed, _| Motion::clean(speed, 0.0), &sliding);
-    check("noisy ridges", &SPEEDS, |speed, _| Motion::noisy(speed, 0.0), &sliding);
+    check("ridges", &SPEEDS, |speed, _| NoisyMotion::clean(speed, 0.0), &sliding);
+    check("noisy ridges", &SPEEDS, |speed, _| NoisyMotion::noisy(speed, 0.0), &sliding);
 }
 
 #[test]
@@ -119,9 +120,9 @@ fn a_texture_that_slides_inside_a_constant_outline() {
         let pad = |at: [f64; 2], way: [f64; 2]| {
             if at[0].abs().max(at[1].abs()) < half { texture.at(at[0] - way[0], at[1] - way[1]) } else { 0.0 }
         };
-        check(&format!("a texture inside {half}"), &SPEEDS[..7], Motion::clean, &pad);
+        check(&format!("a texture inside {half}"), &SPEEDS[..7], NoisyMotion::clean, &pad);
         let noisy = if half < 6.0 { &SPEEDS[..4] } else { &SPEEDS[..7] };
-        check(&format!("a noisy texture inside {half}"), noisy, Motion::noisy, &pad);
+        check(&format!("a noisy texture inside {half}"), noisy, NoisyMotion::noisy, &pad);
     }
 }
 
@@ -135,6 +136,6 @@ fn a_textured_thing_that_moves_as_a_whole() {
             let (x, y) = (at[0] - way[0], at[1] - way[1]);
             covered(x) * covered(y) * texture.at(x, y)
         };
-        check(&format!("a textured thing of {half}"), &SPEEDS, Motion::clean, &thing);
+        check(&format!("a textured thing of {half}"), &SPEEDS, NoisyMotion::clean, &thing);
     }
 }

@@ -16,6 +16,8 @@ mod outputs;
 mod own_garment;
 #[cfg(feature = "schema")]
 mod page_types;
+#[path = "../../../../core/tests/core/random.rs"]
+mod random;
 mod recordings;
 mod reference;
 mod repair;

@@ -1,7 +1,8 @@
 //! A user teaches shapes, from outside: by touches with `taxel shapes learn` on a simulated board, then
 //! `taxel live` with the base; and by labelled images with `taxel shapes train`.
 
-use crate::drawn::{CLASSES, Rng, Touch};
+use crate::drawn::{CLASSES, DrawnTouch};
+use crate::random::Noise;
 use crate::start::taxel;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -147,12 +148,12 @@ fn what_teaches_nothing_is_said_in_one_sentence() {
 
 /// Files of drawn images and of their labels: NAME.csv, NAME-labels.csv.
 fn draw(folder: &Path, name: &str, count: usize, seed: u64) -> [String; 2] {
-    let (rows, columns, mut rng) = (16, 16, Rng(seed));
+    let (rows, columns, mut rng) = (16, 16, Noise(seed));
     let (mut images, mut labels) = (String::new(), "index,name\n".to_string());
     for (index, (class, what)) in
         CLASSES.into_iter().zip(["rectangle", "round", "finger"]).cycle().take(count).enumerate()
     {
-        let codes = Touch::random(class, rows, columns, &mut rng).codes(rows, columns);
+        let codes = DrawnTouch::random(class, rows, columns, &mut rng).codes(rows, columns);
         for row in codes.chunks(columns.into()) {
             images += &row.iter().map(|code| code.0.to_string()).collect::<Vec<_>>().join(",");
             images.push('\n');

@@ -15,6 +15,8 @@ mod maps;
 mod meaning;
 mod people;
 mod points;
+#[path = "../../../../core/tests/core/random.rs"]
+mod random;
 mod ros2;
 mod scan;
 #[cfg(feature = "schema")]

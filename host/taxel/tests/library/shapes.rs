@@ -1,6 +1,7 @@
 //! The map of shapes, beside the k-NN of `core/tests/core/shape`.
 
-use crate::drawn::{CLASSES, Rng, Touch};
+use crate::drawn::{CLASSES, DrawnTouch};
+use crate::random::Noise;
 use crate::shape_of::*;
 use taxel::fcm::{board::BoardMap, load};
 use taxel_core::contact::{Contact, Moments, Quartic};
@@ -12,13 +13,13 @@ use taxel_core::shape::nmi;
 fn the_shape_map_stands_beside_the_knn() {
     let map = BoardMap::build(&load::map("shape").unwrap()).unwrap();
     let concepts = ["rectangle", "round", "finger"].map(|name| map.map.find(name).unwrap());
-    let mut rng = Rng(42);
+    let mut rng = Noise(42);
     for (rows, columns, least) in [(4u16, 16u16, 45), (16, 16, 80), (32, 64, 95)] {
         let layout = recorded(rows, columns);
         // Rows are true shapes, columns decisions.
         let mut confusion = [[0; 3]; 3];
         for (index, class) in CLASSES.into_iter().enumerate().cycle().take(300) {
-            let touch = Touch::random(class, rows, columns, &mut rng);
+            let touch = DrawnTouch::random(class, rows, columns, &mut rng);
             let form =
                 |moments: &Moments, _: &Quartic, contact: &Contact| nmi(moments, contact.peak).peak_sheppard;
             let form = greatest_of_codes(&layout, &touch.codes(rows, columns), form).expect("a contact");

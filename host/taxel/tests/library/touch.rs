@@ -2,10 +2,9 @@
 
 use proptest::prelude::*;
 use taxel::learn::touches::{ModelHead, Provenance, Ridge, Trained, export};
-use taxel_core::format::Q15;
+use taxel_core::format::{Q15, crc32};
 use taxel_core::gesture::{
     FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, ShippedModel, TouchClassifier, TouchState,
-    checksum,
 };
 
 /// Touches of a sheet that differ in the speed of their back-and-forth movement.
@@ -120,7 +119,7 @@ fn the_expert_of_its_age_decides_and_the_last_concludes_where_touches_are_whole(
         let second = bytes.len() - 4 - (6 + 2 * 4 + FEATURES * 10 + 20);
         bytes.truncate(bytes.len() - 4);
         bytes[second] = from;
-        let sum = checksum(&bytes);
+        let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
     };
@@ -139,7 +138,7 @@ fn a_model_of_version_2_is_read_and_knows_no_confidence() {
     two[notes + 2..notes + 4].copy_from_slice(&(FEATURES as u16).to_le_bytes());
     two.drain(notes + 8 + 32..notes + 8 + 32 + 6);
     two.drain(notes + 6..notes + 8);
-    let sum = checksum(&two);
+    let sum = crc32(&two);
     two.extend(sum.to_le_bytes());
     let [two, three] = [&two, &three].map(|bytes| TouchClassifier::new(Model::read(bytes).unwrap(), 8, 8));
     let mut state = TouchState::default();
@@ -155,7 +154,7 @@ fn bad_models_are_refused_with_a_sentence() {
     let with = |at: usize, byte: u8| {
         let mut bytes = good[..good.len() - 4].to_vec();
         bytes[at] = byte;
-        let sum = checksum(&bytes);
+        let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         Model::read(&bytes).unwrap_err()
     };
@@ -192,7 +191,7 @@ proptest! {
     ) {
         let mut bytes = ShippedModel::Gestures.bytes()[..ShippedModel::Gestures.bytes().len() - 4].to_vec();
         flips.into_iter().for_each(|(at, byte)| bytes[at] = byte);
-        let sum = checksum(&bytes);
+        let sum = crc32(&bytes);
         bytes.extend(sum.to_le_bytes());
         if let Ok(model) = Model::read(&bytes) {
             let touches = TouchClassifier::new(model, rows, columns);

@@ -1,7 +1,7 @@
 //! Examples of shapes: their features as the board computes them, and what they are.
 
 use crate::shape::drawn::CLASSES;
-use crate::shape::kinds::{KINDS, Kind, VIEWS, View};
+use crate::shape::kinds::{KINDS, Kind, QUALITIES, Quality};
 use crate::shape::rig::{greatest, recorded};
 use fastrand::Rng;
 use taxel_core::condition::{Image, Rows};
@@ -11,31 +11,32 @@ use taxel_core::shape::{Class, ShapeFeatures, features, nmi};
 pub const GRIDS: [[u16; 2]; 3] = [[4, 16], [16, 16], [32, 64]];
 
 /// Examples of one kind.
-pub struct Cell {
+pub struct ExampleSet {
     pub kind: Kind,
-    pub view: View,
+    pub quality: Quality,
     pub grid: [u16; 2],
     pub examples: Vec<(ShapeFeatures, Class)>,
 }
 
-/// So many of each generator, grid and view; what no contact is left of is drawn anew.
-pub fn drawn(count: usize, seed: u64) -> Vec<Cell> {
-    let mut cells = Vec::new();
+/// So many of each generator, grid and quality; what no contact is left of is drawn anew.
+pub fn drawn(count: usize, seed: u64) -> Vec<ExampleSet> {
+    let mut sets = Vec::new();
     for (number, kind) in (0..).zip(KINDS) {
         for grid in GRIDS {
-            for view in VIEWS {
-                let rng = Rng::with_seed(seed * 1000 + number * 100 + u64::from(grid[0]) * 3 + view as u64);
-                cells.push(cell(kind, view, grid, count, rng));
+            for quality in QUALITIES {
+                let rng =
+                    Rng::with_seed(seed * 1000 + number * 100 + u64::from(grid[0]) * 3 + quality as u64);
+                sets.push(set(kind, quality, grid, count, rng));
             }
         }
     }
-    cells
+    sets
 }
 
-fn cell(kind: Kind, view: View, grid: [u16; 2], count: usize, mut rng: Rng) -> Cell {
+fn set(kind: Kind, quality: Quality, grid: [u16; 2], count: usize, mut rng: Rng) -> ExampleSet {
     let layout = recorded(grid[0], grid[1]);
     let mut example = |class| loop {
-        let values = kind.image(class, grid, view, &mut rng);
+        let values = kind.image(class, grid, quality, &mut rng);
         let image = Image { values: &values, rows: &Rows::ALL };
         let seen = greatest(&layout, &image, |moments, quartic, contact| {
             features(&nmi(moments, contact.peak), quartic, contact)
@@ -45,5 +46,5 @@ fn cell(kind: Kind, view: View, grid: [u16; 2], count: usize, mut rng: Rng) -> C
         }
     };
     let examples = CLASSES.into_iter().cycle().take(count).map(&mut example).collect();
-    Cell { kind, view, grid, examples }
+    ExampleSet { kind, quality, grid, examples }
 }

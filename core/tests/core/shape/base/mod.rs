@@ -5,20 +5,20 @@
 mod examples;
 mod glvq;
 
-use crate::shape::kinds::{KINDS, View};
-use examples::{Cell, GRIDS, drawn};
+use crate::shape::kinds::{KINDS, Quality};
+use examples::{ExampleSet, GRIDS, drawn};
 use glvq::{Learned, learn};
 use taxel_core::shape::Base;
 
-/// Images of each generator, grid and view.
+/// Images of each generator, grid and quality.
 const EACH: usize = 900;
 
-/// What is learned from some cells, each of which counts as much.
-fn learned<'a>(cells: impl Iterator<Item = &'a Cell>) -> Learned {
+/// What is learned from some sets, each of which counts as much.
+fn learned<'a>(sets: impl Iterator<Item = &'a ExampleSet>) -> Learned {
     let mut examples = Vec::new();
-    for cell in cells {
-        let each = 1.0 / cell.examples.len() as f64;
-        examples.extend(cell.examples.iter().map(|(features, class)| (*features, *class, each)));
+    for set in sets {
+        let each = 1.0 / set.examples.len() as f64;
+        examples.extend(set.examples.iter().map(|(features, class)| (*features, *class, each)));
     }
     learn(&examples)
 }
@@ -34,27 +34,31 @@ fn the_built_in_base_is_what_three_generators_give() {
 
 #[test]
 fn a_generator_that_was_left_out_is_known() {
-    let (cells, others) = (drawn(EACH, 1), drawn(600, 2));
-    let all = learned(cells.iter());
-    let left_out = KINDS.map(|kind| learned(cells.iter().filter(|cell| cell.kind != kind)));
-    println!("grid, view: all generators learned, each left out");
+    let (sets, others) = (drawn(EACH, 1), drawn(600, 2));
+    let all = learned(sets.iter());
+    let left_out = KINDS.map(|kind| learned(sets.iter().filter(|set| set.kind != kind)));
+    println!("grid, quality: all generators learned, each left out");
     for grid in GRIDS {
-        for (view, least) in [View::Clean, View::Noisy, View::Hard].into_iter().zip(least(grid)) {
+        for (quality, least) in [Quality::Clean, Quality::Noisy, Quality::Hard].into_iter().zip(least(grid)) {
             let own = |kind| {
-                let cell = others.iter().find(|cell| (cell.kind, cell.view, cell.grid) == (kind, view, grid));
-                &cell.expect("there is one of each").examples
+                let set =
+                    others.iter().find(|set| (set.kind, set.quality, set.grid) == (kind, quality, grid));
+                &set.expect("there is one of each").examples
             };
             let known = KINDS.map(|kind| all.percent(own(kind)));
             let unknown = [0, 1, 2].map(|i| left_out[i].percent(own(KINDS[i])));
-            println!("{} x {} {view:?}: {known:.1?}, {unknown:.1?}", grid[0], grid[1]);
+            println!("{} x {} {quality:?}: {known:.1?}, {unknown:.1?}", grid[0], grid[1]);
             for (known, unknown) in known.into_iter().zip(unknown) {
-                assert!(unknown >= least && unknown >= known - 3.0, "{grid:?} {view:?}: {known} {unknown}");
+                assert!(
+                    unknown >= least && unknown >= known - 3.0,
+                    "{grid:?} {quality:?}: {known} {unknown}"
+                );
             }
         }
     }
 }
 
-/// Least share of a generator that a base learned without it must recognise, in percent, by view.
+/// Least share of a generator that a base learned without it must recognise, in percent, by quality.
 fn least(grid: [u16; 2]) -> [f64; 3] {
     match grid {
         [4, _] => [83.0, 78.0, 64.0],

@@ -34,7 +34,7 @@ pub const KINDS: [Kind; 3] = [Kind::Polygon, Kind::Elastic, Kind::Depth];
 /// What the sensor makes of the touch. In all views the gain is 0.2 to 0.9, and what is below 1.5 to 5 % of
 /// the full scale (5 % if hard) is cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum View {
+pub enum Quality {
     /// No blur, no noise.
     Clean,
     /// Blur of up to 0.6 taxel, noise of 0.1 to 1 % of the full scale, conservative filter.
@@ -45,7 +45,7 @@ pub enum View {
 }
 
 /// All of them.
-pub const VIEWS: [View; 3] = [View::Clean, View::Noisy, View::Hard];
+pub const QUALITIES: [Quality; 3] = [Quality::Clean, Quality::Noisy, Quality::Hard];
 
 /// Full scale of the converter.
 const FULL: f64 = 4095.0;
@@ -62,7 +62,7 @@ fn one_of<T: Copy>(choices: &[T], rng: &mut Rng) -> T {
 
 impl Kind {
     /// An image of a random touch.
-    pub fn image(self, class: Class, [rows, columns]: [u16; 2], view: View, rng: &mut Rng) -> Vec<u16> {
+    pub fn image(self, class: Class, [rows, columns]: [u16; 2], quality: Quality, rng: &mut Rng) -> Vec<u16> {
         let body = Body::random(class, [rows, columns], rng);
         let image = match self {
             Kind::Polygon => polygon::image(&body, rng),
@@ -75,29 +75,29 @@ impl Kind {
                 leaky.iter().map(|value| value * (1.0 + spread * normal(rng))).collect()
             }
         };
-        seen(&image, [rows, columns], view, rng)
+        seen(&image, [rows, columns], quality, rng)
     }
 }
 
 /// Codes of a pressure at a random gain.
-fn seen(image: &[f64], [rows, columns]: [u16; 2], view: View, rng: &mut Rng) -> Vec<u16> {
+fn seen(image: &[f64], [rows, columns]: [u16; 2], quality: Quality, rng: &mut Rng) -> Vec<u16> {
     let peak = image.iter().copied().fold(1e-9, f64::max);
     let gain = range(rng, 0.2, 0.9) * FULL / peak;
-    let least = if view == View::Hard { 0.05 } else { range(rng, 0.015, 0.05) } * FULL;
+    let least = if quality == Quality::Hard { 0.05 } else { range(rng, 0.015, 0.05) } * FULL;
     let mut image: Vec<f64> = image.iter().map(|value| value * gain).collect();
-    let (blur, noise) = match view {
-        View::Clean => (0.0, 0.0),
-        View::Noisy => (range(rng, 0.05, 0.6), range(rng, 0.001, 0.01)),
-        View::Hard => (range(rng, 0.05, 0.8), 0.03),
+    let (blur, noise) = match quality {
+        Quality::Clean => (0.0, 0.0),
+        Quality::Noisy => (range(rng, 0.05, 0.6), range(rng, 0.001, 0.01)),
+        Quality::Hard => (range(rng, 0.05, 0.8), 0.03),
     };
-    if view != View::Clean {
+    if quality != Quality::Clean {
         image = sensor::blurred(&image, columns.into(), blur);
         image.iter_mut().for_each(|value| *value += noise * FULL * normal(rng));
     }
     let codes: Vec<u16> = image.iter().map(|value| value.round().clamp(0.0, FULL) as u16).collect();
-    let filter = match view {
-        View::Noisy => Filter::Conservative,
-        View::Hard if rows > 4 => Filter::Median,
+    let filter = match quality {
+        Quality::Noisy => Filter::Conservative,
+        Quality::Hard if rows > 4 => Filter::Median,
         _ => Filter::Off,
     };
     let values = sensor::filtered(&codes, [rows, columns], filter);

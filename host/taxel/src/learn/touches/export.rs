@@ -2,7 +2,8 @@
 
 use super::experts::Trained;
 use crate::error::{Context, LearnError, Result};
-use taxel_core::gesture::{MAGIC, Model, checksum};
+use taxel_core::format::crc32;
+use taxel_core::gesture::{MAGIC, Model};
 
 /// Parts of a model besides its experts.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +33,7 @@ pub fn export(experts: &[Trained], head: ModelHead<'_>) -> Result<Vec<u8>> {
         bytes.extend(padded);
     }
     experts.iter().try_for_each(|expert| add(&mut bytes, expert))?;
-    let sum = checksum(&bytes);
+    let sum = crc32(&bytes);
     bytes.extend(sum.to_le_bytes());
     Model::read(&bytes).context("the trained model does not fit a board")?;
     Ok(bytes)

@@ -1,11 +1,8 @@
-//! CRC-32/ISO-HDLC (zlib, Ethernet), by a table of 1 KiB in flash. Loads four bytes at a time, 16 in a step: 7
-//! cycles of an M0+ for each byte.
+//! The checksum of messages, models and stored settings, by a table of 1 KiB in flash. Loads four bytes at a
+//! time, 16 in a step: 7 cycles of an M0+ for each byte.
 
 use bytemuck::pod_align_to;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
-
-/// Number of bytes of the CRC.
-pub(super) const BYTES: usize = 4;
 
 /// A `static`: a `const` would copy the table to the stack of each user.
 static TABLE: [u32; 256] = {
@@ -13,9 +10,9 @@ static TABLE: [u32; 256] = {
     table
 };
 
-/// Returns the CRC of the bytes.
+/// Returns the CRC-32/ISO-HDLC (zlib, Ethernet) of the bytes.
 #[inline(never)] // M0+: out of line
-pub(super) fn of(bytes: &[u8]) -> u32 {
+pub fn crc32(bytes: &[u8]) -> u32 {
     let (first, words, last) = pod_align_to(bytes);
     let crc = first.iter().fold(u32::MAX, byte);
     let (blocks, words) = words.as_chunks::<4>();
@@ -50,9 +47,9 @@ mod tests {
         let crate_s = Crc::<u32>::new(&CRC_32_ISO_HDLC);
         for from in 0..8 {
             for to in from..bytes.len() {
-                assert_eq!(of(&bytes[from..to]), crate_s.checksum(&bytes[from..to]), "{from}..{to}");
+                assert_eq!(crc32(&bytes[from..to]), crate_s.checksum(&bytes[from..to]), "{from}..{to}");
             }
         }
-        assert_eq!(of(b"123456789"), 0xcbf4_3926);
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
     }
 }

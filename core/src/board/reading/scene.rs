@@ -1,58 +1,16 @@
-//! Reads a scene in place, field by field. Derived code makes a copy at every level, and a microcontroller's
-//! stack has no room for several maps of 64 concepts.
+//! Reads a scene.
 
-use super::refusal::Refusal;
+use super::Unread;
+use crate::board::refusal::Refusal;
 use crate::format::LEFT_OUT;
 use crate::intent::{IntentConfig, MapConfig};
 use crate::scene::Scene;
-use heapless::Vec;
-use serde::Deserialize;
-
-/// Unread bytes of a message.
-struct Bytes<'a>(&'a [u8]);
-
-impl<'a> Bytes<'a> {
-    fn next<T: Deserialize<'a>>(&mut self, field: &str) -> Result<T, Refusal> {
-        match postcard::take_from_bytes(self.0) {
-            Ok((value, rest)) => {
-                self.0 = rest;
-                Ok(value)
-            }
-            Err(postcard::Error::DeserializeUnexpectedEnd) => {
-                Err(format_args!("scene: it ends within {field}").into())
-            }
-            Err(_) => Err(format_args!("scene: {field} cannot be read").into()),
-        }
-    }
-
-    fn put<T: Deserialize<'a>>(&mut self, field: &str, to: &mut T) -> Result<(), Refusal> {
-        *to = self.next(field)?;
-        Ok(())
-    }
-
-    fn list<T: Deserialize<'a>, const N: usize>(
-        &mut self,
-        field: &str,
-        to: &mut Vec<T, N>,
-    ) -> Result<(), Refusal> {
-        to.clear();
-        let found: u32 = self.next(field)?;
-        if found as usize > N {
-            return Err(format_args!("scene: {found} {field}, and there is room for {N}").into());
-        }
-        for _ in 0..found {
-            // There is room for `found` of them.
-            let _ = to.push(self.next(field)?);
-        }
-        Ok(())
-    }
-}
 
 /// Decodes a scene from postcard, in the order of its fields. After an error `to` holds the fields read so
 /// far.
 #[inline(never)]
-pub(super) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
-    let from = &mut Bytes(bytes);
+pub(in crate::board) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
+    let from = &mut Unread { what: "scene", bytes };
     from.put("name", &mut to.name)?;
     from.put("plan", &mut to.plan)?;
     from.put("rate_hz", &mut to.rate_hz)?;
@@ -71,14 +29,11 @@ pub(super) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
     from.list("joints", &mut to.joints)?;
     from.list("react", &mut to.react)?;
     from.put("stream", &mut to.stream)?;
-    match from.0 {
-        [] => Ok(()),
-        rest => Err(format_args!("scene: bytes after its end: {}", rest.len()).into()),
-    }
+    from.end()
 }
 
 #[inline(never)]
-fn intent(from: &mut Bytes<'_>, to: &mut IntentConfig) -> Result<(), Refusal> {
+fn intent(from: &mut Unread<'_>, to: &mut IntentConfig) -> Result<(), Refusal> {
     map(from, &mut to.map)?;
     from.put("intent.onset_ms", &mut to.onset_ms)?;
     from.put("intent.level", &mut to.level)?;
@@ -88,7 +43,7 @@ fn intent(from: &mut Bytes<'_>, to: &mut IntentConfig) -> Result<(), Refusal> {
     from.put("intent.steps", &mut to.steps)
 }
 
-fn map(from: &mut Bytes<'_>, to: &mut MapConfig) -> Result<(), Refusal> {
+fn map(from: &mut Unread<'_>, to: &mut MapConfig) -> Result<(), Refusal> {
     from.put("intent.map.name", &mut to.name)?;
     from.list("intent.map.concepts", &mut to.concepts)?;
     from.put("intent.map.decimals", &mut to.decimals)?;
