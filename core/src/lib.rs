@@ -1,4 +1,6 @@
-//! `taxel-core`: everything between the converter's codes and the meaning of a touch.
+#![doc = include_str!("../README.md")]
+//!
+//! ## Modules
 //!
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
 //! [`reflex`] (check of raw codes within a frame), [`selftest`] (select lines, converter inputs), [`health`]

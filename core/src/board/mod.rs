@@ -360,21 +360,18 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         } = self;
         health.process_us = ledger.process_us();
         let image = state.image(&setup.pipeline, &setup.layout);
-        let (examined, certificate) = (examined.as_ref(), certificate.as_ref());
-        let (boot, unsure, taught) = (*boot, state.unsure(), &state.taught);
-        let (present, form_ages, took_picture) = (state.present(), state.form_ages(), state.took_picture());
         let about = About {
             info,
-            boot,
+            boot: *boot,
             setup,
             monitor,
-            examined,
-            certificate,
-            present,
-            form_ages,
-            took_picture,
-            unsure,
-            taught,
+            examined: examined.as_ref(),
+            certificate: certificate.as_ref(),
+            present: state.present(),
+            form_ages: state.form_ages(),
+            took_picture: state.took_picture(),
+            unsure: state.unsure(),
+            taught: &state.taught,
         };
         outbox.prepare(now, about, &image, health, probe);
         if !outbox.has_rest() {

@@ -1,12 +1,10 @@
 //! Clamps a taxel to the range of its eight neighbours: by single comparisons, or many taxels at once.
 
 use super::points::stands_out;
-
-/// True if the machine has SIMD. Without it, a few comparisons settle most taxels.
-pub(crate) const VECTORS: bool = cfg!(target_pointer_width = "64");
+use crate::format::WIDE;
 
 /// Taxels of a run, with one neighbour at each end: as many as fill a vector, or a few without SIMD.
-pub(crate) const SHORT: usize = if VECTORS { 10 } else { 9 };
+pub(crate) const SHORT: usize = if WIDE { 10 } else { 9 };
 
 /// Clamps all taxels of `here` except its ends, each to the range of its eight neighbours. Sets `points` if one
 /// of them may [stand out](stands_out): with SIMD, to look is as fast as to note it here.
@@ -18,7 +16,7 @@ pub(crate) fn clamp_run<const N: usize>(
     out: &mut [u16; N],
     points: &mut bool,
 ) {
-    if VECTORS {
+    if WIDE {
         by_range(above, here, below, out);
         *points = true;
     } else {

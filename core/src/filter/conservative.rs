@@ -3,10 +3,11 @@
 //! Taxels beyond the border do not count: with a replicated border a taxel there would be its own neighbour,
 //! and an impulse would survive.
 
-use super::clamp::{SHORT, VECTORS, clamp, clamp_run};
+use super::clamp::{SHORT, clamp, clamp_run};
 use super::clamp_row16::clamp_row16;
 use super::points::stands_out;
 use super::row::FilterRow;
+use crate::format::WIDE;
 use crate::garment::Area;
 use crate::image::row16::ROW16;
 use crate::image::rows::{Pieces, Rows};
@@ -31,7 +32,7 @@ pub(crate) fn conservative(
     let there = u16::MAX >> (15 - ((area.columns - 1) >> grain));
     let (first, end) = (area.first_row, area.first_row.saturating_add(area.rows));
     if columns == ROW16
-        && !VECTORS
+        && !WIDE
         && let Some(groups) = marks.places(first..end)
     {
         return smooth_rows16(values, out, groups);

@@ -1,6 +1,6 @@
 //! Points: taxels that stand out from their neighbours, in this frame and in the previous one.
 
-use super::clamp::VECTORS;
+use crate::format::WIDE;
 use crate::garment::Area;
 use crate::image::rows::Rows;
 use heapless::Vec;
@@ -71,7 +71,7 @@ impl Points {
             let start = usize::from(number - first) * columns;
             let row = start..start + columns;
             let (Some(values), Some(out)) = (values.get(row.clone()), out.get_mut(row)) else { return };
-            if !VECTORS || has_points(values, out) {
+            if !WIDE || has_points(values, out) {
                 self.restore_row(values, out, usize::from(area.base) + start);
             }
         }

@@ -1,10 +1,8 @@
 //! Division by multiplication: the Cortex-M0+ has no divider, and 64 bits by software take 750 cycles.
 
+use super::machine::WIDE;
 use super::product::wide;
 use super::shift::left;
-
-/// True if the machine divides 64 bits, and multiplies them into 128.
-const WIDE: bool = usize::BITS >= 64;
 
 /// Inverse of a divisor, by Newton's iteration. Its cost (about 100 cycles) pays off from the first quotient
 /// on.

@@ -1,8 +1,10 @@
 //! Products of wide numbers, for a machine that multiplies 32 by 32 bits and keeps the lower 32.
 
+use super::machine::WIDE;
+
 /// Product of two words.
 pub(crate) const fn wide(a: u32, b: u32) -> u64 {
-    if usize::BITS >= 64 { a as u64 * b as u64 } else { from_halves(a, b) }
+    if WIDE { a as u64 * b as u64 } else { from_halves(a, b) }
 }
 
 /// Product from half-words: 20 cycles on a Cortex-M0+, where the library's 64-bit multiplication takes 55.

@@ -1,9 +1,11 @@
 //! Shifts of wide numbers, for a machine with 32-bit registers, on which the library's shifts are calls of 30
 //! cycles.
 
+use super::machine::WIDE;
+
 /// `value << by`, for `by` below 64.
 pub(crate) const fn left(value: u64, by: u32) -> u64 {
-    if usize::BITS >= 64 { value << by } else { left_by_halves(value, by) }
+    if WIDE { value << by } else { left_by_halves(value, by) }
 }
 
 const fn left_by_halves(value: u64, by: u32) -> u64 {
@@ -17,7 +19,7 @@ const fn left_by_halves(value: u64, by: u32) -> u64 {
 
 /// `value >> by`, for `by` below 64.
 pub(crate) const fn right(value: u64, by: u32) -> u64 {
-    if usize::BITS >= 64 { value >> by } else { right_by_halves(value, by) }
+    if WIDE { value >> by } else { right_by_halves(value, by) }
 }
 
 const fn right_by_halves(value: u64, by: u32) -> u64 {

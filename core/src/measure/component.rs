@@ -3,7 +3,7 @@
 use super::carried::CarriedLabels;
 use super::moments::{FEW, Moments, is_small};
 use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
-use crate::format::{Fixed16, Inverse};
+use crate::format::{Fixed16, Inverse, WIDE};
 use crate::garment::{Area, Layout, Place, Rect};
 use crate::image::view::Image;
 use crate::segment::config::ContactConfig;
@@ -169,7 +169,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         for (index, component) in (0u16..).zip(&mut self.list).filter(|(_, c)| c.joined) {
             component.bounds.panel = carried.settle(labeller, joins, layout, index);
         }
-        if usize::BITS >= 64 {
+        if WIDE {
             self.take_runs(labeller, carried, layout, image);
         } else {
             self.take_strips(labeller, carried, layout, image);
