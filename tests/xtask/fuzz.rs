@@ -52,10 +52,7 @@ fn targets() -> Result<Vec<String>, String> {
 /// Runs the selected targets. Returns true if nothing was found.
 pub fn run(args: &[String]) -> Result<bool, String> {
     let asked = Asked::read(args)?;
-    let nightly = ["run", "nightly", "rustc", "--version"];
-    if process::output(Command::new("rustup").args(nightly)).is_none() {
-        return Err("not run: there is no nightly compiler (rustup toolchain install nightly)".into());
-    }
+    install::nightly()?;
     let tool = install::cargo_tool("cargo-fuzz", "0.13.2").map_err(|why| format!("not run: {why}"))?;
     let mut found = 0;
     for target in &asked.targets {

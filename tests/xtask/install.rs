@@ -22,6 +22,13 @@ fn alone() -> MutexGuard<'static, ()> {
     INSTALLING.lock().unwrap_or_else(|broken| broken.into_inner())
 }
 
+/// Refuses if rustup has no nightly compiler: it would be a large download that nobody asked for.
+pub fn nightly() -> Result<(), String> {
+    let asked = ["run", "nightly", "rustc", "--version"];
+    let missing = "not run: there is no nightly compiler (rustup toolchain install nightly)";
+    process::output(Command::new("rustup").args(asked)).map(|_| ()).ok_or(missing.into())
+}
+
 /// Installs Debian packages, or returns the command to type.
 pub fn packages(names: &[&str]) -> Result<(), String> {
     let typed = format!("apt-get install {}", names.join(" "));

@@ -61,7 +61,8 @@ usage: cargo xtask COMMAND
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
-  package               pack the published crates, and build each from its package alone
+  package               pack the published crates, and build each from its package alone, and all with the oldest
+                        dependencies allowed; compare their interfaces with the last tag. Needs a nightly compiler
   docs                  build the pages of docs/ as a book, target/docs/index.html
   test [--recorded] [--only NAME] [--may-miss NAME]
                         every check, two at a time; one that cannot run fails the run, unless it is named by --may-miss;

@@ -1,8 +1,9 @@
-//! `cargo xtask package`: the crates that others can depend on, packed and built from their packages alone.
+//! `cargo xtask package`: the crates that others can depend on. Builds each from its package alone, and all
+//! with the oldest dependencies that the manifests allow; compares their interfaces with the last release.
 
 use crate::checks::cargo;
 use crate::targets::End;
-use crate::{paths, process};
+use crate::{install, paths, process};
 use std::path::Path;
 use std::process::Command;
 
@@ -16,9 +17,37 @@ fn packing() -> Command {
     command
 }
 
-/// Packs them and builds each from its package.
+/// Packs them and builds each from its package; then the other two. What could not run is an error.
 pub fn run() -> Result<(), String> {
-    process::run(&mut packing())
+    process::run(&mut packing())?;
+    build_with_oldest()?;
+    compare_with_last()
+}
+
+/// Builds what is in git with the oldest version of each direct dependency.
+fn build_with_oldest() -> Result<(), String> {
+    install::nightly()?;
+    let copy = paths::target().join("oldest");
+    let prefix = format!("--prefix={}/", copy.display());
+    process::run(
+        Command::new("git").args(["checkout-index", "--all", "--force", &prefix]).current_dir(paths::root()),
+    )?;
+    let resolve = ["run", "nightly", "cargo", "update", "--quiet", "-Zdirect-minimal-versions"];
+    process::run(Command::new("rustup").args(resolve).current_dir(&copy))?;
+    process::run(&mut cargo(&["check", "--quiet", "--workspace", "--all-features"], copy))
+}
+
+/// Compares the interfaces with those of the last tag: what the version does not allow to change is an error.
+fn compare_with_last() -> Result<(), String> {
+    let tag = ["describe", "--tags", "--abbrev=0", "--match=v*"];
+    let tag = process::output(Command::new("git").args(tag).current_dir(paths::root()))
+        .ok_or("interfaces: not run: there is no tag of a release (v0.2.0) to compare with")?;
+    let tool =
+        install::cargo_tool("cargo-semver-checks", "0.51.0").map_err(|why| format!("not run: {why}"))?;
+    let mut command = Command::new(tool);
+    command.args(["semver-checks", "--baseline-rev", tag.trim()]).current_dir(paths::root());
+    command.args(PUBLISHED.iter().flat_map(|name| ["--package", *name]));
+    process::run(&mut command)
 }
 
 /// Packs them only: a file, a version or a description that is missing is found in a second.

@@ -7,7 +7,10 @@
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none; a point that presses a single taxel passes one frame later |
 //! | RAM | [`ConditionState`] of 2,048 taxels: 21,592 bytes |
-//! | M0+ cycles | reference garment, 12 bit, with noise: 13 k where nothing touches (6 per taxel); 17 k with one contact of 29 taxels, 30 k with five; with texture on all 2,048 taxels 138 k (persistent), about 34 k more where gains are not 1 |
+//! | M0+ cycles | 12 k where nothing touches, 15 k with a contact of 29 taxels, 28 k with five, 136 k at most |
+//!
+//! The cycles are of the reference garment, 12 bit, with noise; at most: with texture on all 2,048 taxels.
+//! Gains other than 1 take about 34 k more there.
 //!
 //! A taxel's value is `((code - baseline) * gain + 2048) >> 12` with its gain in Q4.12. If pressure lowers
 //! the code, the difference is `baseline - code`. A value below the floor is 0. The filter then works on the

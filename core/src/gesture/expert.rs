@@ -6,7 +6,7 @@
 //! | 2 | number of features it uses |
 //! | 2 | number of rows of the table of confidence |
 //! | 4 each | offsets of the classes, Q18, signed |
-//! | 6 + 2 c each | a feature: its index, its middle, its scale (65,536 / deviation), its weights, Q10, signed |
+//! | 6 + 2 c each | a feature: index, middle, scale (65,536 / deviation), weights in Q10, signed |
 //! | 20 each | a row: age from which it holds, confidence at leads of 0, 1/4 ..= 2, Q15 |
 
 use super::model_error::{CLASSES, ModelError};

@@ -12,9 +12,11 @@
 //! | output | [`Decision`]: class, scores in Q18, confidence in Q15 |
 //! | saturation | a cell at 65,535, logarithms at 4095 / 256 in histograms; see [`Sheet`] |
 //! | latency | none: a decision is available after every frame; the sums start again after [`LONGEST`] frames |
-//! | on a garment | [`Gestures`]: the touched panel is mapped to the model's sheet, cell by cell as in [`Sheet`]; frames are taken at the model's rate, and a decision is announced once it has lasted |
 //! | RAM | [`TouchState`]: 3,712 bytes |
 //! | flash | the model, at most [`LARGEST`]; that of seven gestures takes 8.6 KB |
+//!
+//! On a garment, [`Gestures`] maps the touched panel to the model's sheet, cell by cell as in [`Sheet`], takes
+//! frames at the model's rate, and announces a decision once it has lasted.
 
 mod announce;
 mod bands;

@@ -13,7 +13,7 @@
 //! | stuck | its code does not even show noise, while its neighbours' do |
 //! | open | no signal: below its code at rest, or dead there |
 //! | shorted | full scale, and nothing beside it is pressed |
-//! | noisy | its code goes back and forth, further than a touch of that size takes it, and its neighbours' do not |
+//! | noisy | its code goes back and forth further than a touch takes it, and its neighbours' do not |
 //!
 //! What presses around a single taxel may be a ring: a cup, a hollow finger. A ring whose hole is one taxel
 //! and whose wall is three or more cannot be distinguished from an object that covers a dead taxel. So a dead

@@ -8,7 +8,9 @@
 //! | error | one step: sigmoid 0.8, tanh 1.1 steps of 2^-15, thresholds none; settled, the shipped map: 4e-4 |
 //! | latency | within the call |
 //! | RAM | 3 states of 4 N bytes on the stack, written only for the concepts that the map has |
-//! | M0+ cycles | one step about 12 for each pair of a free concept and a cause, 100 for each free concept, 400 (read off the disassembly, not measured): the shipped map under 2,000, settled within six steps |
+//! | M0+ cycles | a step 400, 100 for a free concept, 12 for each of its causes; the shipped map 2,000 |
+//!
+//! The parts of a step are read off the disassembly, not measured. The shipped map settles within six steps.
 
 use super::config::Rule;
 use super::map::Map;

@@ -143,8 +143,8 @@ fn strongest<'p>(contacts: impl Iterator<Item = &'p Placed>) -> Option<&'p Place
     contacts.reduce(|most, next| if press(next) > press(most) { next } else { most })
 }
 
-/// Classifies one contact with the taught base, if there is one, and sets the class of every contact to the last result for
-/// it.
+/// Classifies one contact with the taught base, if there is one, and sets the class of every contact to the
+/// last result for it.
 fn look<const RUNS: usize, const PARTS: usize>(
     taught: &mut Taught<CONTACTS>,
     contact: &mut ContactState<CONTACTS, RUNS, PARTS, Placed>,

@@ -59,7 +59,7 @@ pub type Descriptor = [i16; MEASURES];
 /// | fullness | log of (sum f^2 / sum f) / peak | |
 /// | total, area | log | follow size (and pressure) |
 /// | half_area, top_area | log of the share from 1/2 and 3/4 of the peak on | |
-/// | sides, half_sides | log of the length of the outline by sqrt(area), at the threshold and at half of the peak | square: log 4 |
+/// | sides, half_sides | log of the outline by sqrt(area), at the threshold and half the peak | square: log 4 |
 /// | slope | log of 1/64 + mean Sobel / 8 on the rim, by the peak | |
 /// | rim | log of the share of the area on the rim | |
 /// | variation | log of the sum of all differences between neighbours, by m | |

@@ -7,7 +7,9 @@
 //! | saturation | forms just below 256 |
 //! | latency | none; there is no state |
 //! | RAM | [`Shapes`]: 20 bytes; the built-in base stays in flash, 14 bytes per prototype |
-//! | M0+ cycles | 5.5 k with the built-in base of 48 prototypes, for each contact whose form is measured: the new ones, and one of the others |
+//! | M0+ cycles | 5.5 k with the built-in base of 48 prototypes, for each contact whose form is measured |
+//!
+//! Measured are the forms of new contacts, and of one other in each frame.
 
 mod base;
 mod confidence;

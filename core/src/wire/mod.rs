@@ -23,10 +23,10 @@
 //! | 9 | [`Answer`] | in answer to every other request |
 //! | 10 | [`Raw`] | at the scene's rate, when the link has room |
 //! | 11 | [`Budget`] | each second, or at the requested rate |
-//! | 12 | [`HealthMap`] | in answer to `Start`, and when a taxel becomes faulty or good again; in as many parts as needed |
+//! | 12 | [`HealthMap`] | in answer to `Start`, and when it changes; in as many parts as needed |
 //! | 13 | [`Temperature`] | each second, from a board with a thermometer |
-//! | 14 | [`SelfTestReport`] | in answer to `Start`, if lines and inputs were examined; after each `SelfTest`, before its answer |
-//! | 15 | [`GestureReport`] | after `SetGestures`: when another class is announced for a touch, and at the end of a touch; always |
+//! | 14 | [`SelfTestReport`] | in answer to `Start` if there was one; before the answer to each `SelfTest` |
+//! | 15 | [`GestureReport`] | after `SetGestures`: with each announced class, and at the end of a touch |
 //! | 16 | [`ShapesReport`] | when a gallery was taught or dropped; in answer to `Start` if one is in force |
 //! | 17 | [`ReflexReport`] | with the `Reaction` that began by reflex; always |
 //! | 18 | [`ConfidenceReport`] | before each [`GestureReport`] whose model gives a confidence; always |

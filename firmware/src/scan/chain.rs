@@ -2,9 +2,9 @@
 //!
 //! | channel | waits for | does | then |
 //! |---|---|---|---|
-//! | 0 - 3 | a sample | stores the code of the converter's input 0 - 3 | the next input's channel, after the last `Word` |
+//! | 0 - 3 | a sample | stores the code of input 0 - 3 | the next input's channel, after the last `Word` |
 //! | `Word` | | sends the next levels to the select lines | `Drop`, or `Settle` if nothing is dropped |
-//! | `Drop` | a sample, for each one to drop | discards it: lines that settle slowly (see [`Rounds`]) | `Settle` |
+//! | `Drop` | a sample, for each one to drop | discards it: slow lines (see [`Rounds`]) | `Settle` |
 //! | `Settle` | a sample | stores the thermometer's code | the first input's channel |
 //! | `Answer` | the answer to a word that begins a stretch | discards it | `List` |
 //! | `List` | | loads the address of the values for that stretch | `Target` |

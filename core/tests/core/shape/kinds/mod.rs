@@ -2,7 +2,7 @@
 //!
 //! | kind | pressure | sensor |
 //! |---|---|---|
-//! | [`Kind::Polygon`] | even within a hard edge; a finger may be softer towards its rim and one end | mean over each taxel |
+//! | [`Kind::Polygon`] | even within a hard edge; a finger may be softer at the rim | mean over a taxel |
 //! | [`Kind::Elastic`] | of a punch, a pad or a ball on an elastic half space | a cloth that spreads it |
 //! | [`Kind::Depth`] | depth of a tilted body with a rounded edge in foam | crosstalk, spread of gains |
 //!
