@@ -19,15 +19,15 @@ use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::{Scene, StreamConfig};
 use taxel_core::wire::{Receiver, Report, Request, decode, encode, frame_bound};
 
-type Small = Board<2048, 1024, 512>;
+type ShippedSize = Board<2048, 1024, 512>;
 
-fn board() -> Box<Small> {
+fn board() -> Box<ShippedSize> {
     let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
-    Box::new(Small::new(info, Garment::reference(), Scene::shipped()).expect("what ships fits"))
+    Box::new(ShippedSize::new(info, Garment::reference(), Scene::shipped()).expect("what ships fits"))
 }
 
 /// The board's answers to a request.
-fn answers(board: &mut Small, request: &Request<'_>) -> Vec<Option<String>> {
+fn answers(board: &mut ShippedSize, request: &Request<'_>) -> Vec<Option<String>> {
     let mut wire = vec![0; 4096];
     board.step(Micros(0), Input::Received(encode(request, &mut wire).unwrap()), &mut ());
     let mut inbox: Receiver<{ frame_bound(8192) }> = Receiver::new();

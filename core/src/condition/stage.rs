@@ -106,11 +106,11 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    type State = ConditionState<2048>;
+    type FullState = ConditionState<2048>;
 
-    fn rig(config: ConditionConfig, rest: u16) -> (Condition, Layout, State) {
+    fn rig(config: ConditionConfig, rest: u16) -> (Condition, Layout, FullState) {
         let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
-        let mut state = State::new();
+        let mut state = FullState::new();
         state.reset(&layout, Code(rest));
         (config.build().unwrap(), layout, state)
     }
@@ -162,7 +162,7 @@ mod tests {
         let mut garment = Garment::reference();
         garment.absent.push(Absent { panel: 0, row: 0, column: 3, rows: 2, columns: 2 }).unwrap();
         let layout = Layout::build(&garment, 2048, u16::MAX).unwrap();
-        let mut state = State::new();
+        let mut state = FullState::new();
         state.reset(&layout, Code(0));
         let condition = plain().build().unwrap();
         let none = Feedback::<4>::new();
@@ -224,7 +224,7 @@ mod tests {
             let mut codes = vec![Code(10); 2048];
             let mut now = Micros(0);
             // For this number of turns of 0.7 s.
-            let mut run = |state: &mut State, codes: &[Code], feedback: &Feedback<4>, turns: u64| {
+            let mut run = |state: &mut FullState, codes: &[Code], feedback: &Feedback<4>, turns: u64| {
                 for _ in 0..turns * 700_000 / period_us {
                     now = Micros(now.0 + period_us);
                     let sampled = Sampled { codes, falling: false, panels: 0xf, now };
@@ -274,7 +274,7 @@ mod tests {
         state.tare(2);
         assert!(!state.set_baseline(0, Code(1)) && state.baseline().is_none());
         // The memory stated in the module's table.
-        assert!(size_of::<State>() <= 10 * 2048 + 1312, "{}", size_of::<State>());
+        assert!(size_of::<FullState>() <= 10 * 2048 + 1312, "{}", size_of::<FullState>());
     }
 
     #[test]

@@ -81,7 +81,7 @@ mod tests {
         };
         let (mut begun, mut rounds) = (0, 0);
         for _ in 0..400 {
-            let (mut slip, mut plain) = (Slip::new(), Plain { steps: [[0; 2]; 2], jitter: 8192 });
+            let (mut slip, mut plain) = (Slip::new(), WideRule { steps: [[0; 2]; 2], jitter: 8192 });
             // From steps in one direction with noise of any size to noise alone.
             let (size, noise, limit) = (1 << next(19), 1 << next(19), 1 << next(16));
             let way = [0; 2].map(|_| next(2 * size) as i32 - size as i32);
@@ -96,12 +96,12 @@ mod tests {
     }
 
     /// The rule in wide integers.
-    struct Plain {
+    struct WideRule {
         steps: [[i64; 2]; 2],
         jitter: i64,
     }
 
-    impl Plain {
+    impl WideRule {
         fn begins(&mut self, step: [i64; 2], limit: i64) -> bool {
             let step = step.map(|way| way.div_euclid(16).clamp(-8192, 8192));
             let [first, second] = self.steps;

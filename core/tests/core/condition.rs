@@ -1,6 +1,6 @@
 //! Conditioning that leaves out what is quiet equals conditioning that does not, bit for bit.
 
-use crate::dense::Dense;
+use crate::dense::DenseCondition;
 use crate::random::Noise;
 use proptest::prelude::*;
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Image, Pressed, Sampled};
@@ -102,7 +102,7 @@ proptest! {
         let rest = if falling { full as u16 - 100 } else { 100 };
         let mut state = ConditionState::<TAXELS>::new();
         state.reset(&layout, Code(rest));
-        let mut dense = Dense::new(&layout, ConditionConfig::default(), falling, rest);
+        let mut dense = DenseCondition::new(&layout, ConditionConfig::default(), falling, rest);
         let mut feedback = Feedback::<4>::new();
         let mut before = Vec::new();
         let mut now = 0;

@@ -8,7 +8,7 @@ use taxel_core::format::Code;
 use taxel_core::garment::{Area, Layout};
 
 /// Calibration, and what drift needs.
-pub struct Dense {
+pub struct DenseCondition {
     pub config: ConditionConfig,
     pub falling: bool,
     pub rest: Vec<u16>,
@@ -26,9 +26,9 @@ pub struct Dense {
     lately: Vec<u8>,
 }
 
-impl Dense {
+impl DenseCondition {
     /// Gains of 1 but for absent taxels.
-    pub fn new(layout: &Layout, config: ConditionConfig, falling: bool, rest: u16) -> Dense {
+    pub fn new(layout: &Layout, config: ConditionConfig, falling: bool, rest: u16) -> DenseCondition {
         let mut gain = Vec::new();
         for (panel, area) in layout.areas().iter().enumerate() {
             for (row, column) in (0..area.rows).flat_map(|row| (0..area.columns).map(move |c| (row, c))) {
@@ -37,7 +37,7 @@ impl Dense {
         }
         let rest = vec![rest; layout.taxels()];
         let common = vec![([0; 2], None); layout.areas().len()];
-        Dense {
+        DenseCondition {
             config,
             falling,
             rest,

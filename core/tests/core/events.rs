@@ -20,7 +20,7 @@ struct MatAndHost {
 }
 
 /// Phases of the events that were told of each contact.
-type Told = BTreeMap<u32, Vec<Phase>>;
+type ToldPhases = BTreeMap<u32, Vec<Phase>>;
 
 impl MatAndHost {
     fn new() -> MatAndHost {
@@ -55,7 +55,7 @@ impl MatAndHost {
     }
 
     /// Reads all that is pending.
-    fn read(&mut self, told: &mut Told) {
+    fn read(&mut self, told: &mut ToldPhases) {
         loop {
             let bytes = self.board.pending(Micros(self.now), &mut ()).to_vec();
             if bytes.is_empty() {
@@ -76,7 +76,7 @@ impl MatAndHost {
 
 #[test]
 fn in_a_frame_all_contacts_end_and_as_many_begin() {
-    let (mut bench, mut told) = (MatAndHost::new(), Told::new());
+    let (mut bench, mut told) = (MatAndHost::new(), ToldPhases::new());
     for first in [0, 2, 0, 2] {
         bench.scan(Some(first));
         bench.read(&mut told);

@@ -8,7 +8,7 @@ use taxel_core::garment::{Circuit, Garment, Layout, Orientation, Pins};
 
 type Full = Sweep<512, 64>;
 /// Taxels read at one address, by the position of their input.
-type Read = [Option<u16>; SWEEP_INPUTS];
+type ReadTaxels = [Option<u16>; SWEEP_INPUTS];
 
 fn circuit(garment: &Garment) -> Circuit {
     let layout = Layout::build(garment, 2048, 4095).unwrap();
@@ -22,7 +22,7 @@ fn levels(circuit: &Circuit, word: u32) -> u32 {
 }
 
 /// By address and input, the taxel that a chain which follows the stretches stores there.
-fn stored(sweep: &Full) -> Vec<Read> {
+fn stored(sweep: &Full) -> Vec<ReadTaxels> {
     let mut reads = Vec::new();
     let mut here = [None; SWEEP_INPUTS];
     for address in 0..sweep.levels().len() {

@@ -8,7 +8,7 @@ use taxel_core::wire::{
 };
 
 /// Room for every message of these tests.
-type Link = Receiver<700>;
+type TestReceiver = Receiver<700>;
 
 fn frame(message: &[u8]) -> Vec<u8> {
     let mut out = [0; 700];
@@ -16,7 +16,7 @@ fn frame(message: &[u8]) -> Vec<u8> {
 }
 
 /// The messages that are received, and how many frames were refused.
-fn receive(link: &mut Link, bytes: &[u8]) -> (Vec<Vec<u8>>, usize) {
+fn receive(link: &mut TestReceiver, bytes: &[u8]) -> (Vec<Vec<u8>>, usize) {
     let (mut messages, mut errors) = (Vec::new(), 0);
     for byte in bytes {
         match link.push(*byte).map(|end| end.and_then(decode::<&[u8]>)) {
@@ -122,7 +122,7 @@ fn each_error_has_its_cause() {
 fn each_flipped_bit_is_found() {
     let message: Vec<u8> = (0..600u32).map(|i| (i * i % 7 * i % 251) as u8).collect();
     let good = frame(&message);
-    let mut link = Link::new();
+    let mut link = TestReceiver::new();
     for bit in 0..8 * good.len() {
         let mut bytes = good.clone();
         bytes[bit / 8] ^= 1 << (bit % 8);
@@ -142,12 +142,12 @@ proptest! {
         prop_assert_eq!(bytes.iter().position(|byte| *byte == 0), Some(bytes.len() - 1));
         let prefix = if message.len() < 128 { 1 } else { 2 };
         prop_assert!(bytes.len() <= frame_bound(prefix + message.len()));
-        prop_assert_eq!(receive(&mut Link::new(), &bytes), (vec![message], 0));
+        prop_assert_eq!(receive(&mut TestReceiver::new(), &bytes), (vec![message], 0));
     }
 
     #[test]
     fn any_bytes_are_survived(garbage in vec(prop_oneof![Just(0), Just(1), any::<u8>()], 0..2000)) {
-        let mut link = Link::new();
+        let mut link = TestReceiver::new();
         let _ = receive(&mut link, &garbage);
         let _ = receive(&mut link, &[0]);
         prop_assert_eq!(receive(&mut link, &frame(b"good")), (vec![b"good".to_vec()], 0));
@@ -168,7 +168,7 @@ proptest! {
             bytes.extend([0]);
             bytes.extend(frame(&message));
         }
-        prop_assert_eq!(receive(&mut Link::new(), &bytes).0, vec![message; 4]);
+        prop_assert_eq!(receive(&mut TestReceiver::new(), &bytes).0, vec![message; 4]);
     }
 
     #[test]
@@ -180,7 +180,7 @@ proptest! {
             bytes[bit / 8] ^= 1 << (bit % 8);
         }
         bytes.extend([0]);
-        let (messages, errors) = receive(&mut Link::new(), &bytes);
+        let (messages, errors) = receive(&mut TestReceiver::new(), &bytes);
         let same = bytes[..good.len()] == good;
         prop_assert_eq!((messages.is_empty(), errors == 0), (!same, same));
     }

@@ -1,7 +1,7 @@
 //! NMI and its forms against 60 digits.
 
 use crate::bounds::exact::Real;
-use crate::bounds::images::{self, Taxels, moments};
+use crate::bounds::images::{self, TouchTaxels, moments};
 use crate::bounds::table::bound;
 use crate::plain::Plain;
 use proptest::prelude::*;
@@ -56,7 +56,7 @@ fn forms_are_immune_to_gain() {
     for taxels in images::all().step_by(3) {
         let peak = Plain::of(&taxels).peak;
         let at = |gain: u16| -> [Fixed24; FORMS] {
-            let pressed: Taxels = taxels.iter().map(|(x, y, f)| (*x, *y, f * gain)).collect();
+            let pressed: TouchTaxels = taxels.iter().map(|(x, y, f)| (*x, *y, f * gain)).collect();
             forms(&nmi(&moments(&pressed), peak * gain))
         };
         let base = at(1);

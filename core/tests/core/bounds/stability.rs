@@ -1,7 +1,7 @@
 //! What becomes of the same touches in the arithmetic that is usual for them: raw moments in f32, and in
 //! Q16.16.
 
-use crate::bounds::images::{self, Taxels, moments};
+use crate::bounds::images::{self, TouchTaxels, moments};
 use crate::plain::Plain;
 use crate::random::Noise;
 use taxel_core::contact::axis;
@@ -40,7 +40,7 @@ fn exact(plain: &Plain) -> Variances {
 }
 
 /// As the core, `m sum x^2 f - (sum x f)^2`, with all of it in f32.
-fn single(taxels: &Taxels) -> Variances {
+fn single(taxels: &TouchTaxels) -> Variances {
     let mut sums = [0f32; 6];
     for (x, y, f) in taxels {
         let (x, y, f) = (*x as f32, *y as f32, f32::from(*f));
@@ -57,7 +57,7 @@ fn single(taxels: &Taxels) -> Variances {
 
 /// E[x^2] - E[x]^2 in Q16.16, as a fixed-point library makes it, with 4096 counts for 1; none where a sum
 /// does not fit.
-fn fixed(taxels: &Taxels) -> Option<Variances> {
+fn fixed(taxels: &TouchTaxels) -> Option<Variances> {
     let mut sums = [0i32; 6];
     for (x, y, f) in taxels {
         let (x, y, f) = (i64::from(*x), i64::from(*y), i64::from(*f));
@@ -74,7 +74,7 @@ fn fixed(taxels: &Taxels) -> Option<Variances> {
 
 /// What an arithmetic did to the touches of a kind.
 #[derive(Debug, Default)]
-struct Record {
+struct ErrorRecord {
     touches: u32,
     overflows: u32,
     negative: u32,
@@ -85,7 +85,7 @@ struct Record {
     azimuth: f64,
 }
 
-impl Record {
+impl ErrorRecord {
     fn take(&mut self, have: Option<Variances>, exact: &Variances) {
         self.touches += 1;
         let Some(have) = have else {
@@ -104,7 +104,7 @@ impl Record {
     fn line(&self, kind: &str, arithmetic: &str) -> String {
         let share = |count: u32| 100.0 * f64::from(count) / f64::from(self.touches);
         let [overflows, negative, invented] = [self.overflows, self.negative, self.invented].map(share);
-        let Record { touches, variance, azimuth, .. } = self;
+        let ErrorRecord { touches, variance, azimuth, .. } = self;
         let shares = format!("{overflows:8.1} % {negative:8.1} % {invented:8.1} %");
         let errors = if self.overflows == *touches {
             format!("{:>9} {:>9}", "-", "-")
@@ -116,7 +116,7 @@ impl Record {
 }
 
 /// The core: exact sums, so the only error is that of a float that shows them.
-fn core(taxels: &Taxels) -> Variances {
+fn core(taxels: &TouchTaxels) -> Variances {
     let moments = moments(taxels);
     let central = moments.central();
     let square = moments.m as f64 * moments.m as f64;
@@ -124,7 +124,7 @@ fn core(taxels: &Taxels) -> Variances {
 }
 
 /// Up to 3 x 3 taxels of any pressure in the last quarter of both axes.
-fn small_and_far() -> impl Iterator<Item = Taxels> {
+fn small_and_far() -> impl Iterator<Item = TouchTaxels> {
     let mut noise = Noise(10);
     (0..10_000).map(move |_| {
         let mut some = |limit: u32| noise.below(limit.into()) as u32;
@@ -135,12 +135,12 @@ fn small_and_far() -> impl Iterator<Item = Taxels> {
 }
 
 /// Three taxels of a row at its far end.
-fn end_of_a_strip() -> impl Iterator<Item = Taxels> {
+fn end_of_a_strip() -> impl Iterator<Item = TouchTaxels> {
     let mut noise = Noise(11);
     (0..10_000).map(move |_| (473..476).map(|x| (x, 0, 1 + noise.below(4095) as u16)).collect())
 }
 
-fn saturated_squares() -> impl Iterator<Item = Taxels> {
+fn saturated_squares() -> impl Iterator<Item = TouchTaxels> {
     let square = |side: u32| (0..side * side).map(|i| (31 - i % side, 63 - i / side, 4095)).collect();
     (2..=32).map(square)
 }
@@ -153,14 +153,14 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
         "{kind:24} {numbers:8} {count:>7} {overflow:>10} {negative:>10} {invented:>10} {variance:>9} {azimuth:>9}"
     )];
     let mut records = Vec::new();
-    let kinds: [(&str, Box<dyn Iterator<Item = Taxels>>); 4] = [
+    let kinds: [(&str, Box<dyn Iterator<Item = TouchTaxels>>); 4] = [
         ("small, in the far corner", Box::new(small_and_far())),
         ("end of a strip of 476", Box::new(end_of_a_strip())),
         ("saturated squares", Box::new(saturated_squares())),
         ("full panel, 11 or 16 bit", Box::new(images::textures(100))),
     ];
     for (kind, touches) in kinds {
-        let mut record: [Record; 3] = Default::default();
+        let mut record: [ErrorRecord; 3] = Default::default();
         for taxels in touches {
             let exact = exact(&Plain::of(&taxels));
             let forms = [Some(single(&taxels)), fixed(&taxels), Some(core(&taxels))];
@@ -194,7 +194,7 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
 /// Q16.16 can hold.
 #[test]
 fn an_isotropic_square_and_the_ninth_taxel() {
-    let by_anisotropy = |(a, _): &(Variances, Taxels), (b, _): &(Variances, Taxels)| {
+    let by_anisotropy = |(a, _): &(Variances, TouchTaxels), (b, _): &(Variances, TouchTaxels)| {
         a.anisotropy().total_cmp(&b.anisotropy())
     };
     let squares = saturated_squares().map(|square| (single(&square), square));

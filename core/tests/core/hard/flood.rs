@@ -4,10 +4,10 @@ use crate::hard::rig::ContactRig;
 use taxel_core::garment::{Garment, Place};
 
 /// Sums of a component: area, total, peak, contour; and where the peak is first.
-type Sums = (u16, u32, u16, u16, (u8, u16, u16));
+type ComponentSums = (u16, u32, u16, u16, (u8, u16, u16));
 
 /// Components by flood fill over places, seams included.
-fn flood(rig: &ContactRig, low: u16) -> Vec<Sums> {
+fn flood(rig: &ContactRig, low: u16) -> Vec<ComponentSums> {
     let layout = &rig.layout;
     let value = |place: Place| layout.taxel(place).map_or(0, |taxel| rig.values[taxel]);
     let step = |place: Place, dy: i32, dx: i32| {
@@ -85,7 +85,7 @@ fn compare(garment: &Garment, rounds: usize) -> (u32, u32) {
             continue;
         }
         let at = |place: Place| (place.panel, place.row, place.column);
-        let mut have: Vec<Sums> =
+        let mut have: Vec<ComponentSums> =
             frame.present.iter().map(|c| (c.area, c.total, c.peak, c.perimeter, at(c.peak_at))).collect();
         want.sort_unstable();
         have.sort_unstable();

@@ -5,14 +5,14 @@ use taxel_core::contact::{Contact, ContactConfig, ContactState, Contacts, Moment
 use taxel_core::format::{Fixed16, Micros};
 use taxel_core::garment::{Garment, Layout, Place};
 
-pub type State = ContactState<16, 1024>;
+pub type RigState = ContactState<16, 1024>;
 
 /// A garment, its image and the stage, at 195 frames/s.
 pub struct ContactRig {
     pub layout: Layout,
     pub values: Vec<u16>,
     pub stage: Contacts,
-    pub state: Box<State>,
+    pub state: Box<RigState>,
     pub now: u64,
 }
 

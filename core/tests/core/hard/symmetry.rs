@@ -77,8 +77,8 @@ proptest! {
         let (base, sums) = mapped(left, top, width, values, |x, y| (x, y));
         let (x, y) = (base.x.0, base.y.0);
         let end = last << 16;
-        type Map = fn(i32, i32) -> (i32, i32);
-        let moves: [(Map, (i32, i32), bool, i32); 5] = [
+        type Mirror = fn(i32, i32) -> (i32, i32);
+        let moves: [(Mirror, (i32, i32), bool, i32); 5] = [
             (|x, y| (SIDE - 1 - y, x), (end - y, x), false, 1 << 30),
             (|x, y| (SIDE - 1 - x, SIDE - 1 - y), (end - x, end - y), false, 0),
             (|x, y| (y, SIDE - 1 - x), (y, end - x), false, 1 << 30),

@@ -5,9 +5,9 @@ use taxel_core::contact::{Contact, ContactConfig};
 use taxel_core::garment::{Garment, Place};
 
 /// Rows and columns, last included, and the pressure there, on panel 0.
-type Patch = ([u16; 2], [u16; 2], u16);
+type PressedPatch = ([u16; 2], [u16; 2], u16);
 
-fn show(rig: &mut TrackingRig, patches: &[Patch]) -> FoundContacts {
+fn show(rig: &mut TrackingRig, patches: &[PressedPatch]) -> FoundContacts {
     rig.values.fill(0);
     for ([top, bottom], [left, right], value) in patches {
         for (row, column) in (*top..=*bottom).flat_map(|row| (*left..=*right).map(move |c| (row, c))) {
@@ -23,7 +23,7 @@ fn ids(contacts: &[Contact]) -> Vec<u32> {
 }
 
 /// A patch of 4 x 4 at the right, one of 3 x 3 whose left column is given.
-fn large_and_small(left: u16) -> [Patch; 2] {
+fn large_and_small(left: u16) -> [PressedPatch; 2] {
     [([10, 13], [20, 23], 900), ([10, 12], [left, left + 2], 800)]
 }
 

@@ -11,7 +11,7 @@ const SPEEDS: [f64; 8] = [0.02, 0.05, 0.11, 0.25, 0.5, 0.77, 1.0, 1.5];
 const DIRECTIONS: [f64; 4] = [0.0, 23.0, 90.0, -151.0];
 
 /// A pressure that moves: what is felt at (x, y) once it has moved by (dx, dy).
-type Moving<'a> = &'a dyn Fn([f64; 2], [f64; 2]) -> f64;
+type MovingPressure<'a> = &'a dyn Fn([f64; 2], [f64; 2]) -> f64;
 
 /// A motion with noise, and how its velocity is smoothed.
 struct NoisyMotion {
@@ -37,7 +37,7 @@ impl NoisyMotion {
     }
 
     /// The greatest error of the velocity, in taxels per frame.
-    fn worst(&self, what: Moving) -> f64 {
+    fn worst(&self, what: MovingPressure) -> f64 {
         // Four standard deviations of the noise.
         let low = if self.noise > 0.0 { 330 } else { 60 };
         let config =
@@ -62,7 +62,7 @@ impl NoisyMotion {
 }
 
 /// The greatest error over speeds and directions is within 5 % of the speed, or 0.05 taxel a frame.
-fn check(what: &str, speeds: &[f64], motion: impl Fn(f64, f64) -> NoisyMotion, moving: Moving) {
+fn check(what: &str, speeds: &[f64], motion: impl Fn(f64, f64) -> NoisyMotion, moving: MovingPressure) {
     for speed in speeds {
         let worst = DIRECTIONS.map(|degrees| motion(*speed, degrees).worst(moving));
         let worst = worst.into_iter().fold(0.0, f64::max);

@@ -3,7 +3,7 @@
 //! By default pmatdata and smart_garment; with TAXEL_RECORDED=all every folder.
 
 use crate::data;
-use crate::dense::Dense;
+use crate::dense::DenseCondition;
 use std::path::PathBuf;
 use taxel::files::arrays::{self, Frames};
 use taxel_core::condition::{ConditionConfig, ConditionState, Feedback, Filter, Sampled};
@@ -82,7 +82,7 @@ fn condition(frames: &Frames, filter: Filter, what: &str) {
     let stage = config.build().expect("settings in range");
     let mut state = Box::new(ConditionState::<TAXELS>::new());
     state.reset(&layout, Code(0));
-    let mut dense = Dense::new(&layout, config, false, 0);
+    let mut dense = DenseCondition::new(&layout, config, false, 0);
     for (number, frame) in frames.iter().step_by(frames.count / 100 + 1).enumerate() {
         let codes: Vec<Code> = frame.iter().map(|value| Code(*value)).collect();
         if number == 0 {

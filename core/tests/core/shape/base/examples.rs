@@ -1,7 +1,7 @@
 //! Examples of shapes: their features as the board computes them, and what they are.
 
 use crate::shape::drawn::CLASSES;
-use crate::shape::kinds::{KINDS, Kind, QUALITIES, Quality};
+use crate::shape::kinds::{GENERATORS, Generator, QUALITIES, Quality};
 use crate::shape::rig::{greatest, recorded};
 use fastrand::Rng;
 use taxel_core::condition::{Image, Rows};
@@ -12,7 +12,7 @@ pub const GRIDS: [[u16; 2]; 3] = [[4, 16], [16, 16], [32, 64]];
 
 /// Examples of one kind.
 pub struct ExampleSet {
-    pub kind: Kind,
+    pub kind: Generator,
     pub quality: Quality,
     pub grid: [u16; 2],
     pub examples: Vec<(ShapeFeatures, Class)>,
@@ -21,7 +21,7 @@ pub struct ExampleSet {
 /// So many of each generator, grid and quality; what no contact is left of is drawn anew.
 pub fn drawn(count: usize, seed: u64) -> Vec<ExampleSet> {
     let mut sets = Vec::new();
-    for (number, kind) in (0..).zip(KINDS) {
+    for (number, kind) in (0..).zip(GENERATORS) {
         for grid in GRIDS {
             for quality in QUALITIES {
                 let rng =
@@ -33,7 +33,7 @@ pub fn drawn(count: usize, seed: u64) -> Vec<ExampleSet> {
     sets
 }
 
-fn set(kind: Kind, quality: Quality, grid: [u16; 2], count: usize, mut rng: Rng) -> ExampleSet {
+fn set(kind: Generator, quality: Quality, grid: [u16; 2], count: usize, mut rng: Rng) -> ExampleSet {
     let layout = recorded(grid[0], grid[1]);
     let mut example = |class| loop {
         let values = kind.image(class, grid, quality, &mut rng);

@@ -22,15 +22,15 @@ const RATE: f64 = 3.0;
 /// How sharply an example counts that is near the border.
 const SHARPNESS: f64 = 10.0;
 
-type Point = [f64; FEATURES];
+type FeaturePoint = [f64; FEATURES];
 
 /// A prototype while it learns.
-struct Moving {
+struct LearningPrototype {
     class: Class,
-    at: Point,
+    at: FeaturePoint,
     /// Means of its pull and of the pull's square, as Adam takes them (Kingma and Ba 2015).
-    pull: Point,
-    square: Point,
+    pull: FeaturePoint,
+    square: FeaturePoint,
 }
 
 /// Prototypes in their final steps.
@@ -38,16 +38,16 @@ pub struct Learned {
     prototypes: Vec<(Class, ShapeFeatures)>,
 }
 
-fn point(features: &ShapeFeatures) -> Point {
+fn point(features: &ShapeFeatures) -> FeaturePoint {
     features.map(f64::from)
 }
 
-fn distance(a: &Point, b: &Point) -> f64 {
+fn distance(a: &FeaturePoint, b: &FeaturePoint) -> f64 {
     (0..FEATURES).map(|i| (a[i] - b[i]).powi(2)).sum()
 }
 
 /// Index of the nearest, and its squared distance.
-fn nearest<'a>(points: impl Iterator<Item = (usize, &'a Point)>, to: &Point) -> (usize, f64) {
+fn nearest<'a>(points: impl Iterator<Item = (usize, &'a FeaturePoint)>, to: &FeaturePoint) -> (usize, f64) {
     let all = points.map(|(index, at)| (index, distance(at, to)));
     all.min_by(|a, b| a.1.total_cmp(&b.1)).expect("there are prototypes")
 }
@@ -75,9 +75,9 @@ impl<'a> Urn<'a> {
 }
 
 /// Centres of the examples of a class.
-fn centres(urn: &Urn<'_>, class: Class, rng: &mut Rng) -> Vec<Point> {
+fn centres(urn: &Urn<'_>, class: Class, rng: &mut Rng) -> Vec<FeaturePoint> {
     let own = std::iter::repeat_with(|| urn.draw(rng)).filter(|example| example.1 == class);
-    let points: Vec<Point> = own.take(SAMPLE).map(|example| point(&example.0)).collect();
+    let points: Vec<FeaturePoint> = own.take(SAMPLE).map(|example| point(&example.0)).collect();
     // Each further one begins at an example drawn by its squared distance to those before (k-means++).
     let mut centres = vec![points[0]];
     while centres.len() < EACH {
@@ -110,7 +110,7 @@ pub fn learn(examples: &[Example]) -> Learned {
     let (urn, mut rng) = (Urn::new(examples), Rng::with_seed(1));
     let mut moving = Vec::new();
     for class in CLASSES {
-        let new = |at| Moving { class, at, pull: [0.0; FEATURES], square: [0.0; FEATURES] };
+        let new = |at| LearningPrototype { class, at, pull: [0.0; FEATURES], square: [0.0; FEATURES] };
         moving.extend(centres(&urn, class, &mut rng).into_iter().map(new));
     }
     for step in 0..STEPS {
@@ -141,9 +141,9 @@ pub fn learn(examples: &[Example]) -> Learned {
     Learned { prototypes }
 }
 
-impl Moving {
+impl LearningPrototype {
     /// A step of Adam along a pull.
-    fn step(&mut self, pull: &Point, rate: f64, step: usize) {
+    fn step(&mut self, pull: &FeaturePoint, rate: f64, step: usize) {
         let past = |keep: f64| 1.0 - keep.powi(step as i32 + 1);
         let means = self.pull.iter_mut().zip(&mut self.square);
         for ((at, (mean, square)), pull) in self.at.iter_mut().zip(means).zip(pull) {
@@ -165,7 +165,7 @@ impl Learned {
 
     /// Of which examples the nearest prototype has the class, in percent.
     pub fn percent(&self, examples: &[(ShapeFeatures, Class)]) -> f64 {
-        let points: Vec<Point> = self.prototypes.iter().map(|(_, features)| point(features)).collect();
+        let points: Vec<FeaturePoint> = self.prototypes.iter().map(|(_, features)| point(features)).collect();
         let known = |(features, class): &&(ShapeFeatures, Class)| {
             let (index, _) = nearest(points.iter().enumerate(), &point(features));
             self.prototypes[index].0 == *class

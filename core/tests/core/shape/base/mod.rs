@@ -5,7 +5,7 @@
 mod examples;
 mod glvq;
 
-use crate::shape::kinds::{KINDS, Quality};
+use crate::shape::kinds::{GENERATORS, Quality};
 use examples::{ExampleSet, GRIDS, drawn};
 use glvq::{Learned, learn};
 use taxel_core::shape::Base;
@@ -36,7 +36,7 @@ fn the_built_in_base_is_what_three_generators_give() {
 fn a_generator_that_was_left_out_is_known() {
     let (sets, others) = (drawn(EACH, 1), drawn(600, 2));
     let all = learned(sets.iter());
-    let left_out = KINDS.map(|kind| learned(sets.iter().filter(|set| set.kind != kind)));
+    let left_out = GENERATORS.map(|kind| learned(sets.iter().filter(|set| set.kind != kind)));
     println!("grid, quality: all generators learned, each left out");
     for grid in GRIDS {
         for (quality, least) in [Quality::Clean, Quality::Noisy, Quality::Hard].into_iter().zip(least(grid)) {
@@ -45,8 +45,8 @@ fn a_generator_that_was_left_out_is_known() {
                     others.iter().find(|set| (set.kind, set.quality, set.grid) == (kind, quality, grid));
                 &set.expect("there is one of each").examples
             };
-            let known = KINDS.map(|kind| all.percent(own(kind)));
-            let unknown = [0, 1, 2].map(|i| left_out[i].percent(own(KINDS[i])));
+            let known = GENERATORS.map(|kind| all.percent(own(kind)));
+            let unknown = [0, 1, 2].map(|i| left_out[i].percent(own(GENERATORS[i])));
             println!("{} x {} {quality:?}: {known:.1?}, {unknown:.1?}", grid[0], grid[1]);
             for (known, unknown) in known.into_iter().zip(unknown) {
                 assert!(

@@ -2,9 +2,9 @@
 //!
 //! | kind | pressure | sensor |
 //! |---|---|---|
-//! | [`Kind::Polygon`] | even within a hard edge; a finger may be softer at the rim | mean over a taxel |
-//! | [`Kind::Elastic`] | of a punch, a pad or a ball on an elastic half space | a cloth that spreads it |
-//! | [`Kind::Depth`] | depth of a tilted body with a rounded edge in foam | crosstalk, spread of gains |
+//! | [`Generator::Polygon`] | even within a hard edge; a finger may be softer at the rim | mean over a taxel |
+//! | [`Generator::Elastic`] | of a punch, a pad or a ball on an elastic half space | a cloth that spreads it |
+//! | [`Generator::Depth`] | depth of a tilted body with a rounded edge in foam | crosstalk, spread of gains |
 //!
 //! [`Body::random`] says what counts as a rectangle, a disc and a finger.
 
@@ -22,14 +22,14 @@ use taxel_core::shape::Class;
 
 /// How pressure comes about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum Generator {
     Polygon,
     Elastic,
     Depth,
 }
 
 /// All of them.
-pub const KINDS: [Kind; 3] = [Kind::Polygon, Kind::Elastic, Kind::Depth];
+pub const GENERATORS: [Generator; 3] = [Generator::Polygon, Generator::Elastic, Generator::Depth];
 
 /// What the sensor makes of the touch. In all views the gain is 0.2 to 0.9, and what is below 1.5 to 5 % of
 /// the full scale (5 % if hard) is cut.
@@ -60,16 +60,16 @@ fn one_of<T: Copy>(choices: &[T], rng: &mut Rng) -> T {
     choices[range(rng, 0.0, choices.len() as f64) as usize]
 }
 
-impl Kind {
+impl Generator {
     /// An image of a random touch.
     pub fn image(self, class: Class, [rows, columns]: [u16; 2], quality: Quality, rng: &mut Rng) -> Vec<u16> {
         let body = Body::random(class, [rows, columns], rng);
         let image = match self {
-            Kind::Polygon => polygon::image(&body, rng),
-            Kind::Elastic => {
+            Generator::Polygon => polygon::image(&body, rng),
+            Generator::Elastic => {
                 sensor::blurred(&elastic::image(&body, rng), columns.into(), range(rng, 0.15, 0.5))
             }
-            Kind::Depth => {
+            Generator::Depth => {
                 let leaky = sensor::leaky(&depth::image(&body, rng), columns.into(), range(rng, 0.0, 0.04));
                 let spread = range(rng, 0.0, 0.06);
                 leaky.iter().map(|value| value * (1.0 + spread * normal(rng))).collect()

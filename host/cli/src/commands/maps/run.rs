@@ -155,13 +155,14 @@ mod tests {
     use serde_json::json;
 
     #[derive(clap::Parser)]
-    struct Cli {
+    struct TestCli {
         #[command(flatten)]
         fcm: RunArgs,
     }
 
     fn args(line: &str) -> Result<RunArgs, clap::Error> {
-        Cli::try_parse_from(["fcm", "map.json"].into_iter().chain(line.split_whitespace())).map(|cli| cli.fcm)
+        TestCli::try_parse_from(["fcm", "map.json"].into_iter().chain(line.split_whitespace()))
+            .map(|cli| cli.fcm)
     }
 
     #[test]
