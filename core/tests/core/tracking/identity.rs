@@ -141,6 +141,18 @@ fn paths_that_cross_are_kept_apart() {
     }
 }
 
+/// The second contact yields the component between them to the first, and takes the one above instead; what
+/// the first has taken stays its own, although a third component would be near enough.
+#[test]
+fn a_contact_that_yields_takes_nothing_from_the_other() {
+    let mut rig = TrackingRig::mat();
+    let square = |top: u16, left: u16| ([top, top + 1], [left, left + 1], 900);
+    show(&mut rig, &[square(10, 10), square(10, 15)]);
+    let frame = show(&mut rig, &[square(6, 15), square(10, 12), square(14, 10)]);
+    let places = frame.present.iter().map(|c| (c.id, c.x.to_f64(), c.y.to_f64()));
+    assert_eq!(places.collect::<Vec<_>>(), [(1, 12.5, 10.5), (2, 15.5, 6.5), (3, 10.5, 14.5)]);
+}
+
 #[test]
 fn a_contact_keeps_its_id_over_a_seam() {
     // From the chest over its right side to the back, one column a frame, and on.

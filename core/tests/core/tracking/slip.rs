@@ -214,6 +214,28 @@ fn slide(left: f64, speed: f64) -> Vec<(bool, f64)> {
     course.collect()
 }
 
+/// Whether a patch slips that moves by a taxel a frame, while its pressure alternates between two values.
+fn slips_between(pressures: [u16; 2]) -> bool {
+    let mut rig = TrackingRig::mat();
+    let mut frames = (0..24u16).map(|frame| {
+        rig.values.fill(0);
+        for row in 20..24 {
+            let first = row * 32 + usize::from(frame);
+            rig.values[first..first + 4].fill(pressures[usize::from(frame % 2)]);
+        }
+        rig.only().slip
+    });
+    frames.any(|slip| slip)
+}
+
+/// With the pressure the outline changes, and with that the centroid.
+#[test]
+fn a_change_of_more_than_a_sixteenth_is_no_slip() {
+    assert!(slips_between([1600, 1600]));
+    assert!(slips_between([1600, 1700]), "a sixteenth of 1600");
+    assert!(!slips_between([1600, 1710]));
+}
+
 /// The expected picture may reach a row in which nothing touches.
 #[test]
 fn a_touch_at_the_first_column_is_followed_as_any_other() {
@@ -228,4 +250,24 @@ fn a_touch_at_the_first_column_is_followed_as_any_other() {
 fn a_scene_that_does_not_ask_for_slip_is_not_told() {
     let config = ContactConfig { slip_speed: NO_SLIP, ..ContactConfig::default() };
     assert_eq!(onset(config, 0.0, 0.5, 0.0, &dome(3.0)), None);
+}
+
+/// What never matches its last picture has no pattern: for eight frames it is followed by its centroid, as
+/// that takes less time.
+#[test]
+fn a_pattern_without_a_match_rests_for_eight_frames() {
+    let mut rig = TrackingRig::mat();
+    let sliding = Texture::new(4);
+    let ways = (0..24u32).map(|frame| {
+        let other = Texture::new(100 + u64::from(frame));
+        let texture = if frame < 8 { &other } else { &sliding };
+        let within = |x: f64, y: f64| (8.0..24.0).contains(&x) && (20.0..36.0).contains(&y);
+        let way = 0.4 * f64::from(frame);
+        rig.draw(|x, y| if within(x, y) { texture.at(x, y - way) } else { 0.0 });
+        rig.only().dy.to_f64()
+    });
+    let ways: Vec<f64> = ways.collect();
+    // The fourth mismatch is in frame 4; frame 13 takes a picture again, and what follows is compared with it.
+    assert!((ways[12] - ways[8]).abs() < 0.1, "{ways:?}");
+    assert!((ways[23] - ways[15] - 3.2).abs() < 0.1, "{ways:?}");
 }

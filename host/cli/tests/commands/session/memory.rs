@@ -14,10 +14,10 @@ impl Watched {
         Watched { name, id, bytes: Vec::new() }
     }
 
-    /// Takes a sample.
+    /// Takes a sample. A program that has just ended has no memory.
     pub fn look(&mut self) {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.id)).unwrap();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
+        let Some(line) = status.lines().find_map(|line| line.strip_prefix("VmRSS:")) else { return };
         self.bytes.push(line.trim().trim_end_matches(" kB").parse::<u64>().unwrap() << 10);
     }
 
