@@ -88,13 +88,15 @@ test("a taxel that the keys read is spoken", async () => {
 test("a tare is asked for before it is done", async () => {
   const { browser } = both;
   const open = () => browser.value('document.getElementById("ask-tare").open');
+  const opened = () => browser.until('document.querySelector("#ask-tare[open] [value=no]") === document.activeElement');
   const tared = () => browser.value('taxel.store.log.some((line) => line.includes("tare over"))');
   await browser.key("t");
-  assert.equal(await open(), true);
+  await opened();
   // What is at hand is the way out.
   await browser.value("document.activeElement.click()");
   assert.deepEqual([await open(), await tared()], [false, false]);
   await browser.key("t");
+  await opened();
   await browser.key("Escape");
   await browser.until("!document.getElementById('ask-tare').open");
   assert.equal(await tared(), false);

@@ -41,6 +41,8 @@ export class Chromium {
     await new Promise((open, fail) => socket.once("open", open).once("error", fail));
     const browser = new Chromium(process, folder, socket);
     await Promise.all(["Page", "Runtime", "Log"].map((domain) => browser.send(`${domain}.enable`)));
+    // A window without a screen may lose the focus, and with it every key.
+    await browser.send("Emulation.setFocusEmulationEnabled", { enabled: true });
     return browser;
   }
 

@@ -145,7 +145,6 @@ fn a_mean_of_scans() {
     let mut scene = Scene::shipped();
     scene.stream = StreamConfig { frames_hz: 0, raw_hz: 10, ..StreamConfig::default() };
     let mut board = Emulated::start(&garment, &codes, 0, &["--loop"]);
-    let mut warm = 0;
     board.receive();
     board.obey(&Request::SetGarment(&postcard::to_allocvec(&garment).unwrap()));
     board.play();
@@ -164,17 +163,18 @@ fn a_mean_of_scans() {
                     told += 1;
                 }
                 Report::Health(health) => println!("{depth:?}: {} us a frame", health.scan_us),
-                // The harness holds the thermometer at 27 degrees.
-                Report::Temperature(now) => {
-                    assert!(now.celsius.0.abs_diff(2700) < 50, "{:?}", now.celsius);
-                    warm += 1;
-                }
                 _ => {}
             }
         }
     }
+    // The thermometer is read once a second, whatever the depth; the harness holds it at 27 degrees.
+    let celsius = loop {
+        if let Report::Temperature(now) = board.receive().report() {
+            break now.celsius;
+        }
+    };
+    assert!(celsius.0.abs_diff(2700) < 50, "{celsius:?}");
     board.end();
-    assert!(warm >= 1);
 }
 
 /// However many samples are lost, wherever in a frame: no code of any frame is another taxel's, and what is
