@@ -41,8 +41,6 @@ export class Chromium {
     await new Promise((open, fail) => socket.once("open", open).once("error", fail));
     const browser = new Chromium(process, folder, socket);
     await Promise.all(["Page", "Runtime", "Log"].map((domain) => browser.send(`${domain}.enable`)));
-    // A window without a screen may lose the focus, and with it every key.
-    await browser.send("Emulation.setFocusEmulationEnabled", { enabled: true });
     return browser;
   }
 
@@ -118,8 +116,10 @@ export class Chromium {
   /** Presses a key. */
   async key(key) {
     const text = key.length === 1 ? key : undefined;
-    await this.send("Input.dispatchKeyEvent", { type: "keyDown", key, text });
-    await this.send("Input.dispatchKeyEvent", { type: "keyUp", key });
+    // A dialog goes by the number of the key.
+    const windowsVirtualKeyCode = key === "Escape" ? 27 : undefined;
+    await this.send("Input.dispatchKeyEvent", { type: "keyDown", key, text, windowsVirtualKeyCode });
+    await this.send("Input.dispatchKeyEvent", { type: "keyUp", key, windowsVirtualKeyCode });
   }
 
   /** What is seen, as PNG. */

@@ -120,8 +120,11 @@ setInterval(() => link.absence(store) && changed(), 500);
 window.addEventListener("keydown", (event) => {
   const { target, ctrlKey, altKey, metaKey, key } = event;
   if (!(target instanceof Element)) return;
+  // Until the next frame is drawn, the focus may be left in a dialog or a menu that has just closed.
   const typed =
-    target.matches("input, select") || (key === " " && target.matches("button")) || target.closest("dialog, [role=menu]");
+    target.matches("input, select") ||
+    (key === " " && target.matches("button")) ||
+    target.closest("dialog[open], [role=menu]:not([hidden])");
   if (typed || ctrlKey || altKey || metaKey || !controls.settings.keys) return;
   if (key === "s") save.toggle();
   else if (!player.key(event) && !controls.key(event)) return;
