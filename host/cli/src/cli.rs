@@ -11,6 +11,7 @@ use crate::commands::board::health::{self, HealthArgs};
 use crate::commands::board::ports::{self, PortsArgs};
 use crate::commands::board::reset_settings::{self, ResetSettingsArgs};
 use crate::commands::board::save::{self, SaveArgs};
+use crate::commands::body::{self, BodyArgs};
 use crate::commands::frames::features::{self, FeaturesArgs};
 use crate::commands::frames::process::{self, ProcessArgs};
 use crate::commands::garment::calibrate::{self, CalibrateArgs};
@@ -136,6 +137,9 @@ enum Command {
     /// Create and validate garment files
     #[command(after_help = CONFIG)]
     Config(ConfigArgs),
+    /// Place a garment's taxels on the robot's links
+    #[command(after_help = BODY)]
+    Body(BodyArgs),
     /// List the scripts of touches that a simulation plays
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -188,6 +192,7 @@ impl Cli {
             Command::Ports(args) => ports::run(&args),
             Command::Flash(args) => flash::run(&args),
             Command::Config(args) => config::run(&args),
+            Command::Body(args) => body::run(&args),
             Command::Scenes(args) => scenes::run(args),
             Command::Completions(args) => completions::run(&args, Cli::command()),
         }

@@ -16,6 +16,7 @@
 //! | [`tell`] | errors in plain words, steps and progress of long work |
 //! | [`sim`] | the simulated garment and its scripts of touches |
 //! | [`files`] | safe outputs, recorded frames, garments, scripts, calibrations |
+//! | [`body`] | the garment on the robot: where each taxel lies, forces by link |
 //! | [`client`] | the host's end of the wire: bytes in, events out, with host times |
 //! | [`recording`] | MCAP files: read, written and repaired |
 //! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
@@ -60,6 +61,8 @@ pub mod tell;
 pub use taxel_sim as sim;
 
 pub mod files;
+
+pub mod body;
 
 pub mod client;
 

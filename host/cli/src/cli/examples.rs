@@ -146,6 +146,11 @@ pub(super) const CONFIG: &str = "Examples:
   taxel config check mine.toml --scene scene.toml
   taxel config schema";
 
+pub(super) const BODY: &str = "Examples:
+  taxel body check reference
+  taxel body check mine.body.toml --garment mine.toml --json
+  taxel body places reference -o places.csv";
+
 pub(super) const SCENES: &str = "Examples:
   taxel scenes
   taxel scenes --json";

@@ -1,6 +1,7 @@
 //! The commands: each is a module with its arguments and a function `run`.
 
 pub mod board;
+pub mod body;
 pub mod frames;
 pub mod garment;
 pub mod maps;

@@ -1,6 +1,7 @@
 //! Tests of the library: simulated boards and garments, maps, shapes, touches, sessions.
 
 mod bases;
+mod body;
 mod clock;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
 mod drawn;

@@ -1,0 +1,68 @@
+//! Body files.
+
+use super::config::Body;
+use super::form::Form;
+use super::places::{Listed, listed};
+use super::surface::Surface;
+use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
+use crate::tell::{toml_key, verbose, words};
+use std::path::Path;
+use taxel_core::garment::{Garment, Layout};
+
+/// Names and texts of the presets.
+const PRESETS: [(&str, &str); 1] = [("reference", include_str!("../../bodies/reference.toml"))];
+
+/// A body's file, and those that it names.
+#[derive(Debug, Clone)]
+pub struct ReadBody {
+    /// Path of the file, or name of the preset.
+    pub name: String,
+    text: String,
+    /// The body, unchecked.
+    pub body: Body,
+    /// The lists of taxels, by patch.
+    listed: Vec<(usize, Vec<Listed>)>,
+}
+
+impl ReadBody {
+    /// Places the taxels of a garment. Errors name file, line and key.
+    pub fn surface(&self, garment: &Garment, layout: &Layout) -> Result<Surface> {
+        let surface = Surface::build_with(&self.body, garment, layout, &self.listed);
+        surface.map_err(|error| self.error(error))
+    }
+
+    fn error(&self, error: SettingError) -> Error {
+        let SettingError::Key { key, text } = error else { return error.into() };
+        let what = text.strip_prefix(&format!("`{key}` ")).unwrap_or(&text);
+        toml_key::error(&self.name, &self.text, &key, what).into()
+    }
+}
+
+/// Reads the body of a preset (`reference`), or a body's TOML file and the lists of taxels that it names, which
+/// lie beside it.
+pub fn read(name_or_path: &str) -> Result<ReadBody> {
+    let load = |path: &Path| -> Result<String> {
+        verbose::reads(path);
+        std::fs::read_to_string(path)
+            .map_err(|error| FileError::read(path, error))
+            .with_context(|| format!("cannot read {}", path.display()))
+    };
+    let (name, path) = (name_or_path.to_string(), Path::new(name_or_path));
+    let text = match PRESETS.iter().find(|(preset, _)| *preset == name) {
+        Some((_, text)) => (*text).to_string(),
+        None if !name.ends_with(".toml") && !path.is_file() => {
+            let unknown = words::unknown("body", &name, PRESETS.map(|(preset, _)| preset));
+            fail!(UsageError::Unknown, "{unknown}, or give a .toml file");
+        }
+        None => load(path)?,
+    };
+    let body: Body =
+        toml::from_str(&text).map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
+    let mut lists = Vec::new();
+    for (index, patch) in body.patches.iter().enumerate() {
+        let Form::Taxels(file) = &patch.on else { continue };
+        let file = path.parent().unwrap_or(Path::new("")).join(file);
+        lists.push((index, listed(&file.display().to_string(), &load(&file)?)?));
+    }
+    Ok(ReadBody { name, text, body, listed: lists })
+}

@@ -1,0 +1,39 @@
+//! Force, moment and centre of pressure by link.
+
+use super::surface::Surface;
+use glam::DVec3;
+
+/// What presses on a link. Friction is not felt: forces are along the normals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wrench {
+    /// Index into [`Surface::links`].
+    pub link: usize,
+    /// Sum of the taxels' forces in the link's frame, N: each presses against its normal.
+    pub force: DVec3,
+    /// Their moment about the link's origin, N m.
+    pub moment: DVec3,
+    /// Sum of the magnitudes, N: more than that of `force` where the surface is curved.
+    pub pressed: f64,
+    /// Centre of pressure, m: the taxels' places, weighted by magnitude; 0 if nothing presses.
+    pub center: DVec3,
+}
+
+/// What presses on each link: `newtons` by taxel, those without a place are left out.
+pub fn wrenches(surface: &Surface, newtons: &[f64]) -> Vec<Wrench> {
+    let none =
+        |link| Wrench { link, force: DVec3::ZERO, moment: DVec3::ZERO, pressed: 0.0, center: DVec3::ZERO };
+    let mut all: Vec<Wrench> = (0..surface.links().len()).map(none).collect();
+    for (place, newtons) in surface.places().iter().zip(newtons) {
+        let Some(place) = place.filter(|_| *newtons != 0.0) else { continue };
+        let force = place.normal * -newtons;
+        let wrench = &mut all[place.link];
+        wrench.force += force;
+        wrench.moment += place.at.cross(force);
+        wrench.pressed += newtons;
+        wrench.center += place.at * *newtons;
+    }
+    for wrench in all.iter_mut().filter(|wrench| wrench.pressed > 0.0) {
+        wrench.center /= wrench.pressed;
+    }
+    all
+}
