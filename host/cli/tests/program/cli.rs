@@ -305,9 +305,25 @@ fn scenes_are_listed() {
 }
 
 #[test]
+fn a_body_is_checked_and_every_taxel_placed() {
+    let table = answer(&["body", "check", "reference"]);
+    let arm = "left arm   on left_upper_arm    512 taxels, neighbours at 0.995 to 1.000 of their pitch\n";
+    assert!(table.lines().count() == 4 && table.contains(arm), "{table}");
+    let panels = json(&["body", "check", "reference", "--json"]);
+    assert_eq!((&panels[0]["panel"], &panels[0]["link"]), (&"chest".into(), &"torso".into()));
+    let places = answer(&["body", "places", "reference", "-o", "-"]);
+    assert!(places.starts_with("taxel,link,x,y,z,nx,ny,nz\n0,torso,"), "{}", &places[..80]);
+    assert_eq!(places.lines().count(), 2049);
+    let other = run(&["body", "check", "reference", "--garment", "mat-64x32"]);
+    let told = String::from_utf8(other.stderr).unwrap();
+    let what = "reference, line 6, `patches[0].panel`: must be a panel of the garment: mat";
+    assert!(!other.status.success() && told.contains(what), "{told}");
+}
+
+#[test]
 fn every_subcommand_has_a_help_with_an_example() {
     assert!(answer(&["--help"]).contains("Example"));
-    for command in ["process", "features", "fcm", "scenes"] {
+    for command in ["process", "features", "fcm", "scenes", "body"] {
         let help = answer(&[command, "--help"]);
         assert!(help.contains("Example") && help.contains(&format!("taxel {command}")), "{help}");
     }
