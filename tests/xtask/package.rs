@@ -4,7 +4,7 @@
 use crate::checks::cargo;
 use crate::targets::End;
 use crate::{install, paths, process};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The published crates, in the order in which they depend on each other.
@@ -24,30 +24,47 @@ pub fn run() -> Result<(), String> {
     compare_with_last()
 }
 
-/// Builds what is in git with the oldest version of each direct dependency.
+/// Builds the last commit with the oldest version of each direct dependency.
 fn build_with_oldest() -> Result<(), String> {
     install::nightly()?;
-    let copy = paths::target().join("oldest");
-    let prefix = format!("--prefix={}/", copy.display());
-    process::run(
-        Command::new("git").args(["checkout-index", "--all", "--force", &prefix]).current_dir(paths::root()),
-    )?;
+    let copy = copy_of("HEAD", "oldest")?;
     let resolve = ["run", "nightly", "cargo", "update", "--quiet", "-Zdirect-minimal-versions"];
     process::run(Command::new("rustup").args(resolve).current_dir(&copy))?;
     process::run(&mut cargo(&["check", "--quiet", "--workspace", "--all-features"], copy))
 }
 
-/// Compares the interfaces with those of the last tag: what the version does not allow to change is an error.
+/// Compares the interfaces of the last commit with those of the last tag: what the version does not allow to
+/// change is an error.
 fn compare_with_last() -> Result<(), String> {
     let tag = ["describe", "--tags", "--abbrev=0", "--match=v*"];
     let tag = process::output(Command::new("git").args(tag).current_dir(paths::root()))
         .ok_or("interfaces: not run: there is no tag of a release (v0.2.0) to compare with")?;
     let tool =
         install::cargo_tool("cargo-semver-checks", "0.51.0").map_err(|why| format!("not run: {why}"))?;
+    let (now, then) = (copy_of("HEAD", "interfaces")?, copy_of(tag.trim(), "interfaces-before")?);
+    for copy in [&now, &then] {
+        // It looks for a crate's workspace in the folders above, and takes that of the firmware for the store's.
+        let manifest = copy.join("firmware/Cargo.toml");
+        std::fs::remove_file(&manifest).map_err(|error| format!("{}: {error}", manifest.display()))?;
+    }
     let mut command = Command::new(tool);
-    command.args(["semver-checks", "--baseline-rev", tag.trim()]).current_dir(paths::root());
+    command.arg("semver-checks").arg("--manifest-path").arg(now.join("Cargo.toml"));
+    command.arg("--baseline-root").arg(then);
     command.args(PUBLISHED.iter().flat_map(|name| ["--package", *name]));
     process::run(&mut command)
+}
+
+/// Copies a revision into a folder of its own.
+fn copy_of(revision: &str, name: &str) -> Result<PathBuf, String> {
+    let (copy, index) = (paths::target().join(name), paths::target().join(format!("{name}.index")));
+    // What an earlier copy had more would be built, too.
+    let _ = std::fs::remove_dir_all(&copy);
+    let git = |args: &[&str]| {
+        process::run(Command::new("git").args(args).current_dir(paths::root()).env("GIT_INDEX_FILE", &index))
+    };
+    git(&["read-tree", revision])?;
+    git(&["checkout-index", "--all", "--force", &format!("--prefix={}/", copy.display())])?;
+    Ok(copy)
 }
 
 /// Packs them only: a file, a version or a description that is missing is found in a second.
