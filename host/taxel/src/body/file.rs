@@ -2,7 +2,7 @@
 
 use super::config::Body;
 use super::form::Form;
-use super::places::{Listed, listed};
+use super::listed::{Listed, listed};
 use super::surface::Surface;
 use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
 use crate::tell::{toml_key, verbose, words};

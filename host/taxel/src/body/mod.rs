@@ -28,6 +28,7 @@
 mod config;
 mod file;
 mod form;
+mod listed;
 mod places;
 mod surface;
 mod wrench;
@@ -35,7 +36,8 @@ mod wrench;
 pub use config::{Body, Patch};
 pub use file::{ReadBody, read};
 pub use form::{Cone, Cylinder, Form, Grid, Plane};
-pub use places::{Listed, listed, text};
+pub use listed::{Listed, listed};
+pub use places::text;
 pub use surface::{Fit, Surface, TaxelPlace};
 pub use wrench::{Wrench, wrenches};
 

@@ -2,7 +2,7 @@
 
 use super::config::{Body, Patch};
 use super::form::{Form, Laid, PanelSpot, Spot};
-use super::places::Listed;
+use super::listed::Listed;
 use crate::error::{Result, SettingError};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
