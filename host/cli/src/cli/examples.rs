@@ -149,6 +149,7 @@ pub(super) const CONFIG: &str = "Examples:
 pub(super) const BODY: &str = "Examples:
   taxel body check reference
   taxel body check mine.body.toml --garment mine.toml --json
+  taxel body show reference -o body.svg
   taxel body places reference -o places.csv";
 
 pub(super) const SCENES: &str = "Examples:

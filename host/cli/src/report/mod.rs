@@ -18,7 +18,7 @@ mod seen;
 mod series;
 mod strips;
 mod surface;
-mod svg;
+pub mod svg;
 mod tables;
 
 pub use page::page;

@@ -155,6 +155,7 @@ pub const CASES: &[Case] = &[
             &[table("out.toml")],
         )
     },
+    case("body show", "body show reference -o body.svg", &[ends("body.svg", "</svg>\n")]),
     case("body places", "body places reference -o places.csv", &[file("places.csv")]),
     case("setup", "setup --simulate 7 -o out.toml", &[file("out.toml")]),
     case("settle", "settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),

@@ -314,6 +314,13 @@ fn a_body_is_checked_and_every_taxel_placed() {
     let places = answer(&["body", "places", "reference", "-o", "-"]);
     assert!(places.starts_with("taxel,link,x,y,z,nx,ny,nz\n0,torso,"), "{}", &places[..80]);
     assert_eq!(places.lines().count(), 2049);
+    // Each taxel faces one of front and back; those of the sides of the arms face the left, too.
+    let picture = answer(&["body", "show", "reference", "-o", "-"]);
+    let circles = picture.matches("<circle").count();
+    assert!(
+        picture.contains(">torso from the left</text>") && (2048..=3 * 2048).contains(&circles),
+        "{circles}"
+    );
     let other = run(&["body", "check", "reference", "--garment", "mat-64x32"]);
     let told = String::from_utf8(other.stderr).unwrap();
     let what = "reference, line 6, `patches[0].panel`: must be a panel of the garment: mat";

@@ -1,6 +1,7 @@
 //! `taxel body`: where the garment's taxels lie on the robot.
 
 mod check;
+mod show;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
@@ -39,6 +40,29 @@ impl WornArgs {
     }
 }
 
+/// A body, its garment, and a file to write.
+#[derive(Debug, Clone, Args)]
+pub struct WrittenArgs {
+    #[command(flatten)]
+    worn: WornArgs,
+    /// The file to write; - for the standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Whether an existing file is replaced.
+    #[command(flatten)]
+    force: Overwrite,
+}
+
+impl WrittenArgs {
+    /// Places the taxels, and writes what `text` says of them.
+    fn write(&self, text: impl Fn(&Layout, &Surface) -> String) -> Result<()> {
+        let WornArgs { body, garment } = &self.worn;
+        let output = Output::stream(&self.output, self.force, [body, garment])?;
+        let (layout, surface) = self.worn.surface()?;
+        Ok(output.write(text(&layout, &surface).as_bytes())?)
+    }
+}
+
 #[derive(Debug, Clone, Subcommand)]
 enum BodyTask {
     /// Check a body file: how each panel lies on its link; errors name line and key
@@ -51,19 +75,12 @@ enum BodyTask {
         #[arg(long)]
         json: bool,
     },
+    /// Draw the taxels of each link from three sides
+    #[command(after_help = "Example:\n  taxel body show reference -o body.svg")]
+    Show(WrittenArgs),
     /// Write the place and the normal of every taxel as CSV
     #[command(after_help = "Example:\n  taxel body places reference -o places.csv")]
-    Places {
-        /// BodyTask is placed.
-        #[command(flatten)]
-        worn: WornArgs,
-        /// The file to write; - for the standard output
-        #[arg(short, long, value_name = "FILE")]
-        output: PathBuf,
-        /// Whether an existing file is replaced.
-        #[command(flatten)]
-        force: Overwrite,
-    },
+    Places(WrittenArgs),
 }
 
 /// Runs the command.
@@ -74,10 +91,7 @@ pub fn run(args: &BodyArgs) -> Result<()> {
             print!("{}", check::told(&layout, &surface, *json)?);
             Ok(())
         }
-        BodyTask::Places { worn, output, force } => {
-            let output = Output::stream(output, *force, [&worn.body, &worn.garment])?;
-            let (_, surface) = worn.surface()?;
-            Ok(output.write(body::text(&surface).as_bytes())?)
-        }
+        BodyTask::Show(written) => written.write(show::picture),
+        BodyTask::Places(written) => written.write(|_, surface| body::text(surface)),
     }
 }
