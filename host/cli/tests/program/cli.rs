@@ -321,6 +321,11 @@ fn a_body_is_checked_and_every_taxel_placed() {
         picture.contains(">torso from the left</text>") && (2048..=3 * 2048).contains(&circles),
         "{circles}"
     );
+    // What a command reads it never overwrites: not a list that the body names, either.
+    let list = file("list.txt", "0 0 0.1 0 0 1\n".repeat(2048).as_bytes());
+    let worn = file("list.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {list:?}\n").as_bytes());
+    let over = run(&["body", "places", &worn, "--garment", "mat-64x32", "-o", &list, "--force"]);
+    assert!(!over.status.success() && std::fs::read(&list).unwrap().len() == 14 * 2048);
     let other = run(&["body", "check", "reference", "--garment", "mat-64x32"]);
     let told = String::from_utf8(other.stderr).unwrap();
     let what = "reference, line 6, `patches[0].panel`: must be a panel of the garment: mat";

@@ -6,7 +6,7 @@ use super::listed::{Listed, listed};
 use super::surface::Surface;
 use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
 use crate::tell::{toml_key, verbose, words};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use taxel_core::garment::{Garment, Layout};
 
 /// Names and texts of the presets.
@@ -22,9 +22,16 @@ pub struct ReadBody {
     pub body: Body,
     /// The lists of taxels, by patch.
     listed: Vec<(usize, Vec<Listed>)>,
+    /// Their files.
+    lists: Vec<PathBuf>,
 }
 
 impl ReadBody {
+    /// The lists of taxels that were read, too.
+    pub fn lists(&self) -> impl Iterator<Item = &Path> {
+        self.lists.iter().map(PathBuf::as_path)
+    }
+
     /// Places the taxels of a garment. Errors name file, line and key.
     pub fn surface(&self, garment: &Garment, layout: &Layout) -> Result<Surface> {
         let surface = Surface::build_with(&self.body, garment, layout, &self.listed);
@@ -58,11 +65,12 @@ pub fn read(name_or_path: &str) -> Result<ReadBody> {
     };
     let body: Body =
         toml::from_str(&text).map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
-    let mut lists = Vec::new();
+    let (mut rows, mut lists) = (Vec::new(), Vec::new());
     for (index, patch) in body.patches.iter().enumerate() {
         let Form::Taxels(file) = &patch.on else { continue };
         let file = path.parent().unwrap_or(Path::new("")).join(file);
-        lists.push((index, listed(&file.display().to_string(), &load(&file)?)?));
+        rows.push((index, listed(&file.display().to_string(), &load(&file)?)?));
+        lists.push(file);
     }
-    Ok(ReadBody { name, text, body, listed: lists })
+    Ok(ReadBody { name, text, body, listed: rows, lists })
 }

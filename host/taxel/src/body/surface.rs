@@ -68,6 +68,9 @@ impl Surface {
             if !patch.turn.is_finite() {
                 return Err(wrong("turn", "must be a number"));
             }
+            if patch.turn != 0.0 && matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) {
+                return Err(wrong("turn", "must be left out: the points say how the panel lies"));
+            }
             let link = surface.link(patch.link.as_deref().unwrap_or(&area.link));
             match Laid::new(&patch.on).map_err(|(key, what)| wrong(&format!("on.{key}"), what))? {
                 Some(laid) => surface.lay(layout, (panel as u8, area), (&laid, patch, link), &wrong)?,

@@ -117,6 +117,8 @@ fn what_does_not_fit_is_told_with_its_key() {
     assert_eq!(thin, "`patches[0].on.radius` must be above 0");
     let ragged = why("on.grid = { points = [[[1, 0, 1], [0, 0, 1]], [[1, 0, 0]]] }");
     assert!(ragged.starts_with("`patches[0].on.points` must be at least two rows"), "{ragged}");
+    let turned = why("turn = 90\non.grid = { points = [[[1, 0, 1], [0, 0, 1]], [[1, 0, 0], [0, 0, 0]]] }");
+    assert_eq!(turned, "`patches[0].turn` must be left out: the points say how the panel lies");
     let twice = why(
         "on.plane = { at = [0, 0, 0], normal = [0, 0, 1], down = [0, 1, 0] }\n\n[[patches]]\npanel = \"mat\"\non.plane = { at = [0, 0, 0], normal = [0, 0, 1], down = [0, 1, 0] }",
     );

@@ -6,8 +6,8 @@ mod show;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
-use std::path::PathBuf;
-use taxel::body::{self, Surface};
+use std::path::{Path, PathBuf};
+use taxel::body::{self, ReadBody, Surface};
 use taxel::files::garments;
 use taxel::files::output::Output;
 use taxel_core::capacity::TAXELS;
@@ -32,10 +32,10 @@ pub struct WornArgs {
 
 impl WornArgs {
     /// Places the taxels.
-    fn surface(&self) -> Result<(Layout, Surface)> {
+    fn surface(&self, body: &ReadBody) -> Result<(Layout, Surface)> {
         let garment = garments::read(&self.garment)?;
         let layout = Layout::build(&garment.garment, TAXELS, u16::MAX).map_err(|e| garment.error(&e))?;
-        let surface = body::read(&self.body)?.surface(&garment.garment, &layout)?;
+        let surface = body.surface(&garment.garment, &layout)?;
         Ok((layout, surface))
     }
 }
@@ -57,8 +57,10 @@ impl WrittenArgs {
     /// Places the taxels, and writes what `text` says of them.
     fn write(&self, text: impl Fn(&Layout, &Surface) -> String) -> Result<()> {
         let WornArgs { body, garment } = &self.worn;
-        let output = Output::stream(&self.output, self.force, [body, garment])?;
-        let (layout, surface) = self.worn.surface()?;
+        let read = body::read(body)?;
+        let inputs = [Path::new(body), Path::new(garment)].into_iter().chain(read.lists());
+        let output = Output::stream(&self.output, self.force, inputs)?;
+        let (layout, surface) = self.worn.surface(&read)?;
         Ok(output.write(text(&layout, &surface).as_bytes())?)
     }
 }
@@ -68,7 +70,7 @@ enum BodyTask {
     /// Check a body file: how each panel lies on its link; errors name line and key
     #[command(after_help = "Example:\n  taxel body check reference")]
     Check {
-        /// BodyTask is checked.
+        /// What is checked.
         #[command(flatten)]
         worn: WornArgs,
         /// Print JSON instead of a table
@@ -87,7 +89,7 @@ enum BodyTask {
 pub fn run(args: &BodyArgs) -> Result<()> {
     match &args.what {
         BodyTask::Check { worn, json } => {
-            let (layout, surface) = worn.surface()?;
+            let (layout, surface) = worn.surface(&body::read(&worn.body)?)?;
             print!("{}", check::told(&layout, &surface, *json)?);
             Ok(())
         }
