@@ -124,12 +124,17 @@ impl<const PROTOTYPES: usize> Gallery<PROTOTYPES> {
     /// last.
     fn nearest(&self, point: &Point) -> [(u32, Option<u8>); VOTERS] {
         let mut nearest = [(u32::MAX, None); VOTERS];
+        let mut limit = u32::MAX;
         for prototype in &self.prototypes {
             let mut carried = (distance2(&prototype.at, point), Some(prototype.class));
+            if carried.0 >= limit {
+                continue;
+            }
             for held in nearest.iter_mut().take(self.k.into()) {
                 if carried.0 < held.0 {
                     core::mem::swap(held, &mut carried);
                 }
+                limit = held.0;
             }
         }
         nearest.map(|(square, class)| (root(square.into()), class))
