@@ -5,7 +5,7 @@
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
 //! [`reflex`] (check of raw codes within a frame), [`selftest`] (select lines, converter inputs), [`health`]
 //! (faulty taxels), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
-//! moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot),
+//! moments, tracks), [`surface`] (place and force on the robot), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot),
 //! [`unsure`] (contacts that may be drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`]
 //! (reactions), [`scene`] (settings of all stages), [`pipeline`] (composition of the stages), [`boot`]
 //! (causes of restarts), [`wire`] (messages, frames), [`board`] (the device as a function of its inputs) and
@@ -55,6 +55,8 @@ mod measure;
 mod track;
 
 pub mod contact;
+
+pub mod surface;
 
 pub mod gesture;
 

@@ -3,7 +3,7 @@
 mod reader;
 
 use crate::acquire::{Acquire, Clock};
-use crate::board::{Board, Input, Job, Saved, Settings};
+use crate::board::{Board, Input, Job, Saved, Settings, SurfacePiece};
 use crate::format::Micros;
 use crate::pipeline::{Probe, Stage};
 use crate::selftest::Examine;
@@ -11,6 +11,9 @@ use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 use reader::Reader;
+
+/// Error of a platform without a place for tables of the surface.
+const NO_ROOM: &str = "this board has no room for a table of the surface";
 
 /// A byte link that never waits. Interrupts or threads move the bytes between the rings behind it and the
 /// wire.
@@ -31,6 +34,16 @@ pub trait Platform: Clock + Probe {
     /// Makes the stored settings have no effect from the next start on, or restores them (`undo`). The error
     /// says why this failed.
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str>;
+    /// Stores a piece of a table of the surface beside the one in force. Returns the whole table with its last
+    /// piece; the error says why it was not stored.
+    fn store_surface(&mut self, _: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
+        Err(NO_ROOM)
+    }
+    /// Makes the table of this length whose pieces were stored last the one that a start finds, or none if the
+    /// length is 0.
+    fn keep_surface(&mut self, _: u32) -> Result<(), &'static str> {
+        Err(NO_ROOM)
+    }
     /// Restarts the board. A host may end its loop instead.
     fn restart(&mut self);
     /// Waits until `until`, 1 ms at most, because bytes may arrive or leave meanwhile.
@@ -86,6 +99,18 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
                 let result = platform.reset_settings(undo);
                 let now = platform.now();
                 board.step(now, Input::SettingsReset(result), platform);
+            }
+            Some(Job::StoreSurface) => {
+                acquire.rest();
+                let result = platform.store_surface(&board.surface_piece());
+                let now = platform.now();
+                board.step(now, Input::SurfaceStored(result), platform);
+            }
+            Some(Job::KeepSurface) => {
+                acquire.rest();
+                let result = platform.keep_surface(board.surface_piece().length);
+                let now = platform.now();
+                board.step(now, Input::SurfaceKept(result), platform);
             }
             Some(Job::Restart) => platform.restart(),
             Some(Job::Examine) => {

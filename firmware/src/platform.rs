@@ -3,7 +3,7 @@
 use crate::led::Led;
 use crate::mark::mark;
 use crate::remains::Scratch;
-use crate::store::{FedFlash, Flash};
+use crate::store::{FedFlash, Flash, in_place};
 use crate::watchdog::WATCHDOG;
 use embassy_rp::{clocks, watchdog::Watchdog};
 use embassy_time::Instant;
@@ -11,7 +11,7 @@ use embedded_hal::delay::DelayNs;
 use rp_pac::watchdog::regs::Load;
 use taxel_core::{
     acquire::{Clock, WATCHDOG_MS},
-    board::{Saved, Settings, Shipped},
+    board::{Saved, Settings, Shipped, SurfacePiece},
     boot::{Aside, Boots},
     format::Micros,
     pipeline::{Probe, Stage},
@@ -136,6 +136,11 @@ impl BoardPlatform {
                 }
             }
         }
+        if uses_stored {
+            let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
+            let table = flash.tables().and_then(|mut tables| tables.in_force()).ok().flatten();
+            board.recall_surface(table.map(in_place));
+        }
         board.booted(self.boots.boot());
     }
 }
@@ -186,6 +191,23 @@ impl Platform for BoardPlatform {
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
         let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         flash.store().and_then(|mut store| store.put_aside(!undo)).map_err(StoreError::sentence)
+    }
+
+    #[inline(never)]
+    fn store_surface(&mut self, piece: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
+        if piece.offset == 0 {
+            self.boots.charge(piece.saves);
+        }
+        let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        let table = flash.tables().and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
+        let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
+        Ok(is_whole.then(|| in_place(table)))
+    }
+
+    #[inline(never)]
+    fn keep_surface(&mut self, length: u32) -> Result<(), &'static str> {
+        let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
+        flash.tables().and_then(|mut tables| tables.keep(length)).map_err(StoreError::sentence)
     }
 
     fn restart(&mut self) {

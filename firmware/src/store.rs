@@ -1,4 +1,4 @@
-//! The sectors of the flash with the settings, and those with the levels of outputs.
+//! The sectors of the flash with the settings, with the levels of outputs, and with tables of the surface.
 
 use crate::watchdog::WATCHDOG;
 use core::ops::Range;
@@ -7,7 +7,7 @@ use embassy_rp::{peripherals::FLASH, watchdog::Watchdog};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
 use taxel_core::board::Saved;
 use taxel_core::react::Levels;
-use taxel_store::{Store, StoreError, keep_levels};
+use taxel_store::{Store, StoreError, TABLES_BYTES, Tables, keep_levels};
 
 /// Size of the smallest flash of any board with an RP2040.
 const BYTES: usize = 2 * 1024 * 1024;
@@ -18,6 +18,12 @@ const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
 
 /// The two sectors before them, with the levels of outputs at start-up.
 pub const LEVELS: [u32; 2] = [SECTORS.start - 2 * ERASE_SIZE as u32, SECTORS.start - ERASE_SIZE as u32];
+
+/// The tables of the surface lie before these.
+const TABLES: u32 = LEVELS[0] - TABLES_BYTES;
+
+/// Address of the flash's first byte.
+const MAPPED: usize = 0x1000_0000;
 
 /// The flash. While it is written or erased nothing runs, not even interrupts: it holds the code.
 pub type Flash = flash::Flash<'static, FLASH, Blocking, BYTES>;
@@ -36,9 +42,24 @@ impl FedFlash<'_> {
         Store::new(self, SECTORS)
     }
 
+    /// Opens the tables of the surface.
+    pub fn tables(self) -> Result<Tables<Self>, StoreError> {
+        Tables::new(self, TABLES)
+    }
+
     /// Stores the levels of outputs for the next start.
     pub fn keep_levels(&mut self, levels: Levels) -> Result<Saved, StoreError> {
         keep_levels(self, LEVELS, levels)
+    }
+}
+
+/// A table of the surface, where it lies.
+pub fn in_place(table: Range<u32>) -> &'static [u8] {
+    // SAFETY: `Tables` gives ranges of the flash, which is mapped from that address on, and writes only to the
+    // half that holds no table in force. The board refers to no other table.
+    #[allow(unsafe_code)]
+    unsafe {
+        core::slice::from_raw_parts((MAPPED + table.start as usize) as *const u8, table.len())
     }
 }
 

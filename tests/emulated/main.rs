@@ -17,4 +17,6 @@ mod recorded;
 mod scan;
 mod stack;
 mod store;
+mod surface;
+mod twin;
 mod usb;

@@ -24,11 +24,11 @@ const CHECKS: &[(&str, Check)] = &[
     ("test", test),
     ("firmware", build_firmware),
     ("sizes", compare_sizes),
-    ("features", build_features),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
     ("firmware-clippy", firmware_clippy),
     ("core-thumb", core_thumb),
+    ("features", build_features),
     ("cycles", targets::cycles),
     ("emulator-scan", |log| targets::on_emulator("scan", log)),
     ("emulator-latency", |log| targets::on_emulator("latency", log)),
@@ -37,6 +37,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-health", |log| targets::on_emulator("health", log)),
     ("emulator", |log| targets::on_emulator("contacts", log)),
     ("emulator-store", |log| targets::on_emulator("store", log)),
+    ("emulator-surface", |log| targets::on_emulator("surface", log)),
     ("emulator-boots", |log| targets::on_emulator("boots", log)),
     ("emulator-outputs", |log| targets::on_emulator("outputs", log)),
     ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
@@ -225,11 +226,12 @@ fn compare_sizes(log: &Path) -> End {
     Ok(image.and_then(|image| sizes::check(&image)).map(|beside| print!("{beside}")))
 }
 
-/// Tests what a core without features refuses, and compiles each image that leaves features out.
+/// Compiles each image that leaves features out, and tests what a core without features refuses: in this order,
+/// because the second waits until the tests are compiled.
 fn build_features(log: &Path) -> End {
     let args = ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out"];
-    let refusals = process::run_into(&mut cargo(&args, paths::root()), log);
-    Ok(refusals.and_then(|()| features::check(log)))
+    let images = features::check(log);
+    Ok(images.and_then(|()| process::run_into(&mut cargo(&args, paths::root()), log)))
 }
 
 fn firmware_clippy(log: &Path) -> End {

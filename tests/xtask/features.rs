@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// All features of the firmware but `bench`.
-const ALL: [&str; 6] = ["gallery", "gesture", "intent", "raw", "reflex", "slip"];
+const ALL: [&str; 7] = ["gallery", "gesture", "intent", "raw", "reflex", "slip", "surface"];
 /// Name of the image with all of them, and of that without any.
 const EVERYTHING: &str = "everything";
 const ALONE: &str = "contacts alone";

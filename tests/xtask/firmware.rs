@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const FLASH: u64 = 2048 * 1024 - 72 * 1024;
+const FLASH: u64 = 2048 * 1024 - 160 * 1024;
 const RAM: std::ops::Range<u32> = 0x2000_0000..0x2004_2000;
 /// Part of the RAM that memory.x reserves for the stack.
 const STACK: u64 = 48 * 1024;

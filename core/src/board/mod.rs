@@ -21,12 +21,14 @@ mod retest;
 mod saving;
 mod settings;
 mod setup;
+mod surface;
 mod taxel_health;
 mod tx_frame;
 
 pub use info::BoardInfo;
 pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
 pub use setup::{Setup, SetupError};
+pub use surface::{SURFACE_BYTES, SurfacePiece};
 
 use crate::acquire::{Plan, Scan, ScanError};
 use crate::boot::Boot;
@@ -50,6 +52,7 @@ use rebuilds::Rebuilds;
 use refusal::Refusal;
 use retest::Retest;
 use saving::Saving;
+use surface::Surface;
 
 /// Input of the board: an event, or the passing of time.
 #[derive(Debug)]
@@ -62,6 +65,10 @@ pub enum Input<'a> {
     Saved(Result<Saved, &'static str>),
     /// Result of [`Job::ResetSettings`].
     SettingsReset(Result<Saved, &'static str>),
+    /// Result of [`Job::StoreSurface`]: the whole table with its last piece.
+    SurfaceStored(Result<Option<&'static [u8]>, &'static str>),
+    /// Result of [`Job::KeepSurface`].
+    SurfaceKept(Result<(), &'static str>),
     /// Result of a test of lines and inputs: at the start and after each [`Job::Examine`].
     Examined(Result<Findings, ScanError>),
     /// A select line was not at the level to which it was driven.
@@ -87,6 +94,11 @@ pub enum Job {
         /// Restore them.
         undo: bool,
     },
+    /// Store [`Board::surface_piece`]; answered by [`Input::SurfaceStored`].
+    StoreSurface,
+    /// Make the table whose pieces were stored last the one in force, or none if its length is 0; answered by
+    /// [`Input::SurfaceKept`].
+    KeepSurface,
     /// Restart, as after power-on.
     Restart,
     /// Stop a free-running scan, and examine lines and inputs: the circuit has changed, the host asks for it,
@@ -100,6 +112,8 @@ enum Work {
     SelfTest,
     Save,
     Reset { undo: bool },
+    StoreSurface,
+    KeepSurface,
 }
 
 /// The whole state of the board, for garments of up to TAXELS taxels; RUNS and PARTS as in
@@ -141,6 +155,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     monitor: Monitor,
     /// Calibration from which the gains come.
     certificate: Option<Certificate>,
+    surface: Surface,
 }
 
 /// The board that ships, of the capacities that [`capacity`] states.
@@ -188,6 +203,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             tared: false,
             monitor: const { Monitor::new() },
             certificate: None,
+            surface: const { Surface::new() },
         }
     }
 
@@ -229,6 +245,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.tared = false;
         (self.examined, self.retest) = (None, Retest::new());
         self.certificate = None;
+        self.surface.refit(&self.setup.layout);
         self.scene_changed();
     }
 
@@ -262,6 +279,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Scanned(Err(error)) => self.stumbled(error),
             Input::Saved(result) => self.saved(now, result),
             Input::SettingsReset(result) => self.settings_reset(now, result),
+            Input::SurfaceStored(result) => self.surface_stored(now, result),
+            Input::SurfaceKept(result) => self.surface_kept(now, result),
             Input::Examined(result) => self.examined(now, result),
             Input::Misled => self.retest.raise(now),
             Input::Reflex(early) => self.reflex(&early),
@@ -340,6 +359,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         // Only a scene without a rate limit keeps pace with the converter.
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
         self.outbox.enqueue(self.frame, time, &percept, late, &mut self.health);
+        self.surface.note(self.frame, time, touched);
         if self.taring && percept.tare == Tare::Done {
             (self.taring, self.tared) = (false, true);
             self.outbox.answer(request::TARE, None);
@@ -356,7 +376,18 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let Board {
-            outbox, ledger, info, boot, setup, monitor, examined, certificate, health, state, ..
+            outbox,
+            ledger,
+            info,
+            boot,
+            setup,
+            monitor,
+            examined,
+            certificate,
+            health,
+            state,
+            surface,
+            ..
         } = self;
         health.process_us = ledger.process_us();
         let image = state.image(&setup.pipeline, &setup.layout);
@@ -373,7 +404,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             unsure: state.unsure(),
             taught: &state.taught,
         };
-        outbox.prepare(now, about, &image, health, probe);
+        let pressing = surface.is_due().then_some(|| {
+            surface.report(|table, poses| state.pressing(table, poses, &setup.layout, image.values))
+        });
+        outbox.prepare(now, about, &image, pressing, health, probe);
         if !outbox.has_rest() {
             ledger.rest();
         }

@@ -12,6 +12,9 @@ pub(super) struct Pace {
 }
 
 impl Pace {
+    /// Never due.
+    pub const NEVER: Pace = Pace { period_us: None, next: Micros(0) };
+
     /// A rate of `hz` per second; 0: never, `u16::MAX`: always.
     pub fn new(hz: u16) -> Pace {
         let period_us = match hz {

@@ -32,12 +32,15 @@ pub(super) fn number_of(work: Work) -> u8 {
         Work::SelfTest => Request::SelfTest.number(),
         Work::Save => Request::Save.number(),
         Work::Reset { .. } => Request::ResetSettings { undo: false }.number(),
+        Work::StoreSurface | Work::KeepSurface => {
+            Request::SetSurface { length: 0, offset: 0, bytes: &[] }.number()
+        }
     }
 }
 
 /// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
 #[inline(never)]
-fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
+pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
     decode(bytes).map_err(|error| match error {
         WireError::LeftOver => format_args!("{what}: bytes after its end").into(),
         _ => format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into(),
@@ -126,6 +129,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Ok(())
             }
             Request::SetRaw { hz } => self.send_raw(hz),
+            Request::SetSurface { length, offset, bytes } => {
+                match self.take_surface(now, length, offset, bytes) {
+                    Ok(()) => return,
+                    refused => refused,
+                }
+            }
+            Request::SetPoses(bytes) => self.take_poses(bytes, now),
+            Request::SetPressing { hz } => self.tell_pressing(hz),
         };
         self.outbox.answer(number, result.err());
     }

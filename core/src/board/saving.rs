@@ -150,6 +150,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Work::Save => Job::Save,
             Work::Reset { undo } => Job::ResetSettings { undo },
             Work::SelfTest => Job::Examine,
+            Work::StoreSurface => Job::StoreSurface,
+            Work::KeepSurface => Job::KeepSurface,
         })
     }
 
@@ -177,7 +179,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// True if something touches the garment, or a reaction to a touch lasts. Without a tare this is unknown,
     /// and `false`.
-    fn is_busy(&self) -> bool {
+    pub(super) fn is_busy(&self) -> bool {
         if !self.tared {
             return false;
         }

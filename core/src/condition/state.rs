@@ -19,6 +19,11 @@ pub struct ConditionState<const TAXELS: usize> {
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
+    /// The last image before the filter.
+    pub(crate) fn calibrated(&self) -> &[u16] {
+        &self.images.calibrated
+    }
+
     /// State without a garment: every gain is 0. Call [`ConditionState::reset`] next.
     pub const fn new() -> Self {
         ConditionState {

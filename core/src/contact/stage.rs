@@ -12,6 +12,7 @@ use crate::measure::quartic::Quartic;
 use crate::measure::sight::Sight;
 use crate::segment::config::{ContactConfig, NO_SLIP};
 use crate::segment::labeller::Labeller;
+use crate::segment::run::Run;
 use crate::segment::seams::Joins;
 use crate::track::assign::Matching;
 use crate::track::motion::Trail;
@@ -37,6 +38,18 @@ pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const LABELS: 
     matching: Matching<CONTACTS>,
     tracks: Tracks<CONTACTS, S>,
     feedback: Feedback<CONTACTS>,
+}
+
+/// Touched taxels of a row that belong to one contact.
+pub(crate) struct Pressed<'a> {
+    /// Index of the contact, in the order of their onset.
+    pub contact: usize,
+    /// Index of the panel.
+    pub panel: u8,
+    /// Number of the first taxel.
+    pub first: usize,
+    /// The run.
+    pub run: &'a Run,
 }
 
 /// Result of a frame.
@@ -128,6 +141,18 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         contacts.iter_mut().zip(trails.iter().zip(&*quartics)).map(|(slot, (trail, quartic))| {
             let looked = components.get(usize::from(trail.component)).filter(|_| trail.age == 0);
             (slot, looked.map(|component| (&component.moments, quartic)))
+        })
+    }
+
+    /// The runs of the last frame's contacts, in the order of rows.
+    pub(crate) fn pressed<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = Pressed<'a>> {
+        self.labeller.runs.iter().filter_map(|run| {
+            let panel = self.labeller.labels.get(usize::from(run.label))?.panel;
+            let contact = self.tracks.index_of(self.labeller.contact_of(run)?)?;
+            let area = layout.areas().get(usize::from(panel))?;
+            let row = usize::from(run.row.checked_sub(area.first_row)?);
+            let first = usize::from(area.base) + row * usize::from(area.columns) + usize::from(run.left);
+            Some(Pressed { contact, panel, first, run })
         })
     }
 

@@ -4,7 +4,7 @@ use super::area::{Area, Place, cell_mm2, taxels_per_cm};
 use super::config::{ABSENT, Absent, Garment, PANELS, PITCH_UM, Panel, SEAMS};
 use super::error::GarmentError;
 use super::seam::Joint;
-use crate::format::Name;
+use crate::format::{Name, crc32};
 use heapless::Vec;
 
 /// The checked geometry: panels with their numbering, seams, regions, gaps.
@@ -152,6 +152,17 @@ impl Layout {
     /// Number of taxels, absent ones included.
     pub fn taxels(&self) -> usize {
         usize::from(self.taxels)
+    }
+
+    /// A sum of what numbers the taxels, rows and columns of each panel: of two garments with the same sum,
+    /// the taxels have the same numbers, but for one in four billion.
+    pub fn sum(&self) -> u32 {
+        let mut sizes = [0; 4 * PANELS];
+        for (to, area) in sizes.as_chunks_mut::<4>().0.iter_mut().zip(&self.areas) {
+            let ([a, b], [c, d]) = (area.rows.to_le_bytes(), area.columns.to_le_bytes());
+            *to = [a, b, c, d];
+        }
+        crc32(&sizes)
     }
 
     /// True if the place has no taxel.

@@ -12,6 +12,7 @@ use crate::gesture::GestureState;
 use crate::intent::{Fed, IntentState};
 use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
+use crate::surface::{Pressing, SurfaceState, Table};
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 
@@ -120,6 +121,17 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     /// True if the last frame took a picture of a contact's pattern.
     pub(crate) fn took_picture(&self) -> bool {
         self.contact.took_picture()
+    }
+
+    /// Places and forces of the contacts of the last frame, whose image has these values.
+    pub(crate) fn pressing(
+        &self,
+        table: &Table<'_>,
+        poses: &SurfaceState,
+        layout: &Layout,
+        values: &[u16],
+    ) -> Pressing<CONTACTS> {
+        poses.process(table, &self.contact, layout, [self.condition.calibrated(), values])
     }
 
     /// Which contacts of the last frame may be drift.

@@ -13,6 +13,7 @@ use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::selftest::Findings;
 use crate::shape::GALLERY_CLASSES;
+use crate::surface::{LINKS, Landed, Wrench};
 use crate::symbol::{RegionState, Symbol};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,9 @@ pub const MAGIC: [u8; 4] = *b"TAXL";
 pub const PROTOCOL: u16 = 1;
 /// Greatest length of a host's message: a garment, and its frame around it.
 pub const LONGEST_REQUEST: usize = 3072;
+
+/// Bytes of a piece of a table of the surface.
+pub const SURFACE_PIECE: usize = 256;
 
 /// Greatest number of prototypes of an `AddShapes`.
 pub const SHAPES_ADDED: usize = 64;
@@ -80,6 +84,8 @@ pub enum Report<'a> {
     Unsure(UnsureReport),
     /// Ages of the forms in the next list of contacts.
     Forms(FormsReport),
+    /// What presses on the robot.
+    Pressing(PressingReport),
 }
 
 /// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
@@ -129,6 +135,8 @@ impl Report<'_> {
     pub const UNSURE: u32 = 20;
     /// Number of `Forms`.
     pub const FORMS: u32 = 21;
+    /// Number of `Pressing`.
+    pub const PRESSING: u32 = 22;
 }
 
 /// Identity and settings of the board. This layout is frozen.
@@ -387,6 +395,22 @@ pub struct FormsReport {
     pub ages: Vec<(u32, u8), LISTED>,
 }
 
+/// What presses on the robot, if [`Request::SetPressing`] asked for it: at its rate while something touches, and
+/// once when nothing does any more. See [`surface`](crate::surface).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PressingReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Time at which the poses in force were received; none without one.
+    pub posed: Option<Micros>,
+    /// The contacts that have a place.
+    pub contacts: Vec<Landed, CONTACTS>,
+    /// The links that something presses on.
+    pub links: Vec<Wrench, LINKS>,
+}
+
 /// Shapes that the board was taught. The class of a contact is 1 + its index in these names.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShapesReport {
@@ -543,6 +567,25 @@ pub enum Request<'a> {
         /// Rate per second; 0: that of the scene; 65535: with every scan.
         hz: u16,
     },
+    /// A piece of a [`Table`](crate::surface::Table) of the surface, which is stored in flash. Pieces come in
+    /// order, each after the answer to the one before. With the last one the table is checked and, from then on
+    /// and after each start, in force; until then the one before it is.
+    SetSurface {
+        /// Length of the whole table; 0: none is in force from now on.
+        length: u32,
+        /// Position of the piece: 0 begins a table.
+        offset: u32,
+        /// [`SURFACE_PIECE`] bytes, or what is left.
+        bytes: &'a [u8],
+    },
+    /// postcard of at most [`LINKS`] links of the surface, each its name and its [`Pose`](crate::surface::Pose):
+    /// for places and forces in the robot's frame. A pose lasts until the next one for its link.
+    SetPoses(&'a [u8]),
+    /// Set the rate of [`PressingReport`]s; 0 at the start.
+    SetPressing {
+        /// Rate per second; 0: never; 65535: with every scan.
+        hz: u16,
+    },
 }
 
 impl Request<'_> {
@@ -571,6 +614,9 @@ impl Request<'_> {
             Request::ResetSettings { .. } => 19,
             Request::SetForms { .. } => 20,
             Request::SetRaw { .. } => 21,
+            Request::SetSurface { .. } => 22,
+            Request::SetPoses(_) => 23,
+            Request::SetPressing { .. } => 24,
         }
     }
 }

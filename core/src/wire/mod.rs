@@ -33,6 +33,7 @@
 //! | 19 | [`Boot`](crate::boot::Boot) | after each `Hello`, from a board that knows the cause of its reset |
 //! | 20 | [`UnsureReport`] | when a contact becomes unsure or sure; the newest state |
 //! | 21 | [`FormsReport`] | if requested: before a `Contacts` in which a form is older than its frame |
+//! | 22 | [`PressingReport`] | if requested: at that rate while something touches, when the link has room |
 //!
 //! A link carries nothing but these bytes. A board with several links uses one at a time, by whole messages:
 //! USB while a program there has opened its port, else the UART.

@@ -19,8 +19,29 @@ use taxel_core::react::{Cause, Reaction};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::shape::{Class, ConfidenceTable, GalleryHead, MEASURES, Shape, Space};
+use taxel_core::surface::{InBase, Landed, Spot, Wrench};
 use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol, Words};
 use taxel_core::wire::*;
+
+fn pushed(base: Option<InBase>) -> Landed {
+    let spot = Spot { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
+    Landed { id: 7, spot, force: [-3, 4_000, 0], base }
+}
+
+fn based() -> InBase {
+    InBase { at: [1, -1, 1_000_000], normal: [16_384, 0, 0], force: [-4_000, 3, 0] }
+}
+
+fn wrench() -> Wrench {
+    Wrench {
+        link: 1,
+        name: name("forearm"),
+        force: [-3, 4_000, 0],
+        moment: [-1_200_000, 0, 77],
+        pressed: 4_100,
+        center: [-150_000, 20, 300_000],
+    }
+}
 
 fn placed() -> Placed {
     let contact = Contact {
@@ -156,7 +177,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 22] {
+fn reports() -> [(&'static str, Report<'static>); 23] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -189,10 +210,20 @@ fn reports() -> [(&'static str, Report<'static>); 22] {
             "Forms",
             Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() }),
         ),
+        (
+            "Pressing",
+            Report::Pressing(PressingReport {
+                frame,
+                time,
+                posed: Some(Micros(70)),
+                contacts: [pushed(None), pushed(Some(based()))].into_iter().collect(),
+                links: [wrench()].into_iter().collect(),
+            }),
+        ),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 22] {
+fn requests() -> [(&'static str, Request<'static>); 25] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -221,6 +252,9 @@ fn requests() -> [(&'static str, Request<'static>); 22] {
         ("ResetSettings", Request::ResetSettings { undo: true }),
         ("SetForms", Request::SetForms { in_frame: 2, ages: true }),
         ("SetRaw", Request::SetRaw { hz: 10 }),
+        ("SetSurface", Request::SetSurface { length: 41_104, offset: 256, bytes: &[1, 2, 3] }),
+        ("SetPoses", Request::SetPoses(&[6, 7])),
+        ("SetPressing", Request::SetPressing { hz: 20 }),
     ]
 }
 

@@ -111,8 +111,8 @@ impl Judge {
                     self.give(Input::Saved(Ok(Saved::Written)));
                 }
                 Some(Job::Examine) => self.examine(),
-                Some(job @ (Job::ResetSettings { .. } | Job::Restart)) => panic!("{job:?}"),
                 Some(Job::Scan(_)) | None => break,
+                Some(job) => panic!("{job:?}"),
             }
         }
         self.read();

@@ -5,6 +5,7 @@
 //! | `store.rs` | saving and loading |
 //! | `index.rs` | the parts in force, with their checksums |
 //! | `levels.rs` | levels of the outputs at start-up |
+//! | `tables.rs` | the table of the garment's surface |
 //! | `waitless.rs` | adapter from a blocking flash to the asynchronous traits |
 //!
 //! The parts of the settings are stored as items of at most [`CHUNK`] bytes in a map of sequential-storage.
@@ -18,7 +19,9 @@
 mod index;
 mod levels;
 mod store;
+mod tables;
 mod waitless;
 
 pub use levels::{Record, in_force, keep_levels};
 pub use store::{CHUNK, Found, Store, StoreError};
+pub use tables::{TABLES_BYTES, Tables};

@@ -55,6 +55,10 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         }
         "set_concept" => Request::Feed(feed(&values)?),
         "set_posture" => Request::Posture(posture(client, &values)?),
+        "set_gains" => return gains(client, &values),
+        "set_body" => return Ok(setting::set_body(client, values.text("body"), values.text("garment"))?),
+        "set_poses" => return poses(client, &values),
+        "set_pressing" => Request::SetPressing { hz: values.whole("hz", 0, 65_535)? as u16 },
         "set_garment" => return Ok(setting::set_garment(client, values.text("garment"))?),
         "set_scene" => return Ok(setting::set_scene(client, &SceneFile::named(values.text("scene"))?)?),
         "set_gestures" => return gestures(client, &values),
@@ -99,6 +103,39 @@ fn posture(client: &Client, values: &Values) -> Result<Posture> {
         posture.joints.push(told).map_err(|_| too_many())?;
     }
     Ok(posture)
+}
+
+/// Gains of all taxels, by number.
+fn gains(client: &mut Client, values: &Values) -> Result<()> {
+    let list = values.0["gains"].as_array().into_iter().flatten();
+    let gain = |(taxel, value): (usize, &serde_json::Value)| {
+        let gain = value.as_f64().filter(|gain| (0.0..16.0).contains(gain));
+        let gain = gain.ok_or_else(|| argument(format!("the gain of taxel {taxel} must be 0 to 16")))?;
+        Ok((gain * 4096.0).round().min(65_535.0) as u16)
+    };
+    let gains = list.enumerate().map(gain).collect::<Result<Vec<u16>>>()?;
+    ensure!(gains.len() <= usize::from(u16::MAX), argument(format!("{} gains are too many", gains.len())));
+    for (index, some) in gains.chunks(64).enumerate() {
+        let gains = some.iter().copied().collect();
+        client.request(&Request::SetGain { first: (64 * index) as u16, gains })?;
+    }
+    Ok(())
+}
+
+/// Poses by the names of links: three numbers, m, and a quaternion x, y, z, w.
+fn poses(client: &mut Client, values: &Values) -> Result<()> {
+    let numbers = |value: &serde_json::Value| -> Option<Vec<f64>> {
+        value.as_array()?.iter().map(serde_json::Value::as_f64).collect()
+    };
+    let mut poses = Vec::new();
+    for (link, pose) in values.0["poses"].as_object().into_iter().flatten() {
+        let at: Option<[f64; 3]> = numbers(&pose[0]).and_then(|at| at.try_into().ok());
+        let turn: Option<[f64; 4]> = numbers(&pose[1]).and_then(|turn| turn.try_into().ok());
+        let what = || argument(format!("the pose of {link} must be three numbers and four numbers"));
+        let (at, turn) = at.zip(turn).ok_or_else(what)?;
+        poses.push((link.as_str(), at, turn));
+    }
+    Ok(setting::set_poses(client, poses)?)
 }
 
 fn gestures(client: &mut Client, values: &Values) -> Result<()> {

@@ -80,13 +80,22 @@ fn open(spec: &str, options: SourceOptions, tare: Option<u16>, returns: Returns)
     let parsed: SourceSpec = spec.parse().map_err(|why| argument(format!("source {spec}: {why}")))?;
     let source = source::open(&parsed, &options)?;
     let (tare, listens, wears_asked) = (tare.unwrap_or(source.tare), source.listens, source.wears_asked);
+    let has_body = source.has_body;
     let mut session = Session::new(source, returns);
     let (client, _) = session.parts();
     if let Some(garment) = options.garment.as_ref().filter(|_| !wears_asked) {
         anyhow::ensure!(listens, argument(format!("{spec}: a recording has a garment of its own")));
         setting::set_garment(client, garment)?;
     }
+    // Before the tare, during which the board stores nothing.
+    if let Some(body) = options.body.as_ref().filter(|_| !has_body) {
+        anyhow::ensure!(listens, argument(format!("{spec}: the board of a recording takes no body")));
+        setting::set_body(client, body, options.garment.as_deref().unwrap_or("reference"))?;
+    }
     client.start(tare)?;
+    if options.body.is_some() {
+        client.request(&taxel_core::wire::Request::SetPressing { hz: u16::MAX })?;
+    }
     if options.raw {
         client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;
     }
@@ -124,7 +133,7 @@ impl Stream {
 #[pymethods]
 impl Stream {
     #[new]
-    #[pyo3(signature = (source, *, seed=None, garment=None, realtime=false, repeat=false, frames=None,
+    #[pyo3(signature = (source, *, seed=None, garment=None, body=None, realtime=false, repeat=false, frames=None,
                         seconds=None, raw=false, tare=None, once=false))]
     #[allow(clippy::too_many_arguments)] // keywords in Python
     fn new(
@@ -132,6 +141,7 @@ impl Stream {
         source: &str,
         seed: Option<u64>,
         garment: Option<String>,
+        body: Option<String>,
         realtime: bool,
         repeat: bool,
         frames: Option<u64>,
@@ -143,7 +153,7 @@ impl Stream {
         if seconds.is_some_and(|seconds| !(0.0..=1e9).contains(&seconds)) {
             return Err(crate::error::usage("seconds must be a time of 0 or more"));
         }
-        let options = SourceOptions { seed, realtime, repeat, frames, seconds, raw, garment };
+        let options = SourceOptions { seed, realtime, repeat, frames, seconds, raw, garment, body };
         let returns = if once { Returns::Never } else { Returns::Always };
         let open = py.detach(|| open(source, options, tare, returns)).map_err(raised)?;
         Ok(Stream { open: Mutex::new(Some(open)), asking: AtomicUsize::new(0) })

@@ -50,7 +50,7 @@ impl NorFlashError for FlashError {
     }
 }
 
-/// A flash of 64 KiB, the size of the reference board's settings area.
+/// A flash, by default of 64 KiB, the size of the reference board's settings area.
 #[derive(Debug, Clone)]
 pub struct SimFlash {
     bytes: Vec<u8>,
@@ -64,14 +64,24 @@ pub struct SimFlash {
 
 impl Default for SimFlash {
     fn default() -> Self {
-        let bytes = vec![0xff; Self::BYTES as usize];
-        SimFlash { bytes, steps: 0, erased: 0, cut: None, off: false, rng: Rng::with_seed(7) }
+        SimFlash::new(Self::BYTES)
     }
 }
 
 impl SimFlash {
-    /// Size.
+    /// Default size.
     pub const BYTES: u32 = 64 * 1024;
+
+    /// A blank flash of so many bytes.
+    pub fn new(bytes: u32) -> SimFlash {
+        let bytes = vec![0xff; bytes as usize];
+        SimFlash { bytes, steps: 0, erased: 0, cut: None, off: false, rng: Rng::with_seed(7) }
+    }
+
+    /// The content.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
 
     /// Number of writes and sector erasures.
     pub fn steps(&self) -> u64 {

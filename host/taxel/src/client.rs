@@ -60,6 +60,8 @@ use wanted::Sets;
 
 /// Longest frame from a board.
 const LONGEST_REPORT: usize = 8192;
+/// Number of the request that brings a piece of a table.
+const SET_SURFACE: u8 = Request::SetSurface { length: 0, offset: 0, bytes: &[] }.number();
 /// Most ids of released contacts kept: those of 16 full lists.
 const RELEASED: usize = 1024;
 
@@ -244,6 +246,10 @@ impl Client {
                 self.forms = Some(report.clone());
                 Event::Forms(Box::new(report))
             }
+            Report::Pressing(mut report) => {
+                report.links.iter_mut().for_each(|wrench| cleaned::name(&mut wrench.name));
+                Event::Pressing(Box::new(report))
+            }
             Report::Shapes(report) => self.take_shapes(&report),
             Report::Reaction(mut report) => {
                 cleaned::name(&mut report.reaction.name);
@@ -303,6 +309,10 @@ impl Client {
     fn take_answer(&mut self, answer: &Answer<'_>) -> Event {
         let refusal = answer.refusal.map(|why| printable(why).into_owned());
         self.answered(answer.request, refusal.as_deref());
+        if refusal.is_some() && answer.request == SET_SURFACE {
+            // The pieces that follow would be refused, too.
+            self.held.retain(|(_, sets)| !sets.as_ref().is_some_and(Sets::is_piece));
+        }
         Event::Answer { request: answer.request, refusal }
     }
 

@@ -10,6 +10,7 @@ pub mod lines;
 mod meaning;
 mod messages;
 pub mod pins;
+mod pressing;
 mod printer;
 #[cfg(feature = "schema")]
 pub mod schema;

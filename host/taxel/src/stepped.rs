@@ -28,10 +28,10 @@
 
 use crate::client::{Client, Event};
 use crate::error::{Context, Result, SourceError, UsageError};
-use crate::source::simulated_info;
+use crate::source::{lasting, simulated_info};
 use std::thread;
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, Input, Job, Shipped};
+use taxel_core::board::{Board, Input, Job, Shipped, SurfacePiece};
 use taxel_core::boot::Boot;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
@@ -54,6 +54,8 @@ pub struct Stepped {
     board: Box<Shipped>,
     client: Client,
     codes: Vec<Code>,
+    /// The table of the surface being received.
+    table: Vec<u8>,
     last: Option<Micros>,
 }
 
@@ -68,7 +70,7 @@ impl Stepped {
         board.booted(Boot::default());
         let mut client = Client::new();
         client.start(0)?;
-        Ok(Stepped { board, client, codes: Vec::new(), last: None })
+        Ok(Stepped { board, client, codes: Vec::new(), table: Vec::new(), last: None })
     }
 
     /// Number of taxels: the length of a scan.
@@ -124,6 +126,8 @@ impl Stepped {
                 Some(Job::Scan(_)) => return true,
                 Some(Job::Save) => Input::Saved(Err(NO_FLASH)),
                 Some(Job::ResetSettings { .. }) => Input::SettingsReset(Err(NO_FLASH)),
+                Some(Job::StoreSurface) => Input::SurfaceStored(Ok(self.stored())),
+                Some(Job::KeepSurface) => Input::SurfaceKept(Ok(())),
                 Some(Job::Examine) => {
                     self.examined(now);
                     continue;
@@ -135,6 +139,14 @@ impl Stepped {
             self.board.step(now, input, &mut ());
         }
         false
+    }
+
+    /// Takes a piece of a table; returns the table with its last piece.
+    fn stored(&mut self) -> Option<&'static [u8]> {
+        let SurfacePiece { length, offset, bytes, .. } = self.board.surface_piece();
+        self.table.truncate(offset as usize);
+        self.table.extend_from_slice(bytes);
+        (self.table.len() == length as usize).then(|| lasting(&self.table))
     }
 
     /// All lines and inputs are good.

@@ -1,5 +1,6 @@
 //! The whole chain: a board that gets codes, and whose messages are read at once.
 
+use crate::surface::TABLE;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{BoardInfo, Input, SetupError, Shipped};
@@ -46,10 +47,11 @@ impl Chain {
         Chain { board: Shipped::bare(info), scans: 0 }
     }
 
-    /// Sets the reference garment and the shipped scene.
+    /// Sets the reference garment with a surface, and the shipped scene.
     #[inline(never)]
     pub fn ship(&mut self) -> Result<(), SetupError> {
         self.board.set_garment(Garment::reference())?;
+        self.board.recall_surface(Some(&TABLE.0));
         self.board.set_scene(Scene::shipped())
     }
 

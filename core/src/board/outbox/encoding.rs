@@ -20,7 +20,14 @@ use serde::Serialize;
 impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Encodes the most urgent message, if there is one. Own frame: its buffers are on the stack only here.
     #[inline(never)]
-    pub(super) fn next(&mut self, now: Micros, about: About<'_>, image: &Image<'_>, health: &mut Health) {
+    pub(super) fn next(
+        &mut self,
+        now: Micros,
+        about: About<'_>,
+        image: &Image<'_>,
+        pressing: Option<impl FnOnce() -> Option<PressingReport>>,
+        health: &mut Health,
+    ) {
         let tx_frame = &mut self.tx_frame;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
@@ -71,6 +78,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             tx_frame.put(Report::BUDGET, &budget)
         } else if let Some(temperature) = self.temperature.take() {
             tx_frame.put(Report::TEMPERATURE, &temperature)
+        } else if let Some(pressing) = pressing.filter(|_| self.streaming) {
+            put_pressing(tx_frame, pressing)
         } else if let Some((frame, time)) = self.image.due.take() {
             let is_light = || !about.took_picture && measures_little(about.present, about.form_ages);
             self.put_image(frame, time, &about.setup.layout, image, is_light, health)
@@ -188,6 +197,12 @@ fn put_unsure(tx_frame: &mut TxFrame, frame: u32, time: Micros, unsure: &UnsureS
         let _ = contacts.push(id);
     }
     tx_frame.put(Report::UNSURE, &UnsureReport { frame, time, contacts })
+}
+
+/// Encodes what presses on the robot. Own frame: it is summed up here.
+#[inline(never)]
+fn put_pressing(tx_frame: &mut TxFrame, pressing: impl FnOnce() -> Option<PressingReport>) -> bool {
+    pressing().is_none_or(|report| tx_frame.put(Report::PRESSING, &report))
 }
 
 /// Encodes a [`ShapesReport`].

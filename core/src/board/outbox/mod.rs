@@ -289,12 +289,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         now: Micros,
         about: About<'_>,
         image: &Image<'_>,
+        pressing: Option<impl FnOnce() -> Option<PressingReport>>,
         health: &mut Health,
         probe: &mut impl Probe,
     ) {
         if !self.has_rest() {
             probe.begin(Stage::Encode);
-            self.next(now, about, image, health);
+            self.next(now, about, image, pressing, health);
             probe.begin(Stage::Idle);
         }
     }

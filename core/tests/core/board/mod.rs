@@ -3,6 +3,7 @@
 mod requests;
 mod settings;
 mod stream;
+mod surface;
 
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Job};

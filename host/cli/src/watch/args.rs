@@ -53,6 +53,14 @@ pub struct BoardArgs {
     /// Base of shapes to send to the board: a file, or the name of a shipped base
     #[arg(long, value_name = "BASE")]
     pub shapes: Option<PathBuf>,
+    /// Body of the garment, which the board stores, to report what presses on each link: a TOML file or
+    /// `reference`
+    #[arg(long, value_name = "BODY")]
+    pub body: Option<String>,
+    /// Reports per second of what presses on each link, of a board that has a body; 65535: one for each frame
+    /// [default: 65535 with --body, else 0]
+    #[arg(long, value_name = "HZ")]
+    pub pressing: Option<u16>,
     /// End when the connection to the board is lost, instead of waiting for the board
     #[arg(long)]
     pub once: bool,
@@ -77,6 +85,8 @@ impl BoardArgs {
             forms: None,
             feed: Vec::new(),
             shapes: None,
+            body: None,
+            pressing: None,
             once: false,
             seed: None,
         }
@@ -84,7 +94,8 @@ impl BoardArgs {
 
     /// Paths of the input files, which no output may replace. A preset's name is among them like a path.
     pub fn files(&self) -> Vec<PathBuf> {
-        let named = [self.garment.clone().map(PathBuf::from), self.source.file()];
+        let text = |name: &Option<String>| name.clone().map(PathBuf::from);
+        let named = [text(&self.garment), text(&self.body), self.source.file()];
         let told = [&self.scene, &self.calibration, &self.shapes].map(Clone::clone);
         named.into_iter().chain(told).flatten().collect()
     }
@@ -100,6 +111,8 @@ impl BoardArgs {
             ("--forms", self.forms.is_some()),
             ("--feed", !self.feed.is_empty()),
             ("--shapes", self.shapes.is_some()),
+            ("--body", self.body.is_some()),
+            ("--pressing", self.pressing.is_some()),
         ];
         match options.into_iter().find(|(_, is_there)| *is_there) {
             Some((option, _)) => {
@@ -113,7 +126,12 @@ impl BoardArgs {
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
         let mut source = source::open(
             &self.source,
-            &SourceOptions { seed: self.seed, garment: self.garment.clone(), ..options },
+            &SourceOptions {
+                seed: self.seed,
+                garment: self.garment.clone(),
+                body: self.body.clone(),
+                ..options
+            },
         )?;
         let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
         let known = calibration.as_ref().and_then(Calibration::counts_per_newton);

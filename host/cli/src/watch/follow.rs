@@ -126,12 +126,19 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(file) = &args.calibration {
         Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
     }
+    // Before the tare, during which the board stores nothing.
+    if let Some(body) = args.body.as_ref().filter(|_| !source.has_body) {
+        setting::set_body(client, body, args.garment.as_deref().unwrap_or("reference"))?;
+    }
     client.start(args.tare.unwrap_or(source.tare))?;
     if let Some(model) = args.gestures {
         gesture_model::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
     }
     if let Some(base) = &args.shapes {
         teach(client, &Base::open(base)?)?;
+    }
+    if let Some(hz) = args.pressing.or(args.body.as_ref().map(|_| u16::MAX)) {
+        client.request(&Request::SetPressing { hz })?;
     }
     if let Some(hz) = args.budget {
         client.request(&Request::Budget { hz })?;

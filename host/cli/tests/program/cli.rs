@@ -326,6 +326,9 @@ fn a_body_is_checked_and_every_taxel_placed() {
     let worn = file("list.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {list:?}\n").as_bytes());
     let over = run(&["body", "places", &worn, "--garment", "mat-64x32", "-o", &list, "--force"]);
     assert!(!over.status.success() && std::fs::read(&list).unwrap().len() == 14 * 2048);
+    let told = answer(&["live", "--source", "sim:pat", "--body", "reference", "--frames", "120", "--json"]);
+    let pressing = told.lines().filter(|line| line.starts_with("{\"type\":\"pressing\"")).collect::<Vec<_>>();
+    assert!(pressing.len() > 10 && pressing[0].contains("\"link\":\"torso\""), "{pressing:?}");
     let other = run(&["body", "check", "reference", "--garment", "mat-64x32"]);
     let told = String::from_utf8(other.stderr).unwrap();
     let what = "reference, line 6, `patches[0].panel`: must be a panel of the garment: mat";

@@ -41,6 +41,7 @@ from ._taxel import (
     Intent,
     Log,
     Lost,
+    Pressing,
     Raw,
     Reaction,
     Reflex,
@@ -79,6 +80,7 @@ __all__ = [
     "Log",
     "Lost",
     "Message",
+    "Pressing",
     "Raw",
     "Reaction",
     "Recording",
@@ -150,6 +152,7 @@ def open(
     *,
     seed: int | None = None,
     garment: str | None = None,
+    body: str | None = None,
     realtime: bool = False,
     repeat: bool = False,
     frames: int | None = None,
@@ -165,6 +168,8 @@ def open(
 
     - ``seed``: of a simulation, instead of its script's
     - ``garment``: a preset or a TOML file, for the board
+    - ``body``: where the taxels lie on the robot, a preset or a TOML file: the board tells in ``Pressing`` events
+      what presses on each link
     - ``realtime``: a simulation or a replay takes its time; else it is as fast as it is read
     - ``repeat``: a simulation repeats its script
     - ``frames``, ``seconds``: end after so many images, or so much of the board's time
@@ -183,6 +188,7 @@ def open(
         source,
         seed=seed,
         garment=garment,
+        body=body,
         realtime=realtime,
         repeat=repeat,
         frames=frames,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 
@@ -46,6 +46,29 @@ class Requests:
     def set_garment(self, name_or_path: str | os.PathLike[str]) -> None:
         """Sends a garment: the name of a preset, or a TOML file. It resets gains and tare."""
         self._ask("set_garment", garment=os.fspath(name_or_path))
+
+    def set_gains(self, gains: Sequence[float]) -> None:
+        """Sets the gain of each taxel, by number: 0 to 16, in steps of 1/4096. 1 leaves its counts as they are."""
+        self._ask("set_gains", gains=[float(gain) for gain in gains])
+
+    def set_body(self, name_or_path: str | os.PathLike[str], garment: str = "reference") -> None:
+        """Stores on the board where its taxels lie on the robot: a body's name, or a TOML file.
+
+        Before the board's ``Hello`` has been read, ``garment`` names the garment that it wears. The flash of a
+        board takes twelve tables, then one in five minutes.
+        """
+        self._ask("set_body", body=os.fspath(name_or_path), garment=garment)
+
+    def set_poses(self, poses: Mapping[str, tuple[Sequence[float], Sequence[float]]]) -> None:
+        """Tells where links of the board's body are, for contacts in the robot's frame.
+
+        By link: its origin (m), and its rotation as a quaternion (x, y, z, w).
+        """
+        self._ask("set_poses", poses={link: [list(at), list(turn)] for link, (at, turn) in poses.items()})
+
+    def set_pressing(self, hz: int = 65535) -> None:
+        """Sets the rate of ``Pressing`` events per second, of a board that has a body; 0 is never."""
+        self._ask("set_pressing", hz=hz)
 
     def set_gestures(
         self, model: str | None, *, gain: float | None = None, certainty: float | None = None

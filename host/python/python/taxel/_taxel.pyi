@@ -187,6 +187,17 @@ class Forms(_Scanned):
     def ages(self) -> list[dict[str, int]]: ...
 
 @final
+class Pressing(_Scanned):
+    """What presses on the robot: contacts on links, and the force on each link."""
+
+    @property
+    def posed_us(self) -> int | None: ...
+    @property
+    def contacts(self) -> list[dict[str, Any]]: ...
+    @property
+    def links(self) -> list[dict[str, Any]]: ...
+
+@final
 class Shapes(Event):
     """The base of shapes in use."""
 
@@ -340,6 +351,7 @@ class Stream:
         *,
         seed: int | None = None,
         garment: str | None = None,
+        body: str | None = None,
         realtime: bool = False,
         repeat: bool = False,
         frames: int | None = None,

@@ -50,6 +50,7 @@ classes! {
     "confidence" => Confidence, "Confidence of the gesture that follows.";
     "unsure" => Unsure, "Ids of the contacts that may be drift.";
     "forms" => Forms, "Ages of the forms of contacts.";
+    "pressing" => Pressing, "What presses on the robot: contacts on links, and the force on each link.";
     "shapes" => Shapes, "The base of shapes in use.";
     "reaction" => Reaction, "A reaction that began or ended.";
     "reflex" => Reflex, "A reaction that began within a frame.";

@@ -30,7 +30,10 @@ mod file;
 mod form;
 mod listed;
 mod places;
+mod pose;
+mod send;
 mod surface;
+mod table;
 mod wrench;
 
 pub use config::{Body, Patch};
@@ -38,7 +41,10 @@ pub use file::{ReadBody, read};
 pub use form::{Cone, Cylinder, Form, Grid, Plane};
 pub use listed::{Listed, listed};
 pub use places::text;
+pub use pose::pose;
+pub use send::send;
 pub use surface::{Fit, Surface, TaxelPlace};
+pub use table::table;
 pub use wrench::{Wrench, wrenches};
 
 /// A vector of three numbers.

@@ -4,8 +4,9 @@ use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, ReactionReport,
-    ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport, WireError,
+    Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, PressingReport,
+    ReactionReport, ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport,
+    WireError,
 };
 
 /// An event; persistent state is found in the [`Client`](super::Client).
@@ -51,6 +52,8 @@ pub enum Event {
     Unsure(Box<UnsureReport>),
     /// Ages of the forms of the next contacts; they are in the client, too.
     Forms(Box<FormsReport>),
+    /// What presses on the robot.
+    Pressing(Box<PressingReport>),
     /// The base of shapes; the names are in the client, too.
     Shapes {
         /// Names of the classes; empty while the built-in base is in use.

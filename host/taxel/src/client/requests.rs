@@ -6,9 +6,6 @@ use crate::error::{Context, Result, SettingError};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
 
-/// Most requests awaiting answers: a board queues eight answers and drops further ones.
-const WINDOW: usize = 4;
-
 /// Encodes a scene for `SetScene`. Error if it is too long for a request.
 pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
     let bytes = postcard::to_allocvec(scene).context("the scene cannot be written")?;
@@ -26,7 +23,7 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
 
 /// Name of a request, by its number.
 pub fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 22] = [
+    const NAMES: [&str; 25] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -49,6 +46,9 @@ pub fn request_name(number: u8) -> &'static str {
         "reset-settings",
         "set-forms",
         "set-raw",
+        "set-surface",
+        "set-poses",
+        "set-pressing",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }
@@ -84,7 +84,7 @@ impl Client {
     pub(super) fn release(&mut self) {
         while !self.is_restoring()
             && let Some((frame, sets)) =
-                self.held.pop_front_if(|(_, sets)| sets.is_none() || self.life.wanted.asked() < WINDOW)
+                self.held.pop_front_if(|(_, sets)| sets.is_none() || self.life.wanted.takes_more())
         {
             self.requests.extend(frame);
             sets.into_iter().for_each(|sets| self.life.wanted.ask(sets));

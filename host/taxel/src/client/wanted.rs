@@ -11,6 +11,8 @@ use taxel_core::wire::{LONGEST_REQUEST, Request, decode, encode, frame_bound};
 
 /// Request number of `SetCalibration`.
 const CALIBRATION: u8 = 15;
+/// Most requests awaiting answers: a board queues eight answers and drops further ones.
+const WINDOW: usize = 4;
 /// Most unanswered requests remembered; beyond that, the oldest is assumed to be done.
 const OPEN: usize = 4096;
 
@@ -29,6 +31,9 @@ enum Key {
     Gestures,
     Forms,
     Raw,
+    Pressing,
+    /// A piece of a table, which the board keeps.
+    Surface,
     /// Of this slot.
     Concept(u8),
     /// Of this concept.
@@ -85,9 +90,9 @@ impl Wanted {
         }
     }
 
-    /// Number of unanswered requests.
-    pub fn asked(&self) -> usize {
-        self.asked.len()
+    /// True if another request may be sent: what follows a piece of a table waits for its answer.
+    pub fn takes_more(&self) -> bool {
+        self.asked.len() < WINDOW && !self.asked.iter().any(|(key, ..)| *key == Key::Surface)
     }
 
     /// True if a board with this `Hello` may still have its settings.
@@ -196,6 +201,8 @@ impl Sets {
             Request::SetGestures(config) => (Key::Gestures, config.is_none()),
             Request::SetForms { .. } => (Key::Forms, false),
             Request::SetRaw { hz } => (Key::Raw, *hz == 0),
+            Request::SetPressing { hz } => (Key::Pressing, *hz == 0),
+            Request::SetSurface { .. } => (Key::Surface, true),
             Request::Concept { slot, .. } => (Key::Concept(*slot), false),
             Request::Feed(feed) => (Key::Feed(feed.concept.clone()), false),
             Request::Tare { .. } => (Key::Tare, false),
@@ -210,6 +217,11 @@ impl Sets {
             _ => Vec::new(),
         };
         Some(Sets(key, Setting { number: request.number(), frame: frame.to_vec(), feed, clears, body }))
+    }
+
+    /// True for a piece of a table.
+    pub fn is_piece(&self) -> bool {
+        self.0 == Key::Surface
     }
 }
 

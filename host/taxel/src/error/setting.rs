@@ -33,6 +33,9 @@ pub enum SettingError {
     /// A scene is too long for a request.
     #[error("{0}")]
     TooLong(String),
+    /// A surface does not fit a board's table.
+    #[error("{0}")]
+    Surface(String),
     /// Settings of gestures are invalid.
     #[error(transparent)]
     Gestures(#[from] GestureError),

@@ -12,6 +12,7 @@ use super::lines::{
     SyncLine, TemperatureLine, UnsureLine, UnusableLine, WordsLine,
 };
 use super::meaning::MeaningOfTouch;
+use super::pressing;
 use crate::client::{Client, Event, ImageNews, request_name};
 use serde_json::Value;
 use taxel_core::body::Placed;
@@ -65,6 +66,7 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             let ages = report.ages.iter().map(age).collect();
             JsonLine::Forms(FormsLine { frame: report.frame, time_us: report.time.0, ages })
         }
+        Event::Pressing(report) => JsonLine::Pressing(pressing::line(report)),
         Event::Shapes { names, prototypes } => {
             JsonLine::Shapes(ShapesLine { classes: names, prototypes: *prototypes })
         }

@@ -1,13 +1,16 @@
 //! Garments, scenes and models of the user, queued as requests to a board.
 
+use crate::body;
 use crate::client::Client;
 use crate::error::{Context, Result, SettingError, UsageError};
 use crate::files::garments;
 use crate::source::SceneFile;
 use crate::tell::verbose;
+use taxel_core::format::Name;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::gesture::{Certainty, GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
+use taxel_core::surface::{LINKS, Pose};
 use taxel_core::wire::Request;
 
 /// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
@@ -20,6 +23,41 @@ pub fn set_garment(client: &mut Client, name_or_path: &str) -> Result<()> {
     let bytes = postcard::to_allocvec(&read.garment).context("the garment cannot be written")?;
     verbose::tell(format_args!("sending garment {}, {} bytes", read.garment.name, bytes.len()));
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
+}
+
+/// Queues the requests that store a body on the board: a preset or a TOML file, for the garment that the board
+/// wears or, before its `Hello`, for `garment`.
+pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
+    let read = body::read(body)?;
+    let table = |garment: &Garment, layout: &Layout| -> Result<Vec<u8>> {
+        Ok(body::table(&read.surface(garment, layout)?, layout)?)
+    };
+    let table = match client.worn() {
+        Some(worn) => table(&worn.garment, &worn.layout)?,
+        None => {
+            let garment = garments::read(garment)?;
+            let layout = Layout::build(&garment.garment, usize::from(u16::MAX), 4095);
+            table(&garment.garment, &layout.map_err(|error| garment.error(&error))?)?
+        }
+    };
+    verbose::tell(format_args!("sending body {body}, {} bytes", table.len()));
+    body::send(client, &table)
+}
+
+/// Queues poses of the links of the board's body: by name, its origin (m) and its rotation (quaternion x, y, z,
+/// w) in the frame in which contacts are to be told.
+pub fn set_poses<'a>(
+    client: &mut Client,
+    poses: impl IntoIterator<Item = (&'a str, [f64; 3], [f64; 4])>,
+) -> Result<()> {
+    let mut told: heapless::Vec<(Name, Pose), LINKS> = heapless::Vec::new();
+    for (link, at, turn) in poses {
+        let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
+        let called = link.try_into().map_err(|_| wrong("its name is longer than 16 bytes"))?;
+        let pose = body::pose(at, turn).map_err(wrong)?;
+        told.push((called, pose)).map_err(|_| wrong("a body has at most 8 links"))?;
+    }
+    Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
 }
 
 /// Queues `SetScene` for a scene's file.

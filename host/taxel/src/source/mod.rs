@@ -16,7 +16,7 @@ mod tcp;
 pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
-pub(crate) use sim::info as simulated_info;
+pub(crate) use sim::{info as simulated_info, lasting};
 pub use spec::SourceSpec;
 
 use crate::error::Result;
@@ -56,6 +56,8 @@ pub struct SourceOptions {
     pub raw: bool,
     /// Garment of a simulated board, a preset or a TOML file, instead of its script's.
     pub garment: Option<String>,
+    /// Body that a simulated board has in its flash from the start, a preset or a TOML file.
+    pub body: Option<String>,
 }
 
 /// Opens a lost source again.
@@ -75,6 +77,8 @@ pub struct Source {
     pub counts_per_newton: Option<f32>,
     /// Its board already has the requested garment.
     pub wears_asked: bool,
+    /// Its board already has the requested body.
+    pub has_body: bool,
     /// It has a board that receives requests; false for recordings.
     pub listens: bool,
     /// Opens it again when it is lost; none if it ends for good.
@@ -91,6 +95,7 @@ impl Source {
             real_time: false,
             counts_per_newton: None,
             wears_asked: false,
+            has_body: false,
             listens: true,
             returns: None,
         }

@@ -2,14 +2,16 @@
 
 use super::pipe::{BoardEnd, pipe};
 use super::{Source, SourceOptions, scene_of};
+use crate::body;
 use crate::error::{Context, Error, Result, SourceError};
 use crate::files::{garments, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
+use std::ops::Range;
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel_core::acquire::Clock;
-use taxel_core::board::{BoardInfo, Saved, Settings, Shipped};
+use taxel_core::board::{BoardInfo, Saved, Settings, Shipped, SurfacePiece};
 use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
@@ -17,7 +19,7 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_core::scene::Scene;
-use taxel_store::{Found, Store, StoreError};
+use taxel_store::{Found, Store, StoreError, TABLES_BYTES, Tables};
 
 /// Boards are boxed, but built on the stack.
 const STACK: usize = 8 << 20;
@@ -32,6 +34,8 @@ struct Playing {
     garment: Garment,
     /// Scene of the board at its start.
     scene: Scene,
+    /// Table of the surface in its flash at its start.
+    table: Option<&'static [u8]>,
     seed: u64,
     realtime: bool,
     repeat: bool,
@@ -56,6 +60,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     if options.raw {
         board_scene.stream.raw_hz = u16::MAX;
     }
+    let table = options.body.as_ref().map(|body| table(body, &garment)).transpose()?;
     let tare = script.tare_frames.min(4096) as u16;
     let play = Playing {
         seed: options.seed.unwrap_or(script.seed),
@@ -64,6 +69,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         end_us: end_us(script.duration_s, options),
         garment,
         scene: board_scene,
+        table,
         script,
     };
     let (host, board_end) = pipe();
@@ -86,8 +92,20 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         .recv()
         .unwrap_or_else(|_| Err(error!(SourceError::Unstarted, "its thread ended")))
         .with_context(|| label.clone())?;
-    let wears_asked = options.garment.is_some();
-    Ok(Source { tare, counts_per_newton: Some(COUNTS_PER_NEWTON), wears_asked, ..Source::new(label, host) })
+    Ok(Source {
+        tare,
+        counts_per_newton: Some(COUNTS_PER_NEWTON),
+        wears_asked: options.garment.is_some(),
+        has_body: options.body.is_some(),
+        ..Source::new(label, host)
+    })
+}
+
+/// Table of a body's surface that this garment covers.
+fn table(body: &str, garment: &Garment) -> Result<&'static [u8]> {
+    let layout = Layout::build(garment, TAXELS, FULL_SCALE)?;
+    let surface = body::read(body)?.surface(garment, &layout)?;
+    Ok(lasting(&body::table(&surface, &layout)?))
 }
 
 /// The script on another garment, once checked. Changes are reported on standard error.
@@ -149,6 +167,7 @@ impl Playing {
     /// A board as after power-up.
     fn board(&self) -> Result<Shipped> {
         let mut board = Shipped::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
+        board.recall_surface(self.table);
         board.booted(Boot::default());
         Ok(board)
     }
@@ -156,8 +175,12 @@ impl Playing {
     /// Restarts the board from its stored settings.
     fn restart(&self, board: &mut Shipped, flash: &mut SimFlash) -> Result<()> {
         *board = self.board()?;
-        let found = Store::new(flash, 0..SimFlash::BYTES).and_then(|mut store| store.load(board));
+        let found = Store::new(&mut *flash, 0..SimFlash::BYTES).and_then(|mut store| store.load(board));
         let found = found.map_err(Error::other)?;
+        let table = Tables::new(&mut *flash, SimFlash::BYTES).and_then(|mut tables| tables.in_force());
+        if let Some(table) = table.map_err(Error::other)? {
+            board.recall_surface(Some(lasting(bytes_of(flash, table))));
+        }
         let aside = if found == Found::Aside { Aside::Request } else { Aside::No };
         board.booted(Boot { cause: BootCause::Request, resets: 0, aside });
         Ok(())
@@ -167,7 +190,7 @@ impl Playing {
     fn all(&self, board: &mut Shipped, link: BoardEnd) {
         let mut offset_us = 0;
         let mut origin = Instant::now();
-        let mut flash = SimFlash::default();
+        let mut flash = SimFlash::new(SimFlash::BYTES + TABLES_BYTES);
         // The inputs have been checked, so every round builds the same board.
         while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
             let SimBoard { mut lines, delay, adc, clock } = simulated;
@@ -203,6 +226,15 @@ impl Playing {
             }
         }
     }
+}
+
+/// A table of the surface that a board refers to from now on. It stays until the program ends, as flash would.
+pub fn lasting(table: &[u8]) -> &'static [u8] {
+    Box::leak(table.into())
+}
+
+fn bytes_of(flash: &SimFlash, table: Range<u32>) -> &[u8] {
+    flash.bytes().get(table.start as usize..table.end as usize).unwrap_or(&[])
 }
 
 /// The simulated clock, shifted.
@@ -263,6 +295,18 @@ impl Platform for Virtual<'_> {
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str> {
         let mut store = Store::new(&mut *self.flash, 0..SimFlash::BYTES).map_err(StoreError::sentence)?;
         store.put_aside(!undo).map_err(StoreError::sentence)
+    }
+
+    fn store_surface(&mut self, piece: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
+        let tables = Tables::new(&mut *self.flash, SimFlash::BYTES);
+        let table = tables.and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
+        let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
+        Ok(is_whole.then(|| lasting(bytes_of(self.flash, table))))
+    }
+
+    fn keep_surface(&mut self, length: u32) -> Result<(), &'static str> {
+        let tables = Tables::new(&mut *self.flash, SimFlash::BYTES);
+        tables.and_then(|mut tables| tables.keep(length)).map_err(StoreError::sentence)
     }
 
     fn restart(&mut self) {

@@ -11,9 +11,10 @@ use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::format::{Celsius, Micros, Q15, name};
 use taxel_core::react::Reaction;
 use taxel_core::selftest::{Fault, Findings, PinFault};
+use taxel_core::surface::{InBase, Landed, Spot, Wrench};
 use taxel_core::wire::{
-    Budget, ConfidenceReport, FormsReport, GestureReport, Health, Level, ReactionReport, ReflexReport,
-    SelfTestReport, SyncReport, Temperature, UnsureReport, WireError,
+    Budget, ConfidenceReport, FormsReport, GestureReport, Health, Level, PressingReport, ReactionReport,
+    ReflexReport, SelfTestReport, SyncReport, Temperature, UnsureReport, WireError,
 };
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/library/golden/lines.txt");
@@ -70,6 +71,27 @@ fn simulate(scene: &str, lines: &mut Lines) {
     }
 }
 
+fn pressing() -> PressingReport {
+    let spot = Spot { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
+    let base = InBase { at: [1, -1, 1_000_000], normal: [16_384, 0, 0], force: [-4_000, 3, 0] };
+    let landed = |id, base| Landed { id, spot, force: [-3, 4_000, 0], base };
+    let wrench = Wrench {
+        link: 1,
+        name: name("forearm"),
+        force: [-3, 4_000, 0],
+        moment: [-1_200_000, 0, 77],
+        pressed: 4_100,
+        center: [-150_000, 20, 300_000],
+    };
+    PressingReport {
+        frame: 9,
+        time: TIME,
+        posed: Some(Micros(70)),
+        contacts: [landed(7, None), landed(8, Some(base))].into_iter().collect(),
+        links: [wrench].into_iter().collect(),
+    }
+}
+
 /// Events that the scenes do not cause.
 fn others(client: &Client, lines: &mut Lines) {
     let fault = |pin, fault| PinFault { pin, fault };
@@ -98,6 +120,7 @@ fn others(client: &Client, lines: &mut Lines) {
         Event::Confidence(confidence),
         Event::Unsure(Box::new(unsure)),
         Event::Forms(Box::new(FormsReport { frame: 9, time: TIME, ages })),
+        Event::Pressing(Box::new(pressing())),
         Event::Shapes { names: vec!["mug".into(), "ball".into()], prototypes: 12 },
         Event::Reaction(ReactionReport { frame: 9, time: TIME, reaction }),
         Event::Reflex(reflex),

@@ -10,6 +10,7 @@ mod errors;
 mod faults;
 mod fcm;
 mod health;
+mod landed;
 mod lines;
 mod link;
 mod maps;

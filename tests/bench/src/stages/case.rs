@@ -69,6 +69,8 @@ pub enum Variant {
     Gestures,
     /// With a shipped base of shapes taught to the board.
     Taught,
+    /// With a report of what presses on the robot for each frame.
+    Pressing,
     /// One panel of 64 x 32 taxels.
     Columns32,
     /// One panel of 64 x 27 taxels.
@@ -87,6 +89,7 @@ impl Variant {
             Variant::EightBit => "8 bit",
             Variant::Gestures => "gestures",
             Variant::Taught => "taught",
+            Variant::Pressing => "pressing",
             Variant::Columns32 => "32 columns",
             Variant::Columns27 => "27 columns",
             Variant::Block => "4 x 16",
@@ -170,6 +173,9 @@ impl Case {
             (TouchPattern::Five, Variant::EightBit),
             (TouchPattern::Five, Variant::Gestures),
             (TouchPattern::Five, Variant::Taught),
+            (TouchPattern::One, Variant::Pressing),
+            (TouchPattern::Five, Variant::Pressing),
+            (TouchPattern::Texture, Variant::Pressing),
             (TouchPattern::Texture, Variant::Off),
             (TouchPattern::Texture, Variant::Median),
         ]);
@@ -235,6 +241,7 @@ impl Case {
             Request::SetGarment(&garment),
             Request::SetScene(&scene),
             Request::SetGestures(self.variant.gestures()),
+            Request::SetPressing { hz: if self.variant == Variant::Pressing { u16::MAX } else { 0 } },
             Request::Tare { frames: TARE },
         ]
         .iter()

@@ -5,6 +5,7 @@
 mod board;
 mod frame;
 mod perceived;
+mod pressing;
 mod touch;
 
 pub use board::{
@@ -13,6 +14,7 @@ pub use board::{
 };
 pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
 pub use perceived::{IntentLine, ReactionLine, ReflexLine, RegionLine, SymbolLine, SymbolsLine, WordsLine};
+pub use pressing::{LandedLine, PressingLine, PushLine, WrenchLine};
 pub use touch::{ConfidenceLine, FormAge, FormsLine, GestureLine, ShapesLine, UnsureLine};
 
 use serde::Serialize;
@@ -35,6 +37,7 @@ pub enum JsonLine<'a> {
     Confidence(ConfidenceLine),
     Unsure(UnsureLine<'a>),
     Forms(FormsLine),
+    Pressing(PressingLine<'a>),
     Shapes(ShapesLine<'a>),
     Reaction(ReactionLine<'a>),
     Reflex(ReflexLine),

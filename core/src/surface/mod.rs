@@ -1,0 +1,40 @@
+//! Where the garment lies on the robot: place and normal of each taxel on a link, and what follows from them:
+//! place and force of a contact, and the force and moment on each link.
+//!
+//! | | |
+//! |---|---|
+//! | input | a [`Table`] of taxels, which stays where it is (in flash), the image and its contacts |
+//! | output | a [`Spot`] and a force for each contact, a [`Wrench`] for each link |
+//! | latency | none |
+//! | RAM | [`SurfaceState`] |
+//!
+//! A host makes the table from a body file (`taxel body table`). Places are in metres in the frame of the
+//! link, right-handed. Taxels feel only what presses along their normals: friction is not part of any force.
+//! Forces are in counts, as pressure is; a calibration makes newtons of both.
+
+mod place;
+mod pose;
+mod press;
+mod stage;
+mod table;
+mod taxel;
+
+pub use place::Spot;
+pub use pose::{Pose, Quaternion};
+pub use stage::{InBase, Landed, Pressing, SurfaceState, Wrench};
+pub use table::{Table, table_bytes, write_table};
+pub use taxel::TaxelRecord;
+
+use crate::garment::PANELS;
+
+/// Most links that a garment lies on: each panel lies on one.
+pub const LINKS: usize = PANELS;
+
+/// Micrometres, in a frame of the robot.
+pub type Micrometres = [i32; 3];
+
+/// A direction: its components in units of 2^-14.
+pub type Direction = [i16; 3];
+
+/// 1.0 of a [`Direction`], and one metre of a [`TaxelRecord`].
+pub const ONE: i16 = 1 << 14;

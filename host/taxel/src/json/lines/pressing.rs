@@ -1,0 +1,66 @@
+//! What presses on the robot.
+
+#[cfg(feature = "schema")]
+use crate::json::schema::TypeIs;
+use serde::Serialize;
+
+/// What presses on the robot.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("pressing")))]
+#[serde(tag = "type", rename = "pressing")]
+pub struct PressingLine<'a> {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan, us of the board.
+    pub time_us: u64,
+    /// Time at which the board received the poses in force, us of the board; null without poses.
+    pub posed_us: Option<u64>,
+    /// The contacts that have a place.
+    pub contacts: Vec<LandedLine<'a>>,
+    /// The links that something presses on.
+    pub links: Vec<WrenchLine<'a>>,
+}
+
+/// A contact on the robot.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LandedLine<'a> {
+    /// Id of the contact.
+    pub id: u32,
+    /// Name of the link.
+    pub link: &'a str,
+    /// Its place in the frame of the link.
+    #[serde(flatten)]
+    pub own: PushLine,
+    /// The same in the frame of the poses; null without a pose of the link.
+    pub base: Option<PushLine>,
+}
+
+/// A force at a place.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PushLine {
+    /// Place, m.
+    pub at_m: [f64; 3],
+    /// Direction away from the robot.
+    pub normal: [f64; 3],
+    /// Force, counts.
+    pub force: [i32; 3],
+}
+
+/// What presses on a link, in its frame.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WrenchLine<'a> {
+    /// Name of the link.
+    pub link: &'a str,
+    /// Sum of the taxels' forces along their normals, counts.
+    pub force: [i32; 3],
+    /// Their moment about the link's origin, counts times m.
+    pub moment: [f64; 3],
+    /// Sum of their magnitudes, counts.
+    pub pressed: u32,
+    /// Centre of pressure, m.
+    pub center_m: [f64; 3],
+}
