@@ -3,10 +3,13 @@
 use super::config::Body;
 use super::form::Form;
 use super::listed::{Listed, listed};
+use super::on_robot::RobotSurface;
+use super::robot::Robot;
 use super::surface::Surface;
 use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
 use crate::tell::{toml_key, verbose, words};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
 
 /// Names and texts of the presets.
@@ -36,6 +39,24 @@ impl ReadBody {
     pub fn surface(&self, garment: &Garment, layout: &Layout) -> Result<Surface> {
         let surface = Surface::build_with(&self.body, garment, layout, &self.listed);
         surface.map_err(|error| self.error(error))
+    }
+
+    /// [`ReadBody::surface`] on a robot: refuses links that it does not have, by file, line and key.
+    pub fn on_robot(&self, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
+        let surface = self.surface(garment, layout)?;
+        for (index, patch) in self.body.patches.iter().enumerate() {
+            let worn = garment.panels.iter().find(|panel| panel.name.as_str() == patch.panel);
+            let (key, link) = match (&patch.link, worn) {
+                (Some(link), _) => ("link", link.as_str()),
+                (None, Some(panel)) => ("panel", panel.link.as_str()),
+                (None, None) => continue,
+            };
+            if let Err(error) = robot.link(link) {
+                let key = format!("patches[{index}].{key}");
+                return Err(toml_key::error(&self.name, &self.text, &key, error).into());
+            }
+        }
+        Ok(RobotSurface::new(surface, robot)?)
     }
 
     fn error(&self, error: SettingError) -> Error {

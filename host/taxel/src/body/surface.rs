@@ -3,6 +3,7 @@
 use super::config::{Body, Patch};
 use super::form::{Form, Laid, PanelSpot, Spot};
 use super::listed::Listed;
+use super::pose::Pose;
 use crate::error::{Result, SettingError};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
@@ -13,10 +14,17 @@ use taxel_core::garment::{Area, Garment, Layout, Place};
 pub struct TaxelPlace {
     /// Index into [`Surface::links`].
     pub link: usize,
-    /// Its centre in the link's frame, m.
+    /// Its centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
     pub at: DVec3,
     /// Direction away from the robot there, of length 1.
     pub normal: DVec3,
+}
+
+impl TaxelPlace {
+    /// The place in another frame, by the pose of its own frame in it.
+    pub fn seen_from(&self, pose: &Pose) -> TaxelPlace {
+        TaxelPlace { link: self.link, at: pose.point(self.at), normal: pose.direction(self.normal) }
+    }
 }
 
 /// The places of a garment's taxels.
@@ -176,6 +184,15 @@ impl Surface {
             link = Some(place.link);
         }
         Some(TaxelPlace { link: link?, at, normal: normal.try_normalize()? })
+    }
+
+    /// The surface in a frame in which its links have these poses.
+    pub(super) fn moved(&self, poses: &[Pose]) -> Surface {
+        let place = |place: &Option<TaxelPlace>| {
+            let place = (*place)?;
+            Some(poses.get(place.link).map_or(place, |pose| place.seen_from(pose)))
+        };
+        Surface { links: self.links.clone(), places: self.places.iter().map(place).collect() }
     }
 
     /// How each panel lies.

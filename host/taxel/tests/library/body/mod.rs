@@ -1,0 +1,8 @@
+//! The garment on the robot.
+
+mod posture;
+mod rig;
+mod robot;
+mod surface;
+mod urdf;
+mod worn;
