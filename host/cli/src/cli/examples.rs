@@ -150,7 +150,8 @@ pub(super) const BODY: &str = "Examples:
   taxel body check reference
   taxel body check mine.body.toml --garment mine.toml --json
   taxel body show reference -o body.svg
-  taxel body places reference -o places.csv";
+  taxel body places reference -o places.csv
+  taxel body places reference --robot reference --joints left_elbow=30deg --frame base -o places.csv";
 
 pub(super) const SCENES: &str = "Examples:
   taxel scenes
