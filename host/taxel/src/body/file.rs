@@ -37,26 +37,14 @@ impl ReadBody {
 
     /// Places the taxels of a garment. Errors name file, line and key.
     pub fn surface(&self, garment: &Garment, layout: &Layout) -> Result<Surface> {
-        let surface = Surface::build_with(&self.body, garment, layout, &self.listed);
+        let surface = Surface::build_with(&self.body, garment, layout, &self.listed, &[]);
         surface.map_err(|error| self.error(error))
     }
 
-    /// [`ReadBody::surface`] on a robot: refuses links that it does not have, by file, line and key.
+    /// [`ReadBody::surface`] on a robot: refuses links and joints that it does not have, by file, line and key.
     pub fn on_robot(&self, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
-        let surface = self.surface(garment, layout)?;
-        for (index, patch) in self.body.patches.iter().enumerate() {
-            let worn = garment.panels.iter().find(|panel| panel.name.as_str() == patch.panel);
-            let (key, link) = match (&patch.link, worn) {
-                (Some(link), _) => ("link", link.as_str()),
-                (None, Some(panel)) => ("panel", panel.link.as_str()),
-                (None, None) => continue,
-            };
-            if let Err(error) = robot.link(link) {
-                let key = format!("patches[{index}].{key}");
-                return Err(toml_key::error(&self.name, &self.text, &key, error).into());
-            }
-        }
-        Ok(RobotSurface::new(surface, robot)?)
+        let worn = RobotSurface::build_with(&self.body, garment, layout, robot, &self.listed);
+        worn.map_err(|error| self.error(error))
     }
 
     fn error(&self, error: SettingError) -> Error {

@@ -57,7 +57,7 @@
 //!
 //! // 2 N on each taxel of the chest, in the frame of the base.
 //! let newtons: Vec<f64> = (0..2048).map(|taxel| if taxel < 512 { 2.0 } else { 0.0 }).collect();
-//! let seen = worn.seen_from(&robot.poses(&aligned.posture), base).ok_or("no such link")?;
+//! let seen = worn.seen_from(&aligned.posture, base)?;
 //! let on_torso = &wrenches(&seen, &newtons)[0];
 //! assert!(on_torso.force.x < -500.0 && on_torso.pressed == 1024.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -72,10 +72,11 @@ mod places;
 mod pose;
 pub mod posture;
 pub mod robot;
+mod slides;
 mod surface;
 mod wrench;
 
-pub use config::{Body, Patch};
+pub use config::{Body, Patch, Slide};
 pub use file::{ReadBody, read};
 pub use form::{Cone, Cylinder, Form, Grid, Plane};
 pub use listed::{Listed, listed};

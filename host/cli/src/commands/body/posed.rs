@@ -1,7 +1,7 @@
 //! The robot that wears the garment, and its posture.
 
 use crate::fault::Blame;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
 use std::sync::Arc;
 use taxel::body::{ReadBody, Surface, robot};
@@ -41,9 +41,7 @@ impl PosedArgs {
             found => found.usage()?,
         };
         let posture = robot.posture_of(self.joints.as_deref().unwrap_or_default()).usage()?;
-        let poses = robot.poses(&posture);
         let name = robot.links().get(frame).map(|link| link.name.clone());
-        let surface = worn.seen_from(&poses, frame).with_context(|| format!("{file} has no such link"))?;
-        Ok((surface, name))
+        Ok((worn.seen_from(&posture, frame)?, name))
     }
 }

@@ -102,7 +102,16 @@ impl Robot {
 
 impl Drive {
     /// Position of the joint in a posture, rad or m. What the posture lacks counts as 0.
-    pub(super) fn position(&self, posture: &[f64]) -> f64 {
+    pub(in crate::body) fn position(&self, posture: &[f64]) -> f64 {
         self.multiplier * posture.get(self.free).copied().unwrap_or(0.0) + self.offset
+    }
+
+    /// The most by which it is off if the posture is, rad or m.
+    pub(in crate::body) fn error(&self, errors: &[f64]) -> f64 {
+        match self.multiplier {
+            // The posture's error may be infinite.
+            0.0 => 0.0,
+            multiplier => multiplier.abs() * errors.get(self.free).copied().unwrap_or(0.0),
+        }
     }
 }

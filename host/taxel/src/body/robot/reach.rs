@@ -49,10 +49,7 @@ impl Robot {
         posture: &[f64],
         errors: &[f64],
     ) -> f64 {
-        let off = |joint: &RobotJoint| {
-            let Some(drive) = joint.drive.filter(|drive| drive.multiplier != 0.0) else { return 0.0 };
-            drive.multiplier.abs() * errors.get(drive.free).copied().unwrap_or(0.0)
-        };
+        let off = |joint: &RobotJoint| joint.drive.map_or(0.0, |drive| drive.error(errors));
         let length = |joint: &RobotJoint| match (joint.kind, joint.drive) {
             (JointKind::Prismatic, Some(drive)) => {
                 joint.origin.at.length() + drive.position(posture).abs() + off(joint)
