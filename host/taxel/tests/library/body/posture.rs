@@ -224,8 +224,8 @@ proptest! {
                 for estimate in known.into_iter().flatten() {
                     answers += 1;
                     let truth = joints.map(|(_, waves)| waves.at(frame));
-                    for joint in 0..3 {
-                        let mut off = estimate.posture[joint] - truth[joint];
+                    for (joint, exact) in truth.iter().enumerate() {
+                        let mut off = estimate.posture[joint] - exact;
                         if joint == 1 {
                             off -= TAU * (off / TAU).round();
                         }
