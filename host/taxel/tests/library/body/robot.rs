@@ -135,6 +135,10 @@ fn a_planar_arm_is_where_trigonometry_says() {
     let posture = robot.posture_of("").unwrap();
     let bound = robot.displacement((3, 0), 0.1, &posture, &[0.001, 0.0, 0.0]);
     assert!((bound - 0.001 * 0.6).abs() < 1e-15, "{bound}");
+    // Slid out by 5 cm, or by twice that: it is longer.
+    let posture = robot.posture_of("reach=0.05m").unwrap();
+    let bound = robot.displacement((3, 0), 0.1, &posture, &[0.001, 0.0, 0.05]);
+    assert!((bound - (0.05 + 0.001 * 0.7)).abs() < 1e-15, "{bound}");
     let joints = robot.joints();
     assert_eq!(
         joints.iter().map(|joint| joint.kind).collect::<Vec<_>>(),

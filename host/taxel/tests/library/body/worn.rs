@@ -168,6 +168,14 @@ fn cloth_slides_over_its_surface_with_the_joint() {
         assert!(way < 0.02 + 1e-12 && way > 0.0199 && slid.at.z < still.at.z, "{way}");
     }
     assert_eq!(*worn.slid(&robot.rest()).unwrap(), *still);
+    // In its own frame the chest is off by its way over the skin alone.
+    let mut errors = vec![0.0; 9];
+    errors[0] = 0.1;
+    let estimate = Estimate { posture: robot.rest(), errors, age: Duration::ZERO };
+    let off = sliding(["{ joint = \"waist\", right = 0.03, down = 0.04 }", "", "", ""])
+        .unwrap()
+        .displacement(&estimate, 1);
+    assert!((off - 0.005).abs() < 1e-15, "{off}");
     // In the base the whole is moved once more; of the joints, the elbow is needed now.
     let turn = DQuat::from_rotation_z(0.5);
     let seen = worn.seen_from(&posture, 0).unwrap();
