@@ -14,7 +14,8 @@ const KEPT: usize = 512;
 /// Positions of a robot's joints with the board's times, and the posture at the time of a frame.
 ///
 /// Readings may come late, in any order and joint by joint. Memory is bounded: of each joint the newest 512
-/// are kept. A joint that turns on and on may turn by less than half a turn from one reading to the next.
+/// are kept. A joint that turns on and on shows no whole turns: between readings so far apart that it may have
+/// turned by half a turn, it is taken to be where the nearer one says, and the bound of the error is as wide.
 #[derive(Debug, Clone)]
 pub struct JointHistory {
     robot: Arc<Robot>,

@@ -3,7 +3,7 @@
 use super::motion::Motion;
 use crate::body::robot::{JointKind, RobotJoint};
 use std::collections::VecDeque;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
 /// Time after the last reading from which a joint is taken to stand still, s: it has a target, and whoever
@@ -58,12 +58,13 @@ impl JointTrack {
             JointKind::Prismatic => (motion.linear, motion.linear_error),
             _ => (motion.angular, motion.angular_error),
         };
+        let is_continuous = joint.kind == JointKind::Continuous;
         JointTrack {
             readings: VecDeque::new(),
             kept: kept.max(2),
-            is_continuous: joint.kind == JointKind::Continuous,
+            is_continuous,
             limits: joint.limits.clone(),
-            velocity: joint.velocity,
+            velocity: joint.velocity.or(is_continuous.then_some(motion.angular_velocity)),
             acceleration,
             error,
         }
@@ -86,13 +87,26 @@ impl JointTrack {
         self.readings.clear();
     }
 
-    /// Way from a reading to the next: of a joint that turns on and on, the shorter one.
-    fn step(&self, from: JointReading, to: JointReading) -> f64 {
+    /// Way from a reading to the next. Of a joint that turns on and on it is the shorter one; none if it may have
+    /// turned by half a turn.
+    fn step(&self, from: JointReading, to: JointReading) -> Option<f64> {
         let step = to.position - from.position;
-        match self.is_continuous {
-            true => step - TAU * (step / TAU).round(),
-            false => step,
+        if !self.is_continuous {
+            return Some(step);
         }
+        let most = self.turned(seconds(from.at_us, to.at_us)) + self.error;
+        (most < PI).then_some(step - TAU * (step / TAU).round())
+    }
+
+    /// The most by which a joint that turns on and on differs from a reading after or before a time, s.
+    fn turned(&self, seconds: f64) -> f64 {
+        self.velocity.unwrap_or(f64::INFINITY) * seconds + self.error
+    }
+
+    /// A position near a reading where it is not known which way the joint has turned since: it is off by half a
+    /// turn at most.
+    fn near(&self, reading: JointReading, passed: f64) -> Bounded {
+        Bounded { position: reading.position, error: self.turned(passed).min(PI) }
     }
 
     /// The position at a time that has readings on both sides.
@@ -108,8 +122,11 @@ impl JointTrack {
             }
             (Some(before), Some(after)) => {
                 let [passed, left] = [seconds(before.at_us, at_us), seconds(at_us, after.at_us)];
-                let share = passed / (passed + left);
-                let position = before.position + self.step(*before, *after) * share;
+                let Some(step) = self.step(*before, *after) else {
+                    let (nearer, time) = if passed < left { (before, passed) } else { (after, left) };
+                    return At::Between(self.near(*nearer, time));
+                };
+                let position = before.position + step * (passed / (passed + left));
                 At::Between(Bounded { position, error: self.acceleration / 2.0 * passed * left + self.error })
             }
             (Some(last), None) => At::After(last.at_us),
@@ -124,12 +141,13 @@ impl JointTrack {
     /// `a / 2 * t * (h + t)` a time `t` after the second, and an error `e` of each reading grows to
     /// `e * (1 + 2 t / h)`. Of the earlier readings, the one with the least sum is taken.
     pub fn after(&self, at_us: u64) -> Option<Bounded> {
-        let last = *self.readings.back()?;
+        let last = *self.readings.back().filter(|_| self.readings.len() > 1)?;
         let passed = seconds(last.at_us, at_us);
         let (mut way, mut newer) = (0.0, last);
         let mut best: Option<(f64, f64)> = None;
         for earlier in self.readings.iter().rev().skip(1) {
-            way += self.step(*earlier, newer);
+            let Some(step) = self.step(*earlier, newer) else { break };
+            way += step;
             newer = *earlier;
             let apart = seconds(earlier.at_us, last.at_us);
             let bend = self.acceleration / 2.0 * passed * (apart + passed);
@@ -141,7 +159,7 @@ impl JointTrack {
                 best = Some((error, way / apart));
             }
         }
-        let (error, velocity) = best?;
+        let Some((error, velocity)) = best else { return Some(self.near(last, passed)) };
         let straight = last.position + velocity * passed;
         let limited = self.velocity.map_or(velocity, |most| velocity.clamp(-most, most));
         let mut position = last.position + limited * passed.min(HORIZON_S);
