@@ -67,6 +67,7 @@ mod config;
 mod file;
 mod form;
 mod listed;
+pub mod mesh;
 mod on_robot;
 mod places;
 mod pose;

@@ -23,6 +23,9 @@ pub enum RobotError {
         /// File, line, joint, and what is wrong.
         text: String,
     },
+    /// A mesh cannot be read.
+    #[error("{0}")]
+    Mesh(String),
     /// The robot has no link of this name.
     #[error("{text}")]
     NoLink {
