@@ -387,6 +387,36 @@ fn a_body_is_put_on_a_robot_in_a_posture() {
 }
 
 #[test]
+fn a_panel_is_draped_over_a_mesh_and_worn() {
+    // A board of 30 cm by 50 cm, in millimetres, as the front of a robot.
+    let mesh = file("board.obj", b"v 50 -150 0\nv 50 150 0\nv 50 150 500\nv 50 -150 500\nf 1 2 3 4\n");
+    let over =
+        ["body", "drape", &mesh, "--scale", "0.001", "--panel", "chest", "--at", "0.06,0,0.25", "-o", "-"];
+    let list = answer(&over);
+    assert!(list.lines().count() == 513 && list.starts_with("# chest over "), "{}", &list[..99]);
+    let list = file("chest.txt", list.as_bytes());
+    let body =
+        file("chest.toml", format!("[[patches]]\npanel = \"chest\"\non.taxels = {list:?}\n").as_bytes());
+    let panels = json(&["body", "check", &body, "--json"]);
+    let pitch: Vec<f64> =
+        panels[0]["pitch"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect();
+    assert!(pitch[0] > 0.999 && pitch[1] < 1.001, "{pitch:?}");
+    let places = answer(&["body", "places", &body, "-o", "-"]);
+    // Seen from the front, columns run to the robot's left, rows down.
+    assert_eq!(places.lines().nth(1), Some("0,torso,0.050000,-0.090000,0.405000,1.000000,0.000000,0.000000"));
+    let said = |args: &[&str]| String::from_utf8(run(args).stderr).unwrap();
+    let larger = said(&[&over[..3], &["--scale", "0.0003"], &over[5..]].concat());
+    assert!(
+        larger.contains("board.obj, panel chest: ") && larger.contains("has no place on the mesh"),
+        "{larger}"
+    );
+    let unknown = said(&["body", "drape", &mesh, "--panel", "chst", "--at", "0,0,0", "-o", "-"]);
+    assert!(unknown.contains("there is no panel \"chst\": did you mean \"chest\"?"), "{unknown}");
+    let bad = said(&["body", "drape", &mesh, "--panel", "chest", "--at", "0,0", "-o", "-"]);
+    assert!(bad.contains("write three numbers: 0.06,0,0.2"), "{bad}");
+}
+
+#[test]
 fn every_subcommand_has_a_help_with_an_example() {
     assert!(answer(&["--help"]).contains("Example"));
     for command in ["process", "features", "fcm", "scenes", "body"] {

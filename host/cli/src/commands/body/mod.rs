@@ -1,12 +1,14 @@
 //! `taxel body`: where the garment's taxels lie on the robot.
 
 mod check;
+mod drape;
 mod posed;
 mod show;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
+use drape::DrapeArgs;
 use posed::PosedArgs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -101,6 +103,11 @@ enum BodyTask {
                       --joints waist=30deg --frame base -o -"
     )]
     Places(WrittenArgs),
+    /// Lay a panel over a link's mesh as cloth, and write the list of its taxels
+    #[command(
+        after_help = "Example:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt"
+    )]
+    Drape(DrapeArgs),
 }
 
 /// Runs the command.
@@ -117,6 +124,7 @@ pub fn run(args: &BodyArgs) -> Result<()> {
             print!("{}", check::told(&layout, &surface, robot.as_deref(), *json)?);
             Ok(())
         }
+        BodyTask::Drape(args) => drape::run(args),
         BodyTask::Show(written) => written.write(show::picture),
         BodyTask::Places(written) => written.write(|_, surface, _| body::text(surface)),
     }

@@ -68,6 +68,13 @@ impl Mesh {
         Mesh { points, triangles }
     }
 
+    /// The triangles that come within a distance of a point, m.
+    pub(super) fn around(&self, at: DVec3, distance: f64) -> Mesh {
+        let is_near =
+            |triangle: &&[usize; 3]| nearest_of(self.corners(**triangle), at).distance(at) <= distance;
+        Mesh::of(self.triangles.iter().filter(is_near).map(|triangle| self.corners(*triangle)))
+    }
+
     /// Corners of a triangle.
     fn corners(&self, triangle: [usize; 3]) -> [DVec3; 3] {
         triangle.map(|number| self.points[number])

@@ -3,7 +3,7 @@
 use glam::DQuat;
 use proptest::prelude::*;
 use std::fmt::Write;
-use taxel::body::mesh::{Mesh, parse};
+use taxel::body::mesh::{Drape, Mesh, parse};
 use taxel::body::{DVec3, Pose};
 
 /// A cube of 1 m, as an OBJ of six squares.
@@ -130,6 +130,90 @@ fn what_is_no_mesh_is_told() {
     assert_eq!(why("a.obj", b"f a"), "a.obj, line 1: a corner must be a number of a point, not \"a\"");
     // All in one place: no area.
     assert_eq!(why("a.obj", b"v 0 0 0\nf 1 1 1"), "a.obj: it has no triangles");
+}
+
+/// A closed cylinder's side of 6 cm by 40 cm about the z axis, of 96 strips.
+fn cylinder() -> Mesh {
+    let point = |step: usize, z: f64| {
+        let around = std::f64::consts::TAU * step as f64 / 96.0;
+        DVec3::new(0.06 * around.cos(), 0.06 * around.sin(), z)
+    };
+    let both = |step: usize| {
+        let [a, b, c, d] = [point(step, 0.0), point(step + 1, 0.0), point(step + 1, 0.4), point(step, 0.4)];
+        [[a, b, c], [a, c, d]]
+    };
+    let triangles: Vec<[DVec3; 3]> = (0..96).flat_map(both).collect();
+    parse("cylinder.stl", ascii(&triangles).as_bytes()).unwrap()
+}
+
+/// Least and greatest distance of neighbours, as a share of 1 cm.
+fn stretch(all: &[(DVec3, DVec3)], columns: usize) -> (f64, f64) {
+    let steps = (0..all.len()).flat_map(|taxel| {
+        let right = (taxel % columns + 1 < columns).then_some(taxel + 1);
+        right
+            .into_iter()
+            .chain(Some(taxel + columns))
+            .filter(|next| *next < all.len())
+            .map(move |next| (taxel, next))
+    });
+    let shares = steps.map(|(a, b)| all[a].0.distance(all[b].0) / 0.01);
+    shares.fold((f64::MAX, 0.0), |(least, most), share| (least.min(share), most.max(share)))
+}
+
+#[test]
+fn cloth_lies_on_a_cylinder_as_on_its_form() {
+    let drape = Drape {
+        rows: 30,
+        columns: 16,
+        pitch: [0.01; 2],
+        at: DVec3::new(0.1, 0.0, 0.2),
+        down: DVec3::new(0.1, 0.0, -1.0),
+    };
+    let all = drape.over(&cylinder()).unwrap();
+    assert_eq!(all.len(), 480);
+    let (least, most) = stretch(&all, 16);
+    let mut worst = (0.0f64, 0.0f64);
+    for (taxel, (at, normal)) in all.iter().enumerate() {
+        let angle = (taxel % 16) as f64 - 7.5;
+        let (sin, cos) = (angle * 0.01 / 0.06).sin_cos();
+        let exact = DVec3::new(0.06 * cos, 0.06 * sin, 0.2 - ((taxel / 16) as f64 - 14.5) * 0.01);
+        worst.0 = worst.0.max(at.distance(exact));
+        worst.1 = worst.1.max(normal.angle_between(DVec3::new(cos, sin, 0.0)));
+    }
+    println!(
+        "on a cylinder: at most {:.3} mm and {:.4} rad off, neighbours at {least:.5} to {most:.5}",
+        worst.0 * 1e3,
+        worst.1
+    );
+    assert!(least > 0.999 && most < 1.001 && worst.0 < 1e-3 && worst.1 < 0.06);
+}
+
+#[test]
+fn cloth_on_a_sphere_shears_and_does_not_stretch() {
+    let ball =
+        parse("ball.stl", ascii(&sphere(60)).as_bytes()).unwrap().placed(DVec3::splat(0.15), &Pose::IDENTITY);
+    let drape = Drape { rows: 16, columns: 16, pitch: [0.01; 2], at: DVec3::X, down: DVec3::NEG_Z };
+    let all = drape.over(&ball).unwrap();
+    let (least, most) = stretch(&all, 16);
+    let off = all.iter().map(|(at, normal)| normal.angle_between(*at)).fold(0.0, f64::max);
+    println!("on a sphere: neighbours at {least:.5} to {most:.5}, normals within {off:.3} rad");
+    assert!(least > 0.99 && most < 1.01 && off < 0.12);
+    assert!(all.iter().all(|(at, _)| (at.length() - 0.15).abs() < 3e-4));
+}
+
+#[test]
+fn a_panel_larger_than_the_mesh_finds_no_place() {
+    let at = DVec3::new(0.1, 0.0, 0.2);
+    let drape = Drape { rows: 42, columns: 4, pitch: [0.01; 2], at, down: DVec3::NEG_Z };
+    let error = drape.over(&cylinder()).unwrap_err().to_string();
+    assert!(error.ends_with("has no place on the mesh"), "{error}");
+    assert!(Drape { rows: 40, ..drape }.over(&cylinder()).is_ok());
+    let edge = Drape { at: DVec3::X, rows: 4, ..drape }.over(&cylinder()).unwrap_err().to_string();
+    assert!(edge.ends_with("has no place on the mesh"), "{edge}");
+    let along = Drape { down: DVec3::X, rows: 4, ..drape }.over(&cylinder()).unwrap_err().to_string();
+    assert_eq!(along, "`down` must be a direction across the surface");
+    let none = Drape { pitch: [0.0; 2], ..drape }.over(&cylinder()).unwrap_err().to_string();
+    assert_eq!(none, "a panel must have two rows and columns, and a pitch");
 }
 
 proptest! {
