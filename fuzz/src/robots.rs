@@ -1,9 +1,18 @@
-//! A robot's description, as people and exporters write it.
+//! A robot's description and the meshes of its links, as people and exporters write them.
 
+use taxel::body::DVec3;
+use taxel::body::mesh;
 use taxel::body::robot::{Robot, parse};
 
-/// Reads the bytes as a URDF. A robot is a tree that has a pose in each posture; an error names the file.
+/// Reads the bytes as a URDF and as meshes. A robot is a tree that has a pose in each posture, a mesh has a nearest
+/// point; an error names the file.
 pub fn run(data: &[u8]) {
+    for file in ["any.stl", "any.obj"] {
+        match mesh::parse(file, data) {
+            Ok(mesh) => _ = mesh.nearest(DVec3::ONE),
+            Err(error) => assert!(error.to_string().starts_with(file), "{error}"),
+        }
+    }
     match parse("any.urdf", &String::from_utf8_lossy(data)) {
         Ok(robot) => moves(&robot),
         Err(error) => assert!(error.to_string().starts_with("any.urdf"), "{error}"),
