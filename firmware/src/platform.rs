@@ -199,7 +199,8 @@ impl Platform for BoardPlatform {
             self.boots.charge(piece.saves);
         }
         let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
-        let table = flash.tables().and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
+        let table =
+            flash.tables().and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
         let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
         Ok(is_whole.then(|| in_place(table)))
     }

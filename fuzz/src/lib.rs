@@ -7,6 +7,7 @@
 //! | [`board`] | requests behind a valid CRC, scans, faults, and the time | each message is one that a client understands, none is lost, what was stored is loaded |
 //! | [`client`] | reports behind a valid CRC | every way to show them stands it; memory is bounded |
 //! | [`recording`] | a recording | no reader fails on what `repair` has written |
+//! | [`robots`] | a robot's description (URDF) or a mesh | a robot is a tree with poses, an error names the file |
 //! | [`arrays`] | an array file | frames are as large as they say |
 //! | [`texts`] | a garment, scene, script, map, table or calibration | what was read and is written is read again |
 //! | [`store`] | what a flash holds | what is saved then is loaded |
@@ -21,6 +22,7 @@ mod mcap;
 pub mod page;
 mod plain;
 pub mod recording;
+pub mod robots;
 mod scratch;
 pub mod store;
 pub mod texts;
@@ -29,12 +31,13 @@ pub mod texts;
 pub type Target = fn(&[u8]);
 
 /// All of them by the names of their corpora.
-pub const TARGETS: [(&str, Target); 7] = [
+pub const TARGETS: [(&str, Target); 8] = [
     ("arrays", arrays::run),
     ("board", board::run),
     ("client", client::run),
     ("page", page::run),
     ("recording", recording::run),
+    ("robots", robots::run),
     ("store", store::run),
     ("texts", texts::run),
 ];

@@ -4,13 +4,12 @@
 use crate::board::Emulated;
 use crate::twin::{DWELL, RATE_HZ, same, scene};
 use std::path::Path;
-use taxel::body::{self, Surface};
+use taxel::body::{self, Pose, Surface};
 use taxel::files::scripts::load;
 use taxel::sim::{frame_codes, scale_rate};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::surface::Pose;
 use taxel_core::wire::{Request, SURFACE_PIECE};
 
 /// More than the codes of a garment at rest, with their noise.
@@ -30,10 +29,12 @@ fn table() -> (&'static [u8], Surface) {
 /// A pose of each link but the first, in no special direction.
 fn poses(surface: &Surface) -> Vec<u8> {
     let pose = |(index, link): (usize, &String)| {
-        let pose = body::pose([0.1 * index as f64, -0.7, 1.2], [0.3, -0.2, 0.1 * index as f64, 0.9]).unwrap();
+        let pose = Pose::from_arrays([0.1 * index as f64, -0.7, 1.2], [0.3, -0.2, 0.1 * index as f64, 0.9]);
+        let pose = pose.for_board().unwrap();
         (name(link), pose)
     };
-    let poses: Vec<(Name, Pose)> = surface.links().iter().enumerate().skip(1).map(pose).collect();
+    let poses: Vec<(Name, taxel_core::surface::Pose)> =
+        surface.links().iter().enumerate().skip(1).map(pose).collect();
     postcard::to_allocvec(&poses).unwrap()
 }
 

@@ -13,6 +13,9 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 /// A file that a link may lead to and that must not change.
 pub const PRECIOUS: &str = "nobody may write this";
 
+/// A mesh on which a panel fits.
+const BOARD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\nf 1 2 3 4\n";
+
 /// The inputs of all commands, and a folder for each run.
 pub struct Stage {
     root: PathBuf,
@@ -46,6 +49,7 @@ impl Stage {
         fs::write(folder.join("cut.mcap"), &whole[..whole.len() - 100]).unwrap();
         fs::write(folder.join("touches.csv"), TOUCHES).unwrap();
         fs::write(folder.join("box.toml"), BOX).unwrap();
+        fs::write(folder.join("board.obj"), BOARD).unwrap();
         let weights = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes/weights.toml");
         fs::copy(weights, folder.join("weights.toml")).unwrap();
         run(&["shapes", "learn", "box", "--source", "sim:box.toml", "--touches", "2", "-o", "base.json"]);

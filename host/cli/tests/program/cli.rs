@@ -336,6 +336,90 @@ fn a_body_is_checked_and_every_taxel_placed() {
 }
 
 #[test]
+fn a_body_is_put_on_a_robot_in_a_posture() {
+    let robot = ["--robot", "reference"];
+    let table = answer(&[&["body", "check", "reference"][..], &robot].concat());
+    let last = "robot reference: 12 links, base base_link; 11 joints, 9 with a position of their own\n";
+    assert!(table.lines().count() == 5 && table.ends_with(last), "{table}");
+    let places = |more: &[&str]| {
+        let table = answer(&[&["body", "places", "reference", "-o", "-"][..], &robot, more].concat());
+        let line = table.lines().nth(1).unwrap().to_string();
+        let numbers =
+            line.split(',').skip(2).map(|number| number.parse::<f64>().unwrap()).collect::<Vec<_>>();
+        let count = table.lines().count();
+        assert!(line.starts_with("0,torso,") && count == 2049, "{count} {line}");
+        <[f64; 6]>::try_from(numbers).unwrap()
+    };
+    // At rest the frames of torso and base are the same; a quarter less turns x and y.
+    let [x, y, z, nx, ny, nz] = places(&["--frame", "torso", "--joints", "waist=-60deg"]);
+    assert_eq!(places(&[]), [x, y, z, nx, ny, nz]);
+    let turned = places(&["--joints", "waist=-60deg,left_elbow=1rad"]);
+    let (sin, cos) = (-60f64).to_radians().sin_cos();
+    let exact = [x * cos - y * sin, x * sin + y * cos, z, nx * cos - ny * sin, nx * sin + ny * cos, nz];
+    assert!(turned.iter().zip(exact).all(|(a, b)| (a - b).abs() < 2e-6), "{turned:?} {exact:?}");
+    let picture = answer(&[&["body", "show", "reference", "-o", "-"][..], &robot].concat());
+    assert!(picture.contains(">in the frame of base_link from the left</text>"));
+
+    let said = |args: &[&str]| {
+        let other = run(&[&["body", "places", "reference", "-o", "-"][..], args].concat());
+        (other.status.code().unwrap(), String::from_utf8(other.stderr).unwrap())
+    };
+    for (args, status, what) in [
+        (&["--joints", "waist=1deg"][..], 2, "--robot"),
+        (&["--robot", "reference", "--joints", "waist=1"], 2, "waist=1: write JOINT=30deg"),
+        (
+            &["--robot", "reference", "--joints", "waist=90deg"],
+            2,
+            "joint \"waist\": 90\u{b0} is out of its range",
+        ),
+        (&["--robot", "reference", "--joints", "neck=9deg"], 2, "reference: there is no joint \"neck\""),
+        (&["--robot", "reference", "--frame", "head"], 2, "reference: there is no link \"head\""),
+        (&["--robot", "none"], 2, "there is no robot \"none\""),
+    ] {
+        let (code, told) = said(args);
+        assert!(code == status && told.contains(what), "{code}: {told}");
+    }
+    // A robot that is read is never overwritten.
+    let trunk = b"<robot><link name=\"trunk\"/></robot>";
+    let urdf = file("robot.urdf", trunk);
+    let over = run(&["body", "places", "reference", "--robot", &urdf, "-o", &urdf, "--force"]);
+    assert!(!over.status.success() && std::fs::read(&urdf).unwrap() == trunk);
+    let (code, told) = said(&["--robot", &urdf]);
+    let what = format!("reference, line 6, `patches[0].panel`: {urdf}: there is no link \"torso\"");
+    assert!(code == 1 && told.contains(&what), "{told}");
+}
+
+#[test]
+fn a_panel_is_draped_over_a_mesh_and_worn() {
+    // A board of 30 cm by 50 cm, in millimetres, as the front of a robot.
+    let mesh = file("board.obj", b"v 50 -150 0\nv 50 150 0\nv 50 150 500\nv 50 -150 500\nf 1 2 3 4\n");
+    let over =
+        ["body", "drape", &mesh, "--scale", "0.001", "--panel", "chest", "--at", "0.06,0,0.25", "-o", "-"];
+    let list = answer(&over);
+    assert!(list.lines().count() == 513 && list.starts_with("# chest over "), "{}", &list[..99]);
+    let list = file("chest.txt", list.as_bytes());
+    let body =
+        file("chest.toml", format!("[[patches]]\npanel = \"chest\"\non.taxels = {list:?}\n").as_bytes());
+    let panels = json(&["body", "check", &body, "--json"]);
+    let pitch: Vec<f64> =
+        panels[0]["pitch"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect();
+    assert!(pitch[0] > 0.999 && pitch[1] < 1.001, "{pitch:?}");
+    let places = answer(&["body", "places", &body, "-o", "-"]);
+    // Seen from the front, columns run to the robot's left, rows down.
+    assert_eq!(places.lines().nth(1), Some("0,torso,0.050000,-0.090000,0.405000,1.000000,0.000000,0.000000"));
+    let said = |args: &[&str]| String::from_utf8(run(args).stderr).unwrap();
+    let larger = said(&[&over[..3], &["--scale", "0.0003"], &over[5..]].concat());
+    assert!(
+        larger.contains("board.obj, panel chest: ") && larger.contains("has no place on the mesh"),
+        "{larger}"
+    );
+    let unknown = said(&["body", "drape", &mesh, "--panel", "chst", "--at", "0,0,0", "-o", "-"]);
+    assert!(unknown.contains("there is no panel \"chst\": did you mean \"chest\"?"), "{unknown}");
+    let bad = said(&["body", "drape", &mesh, "--panel", "chest", "--at", "0,0", "-o", "-"]);
+    assert!(bad.contains("write three numbers: 0.06,0,0.2"), "{bad}");
+}
+
+#[test]
 fn every_subcommand_has_a_help_with_an_example() {
     assert!(answer(&["--help"]).contains("Example"));
     for command in ["process", "features", "fcm", "scenes", "body"] {

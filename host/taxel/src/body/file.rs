@@ -3,10 +3,13 @@
 use super::config::Body;
 use super::form::Form;
 use super::listed::{Listed, listed};
+use super::on_robot::RobotSurface;
+use super::robot::Robot;
 use super::surface::Surface;
 use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
 use crate::tell::{toml_key, verbose, words};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
 
 /// Names and texts of the presets.
@@ -34,8 +37,14 @@ impl ReadBody {
 
     /// Places the taxels of a garment. Errors name file, line and key.
     pub fn surface(&self, garment: &Garment, layout: &Layout) -> Result<Surface> {
-        let surface = Surface::build_with(&self.body, garment, layout, &self.listed);
+        let surface = Surface::build_with(&self.body, garment, layout, &self.listed, &[]);
         surface.map_err(|error| self.error(error))
+    }
+
+    /// [`ReadBody::surface`] on a robot: refuses links and joints that it does not have, by file, line and key.
+    pub fn on_robot(&self, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
+        let worn = RobotSurface::build_with(&self.body, garment, layout, robot, &self.listed);
+        worn.map_err(|error| self.error(error))
     }
 
     fn error(&self, error: SettingError) -> Error {

@@ -121,21 +121,26 @@ impl Cylinder {
 }
 
 impl Cone {
-    /// The point `(x, y)` of the panel from its middle, in metres; none at the apex and beyond it.
+    /// A point of the panel from its middle, in metres: its distance from the apex, negative if the cone widens,
+    /// and its angle about the axis. None at the apex and beyond it.
     ///
     /// Unrolled, the cone is a sector about its apex, and an angle about the apex is one about the axis times
     /// the sine of the cone's own.
-    fn spot(&self, axes: &Axes, from_middle: DVec2) -> Option<Spot> {
-        let (sin, cos) = self.angle.to_radians().sin_cos();
+    fn slant(&self, from_middle: DVec2) -> Option<(f64, f64)> {
+        let sin = self.angle.to_radians().sin();
         let apex = self.radius / sin;
         let to_apex = DVec2::new(from_middle.x, (apex - from_middle.y) * sin.signum());
         let around = to_apex.x.atan2(to_apex.y) / sin.abs();
-        if to_apex.y <= 0.0 || around.abs() > PI {
-            return None;
-        }
+        (to_apex.y > 0.0).then(|| (to_apex.length() * sin.signum(), around))
+    }
+
+    /// The point `(x, y)` of the panel from its middle, in metres; none at the apex and beyond it.
+    fn spot(&self, axes: &Axes, from_middle: DVec2) -> Option<Spot> {
+        let (sin, cos) = self.angle.to_radians().sin_cos();
+        let apex = self.radius / sin;
+        let (slant, around) = self.slant(from_middle)?;
         let (side, front) = around.sin_cos();
         let radial = axes.out * front + axes.right * side;
-        let slant = to_apex.length() * sin.signum();
         let at = self.at + axes.down * ((apex - slant) * cos) + radial * (slant * sin);
         Some(Spot { at, normal: radial * cos + axes.down * sin })
     }
@@ -199,6 +204,8 @@ fn slope([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
 pub(super) struct PanelSpot {
     /// From its middle, m; x to the right, y down.
     pub from_middle: DVec2,
+    /// Way of the panel over the surface, m.
+    pub shift: DVec2,
     /// Share of the way from the first to the last taxel, along x and along y.
     pub share: DVec2,
 }
@@ -242,19 +249,24 @@ impl<'a> Laid<'a> {
         }))
     }
 
-    /// Where a point of the panel lies; none where the panel does not fit on the surface.
+    /// Where a point of the panel lies; none where the panel does not fit on the surface. A panel that goes once
+    /// around still does when it is shifted.
     pub fn spot(&self, at: &PanelSpot) -> Option<Spot> {
-        let PanelSpot { from_middle, share } = *at;
+        let PanelSpot { from_middle, shift, share } = *at;
+        let shifted = from_middle + shift;
         match self {
             Laid::Plane(plane, axes) => {
-                let at = plane.at + axes.right * from_middle.x + axes.down * from_middle.y;
+                let at = plane.at + axes.right * shifted.x + axes.down * shifted.y;
                 Some(Spot { at, normal: axes.out })
             }
             Laid::Cylinder(cylinder, axes) => {
                 let fits = from_middle.x.abs() <= PI * cylinder.radius;
-                fits.then(|| cylinder.spot(axes, from_middle))
+                fits.then(|| cylinder.spot(axes, shifted))
             }
-            Laid::Cone(cone, axes) => cone.spot(axes, from_middle),
+            Laid::Cone(cone, axes) => {
+                let (_, around) = cone.slant(from_middle)?;
+                if around.abs() > PI { None } else { cone.spot(axes, shifted) }
+            }
             Laid::Grid(grid) => grid.spot(share),
         }
     }

@@ -9,7 +9,9 @@ pub fn text(surface: &Surface) -> String {
     for (taxel, place) in surface.places().iter().enumerate() {
         let Some(place) = place else { continue };
         let numbers = [place.at.to_array(), place.normal.to_array()].concat();
-        let numbers: Vec<String> = numbers.iter().map(|number| format!("{number:.6}")).collect();
+        // A micrometre is the last digit; 0 has no sign.
+        let rounded = numbers.iter().map(|number| (number * 1e6).round() / 1e6 + 0.0);
+        let numbers: Vec<String> = rounded.map(|number| format!("{number:.6}")).collect();
         let _ = writeln!(text, "{taxel},{},{}", surface.links()[place.link], numbers.join(","));
     }
     text

@@ -3,6 +3,7 @@
 use super::config::{Body, Patch};
 use super::form::{Form, Laid, PanelSpot, Spot};
 use super::listed::Listed;
+use super::pose::Pose;
 use crate::error::{Result, SettingError};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
@@ -13,10 +14,17 @@ use taxel_core::garment::{Area, Garment, Layout, Place};
 pub struct TaxelPlace {
     /// Index into [`Surface::links`].
     pub link: usize,
-    /// Its centre in the link's frame, m.
+    /// Its centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
     pub at: DVec3,
     /// Direction away from the robot there, of length 1.
     pub normal: DVec3,
+}
+
+impl TaxelPlace {
+    /// The place in another frame, by the pose of its own frame in it.
+    pub fn seen_from(&self, pose: &Pose) -> TaxelPlace {
+        TaxelPlace { link: self.link, at: pose.point(self.at), normal: pose.direction(self.normal) }
+    }
 }
 
 /// The places of a garment's taxels.
@@ -43,15 +51,16 @@ pub struct Fit {
 impl Surface {
     /// Places the taxels of a garment. Errors name the patch by index and key: `patches[2].on.radius`.
     pub fn build(body: &Body, garment: &Garment, layout: &Layout) -> Result<Surface, SettingError> {
-        Surface::build_with(body, garment, layout, &[])
+        Surface::build_with(body, garment, layout, &[], &[])
     }
 
-    /// [`Surface::build`] with the taxels of files, by patch.
+    /// [`Surface::build`] with the taxels of files, by patch, and with the way of each patch over the skin, m.
     pub(super) fn build_with(
         body: &Body,
         garment: &Garment,
         layout: &Layout,
         listed: &[(usize, Vec<Listed>)],
+        shifts: &[DVec2],
     ) -> Result<Surface, SettingError> {
         let mut surface = Surface { links: Vec::new(), places: vec![None; layout.taxels()] };
         for (index, patch) in body.patches.iter().enumerate() {
@@ -71,9 +80,15 @@ impl Surface {
             if patch.turn != 0.0 && matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) {
                 return Err(wrong("turn", "must be left out: the points say how the panel lies"));
             }
+            if !patch.slides.is_empty() && matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) {
+                return Err(wrong("slides", "must be left out: the points say where the panel lies"));
+            }
+            let shift = shifts.get(index).copied().unwrap_or_default();
             let link = surface.link(patch.link.as_deref().unwrap_or(&area.link));
             match Laid::new(&patch.on).map_err(|(key, what)| wrong(&format!("on.{key}"), what))? {
-                Some(laid) => surface.lay(layout, (panel as u8, area), (&laid, patch, link), &wrong)?,
+                Some(laid) => {
+                    surface.lay(layout, (panel as u8, area), (&laid, patch, link), shift, &wrong)?;
+                }
                 None => {
                     let rows = listed.iter().find(|(of, _)| *of == index).map_or(&[][..], |(_, rows)| rows);
                     surface.take(layout, (panel as u8, area), rows, link, &wrong)?;
@@ -96,6 +111,7 @@ impl Surface {
         layout: &Layout,
         (panel, area): (u8, &Area),
         (laid, patch, link): (&Laid<'_>, &Patch, usize),
+        shift: DVec2,
         wrong: &impl Fn(&str, &str) -> SettingError,
     ) -> Result<(), SettingError> {
         let pitch = DVec2::from(area.pitch_um.map(|um| f64::from(um) * 1e-6));
@@ -109,7 +125,7 @@ impl Surface {
             let from_middle = turn.rotate((at - last / 2.0) * pitch);
             let share = at / last.max(DVec2::ONE);
             let Some(taxel) = layout.taxel(Place { panel, row, column }) else { continue };
-            let spot = laid.spot(&PanelSpot { from_middle, share });
+            let spot = laid.spot(&PanelSpot { from_middle, shift, share });
             let Some(Spot { at, normal }) =
                 spot.filter(|spot| spot.at.is_finite() && spot.normal.is_finite())
             else {
@@ -176,6 +192,15 @@ impl Surface {
             link = Some(place.link);
         }
         Some(TaxelPlace { link: link?, at, normal: normal.try_normalize()? })
+    }
+
+    /// The surface in a frame in which its links have these poses.
+    pub(super) fn moved(&self, poses: &[Pose]) -> Surface {
+        let place = |place: &Option<TaxelPlace>| {
+            let place = (*place)?;
+            Some(poses.get(place.link).map_or(place, |pose| place.seen_from(pose)))
+        };
+        Surface { links: self.links.clone(), places: self.places.iter().map(place).collect() }
     }
 
     /// How each panel lies.

@@ -1,5 +1,6 @@
 //! Force, moment and centre of pressure by link.
 
+use super::pose::Pose;
 use super::surface::Surface;
 use glam::DVec3;
 
@@ -8,14 +9,26 @@ use glam::DVec3;
 pub struct Wrench {
     /// Index into [`Surface::links`].
     pub link: usize,
-    /// Sum of the taxels' forces in the link's frame, N: each presses against its normal.
+    /// Sum of the taxels' forces, N: each presses against its normal. In the surface's frame: that of the link,
+    /// unless it is seen from another.
     pub force: DVec3,
-    /// Their moment about the link's origin, N m.
+    /// Their moment about the origin of that frame, N m.
     pub moment: DVec3,
     /// Sum of the magnitudes, N: more than that of `force` where the surface is curved.
     pub pressed: f64,
     /// Centre of pressure, m: the taxels' places, weighted by magnitude; 0 if nothing presses.
     pub center: DVec3,
+}
+
+impl Wrench {
+    /// The same force and centre in another frame, by the pose of this one in it, and the moment about the
+    /// other's origin.
+    pub fn seen_from(&self, pose: &Pose) -> Wrench {
+        let force = pose.direction(self.force);
+        let moment = pose.direction(self.moment) + pose.at.cross(force);
+        let center = if self.pressed > 0.0 { pose.point(self.center) } else { self.center };
+        Wrench { force, moment, center, ..*self }
+    }
 }
 
 /// What presses on each link: `newtons` by taxel, those without a place are left out.

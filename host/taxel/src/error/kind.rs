@@ -1,7 +1,8 @@
 //! Kinds of errors.
 
 use super::{
-    ArrayError, FileError, LearnError, MapFileError, RecordingError, SettingError, SourceError, UsageError,
+    ArrayError, FileError, LearnError, MapFileError, RecordingError, RobotError, SettingError, SourceError,
+    UsageError,
 };
 use std::io;
 
@@ -21,6 +22,9 @@ pub enum ErrorKind {
     /// A setting is invalid.
     #[error(transparent)]
     Setting(#[from] SettingError),
+    /// A robot's description is invalid, or does not fit what is asked of it.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
     /// A cognitive map is invalid.
     #[error(transparent)]
     Map(#[from] MapFileError),

@@ -9,6 +9,7 @@
 //! | [`ArrayError`] | arrays of frames | not an array, damaged, unfit, too large |
 //! | [`RecordingError`] | MCAP files | not a recording, not one of taxel, damaged, unsupported |
 //! | [`SettingError`] | garments, scenes, scripts, calibrations, gestures | which parameter is invalid |
+//! | [`RobotError`] | robots' descriptions, positions of joints | not a URDF, invalid link or joint, unknown link or joint, out of range |
 //! | [`MapFileError`] | cognitive maps | unknown version, invalid value and its key, unknown concept |
 //! | [`SourceError`] | sources and sessions | no board, silent, gone for good, refuses (and why) |
 //! | [`LearnError`] | training and what it has trained | unfit data, not a base, unknown version, invalid model |
@@ -44,6 +45,7 @@ mod kind;
 mod learn;
 mod map;
 mod recording;
+mod robot;
 mod setting;
 mod source;
 mod usage;
@@ -56,6 +58,7 @@ pub use kind::ErrorKind;
 pub use learn::LearnError;
 pub use map::MapFileError;
 pub use recording::RecordingError;
+pub use robot::RobotError;
 pub use setting::SettingError;
 pub use source::SourceError;
 pub use usage::UsageError;

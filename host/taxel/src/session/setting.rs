@@ -54,7 +54,7 @@ pub fn set_poses<'a>(
     for (link, at, turn) in poses {
         let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
         let called = link.try_into().map_err(|_| wrong("its name is longer than 16 bytes"))?;
-        let pose = body::pose(at, turn).map_err(wrong)?;
+        let pose = body::Pose::from_arrays(at, turn).for_board().map_err(wrong)?;
         told.push((called, pose)).map_err(|_| wrong("a body has at most 8 links"))?;
     }
     Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)

@@ -3,11 +3,13 @@
 use anyhow::{Result, bail};
 use serde_json::json;
 use std::fmt::Write;
+use taxel::body::robot::Robot;
 use taxel::body::{Fit, Surface};
 use taxel_core::garment::Layout;
 
-/// A table with a line for each panel, or JSON. Error if two panels lie on each other.
-pub fn told(layout: &Layout, surface: &Surface, is_json: bool) -> Result<String> {
+/// A table with a line for each panel and one for the robot, or JSON of the panels. Error if two panels lie on
+/// each other.
+pub fn told(layout: &Layout, surface: &Surface, robot: Option<&Robot>, is_json: bool) -> Result<String> {
     if let Some((one, other)) = surface.overlap(layout) {
         bail!("the panels {one} and {other} lie on each other");
     }
@@ -34,6 +36,16 @@ pub fn told(layout: &Layout, surface: &Surface, is_json: bool) -> Result<String>
             }
             None => writeln!(text, "{:name$}  has no patch: its taxels have no place", area.name),
         };
+    }
+    if let Some(robot) = robot {
+        let (links, joints, free) = (robot.links(), robot.joints().len(), robot.free().len());
+        let base = links.first().map_or("", |base| base.name.as_str());
+        let file = robot.file();
+        let _ = writeln!(
+            text,
+            "robot {file}: {} links, base {base}; {joints} joints, {free} with a position of their own",
+            links.len()
+        );
     }
     Ok(text)
 }

@@ -1,17 +1,22 @@
 //! `taxel body`: where the garment's taxels lie on the robot.
 
 mod check;
+mod drape;
+mod posed;
 mod show;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
+use drape::DrapeArgs;
+use posed::PosedArgs;
 use std::path::{Path, PathBuf};
-use taxel::body::{self, ReadBody, Surface};
+use std::sync::Arc;
+use taxel::body::{self, Surface, robot};
 use taxel::files::garments;
 use taxel::files::output::Output;
 use taxel_core::capacity::TAXELS;
-use taxel_core::garment::Layout;
+use taxel_core::garment::{Garment, Layout};
 
 /// Arguments of `taxel body`.
 #[derive(Debug, Clone, Args)]
@@ -31,12 +36,11 @@ pub struct WornArgs {
 }
 
 impl WornArgs {
-    /// Places the taxels.
-    fn surface(&self, body: &ReadBody) -> Result<(Layout, Surface)> {
+    /// Reads the garment.
+    fn garment(&self) -> Result<(Garment, Layout)> {
         let garment = garments::read(&self.garment)?;
         let layout = Layout::build(&garment.garment, TAXELS, u16::MAX).map_err(|e| garment.error(&e))?;
-        let surface = body.surface(&garment.garment, &layout)?;
-        Ok((layout, surface))
+        Ok((garment.garment, layout))
     }
 }
 
@@ -45,6 +49,9 @@ impl WornArgs {
 pub struct WrittenArgs {
     #[command(flatten)]
     worn: WornArgs,
+    /// The robot that wears it, and its posture.
+    #[command(flatten)]
+    posed: PosedArgs,
     /// The file to write; - for the standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -54,46 +61,71 @@ pub struct WrittenArgs {
 }
 
 impl WrittenArgs {
-    /// Places the taxels, and writes what `text` says of them.
-    fn write(&self, text: impl Fn(&Layout, &Surface) -> String) -> Result<()> {
+    /// Places the taxels, and writes what `text` says of them and of the frame that they are in.
+    fn write(&self, text: impl Fn(&Layout, &Surface, Option<&str>) -> String) -> Result<()> {
         let WornArgs { body, garment } = &self.worn;
         let read = body::read(body)?;
-        let inputs = [Path::new(body), Path::new(garment)].into_iter().chain(read.lists());
-        let output = Output::stream(&self.output, self.force, inputs)?;
-        let (layout, surface) = self.worn.surface(&read)?;
-        Ok(output.write(text(&layout, &surface).as_bytes())?)
+        let files =
+            [Some(body), Some(garment), self.posed.robot.as_ref()].into_iter().flatten().map(Path::new);
+        let output = Output::stream(&self.output, self.force, files.chain(read.lists()))?;
+        let (garment, layout) = self.worn.garment()?;
+        let (surface, frame) = self.posed.surface(&read, &garment, &layout)?;
+        Ok(output.write(text(&layout, &surface, frame.as_deref()).as_bytes())?)
     }
 }
 
 #[derive(Debug, Clone, Subcommand)]
 enum BodyTask {
     /// Check a body file: how each panel lies on its link; errors name line and key
-    #[command(after_help = "Example:\n  taxel body check reference")]
+    #[command(
+        after_help = "Examples:\n  taxel body check reference\n  taxel body check reference --robot reference"
+    )]
     Check {
         /// What is checked.
         #[command(flatten)]
         worn: WornArgs,
+        /// The robot, whose links it must lie on: a URDF file or `reference`
+        #[arg(long, value_name = "URDF")]
+        robot: Option<String>,
         /// Print JSON instead of a table
         #[arg(long)]
         json: bool,
     },
-    /// Draw the taxels of each link from three sides
-    #[command(after_help = "Example:\n  taxel body show reference -o body.svg")]
+    /// Draw the taxels from three sides: each link, or the whole robot in a posture
+    #[command(
+        after_help = "Examples:\n  taxel body show reference -o body.svg\n  taxel body show reference --robot reference \
+                      --joints left_elbow=90deg -o body.svg"
+    )]
     Show(WrittenArgs),
-    /// Write the place and the normal of every taxel as CSV
-    #[command(after_help = "Example:\n  taxel body places reference -o places.csv")]
+    /// Write the place and the normal of every taxel as CSV, in the frame of its link or of one for all
+    #[command(
+        after_help = "Examples:\n  taxel body places reference -o places.csv\n  taxel body places reference --robot reference \
+                      --joints waist=30deg --frame base -o -"
+    )]
     Places(WrittenArgs),
+    /// Lay a panel over a link's mesh as cloth, and write the list of its taxels
+    #[command(
+        after_help = "Example:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt"
+    )]
+    Drape(DrapeArgs),
 }
 
 /// Runs the command.
 pub fn run(args: &BodyArgs) -> Result<()> {
     match &args.what {
-        BodyTask::Check { worn, json } => {
-            let (layout, surface) = worn.surface(&body::read(&worn.body)?)?;
-            print!("{}", check::told(&layout, &surface, *json)?);
+        BodyTask::Check { worn, robot, json } => {
+            let read = body::read(&worn.body)?;
+            let (garment, layout) = worn.garment()?;
+            let robot = robot.as_deref().map(robot::read).transpose()?.map(Arc::new);
+            let surface = match &robot {
+                Some(robot) => read.on_robot(&garment, &layout, robot.clone())?.surface().clone(),
+                None => read.surface(&garment, &layout)?,
+            };
+            print!("{}", check::told(&layout, &surface, robot.as_deref(), *json)?);
             Ok(())
         }
+        BodyTask::Drape(args) => drape::run(args),
         BodyTask::Show(written) => written.write(show::picture),
-        BodyTask::Places(written) => written.write(|_, surface| body::text(surface)),
+        BodyTask::Places(written) => written.write(|_, surface, _| body::text(surface)),
     }
 }

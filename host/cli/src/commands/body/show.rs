@@ -1,4 +1,4 @@
-//! The taxels on the robot as SVG: each link from three sides.
+//! The taxels on the robot as SVG: each link, or the whole robot, from three sides.
 
 use crate::report::svg::{escaped, line};
 use std::fmt::Write;
@@ -32,17 +32,22 @@ struct Dot {
     place: TaxelPlace,
 }
 
-/// The picture: a row for each link, a colour for each panel; taxels that face away are not drawn.
-pub fn picture(layout: &Layout, surface: &Surface) -> String {
-    let links = surface.links();
-    let (width, height) = (SIDE[0] * SIDES.len() as f64, (SIDE[1] + TEXT) * links.len() as f64);
+/// The picture: a row for each link, or one for all in the frame of one; a colour for each panel. Taxels that
+/// face away are not drawn.
+pub fn picture(layout: &Layout, surface: &Surface, frame: Option<&str>) -> String {
+    let rows: Vec<(String, Option<usize>)> = match frame {
+        Some(frame) => vec![(format!("in the frame of {frame}"), None)],
+        None => surface.links().iter().enumerate().map(|(link, name)| (name.clone(), Some(link))).collect(),
+    };
+    let (width, height) = (SIDE[0] * SIDES.len() as f64, (SIDE[1] + TEXT) * rows.len() as f64);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" \
          font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
     );
-    for (link, name) in links.iter().enumerate() {
-        let top = (SIDE[1] + TEXT) * link as f64;
-        let dots: Vec<Dot> = dots(layout, surface).filter(|dot| dot.place.link == link).collect();
+    for (row, (name, link)) in rows.iter().enumerate() {
+        let top = (SIDE[1] + TEXT) * row as f64;
+        let is_of_row = |dot: &Dot| link.is_none_or(|link| dot.place.link == link);
+        let dots: Vec<Dot> = dots(layout, surface).filter(is_of_row).collect();
         let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let places = dots.iter().map(|dot| dot.place.at);
         let (least, most) = places.fold(none, |(least, most), at| (least.min(at), most.max(at)));

@@ -1,0 +1,9 @@
+//! The garment on the robot.
+
+mod mesh;
+mod posture;
+mod rig;
+mod robot;
+mod surface;
+mod urdf;
+mod worn;
