@@ -1,5 +1,6 @@
 //! Settings in flash: what was stored is loaded again, even if the power fails at any step of a save.
 
+#[allow(dead_code)] // a part of it is for the other tests
 #[path = "../../../host/sim/src/flash.rs"]
 mod flash;
 

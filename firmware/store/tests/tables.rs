@@ -1,5 +1,6 @@
 //! Tables of the surface in flash: the one in force holds until the next is complete, whenever the power fails.
 
+#[allow(dead_code)] // a part of it is for the other tests
 #[path = "../../../host/sim/src/flash.rs"]
 mod flash;
 

@@ -100,6 +100,13 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
                 self.step(Input::SettingsReset(done.map_err(|error| error.sentence())));
             }
             Some(Job::Restart) => self.restart(),
+            // A flash that gives nothing back: a table is refused.
+            Some(Job::StoreSurface) => {
+                let piece = self.board.surface_piece();
+                let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
+                self.step(Input::SurfaceStored(Ok(is_whole.then_some(&[]))));
+            }
+            Some(Job::KeepSurface) => self.step(Input::SurfaceKept(Ok(()))),
             Some(Job::Drive(..)) | None => {}
         }
         let taxel = (self.now.0 % T as u64) as u16;
