@@ -1,6 +1,6 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
-use crate::{browser, paths, python, ros2, targets, ways};
+use crate::{browser, paths, physics, python, ros2, targets, ways};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -22,6 +22,8 @@ enum Run {
     Wheels,
     /// The ROS 2 node with each distribution.
     Ros2,
+    /// MuJoCo's judgement of places and forces.
+    Physics,
     /// Tests of files on a failing disk.
     Disk,
     /// The image by each toolchain.
@@ -29,7 +31,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 21] = [
+const RUNS: [(&str, Run, &str); 22] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -96,6 +98,11 @@ const RUNS: [(&str, Run, &str); 21] = [
         Run::Ros2,
         "ROS 2: the node with rclpy of each distribution: 10,000 lists of five contacts, slow and killed ends",
     ),
+    (
+        "physics",
+        Run::Physics,
+        "physics: random presses on two bodies in MuJoCo, against places and forces, before noise and on the board",
+    ),
     ("disk", Run::Disk, "files: every command that writes, each fault of a disk at each call"),
     (
         "view",
@@ -149,6 +156,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Python(names) => targets::read_by_python(&[names], log, &longer)?,
         Run::Wheels => python::campaign(log, &longer)?,
         Run::Ros2 => ros2::campaign(log, &longer)?,
+        Run::Physics => physics::campaign(log, &longer)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),
     };

@@ -20,6 +20,7 @@ mod names;
 mod no_panic;
 mod package;
 mod paths;
+mod physics;
 mod process;
 mod python;
 mod recordings;

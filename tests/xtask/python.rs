@@ -112,12 +112,23 @@ fn tested(python: &str, build: Build, log: &Path, variables: &[(&str, &str)]) ->
     if (major, minor) < (3, *VERSIONS.start()) {
         return Err(format!("{python} is {major}.{minor}, and the package is for 3.10 and later"));
     }
-    let folder = paths::target().join(format!("xtask/wheel-3.{minor}"));
-    let own = install::python_in(python, &folder, &package().join("tests/requirements.txt"))?;
+    let own = environment(python, minor)?;
     Ok(steps(&own, build, log, variables).map(|lines| {
         let head = format!("CPython 3.{minor}:");
         lines.into_iter().map(|line| format!("{head} {line}")).collect()
     }))
+}
+
+/// Builds the wheel that is given away.
+pub fn wheel(python: &str, log: &Path) -> End<PathBuf> {
+    let [_, minor] = install::python3(python).map(|()| version(python).unwrap_or_default())?;
+    Ok(built(&environment(python, minor)?, Build::Release, log))
+}
+
+/// The environment with the pinned tools; its interpreter.
+fn environment(python: &str, minor: u32) -> Result<PathBuf, String> {
+    let folder = paths::target().join(format!("xtask/wheel-3.{minor}"));
+    install::python_in(python, &folder, &package().join("tests/requirements.txt"))
 }
 
 fn steps(python: &Path, build: Build, log: &Path, variables: &[(&str, &str)]) -> Result<Vec<String>, String> {

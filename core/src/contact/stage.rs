@@ -41,7 +41,7 @@ pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const LABELS: 
 }
 
 /// Touched taxels of a row that belong to one contact.
-pub(crate) struct Pressed<'a> {
+pub(crate) struct PressedRun<'a> {
     /// Index of the contact, in the order of their onset.
     pub contact: usize,
     /// Index of the panel.
@@ -145,14 +145,14 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
     }
 
     /// The runs of the last frame's contacts, in the order of rows.
-    pub(crate) fn pressed<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = Pressed<'a>> {
+    pub(crate) fn pressed<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = PressedRun<'a>> {
         self.labeller.runs.iter().filter_map(|run| {
             let panel = self.labeller.labels.get(usize::from(run.label))?.panel;
             let contact = self.tracks.index_of(self.labeller.contact_of(run)?)?;
             let area = layout.areas().get(usize::from(panel))?;
             let row = usize::from(run.row.checked_sub(area.first_row)?);
             let first = usize::from(area.base) + row * usize::from(area.columns) + usize::from(run.left);
-            Some(Pressed { contact, panel, first, run })
+            Some(PressedRun { contact, panel, first, run })
         })
     }
 

@@ -4,7 +4,7 @@
 //! | | |
 //! |---|---|
 //! | input | a [`Table`] of taxels, which stays where it is (in flash), the image and its contacts |
-//! | output | a [`Spot`] and a force for each contact, a [`Wrench`] for each link |
+//! | output | a [`SurfacePoint`] and a force for each contact, a [`Wrench`] for each link |
 //! | latency | none |
 //! | RAM | [`SurfaceState`] |
 //!
@@ -19,7 +19,7 @@ mod stage;
 mod table;
 mod taxel;
 
-pub use place::Spot;
+pub use place::SurfacePoint;
 pub use pose::{Pose, Quaternion};
 pub use stage::{InBase, Landed, Pressing, SurfaceState, Wrench};
 pub use table::{Table, table_bytes, write_table};
@@ -34,7 +34,7 @@ pub const LINKS: usize = PANELS;
 pub type Micrometres = [i32; 3];
 
 /// A direction: its components in units of 2^-14.
-pub type Direction = [i16; 3];
+pub type UnitVector = [i16; 3];
 
-/// 1.0 of a [`Direction`], and one metre of a [`TaxelRecord`].
+/// 1.0 of a [`UnitVector`], and one metre of a [`TaxelRecord`].
 pub const ONE: i16 = 1 << 14;

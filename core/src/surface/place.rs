@@ -2,20 +2,20 @@
 
 use super::table::Table;
 use super::taxel::TaxelRecord;
-use super::{Direction, Micrometres, ONE};
+use super::{Micrometres, ONE, UnitVector};
 use crate::format::{Fixed16, Inverse, root, signed_wide};
 use crate::garment::{Area, Layout};
 use serde::{Deserialize, Serialize};
 
 /// A point of the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Spot {
+pub struct SurfacePoint {
     /// Index of the link in the table.
     pub link: u8,
     /// Its place in the frame of the link; at most 55 um from the mean of the taxels' exact places.
     pub at: Micrometres,
     /// Direction away from the robot.
-    pub normal: Direction,
+    pub normal: UnitVector,
 }
 
 /// Further binary digits of a place between taxels: 2^-20 m, about 1 um.
@@ -25,14 +25,14 @@ impl Table<'_> {
     /// The point at `(x, y)` of a panel, taxels: linear between the four around it, and the nearest point of
     /// the panel from outside. None where one of these has no place.
     #[inline(never)] // M0+: out of line
-    pub fn spot(&self, layout: &Layout, panel: u8, x: Fixed16, y: Fixed16) -> Option<Spot> {
+    pub fn spot(&self, layout: &Layout, panel: u8, x: Fixed16, y: Fixed16) -> Option<SurfacePoint> {
         let area = layout.areas().get(usize::from(panel))?;
         let ((column, x), (row, y)) = (within(x, area.columns), within(y, area.rows));
         let right = if x > 0 { column + 1 } else { column };
         let above = self.between(area, row, [column, right], x)?;
         let below = if y > 0 { self.between(area, row + 1, [column, right], x)? } else { above };
         let Fine { link, at, normal } = above.mixed(&below, y);
-        Some(Spot { link, at: at.map(micrometres), normal: unit(normal)? })
+        Some(SurfacePoint { link, at: at.map(micrometres), normal: unit(normal)? })
     }
 
     /// Between two taxels of a row.
@@ -88,7 +88,7 @@ fn micrometres(fine: i32) -> i32 {
 }
 
 /// The direction of a vector in units of 2^-20; none if it is shorter than 1/16.
-fn unit(vector: [i32; 3]) -> Option<Direction> {
+fn unit(vector: [i32; 3]) -> Option<UnitVector> {
     let length = root(vector.iter().map(|x| u64::from(x.unsigned_abs()).pow(2)).sum());
     if length < 1 << 16 {
         return None;

@@ -1,6 +1,6 @@
 //! Poses of links, as a host sends them, and points and directions in another frame.
 
-use super::{Direction, Micrometres};
+use super::{Micrometres, UnitVector};
 use crate::format::{Invalid, signed_wide};
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ const BITS: u32 = 30;
 
 /// A checked pose: rotation matrix in units of 2^-30, row by row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Frame {
+pub(crate) struct Rigid {
     at: Micrometres,
     rows: [[i32; 3]; 3],
 }
@@ -38,7 +38,7 @@ impl Pose {
 
     /// Checks the pose, and computes its matrix. Error if the origin is farther than 100 m along an axis, or
     /// the quaternion's length is not 1.
-    pub(crate) fn build(&self) -> Result<Frame, Invalid> {
+    pub(crate) fn build(&self) -> Result<Rigid, Invalid> {
         if self.at.iter().any(|um| um.unsigned_abs() > FAR_UM) {
             return Err(Invalid { parameter: "pose.at", must: "must be within 100 m" });
         }
@@ -64,11 +64,11 @@ impl Pose {
             [xy + wz, one - xx - zz, yz - wx],
             [xz - wy, yz + wx, one - xx - yy],
         ];
-        Ok(Frame { at: self.at, rows: rows.map(|row| row.map(|entry| entry as i32)) })
+        Ok(Rigid { at: self.at, rows: rows.map(|row| row.map(|entry| entry as i32)) })
     }
 }
 
-impl Frame {
+impl Rigid {
     /// A direction or force turned into the frame; at most 1 unit off.
     pub fn turned(&self, vector: [i32; 3]) -> [i32; 3] {
         self.rows.map(|row| {
@@ -78,7 +78,7 @@ impl Frame {
     }
 
     /// A direction turned into the frame.
-    pub fn directed(&self, direction: Direction) -> Direction {
+    pub fn directed(&self, direction: UnitVector) -> UnitVector {
         let [x, y, z] = self.turned(direction.map(i32::from));
         [x, y, z].map(|x| x.clamp(i16::MIN.into(), i16::MAX.into()) as i16)
     }

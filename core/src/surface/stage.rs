@@ -1,10 +1,10 @@
 //! The stage: contacts on the robot, and what presses on each link.
 
-use super::place::{Spot, rounded};
+use super::place::{SurfacePoint, rounded};
 use super::pose::Pose;
 use super::press::press;
 use super::table::Table;
-use super::{Direction, LINKS, Micrometres};
+use super::{LINKS, Micrometres, UnitVector};
 use crate::contact::{ContactState, Slot};
 use crate::format::{Invalid, Inverse, Micros, Name, name};
 use crate::garment::{Layout, PANELS};
@@ -17,7 +17,7 @@ pub struct Landed {
     /// Id of the contact.
     pub id: u32,
     /// Its centroid on the surface, in the frame of the link.
-    pub spot: Spot,
+    pub spot: SurfacePoint,
     /// Force of its taxels on that link, counts; those of other links count there.
     pub force: [i32; 3],
     /// The same in the frame of the poses, if the host has sent one for this link.
@@ -30,7 +30,7 @@ pub struct InBase {
     /// Its centroid.
     pub at: Micrometres,
     /// Direction away from the robot.
-    pub normal: Direction,
+    pub normal: UnitVector,
     /// Its force, counts.
     pub force: [i32; 3],
 }
@@ -140,7 +140,7 @@ impl SurfaceState {
             sum.pressed = sum.pressed.saturating_add(pressed);
             add(&mut sum.force, force);
             let spot = spots.get(run.contact).copied().flatten();
-            if spot.is_some_and(|spot: Spot| spot.link == link)
+            if spot.is_some_and(|spot: SurfacePoint| spot.link == link)
                 && let Some(to) = forces.get_mut(run.contact)
             {
                 add(to, force);
@@ -163,7 +163,7 @@ impl SurfaceState {
     }
 
     #[inline(never)] // M0+: out of line
-    fn landed(&self, id: u32, spot: Spot, force: [i32; 3]) -> Landed {
+    fn landed(&self, id: u32, spot: SurfacePoint, force: [i32; 3]) -> Landed {
         let pose = self.poses.get(usize::from(spot.link)).copied().flatten();
         let base = pose.and_then(|pose| pose.build().ok()).map(|frame| InBase {
             at: frame.placed(spot.at),
@@ -176,7 +176,7 @@ impl SurfaceState {
 
 impl Sums {
     /// Adds the place of a contact to the centre of pressure.
-    fn weigh(&mut self, spot: &Spot, total: u32) {
+    fn weigh(&mut self, spot: &SurfacePoint, total: u32) {
         self.totals = self.totals.saturating_add(total);
         for (sum, at) in self.places.iter_mut().zip(spot.at) {
             *sum = sum.wrapping_add(i64::from(at) * i64::from(total));

@@ -1,6 +1,6 @@
 //! A taxel's entry in the table.
 
-use super::{Direction, ONE};
+use super::{ONE, UnitVector};
 use crate::format::root;
 use bytemuck::{Pod, Zeroable};
 
@@ -17,7 +17,7 @@ pub struct TaxelRecord {
     /// Its centre in the frame of the link.
     pub at: [i16; 3],
     /// Direction away from the robot.
-    pub normal: Direction,
+    pub normal: UnitVector,
     /// `at x normal`: the moment about the link's origin of a force of 1 along the normal.
     pub arm: [i16; 3],
 }

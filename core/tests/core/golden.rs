@@ -19,12 +19,12 @@ use taxel_core::react::{Cause, Reaction};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::shape::{Class, ConfidenceTable, GalleryHead, MEASURES, Shape, Space};
-use taxel_core::surface::{InBase, Landed, Spot, Wrench};
+use taxel_core::surface::{InBase, Landed, SurfacePoint, Wrench};
 use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol, Words};
 use taxel_core::wire::*;
 
 fn pushed(base: Option<InBase>) -> Landed {
-    let spot = Spot { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
+    let spot = SurfacePoint { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
     Landed { id: 7, spot, force: [-3, 4_000, 0], base }
 }
 

@@ -22,14 +22,12 @@ MOMENT = "moment, share of force x reach"
 BARS = {FORCE: 0.03, CENTER: 0.2, MOMENT: 0.03}
 
 
-SHIPPED = pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="the shipped scene's filter cuts crests by up to 0.06 N, and its floor the edges",
-)
+SHIPPED = {FORCE: 0.15, CENTER: 0.2, MOMENT: 0.12}
+"""The shipped scene misses the bars: its filter cuts crests by up to 0.06 N, and its floor the edges. It is held to
+what it does, so that it gets no worse."""
 
 
-@pytest.fixture(scope="module", params=["forces", pytest.param("shipped", marks=SHIPPED)])
+@pytest.fixture(scope="module", params=["forces", "shipped"])
 def chain(request: pytest.FixtureRequest) -> tuple[str, Chain]:
     """A board with a scene for forces, and one with the shipped scene."""
     name = str(request.param)
@@ -74,5 +72,6 @@ def test_links_feel_what_the_solver_says(
             title = f"  mean of {FRAMES} images, {len(chosen)} presses of {low} to {high} N"
             table(title, dict(zip(BARS, np.array(means)[chosen].T, strict=True)), BARS)
     assert len(means) >= 100
-    for (name, bar), values in zip(BARS.items(), np.array(means).T, strict=True):
+    held = SHIPPED if kind == "shipped" else BARS
+    for (name, bar), values in zip(held.items(), np.array(means).T, strict=True):
         assert values.max() < bar, name

@@ -1,7 +1,7 @@
 //! The JSON message of what presses on the robot.
 
 use super::lines::{LandedLine, PressingLine, PushLine, WrenchLine};
-use taxel_core::surface::{Direction, Landed, Micrometres, ONE, Wrench};
+use taxel_core::surface::{Landed, Micrometres, ONE, UnitVector, Wrench};
 use taxel_core::wire::PressingReport;
 
 /// The message of a report.
@@ -33,7 +33,7 @@ fn wrench(wrench: &Wrench) -> WrenchLine<'_> {
     }
 }
 
-fn push(at: Micrometres, normal: Direction, force: [i32; 3]) -> PushLine {
+fn push(at: Micrometres, normal: UnitVector, force: [i32; 3]) -> PushLine {
     PushLine { at_m: metres(at), normal: normal.map(|part| f64::from(part) / f64::from(ONE)), force }
 }
 

@@ -11,7 +11,7 @@ use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::format::{Celsius, Micros, Q15, name};
 use taxel_core::react::Reaction;
 use taxel_core::selftest::{Fault, Findings, PinFault};
-use taxel_core::surface::{InBase, Landed, Spot, Wrench};
+use taxel_core::surface::{InBase, Landed, SurfacePoint, Wrench};
 use taxel_core::wire::{
     Budget, ConfidenceReport, FormsReport, GestureReport, Health, Level, PressingReport, ReactionReport,
     ReflexReport, SelfTestReport, SyncReport, Temperature, UnsureReport, WireError,
@@ -72,7 +72,7 @@ fn simulate(scene: &str, lines: &mut Lines) {
 }
 
 fn pressing() -> PressingReport {
-    let spot = Spot { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
+    let spot = SurfacePoint { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
     let base = InBase { at: [1, -1, 1_000_000], normal: [16_384, 0, 0], force: [-4_000, 3, 0] };
     let landed = |id, base| Landed { id, spot, force: [-3, 4_000, 0], base };
     let wrench = Wrench {
