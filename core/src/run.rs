@@ -100,13 +100,13 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
                 let now = platform.now();
                 board.step(now, Input::SettingsReset(result), platform);
             }
-            Some(Job::StoreSurface) => {
+            Some(Job::StoreSurface) if cfg!(feature = "surface") => {
                 acquire.rest();
                 let result = platform.store_surface(&board.surface_piece());
                 let now = platform.now();
                 board.step(now, Input::SurfaceStored(result), platform);
             }
-            Some(Job::KeepSurface) => {
+            Some(Job::KeepSurface) if cfg!(feature = "surface") => {
                 acquire.rest();
                 let result = platform.keep_surface(board.surface_piece().length);
                 let now = platform.now();
@@ -117,7 +117,9 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
                 acquire.rest();
                 examine(acquire, platform, board);
             }
-            Some(Job::Drive(..)) | None => platform.idle(board.wake()).await,
+            Some(Job::Drive(..) | Job::StoreSurface | Job::KeepSurface) | None => {
+                platform.idle(board.wake()).await;
+            }
         }
     }
 }

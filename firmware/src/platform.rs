@@ -136,7 +136,7 @@ impl BoardPlatform {
                 }
             }
         }
-        if uses_stored {
+        if uses_stored && cfg!(feature = "surface") {
             let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
             let table = flash.tables().and_then(|mut tables| tables.in_force()).ok().flatten();
             board.recall_surface(table.map(in_place));

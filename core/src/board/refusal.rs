@@ -9,6 +9,7 @@ pub(super) struct Refusal(pub(super) Sentence);
 
 impl Refusal {
     /// The message of an error.
+    #[inline(never)] // M0+: out of line
     pub fn of(error: impl fmt::Display) -> Refusal {
         format_args!("{error}").into()
     }

@@ -32,9 +32,7 @@ pub(super) fn number_of(work: Work) -> u8 {
         Work::SelfTest => Request::SelfTest.number(),
         Work::Save => Request::Save.number(),
         Work::Reset { .. } => Request::ResetSettings { undo: false }.number(),
-        Work::StoreSurface | Work::KeepSurface => {
-            Request::SetSurface { length: 0, offset: 0, bytes: &[] }.number()
-        }
+        Work::StoreSurface | Work::KeepSurface => Request::SetSurface(&[]).number(),
     }
 }
 
@@ -48,6 +46,7 @@ pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Resul
 }
 
 /// Refuses what this build leaves out.
+#[inline(never)] // M0+: out of line
 fn left_out(parameter: &'static str) -> Refusal {
     Refusal::of(Invalid { parameter, must: LEFT_OUT })
 }
@@ -129,14 +128,17 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Ok(())
             }
             Request::SetRaw { hz } => self.send_raw(hz),
-            Request::SetSurface { length, offset, bytes } => {
-                match self.take_surface(now, length, offset, bytes) {
-                    Ok(()) => return,
-                    refused => refused,
-                }
+            Request::SetSurface(_) | Request::SetPoses(_) | Request::SetPressing(_)
+                if !cfg!(feature = "surface") =>
+            {
+                Err(left_out("surface"))
             }
+            Request::SetSurface(bytes) => match self.take_surface(now, bytes) {
+                Ok(()) => return,
+                refused => refused,
+            },
             Request::SetPoses(bytes) => self.take_poses(bytes, now),
-            Request::SetPressing { hz } => self.tell_pressing(hz),
+            Request::SetPressing(hz) => self.tell_pressing(hz),
         };
         self.outbox.answer(number, result.err());
     }

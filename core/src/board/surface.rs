@@ -5,11 +5,11 @@ use super::pace::Pace;
 use super::refusal::Refusal;
 use super::{Board, Work, request};
 use crate::capacity;
-use crate::format::{Invalid, LEFT_OUT, Micros, Name};
+use crate::format::{Micros, Name};
 use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
 use crate::surface::{LINKS, Pose, Pressing, SurfaceState, Table, table_bytes};
-use crate::wire::{PressingReport, SURFACE_PIECE};
+use crate::wire::{PressingReport, SURFACE_PIECE, TablePiece};
 use heapless::Vec;
 
 /// Longest table: that of a garment of [`capacity::TAXELS`] taxels.
@@ -131,16 +131,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// Takes a piece of a table. Error if it is not the next one. It is answered once it is stored.
     #[inline(never)]
-    pub(super) fn take_surface(
-        &mut self,
-        now: Micros,
-        length: u32,
-        offset: u32,
-        bytes: &[u8],
-    ) -> Result<(), Refusal> {
-        if !cfg!(feature = "surface") {
-            return Err(no_surface());
-        }
+    pub(super) fn take_surface(&mut self, now: Micros, piece: &[u8]) -> Result<(), Refusal> {
+        let TablePiece { length, offset, bytes } = request::read("surface", piece)?;
         if self.works.iter().any(|work| matches!(work, Work::StoreSurface | Work::KeepSurface)) {
             return Err(Refusal::of("the last piece is not stored yet"));
         }
@@ -185,6 +177,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         now: Micros,
         result: Result<Option<&'static [u8]>, &'static str>,
     ) {
+        if !cfg!(feature = "surface") {
+            return;
+        }
         self.surface_worked(now);
         let Some(upload) = self.surface.upload.as_mut() else { return };
         if upload.stored == 0 {
@@ -212,6 +207,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Takes the result of keeping the table that was stored last, or none.
     #[inline(never)]
     pub(super) fn surface_kept(&mut self, now: Micros, result: Result<(), &'static str>) {
+        if !cfg!(feature = "surface") {
+            return;
+        }
         self.surface_worked(now);
         let upload = self.surface.upload.take();
         if result.is_ok() {
@@ -228,7 +226,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Takes poses of links.
     #[inline(never)]
     pub(super) fn take_poses(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
-        let table = self.surface.table().ok_or_else(no_surface)?;
+        let table = self.surface.table().ok_or_else(|| Refusal::of(NO_SURFACE))?;
         let poses = request::read::<Vec<(Name, Pose), LINKS>>("poses", bytes)?;
         self.surface.poses.accept(&poses, &table, now).map_err(Refusal::of)
     }
@@ -237,7 +235,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     #[inline(never)]
     pub(super) fn tell_pressing(&mut self, hz: u16) -> Result<(), Refusal> {
         if hz > 0 && self.surface.table().is_none() {
-            return Err(no_surface());
+            return Err(Refusal::of(NO_SURFACE));
         }
         self.surface.rate = Pace::new(hz);
         self.surface.due = None;
@@ -249,9 +247,4 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 const FULL: &str = "too much is waiting to be done";
 
 /// Refusal without a table.
-fn no_surface() -> Refusal {
-    if cfg!(feature = "surface") {
-        return Refusal::of("no surface is in force");
-    }
-    Refusal::of(Invalid { parameter: "surface", must: LEFT_OUT })
-}
+const NO_SURFACE: &str = "no surface is in force";

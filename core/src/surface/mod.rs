@@ -27,8 +27,8 @@ pub use taxel::TaxelRecord;
 
 use crate::garment::PANELS;
 
-/// Most links that a garment lies on: each panel lies on one.
-pub const LINKS: usize = PANELS;
+/// Most links that a garment lies on: each panel lies on one. None without the feature `surface`.
+pub const LINKS: usize = if cfg!(feature = "surface") { PANELS } else { 0 };
 
 /// Micrometres, in a frame of the robot.
 pub type Micrometres = [i32; 3];

@@ -567,25 +567,26 @@ pub enum Request<'a> {
         /// Rate per second; 0: that of the scene; 65535: with every scan.
         hz: u16,
     },
-    /// A piece of a [`Table`](crate::surface::Table) of the surface, which is stored in flash. Pieces come in
-    /// order, each after the answer to the one before. With the last one the table is checked and, from then on
-    /// and after each start, in force; until then the one before it is.
-    SetSurface {
-        /// Length of the whole table; 0: none is in force from now on.
-        length: u32,
-        /// Position of the piece: 0 begins a table.
-        offset: u32,
-        /// [`SURFACE_PIECE`] bytes, or what is left.
-        bytes: &'a [u8],
-    },
+    /// postcard of a [`TablePiece`], which is stored in flash. Pieces come in order, each after the answer to the
+    /// one before. With the last one the table is checked and, from then on and after each start, in force; until
+    /// then the one before it is.
+    SetSurface(&'a [u8]),
     /// postcard of at most [`LINKS`] links of the surface, each its name and its [`Pose`](crate::surface::Pose):
     /// for places and forces in the robot's frame. A pose lasts until the next one for its link.
     SetPoses(&'a [u8]),
-    /// Set the rate of [`PressingReport`]s; 0 at the start.
-    SetPressing {
-        /// Rate per second; 0: never; 65535: with every scan.
-        hz: u16,
-    },
+    /// Set the rate of [`PressingReport`]s per second; 0, as at the start: never; 65535: with every scan.
+    SetPressing(u16),
+}
+
+/// A piece of a [`Table`](crate::surface::Table) of the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TablePiece<'a> {
+    /// Length of the whole table; 0: none is in force from now on.
+    pub length: u32,
+    /// Position of the piece: 0 begins a table.
+    pub offset: u32,
+    /// [`SURFACE_PIECE`] bytes, or what is left.
+    pub bytes: &'a [u8],
 }
 
 impl Request<'_> {
@@ -614,9 +615,9 @@ impl Request<'_> {
             Request::ResetSettings { .. } => 19,
             Request::SetForms { .. } => 20,
             Request::SetRaw { .. } => 21,
-            Request::SetSurface { .. } => 22,
+            Request::SetSurface(_) => 22,
             Request::SetPoses(_) => 23,
-            Request::SetPressing { .. } => 24,
+            Request::SetPressing(_) => 24,
         }
     }
 }

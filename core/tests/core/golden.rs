@@ -252,9 +252,9 @@ fn requests() -> [(&'static str, Request<'static>); 25] {
         ("ResetSettings", Request::ResetSettings { undo: true }),
         ("SetForms", Request::SetForms { in_frame: 2, ages: true }),
         ("SetRaw", Request::SetRaw { hz: 10 }),
-        ("SetSurface", Request::SetSurface { length: 41_104, offset: 256, bytes: &[1, 2, 3] }),
+        ("SetSurface", Request::SetSurface(&[1, 2, 3])),
         ("SetPoses", Request::SetPoses(&[6, 7])),
-        ("SetPressing", Request::SetPressing { hz: 20 }),
+        ("SetPressing", Request::SetPressing(20)),
     ]
 }
 

@@ -58,7 +58,7 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         "set_gains" => return gains(client, &values),
         "set_body" => return Ok(setting::set_body(client, values.text("body"), values.text("garment"))?),
         "set_poses" => return poses(client, &values),
-        "set_pressing" => Request::SetPressing { hz: values.whole("hz", 0, 65_535)? as u16 },
+        "set_pressing" => Request::SetPressing(values.whole("hz", 0, 65_535)? as u16),
         "set_garment" => return Ok(setting::set_garment(client, values.text("garment"))?),
         "set_scene" => return Ok(setting::set_scene(client, &SceneFile::named(values.text("scene"))?)?),
         "set_gestures" => return gestures(client, &values),

@@ -94,7 +94,7 @@ fn open(spec: &str, options: SourceOptions, tare: Option<u16>, returns: Returns)
     }
     client.start(tare)?;
     if options.body.is_some() {
-        client.request(&taxel_core::wire::Request::SetPressing { hz: u16::MAX })?;
+        client.request(&taxel_core::wire::Request::SetPressing(u16::MAX))?;
     }
     if options.raw {
         client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;

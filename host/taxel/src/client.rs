@@ -61,7 +61,7 @@ use wanted::Sets;
 /// Longest frame from a board.
 const LONGEST_REPORT: usize = 8192;
 /// Number of the request that brings a piece of a table.
-const SET_SURFACE: u8 = Request::SetSurface { length: 0, offset: 0, bytes: &[] }.number();
+const SET_SURFACE: u8 = Request::SetSurface(&[]).number();
 /// Most ids of released contacts kept: those of 16 full lists.
 const RELEASED: usize = 1024;
 

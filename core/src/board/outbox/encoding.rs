@@ -78,7 +78,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             tx_frame.put(Report::BUDGET, &budget)
         } else if let Some(temperature) = self.temperature.take() {
             tx_frame.put(Report::TEMPERATURE, &temperature)
-        } else if let Some(pressing) = pressing.filter(|_| self.streaming) {
+        } else if let Some(pressing) = pressing.filter(|_| cfg!(feature = "surface") && self.streaming) {
             put_pressing(tx_frame, pressing)
         } else if let Some((frame, time)) = self.image.due.take() {
             let is_light = || !about.took_picture && measures_little(about.present, about.form_ages);

@@ -7,7 +7,7 @@ use taxel_core::format::{Micros, name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::scene::Scene;
 use taxel_core::surface::{ONE, Pose, TaxelRecord, table_bytes, write_table};
-use taxel_core::wire::{PressingReport, Report, Request, SURFACE_PIECE};
+use taxel_core::wire::{PressingReport, Report, Request, SURFACE_PIECE, TablePiece};
 
 /// Units of a table in a pitch: 10.01 mm.
 const PITCH: i16 = 164;
@@ -24,11 +24,10 @@ fn flat() -> Vec<u8> {
     bytes
 }
 
-fn pieces(table: &[u8]) -> Vec<Request<'_>> {
-    let piece = |(index, bytes)| Request::SetSurface {
-        length: table.len() as u32,
-        offset: (SURFACE_PIECE * index) as u32,
-        bytes,
+fn pieces(table: &[u8]) -> Vec<Vec<u8>> {
+    let piece = |(index, bytes)| {
+        let (length, offset) = (table.len() as u32, (SURFACE_PIECE * index) as u32);
+        postcard::to_allocvec(&TablePiece { length, offset, bytes }).unwrap()
     };
     table.chunks(SURFACE_PIECE).enumerate().map(piece).collect()
 }
@@ -63,7 +62,7 @@ impl BoardAndHost {
         let mut flash: Vec<u8> = Vec::new();
         let mut answers = Vec::new();
         for request in pieces(table) {
-            self.ask(&request);
+            self.ask(&Request::SetSurface(&request));
             let refused = self.surface_answers();
             if !refused.is_empty() {
                 return refused;
@@ -114,12 +113,12 @@ fn streaming() -> BoardAndHost {
 fn a_table_in_pieces_is_put_in_force_and_presses_are_told() {
     let mut bench = streaming();
     let none = Some("no surface is in force".to_string());
-    assert_eq!(bench.answer(&Request::SetPressing { hz: 9 }), none);
+    assert_eq!(bench.answer(&Request::SetPressing(9)), none);
     assert_eq!(bench.answer(&Request::SetPoses(&[0])), none);
     let table = flat();
     assert_eq!(bench.send_table(&table), vec![None; table.len().div_ceil(SURFACE_PIECE)]);
     assert_eq!(bench.board.surface().unwrap().link(0), Some("hand"));
-    assert_eq!(bench.answer(&Request::SetPressing { hz: u16::MAX }), None);
+    assert_eq!(bench.answer(&Request::SetPressing(u16::MAX)), None);
     assert_eq!(bench.pressing(5), [], "nothing touches");
 
     bench.press(&FINGER, 1000);
@@ -170,7 +169,8 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     let table = flat();
     let length = table.len() as u32;
     let ask = |bench: &mut BoardAndHost, length, offset, bytes: &[u8]| {
-        bench.answer(&Request::SetSurface { length, offset, bytes }).expect("it is refused")
+        let piece = postcard::to_allocvec(&TablePiece { length, offset, bytes }).unwrap();
+        bench.answer(&Request::SetSurface(&piece)).expect("it is refused")
     };
     let next = |at: u32| format!("the next piece is the one from byte {at} on");
     assert_eq!(ask(&mut bench, length, 256, &table[256..512]), next(0));
@@ -178,7 +178,7 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     let most = SURFACE_BYTES as u32 + 1;
     let room = format!("the table has {most} bytes, and there is room for {SURFACE_BYTES}");
     assert_eq!(ask(&mut bench, most, 0, &table[..256]), room);
-    bench.ask(&pieces(&table)[0]);
+    bench.ask(&Request::SetSurface(&pieces(&table)[0]));
     assert_eq!(ask(&mut bench, length, 256, &table[256..512]), "the last piece is not stored yet");
     bench.until_stored();
     bench.board.step(Micros(bench.now), Input::SurfaceStored(Ok(None)), &mut ());
@@ -186,7 +186,7 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     assert_eq!(ask(&mut bench, length, 512, &table[512..768]), next(256));
     assert_eq!(ask(&mut bench, length - 1, 256, &table[256..512]), next(256));
     // A piece that the flash did not take ends the table.
-    bench.ask(&pieces(&table)[1]);
+    bench.ask(&Request::SetSurface(&pieces(&table)[1]));
     bench.until_stored();
     bench.board.step(Micros(bench.now), Input::SurfaceStored(Err("the flash is worn")), &mut ());
     assert_eq!(bench.surface_answers(), [Some("the flash is worn".to_string())]);
@@ -212,7 +212,7 @@ fn a_table_that_is_wrong_leaves_the_one_in_force() {
     bench.press(&FINGER, 0);
     (0..400).for_each(|_| bench.scan());
     // None, from now on.
-    bench.ask(&Request::SetSurface { length: 0, offset: 0, bytes: &[] });
+    bench.ask(&Request::SetSurface(&[0, 0, 0]));
     assert_eq!(bench.until_stored(), Job::KeepSurface);
     bench.board.step(Micros(bench.now), Input::SurfaceKept(Ok(())), &mut ());
     assert_eq!((bench.surface_answers(), bench.board.surface().is_none()), (vec![None], true));

@@ -138,7 +138,7 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
         teach(client, &Base::open(base)?)?;
     }
     if let Some(hz) = args.pressing.or(args.body.as_ref().map(|_| u16::MAX)) {
-        client.request(&Request::SetPressing { hz })?;
+        client.request(&Request::SetPressing(hz))?;
     }
     if let Some(hz) = args.budget {
         client.request(&Request::Budget { hz })?;

@@ -261,7 +261,7 @@ fn a_board_takes_a_body_and_tells_what_presses_on_it() {
         }
     };
     setting::set_body(board.client(), "reference", "reference").unwrap();
-    board.client().request(&Request::SetPressing { hz: u16::MAX }).unwrap();
+    board.client().request(&Request::SetPressing(u16::MAX)).unwrap();
     board.client().request(&Request::Tare { frames: 16 }).unwrap();
     steps(&mut board, &codes, 250);
     let turn = [0.0, 0.0, 0.5f64.sqrt(), 0.5f64.sqrt()];
@@ -271,7 +271,7 @@ fn a_board_takes_a_body_and_tells_what_presses_on_it() {
         codes[taxel] += 500;
     }
     steps(&mut board, &codes, 10);
-    let surface = Request::SetSurface { length: 0, offset: 0, bytes: &[] }.number();
+    let surface = Request::SetSurface(&[]).number();
     let pieces = table_bytes(2048).div_ceil(256);
     assert_eq!(answers.iter().filter(|(request, _)| *request == surface).count(), pieces);
     assert!(answers.iter().all(|(_, refusal)| refusal.is_none()), "{answers:?}");

@@ -241,7 +241,7 @@ impl Case {
             Request::SetGarment(&garment),
             Request::SetScene(&scene),
             Request::SetGestures(self.variant.gestures()),
-            Request::SetPressing { hz: if self.variant == Variant::Pressing { u16::MAX } else { 0 } },
+            Request::SetPressing(if self.variant == Variant::Pressing { u16::MAX } else { 0 }),
             Request::Tare { frames: TARE },
         ]
         .iter()
