@@ -68,9 +68,9 @@ pub struct SurfaceState {
     told: Option<Micros>,
 }
 
-/// Sums of a link.
+/// LinkSums of a link.
 #[derive(Clone, Copy)]
-struct Sums {
+struct LinkSums {
     force: [i64; 3],
     moment: [i64; 3],
     pressed: u32,
@@ -79,8 +79,8 @@ struct Sums {
     totals: u32,
 }
 
-impl Sums {
-    const NONE: Sums = Sums { force: [0; 3], moment: [0; 3], pressed: 0, places: [0; 3], totals: 0 };
+impl LinkSums {
+    const NONE: LinkSums = LinkSums { force: [0; 3], moment: [0; 3], pressed: 0, places: [0; 3], totals: 0 };
 }
 
 impl SurfaceState {
@@ -127,7 +127,7 @@ impl SurfaceState {
         }
         let links = links_of(table, layout);
         let mut forces = [[0; 3]; CONTACTS];
-        let mut sums = [Sums::NONE; LINKS];
+        let mut sums = [LinkSums::NONE; LINKS];
         for run in contact.pressed(layout) {
             let Some(link) = links.get(usize::from(run.panel)).copied().flatten() else { continue };
             let Some(sum) = sums.get_mut(usize::from(link)) else { continue };
@@ -174,7 +174,7 @@ impl SurfaceState {
     }
 }
 
-impl Sums {
+impl LinkSums {
     /// Adds the place of a contact to the centre of pressure.
     fn weigh(&mut self, spot: &SurfacePoint, total: u32) {
         self.totals = self.totals.saturating_add(total);

@@ -11,7 +11,7 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::gesture::{Certainty, GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::surface::{LINKS, Pose};
-use taxel_core::wire::Request;
+use taxel_core::wire::{Request, SURFACE_PIECE, TablePiece};
 
 /// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
 /// the board checks its own pins and capacity.
@@ -41,7 +41,21 @@ pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
         }
     };
     verbose::tell(format_args!("sending body {body}, {} bytes", table.len()));
-    body::send(client, &table)
+    send_table(client, &table)
+}
+
+/// Queues the requests that store a table on the board; an empty one takes the board's table out of force. The
+/// board answers each piece, the last one once the table is in force.
+fn send_table(client: &mut Client, table: &[u8]) -> Result<()> {
+    let length = table.len() as u32;
+    // At least one: an empty piece of an empty table.
+    for index in 0..table.len().div_ceil(SURFACE_PIECE).max(1) {
+        let offset = index * SURFACE_PIECE;
+        let bytes = &table[offset..table.len().min(offset + SURFACE_PIECE)];
+        let piece = TablePiece { length, offset: offset as u32, bytes };
+        client.request(&Request::SetSurface(&postcard::to_allocvec(&piece)?))?;
+    }
+    Ok(())
 }
 
 /// Queues poses of the links of the board's body: by name, its origin (m) and its rotation (quaternion x, y, z,
