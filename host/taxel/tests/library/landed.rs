@@ -165,7 +165,7 @@ fn contacts_in_the_base_frame_are_within_a_tenth_of_a_millimetre() {
             let values = image(&mut random, &worn.layout, 4000.0);
             let mut state = SurfaceState::new();
             let links = worn.surface.links().len();
-            let poses: Vec<([i32; 3], ([i32; 4], glam::DQuat))> = (0..links)
+            let poses: Vec<_> = (0..links)
                 .map(|_| ([0; 3].map(|_| random.below(4_000_001) as i32 - 2_000_000), rotation(&mut random)))
                 .collect();
             let told = poses.iter().zip(worn.surface.links());
