@@ -1,4 +1,4 @@
-"""What the board itself says of the links: forces, moments and centres of pressure in its `Pressing` events."""
+"""What the board itself says of forces, moments and centres of pressure by link: its `Pressing` events."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Felt:
         self._time_us = 0
         self._board.set_body(str(body))
         self._board.set_pressing()
-        self._board.set_gains(chain.gains / UNITY)
+        self._board.set_gains((chain.gains / UNITY).tolist())
         self._hold(self._nothing, STORED)
         self._board.tare(frames=64)
         self._hold(self._nothing, 80)
@@ -38,8 +38,8 @@ class Felt:
     def read(self, newtons: Array, link: str, frames: int, settle: int = 4) -> Wrench | None:
         """Mean of what the board says of a link while the fabric bears ``newtons`` (taxels,), N.
 
-        The fabric is at rest before; the first ``settle`` frames, in which the filter may wait, are left out. None
-        if the board feels nothing there.
+        The fabric is at rest before; the first ``settle`` frames, in which the filter may wait, are left out.
+        None if the board feels nothing there.
         """
         self._hold(self._nothing, 12)
         said = [event for event in self._hold(newtons, settle + frames)[settle:] if event is not None]
@@ -47,8 +47,8 @@ class Felt:
         if not on:
             return None
         scale = self._newtons_per_count
-        force, moment, pressed = (np.mean([each[key] for each in on], axis=0) for key in ("force", "moment", "pressed"))
-        center = np.mean([each["center_m"] for each in on], axis=0)
+        keys = ("force", "moment", "pressed", "center_m")
+        force, moment, pressed, center = (np.mean([each[key] for each in on], axis=0) for key in keys)
         return Wrench(force * scale, moment * scale, float(pressed) * scale, center)
 
     def _hold(self, newtons: Array, frames: int) -> list[taxel.Pressing | None]:

@@ -1,4 +1,4 @@
-"""The board's own words on forces by link, against the solver: the scene that ships, noise, whole codes, gains."""
+"""The board's own words on forces by link, against the solver: the shipped scene, noise, codes, gains."""
 
 from __future__ import annotations
 
@@ -39,8 +39,9 @@ def test_the_board_says_what_the_solver_says(worn: Worn, pressed: list[Pressed])
             ]
         )
     columns = dict(zip(BARS, np.array(rows).T, strict=True))
-    title = f"The board's words, body {worn.name}, scene shipped, {len(rows)} presses, mean of {FRAMES} frames"
-    table(f"{title} ({beyond} beyond the converter's range, {missed} not felt)", columns, BARS)
+    left = f"{beyond} beyond the converter's range, {missed} not felt"
+    title = f"The board's words, body {worn.name}, scene shipped, {len(rows)} presses"
+    table(f"{title}, mean of {FRAMES} frames ({left})", columns, BARS)
     assert missed == 0 and len(rows) >= 100
     for name, bar in BARS.items():
         assert np.percentile(columns[name], 90) < bar, name

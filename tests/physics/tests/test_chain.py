@@ -23,8 +23,8 @@ BARS = {FORCE: 0.03, CENTER: 0.2, MOMENT: 0.03}
 
 
 SHIPPED = {FORCE: 0.15, CENTER: 0.2, MOMENT: 0.12}
-"""The shipped scene misses the bars: its filter cuts crests by up to 0.06 N, and its floor the edges. It is held to
-what it does, so that it gets no worse."""
+"""The shipped scene misses the bars: its filter cuts crests by up to 0.06 N, and its floor the edges. It is
+held to what it does, so that it gets no worse."""
 
 
 @pytest.fixture(scope="module", params=["forces", "shipped"])
