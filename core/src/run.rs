@@ -34,13 +34,13 @@ pub trait Platform: Clock + Probe {
     /// Makes the stored settings have no effect from the next start on, or restores them (`undo`). The error
     /// says why this failed.
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str>;
-    /// Stores a piece of a table of the surface beside the one in force. Returns the whole table with its last
-    /// piece; the error says why it was not stored.
+    /// Stores a piece of a table of the surface beside the one in force. Returns the whole table with its
+    /// last piece; the error says why it was not stored.
     fn store_surface(&mut self, _: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
         Err(NO_ROOM)
     }
-    /// Makes the table of this length whose pieces were stored last the one that a start finds, or none if the
-    /// length is 0.
+    /// Makes the table of this length whose pieces were stored last the one that a start finds, or none if
+    /// the length is 0.
     fn keep_surface(&mut self, _: u32) -> Result<(), &'static str> {
         Err(NO_ROOM)
     }

@@ -1,5 +1,5 @@
-//! What a build without features refuses, and how it names it: `cargo test -p taxel-core --no-default-features
-//! --test left_out`.
+//! What a build without features refuses, and how it names it: `cargo test -p taxel-core
+//! --no-default-features --test left_out`.
 #![cfg(not(any(
     feature = "gallery",
     feature = "gesture",

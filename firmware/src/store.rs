@@ -55,8 +55,8 @@ impl FedFlash<'_> {
 
 /// A table of the surface, where it lies.
 pub fn in_place(table: Range<u32>) -> &'static [u8] {
-    // SAFETY: `Tables` gives ranges of the flash, which is mapped from that address on, and writes only to the
-    // half that holds no table in force. The board refers to no other table.
+    // SAFETY: `Tables` gives ranges of the flash, which is mapped from that address on, and writes only to
+    // the half that holds no table in force. The board refers to no other table.
     #[allow(unsafe_code)]
     unsafe {
         core::slice::from_raw_parts((MAPPED + table.start as usize) as *const u8, table.len())

@@ -1,5 +1,6 @@
 //! The surface on the emulated board: its table is sent in pieces and kept in flash, over a restart, and what
-//! presses on the robot is what the same core says on this machine. `cargo xtask test --only emulator-surface`.
+//! presses on the robot is what the same core says on this machine. `cargo xtask test --only
+//! emulator-surface`.
 
 use crate::board::Emulated;
 use crate::twin::{DWELL, RATE_HZ, same, scene};

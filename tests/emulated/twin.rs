@@ -1,5 +1,5 @@
-//! The firmware image on the emulated board, and the same core on this machine: the reports must be the same, byte
-//! for byte.
+//! The firmware image on the emulated board, and the same core on this machine: the reports must be the same,
+//! byte for byte.
 
 use crate::board::Emulated;
 use std::collections::{BTreeMap, BTreeSet};

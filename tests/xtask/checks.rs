@@ -226,8 +226,8 @@ fn compare_sizes(log: &Path) -> End {
     Ok(image.and_then(|image| sizes::check(&image)).map(|beside| print!("{beside}")))
 }
 
-/// Compiles each image that leaves features out, and tests what a core without features refuses: in this order,
-/// because the second waits until the tests are compiled.
+/// Compiles each image that leaves features out, and tests what a core without features refuses: in this
+/// order, because the second waits until the tests are compiled.
 fn build_features(log: &Path) -> End {
     let args = ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out"];
     let images = features::check(log);

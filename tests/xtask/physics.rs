@@ -1,5 +1,5 @@
-//! `cargo xtask campaign --only physics`: MuJoCo judges places and forces (`tests/physics`), in an environment of
-//! its own with the wheel that is given away.
+//! `cargo xtask campaign --only physics`: MuJoCo judges places and forces (`tests/physics`), in an
+//! environment of its own with the wheel that is given away.
 
 use crate::targets::End;
 use crate::{install, paths, process, python};

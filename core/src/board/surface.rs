@@ -1,5 +1,5 @@
-//! The garment's surface: its table comes in pieces and is stored beside the one in force; what presses on the
-//! robot is told at a rate of its own.
+//! The garment's surface: its table comes in pieces and is stored beside the one in force; what presses on
+//! the robot is told at a rate of its own.
 
 use super::pace::Pace;
 use super::refusal::Refusal;

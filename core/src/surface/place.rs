@@ -68,7 +68,8 @@ impl Fine {
     }
 }
 
-/// The taxel at or before a coordinate, and the share of the next one in units of 2^-16; limited to the panel.
+/// The taxel at or before a coordinate, and the share of the next one in units of 2^-16; limited to the
+/// panel.
 fn within(at: Fixed16, count: u16) -> (u16, u32) {
     let last = i32::from(count.saturating_sub(1)) << 16;
     let at = at.0.max(0).min(last);

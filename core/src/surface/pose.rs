@@ -19,8 +19,8 @@ pub struct Pose {
 
 /// Greatest distance of an origin along an axis: 100 m.
 const FAR_UM: u32 = 100_000_000;
-/// Most by which a quaternion's square may differ from 1, units of 2^-30: a turned vector is longer or shorter
-/// by less than two millionths.
+/// Most by which a quaternion's square may differ from 1, units of 2^-30: a turned vector is longer or
+/// shorter by less than two millionths.
 const OFF: u64 = 1024;
 /// Bits after the point of a quaternion.
 const BITS: u32 = 30;

@@ -110,8 +110,8 @@ impl SurfaceState {
         self.told
     }
 
-    /// Places the contacts of the last frame, and sums up what presses on each link: the pressure of their taxels
-    /// before and after the filter, see `press.rs`.
+    /// Places the contacts of the last frame, and sums up what presses on each link: the pressure of their
+    /// taxels before and after the filter, see `press.rs`.
     #[inline(never)] // M0+: out of line
     pub fn process<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
         &self,

@@ -113,8 +113,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Writes a table of these links and taxels, [`table_bytes`] long, for hosts that make one. Error if there is no
-/// link or too many, a name is empty or longer than 16 bytes, or the lengths do not fit.
+/// Writes a table of these links and taxels, [`table_bytes`] long, for hosts that make one. Error if there is
+/// no link or too many, a name is empty or longer than 16 bytes, or the lengths do not fit.
 pub fn write_table(
     links: &[&str],
     taxels: &[TaxelRecord],

@@ -7,8 +7,8 @@ use bytemuck::{Pod, Zeroable};
 /// Number of a link that stands for none: the taxel has no place.
 pub(super) const NOWHERE: u16 = u16::MAX;
 
-/// A taxel on the robot, as it lies in flash: 20 bytes, little-endian. Lengths are in units of 2^-14 m (61 um),
-/// so that every coordinate is below 2 m; rounding moves a taxel by at most 53 um.
+/// A taxel on the robot, as it lies in flash: 20 bytes, little-endian. Lengths are in units of 2^-14 m (61
+/// um), so that every coordinate is below 2 m; rounding moves a taxel by at most 53 um.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct TaxelRecord {

@@ -395,8 +395,8 @@ pub struct FormsReport {
     pub ages: Vec<(u32, u8), LISTED>,
 }
 
-/// What presses on the robot, if [`Request::SetPressing`] asked for it: at its rate while something touches, and
-/// once when nothing does any more. See [`surface`](crate::surface).
+/// What presses on the robot, if [`Request::SetPressing`] asked for it: at its rate while something touches,
+/// and once when nothing does any more. See [`surface`](crate::surface).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PressingReport {
     /// Number of the scan.
@@ -567,12 +567,13 @@ pub enum Request<'a> {
         /// Rate per second; 0: that of the scene; 65535: with every scan.
         hz: u16,
     },
-    /// postcard of a [`TablePiece`], which is stored in flash. Pieces come in order, each after the answer to the
-    /// one before. With the last one the table is checked and, from then on and after each start, in force; until
-    /// then the one before it is.
+    /// postcard of a [`TablePiece`], which is stored in flash. Pieces come in order, each after the answer to
+    /// the one before. With the last one the table is checked and, from then on and after each start, in
+    /// force; until then the one before it is.
     SetSurface(&'a [u8]),
-    /// postcard of at most [`LINKS`] links of the surface, each its name and its [`Pose`](crate::surface::Pose):
-    /// for places and forces in the robot's frame. A pose lasts until the next one for its link.
+    /// postcard of at most [`LINKS`] links of the surface, each its name and its
+    /// [`Pose`](crate::surface::Pose): for places and forces in the robot's frame. A pose lasts until the
+    /// next one for its link.
     SetPoses(&'a [u8]),
     /// Set the rate of [`PressingReport`]s per second; 0, as at the start: never; 65535: with every scan.
     SetPressing(u16),

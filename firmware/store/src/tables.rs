@@ -1,9 +1,10 @@
 //! The table of the garment's surface, in a region of two halves: one holds the table in force, in place; the
 //! next table is written to the other, piece by piece.
 //!
-//! At the end of a half lies its seal: number, length of the table and CRC-32/ISO-HDLC of both, little-endian. The
-//! half with the later seal is in force. The seal is written last, and the old one is erased first, so that the
-//! table in force stays so until the next one is complete, whatever happens during the write.
+//! At the end of a half lies its seal: number, length of the table and CRC-32/ISO-HDLC of both,
+//! little-endian. The half with the later seal is in force. The seal is written last, and the old one is
+//! erased first, so that the table in force stays so until the next one is complete, whatever happens during
+//! the write.
 
 use crate::store::StoreError;
 use core::ops::Range;
@@ -35,7 +36,8 @@ pub struct Tables<F: NorFlash> {
 }
 
 impl<F: NorFlash> Tables<F> {
-    /// The region of [`TABLES_BYTES`] from offset `start` of the flash on. Error if it is not of whole sectors.
+    /// The region of [`TABLES_BYTES`] from offset `start` of the flash on. Error if it is not of whole
+    /// sectors.
     pub fn new(flash: F, start: u32) -> Result<Self, StoreError> {
         let is_whole = F::ERASE_SIZE as u32 == SECTOR && start.is_multiple_of(SECTOR);
         let ends = (start as usize).checked_add(TABLES_BYTES as usize);

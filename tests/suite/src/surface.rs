@@ -1,5 +1,5 @@
-//! A table of the surface for the reference garment: each panel lies flat on the torso. What is measured does not
-//! depend on the shape.
+//! A table of the surface for the reference garment: each panel lies flat on the torso. What is measured does
+//! not depend on the shape.
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 use taxel_core::capacity::TAXELS;

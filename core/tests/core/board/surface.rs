@@ -1,5 +1,5 @@
-//! The surface on the board: a table comes in pieces, is put in force or refused as a whole, and what presses on
-//! the robot is told.
+//! The surface on the board: a table comes in pieces, is put in force or refused as a whole, and what presses
+//! on the robot is told.
 
 use super::{BoardAndHost, FINGER};
 use taxel_core::board::{Input, Job, SURFACE_BYTES};
@@ -12,7 +12,8 @@ use taxel_core::wire::{PressingReport, Report, Request, SURFACE_PIECE, TablePiec
 /// Units of a table in a pitch: 10.01 mm.
 const PITCH: i16 = 164;
 
-/// A block of 4 x 16 taxels, [`PITCH`] apart, in the plane z = 0 of the link `hand`; the first one at its origin.
+/// A block of 4 x 16 taxels, [`PITCH`] apart, in the plane z = 0 of the link `hand`; the first one at its
+/// origin.
 fn flat() -> Vec<u8> {
     let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
     let place = |taxel: usize| {

@@ -30,8 +30,8 @@ pub struct Patch {
     pub slides: Vec<Slide>,
 }
 
-/// A way of a panel over the skin with a joint: with the joint at 0, the panel lies as its patch says. Metres for
-/// each radian of the joint, or each metre of one that slides.
+/// A way of a panel over the skin with a joint: with the joint at 0, the panel lies as its patch says. Metres
+/// for each radian of the joint, or each metre of one that slides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Slide {

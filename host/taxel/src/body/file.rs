@@ -41,7 +41,8 @@ impl ReadBody {
         surface.map_err(|error| self.error(error))
     }
 
-    /// [`ReadBody::surface`] on a robot: refuses links and joints that it does not have, by file, line and key.
+    /// [`ReadBody::surface`] on a robot: refuses links and joints that it does not have, by file, line and
+    /// key.
     pub fn on_robot(&self, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
         let worn = RobotSurface::build_with(&self.body, garment, layout, robot, &self.listed);
         worn.map_err(|error| self.error(error))
@@ -54,8 +55,8 @@ impl ReadBody {
     }
 }
 
-/// Reads the body of a preset (`reference`), or a body's TOML file and the lists of taxels that it names, which
-/// lie beside it.
+/// Reads the body of a preset (`reference`), or a body's TOML file and the lists of taxels that it names,
+/// which lie beside it.
 pub fn read(name_or_path: &str) -> Result<ReadBody> {
     let load = |path: &Path| -> Result<String> {
         verbose::reads(path);

@@ -1,6 +1,7 @@
 //! Surfaces that a panel lies on: where each point of the panel comes to lie.
 //!
-//! A panel bends and does not stretch: on a plane, a cylinder and a cone every distance along the panel is kept.
+//! A panel bends and does not stretch: on a plane, a cylinder and a cone every distance along the panel is
+//! kept.
 
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -121,8 +122,8 @@ impl Cylinder {
 }
 
 impl Cone {
-    /// A point of the panel from its middle, in metres: its distance from the apex, negative if the cone widens,
-    /// and its angle about the axis. None at the apex and beyond it.
+    /// A point of the panel from its middle, in metres: its distance from the apex, negative if the cone
+    /// widens, and its angle about the axis. None at the apex and beyond it.
     ///
     /// Unrolled, the cone is a sector about its apex, and an angle about the apex is one about the axis times
     /// the sine of the cone's own.
@@ -249,8 +250,8 @@ impl<'a> Laid<'a> {
         }))
     }
 
-    /// Where a point of the panel lies; none where the panel does not fit on the surface. A panel that goes once
-    /// around still does when it is shifted.
+    /// Where a point of the panel lies; none where the panel does not fit on the surface. A panel that goes
+    /// once around still does when it is shifted.
     pub fn spot(&self, at: &PanelSpot) -> Option<Spot> {
         let PanelSpot { from_middle, shift, share } = *at;
         let shifted = from_middle + shift;

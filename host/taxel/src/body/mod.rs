@@ -1,8 +1,8 @@
 //! The garment on the robot: where each taxel lies and which way it faces, on the links of the robot's
 //! description (URDF).
 //!
-//! All lengths are in metres, all vectors in the frame of a link. A panel is drawn as it is seen from outside:
-//! columns (x) run to the right, rows (y) down, and the normals point to whoever looks.
+//! All lengths are in metres, all vectors in the frame of a link. A panel is drawn as it is seen from
+//! outside: columns (x) run to the right, rows (y) down, and the normals point to whoever looks.
 //!
 //! ```
 //! use taxel::body::{Body, Surface, wrenches};

@@ -60,8 +60,8 @@ impl SurfaceParts {
 }
 
 impl RobotSurface {
-    /// Places the taxels of a garment on a robot. Errors name the patch by index and key: a link or a joint that
-    /// the robot does not have, or a panel that slides off its surface.
+    /// Places the taxels of a garment on a robot. Errors name the patch by index and key: a link or a joint
+    /// that the robot does not have, or a panel that slides off its surface.
     pub fn build(body: &Body, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
         RobotSurface::build_with(body, garment, layout, robot, &[]).map_err(Error::from)
     }

@@ -18,7 +18,8 @@ impl Pose {
         Pose { at: DVec3::from(at), turn: DQuat::from_array(turn).normalize() }
     }
 
-    /// The pose as a board takes it. Error if a number is not finite, or the origin is beyond 100 m along an axis.
+    /// The pose as a board takes it. Error if a number is not finite, or the origin is beyond 100 m along an
+    /// axis.
     pub fn for_board(&self) -> Result<surface::Pose, &'static str> {
         if !self.at.to_array().iter().all(|m| m.abs() <= 100.0) {
             return Err("its origin must be within 100 m");

@@ -43,8 +43,8 @@ pub struct Fit {
     pub link: usize,
     /// Taxels with a place.
     pub taxels: usize,
-    /// Least and greatest distance of neighbours as a share of the panel's pitch: 1 where nothing stretches, a
-    /// little less around a bend, because distances are straight. None without neighbours or a pitch.
+    /// Least and greatest distance of neighbours as a share of the panel's pitch: 1 where nothing stretches,
+    /// a little less around a bend, because distances are straight. None without neighbours or a pitch.
     pub pitch: Option<RangeInclusive<f64>>,
 }
 
@@ -54,7 +54,8 @@ impl Surface {
         Surface::build_with(body, garment, layout, &[], &[])
     }
 
-    /// [`Surface::build`] with the taxels of files, by patch, and with the way of each patch over the skin, m.
+    /// [`Surface::build`] with the taxels of files, by patch, and with the way of each patch over the skin,
+    /// m.
     pub(super) fn build_with(
         body: &Body,
         garment: &Garment,
@@ -168,8 +169,8 @@ impl Surface {
         &self.places
     }
 
-    /// Place of a point between taxels, as a contact's centroid: `(x, y)` in taxels of a panel. Linear between
-    /// the four taxels around it. None where one of these has no place.
+    /// Place of a point between taxels, as a contact's centroid: `(x, y)` in taxels of a panel. Linear
+    /// between the four taxels around it. None where one of these has no place.
     pub fn at(&self, layout: &Layout, panel: u8, x: f64, y: f64) -> Option<TaxelPlace> {
         let area = layout.areas().get(usize::from(panel))?;
         let within = |at: f64, count: u16| {
@@ -227,8 +228,8 @@ impl Surface {
         layout.areas().iter().enumerate().filter_map(fit).collect()
     }
 
-    /// The first two panels that lie on each other: a taxel of the one is nearer to one of the other than half
-    /// of the smaller pitch, and both face the same way.
+    /// The first two panels that lie on each other: a taxel of the one is nearer to one of the other than
+    /// half of the smaller pitch, and both face the same way.
     pub fn overlap<'a>(&self, layout: &'a Layout) -> Option<(&'a str, &'a str)> {
         let of = |area: &Area| {
             let first = usize::from(area.base);

@@ -5,8 +5,8 @@ use crate::error::SettingError;
 use taxel_core::garment::Layout;
 use taxel_core::surface::{ONE, TaxelRecord, table_bytes, write_table};
 
-/// The table of a surface. Error if it has no taxel, more links than a board's table, or a link's name of more
-/// than 16 bytes; or if a taxel lies 2 m or more from its link's origin, along an axis.
+/// The table of a surface. Error if it has no taxel, more links than a board's table, or a link's name of
+/// more than 16 bytes; or if a taxel lies 2 m or more from its link's origin, along an axis.
 pub fn table(surface: &Surface, layout: &Layout) -> Result<Vec<u8>, SettingError> {
     let mut records = Vec::with_capacity(layout.taxels());
     for (taxel, place) in surface.places().iter().enumerate() {

@@ -9,8 +9,8 @@ use glam::DVec3;
 pub struct Wrench {
     /// Index into [`Surface::links`].
     pub link: usize,
-    /// Sum of the taxels' forces, N: each presses against its normal. In the surface's frame: that of the link,
-    /// unless it is seen from another.
+    /// Sum of the taxels' forces, N: each presses against its normal. In the surface's frame: that of the
+    /// link, unless it is seen from another.
     pub force: DVec3,
     /// Their moment about the origin of that frame, N m.
     pub moment: DVec3,

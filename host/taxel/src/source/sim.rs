@@ -228,7 +228,8 @@ impl Playing {
     }
 }
 
-/// A table of the surface that a board refers to from now on. It stays until the program ends, as flash would.
+/// A table of the surface that a board refers to from now on. It stays until the program ends, as flash
+/// would.
 pub fn lasting(table: &[u8]) -> &'static [u8] {
     Box::leak(table.into())
 }

@@ -14,8 +14,9 @@ const KEPT: usize = 512;
 /// Positions of a robot's joints with the board's times, and the posture at the time of a frame.
 ///
 /// Readings may come late, in any order and joint by joint. Memory is bounded: of each joint the newest 512
-/// are kept. A joint that turns on and on shows no whole turns: between readings so far apart that it may have
-/// turned by half a turn, it is taken to be where the nearer one says, and the bound of the error is as wide.
+/// are kept. A joint that turns on and on shows no whole turns: between readings so far apart that it may
+/// have turned by half a turn, it is taken to be where the nearer one says, and the bound of the error is as
+/// wide.
 #[derive(Debug, Clone)]
 pub struct JointHistory {
     robot: Arc<Robot>,
@@ -72,9 +73,9 @@ impl JointHistory {
         self.is_needed = (0..self.tracks.len()).map(|number| free.contains(&number)).collect();
     }
 
-    /// Takes positions of joints, rad or m, at the board's time. Joints that are fixed or mimic others are passed
-    /// over. Nothing is taken if the robot has no such joint, or a position is not a number or farther beyond a
-    /// limit than a fiftieth of the joint's range.
+    /// Takes positions of joints, rad or m, at the board's time. Joints that are fixed or mimic others are
+    /// passed over. Nothing is taken if the robot has no such joint, or a position is not a number or farther
+    /// beyond a limit than a fiftieth of the joint's range.
     pub fn take<'a>(
         &mut self,
         at: Micros,
@@ -98,8 +99,8 @@ impl JointHistory {
         self.tracks.iter_mut().for_each(JointTrack::clear);
     }
 
-    /// The posture at a time, from readings on both sides of it. `now` is the board's time, for how long has been
-    /// waited.
+    /// The posture at a time, from readings on both sides of it. `now` is the board's time, for how long has
+    /// been waited.
     pub fn aligned(&self, at: Micros, now: Micros) -> Result<Estimate, Gap> {
         self.estimate(|joint, track| match track.at(at.0) {
             At::Between(known) => Ok((known, Duration::ZERO)),
@@ -110,8 +111,8 @@ impl JointHistory {
         })
     }
 
-    /// The posture at a time by what is known now: joints go on with their last velocity, within their limits.
-    /// After 0.2 s they stand still, and the bound of the error grows on.
+    /// The posture at a time by what is known now: joints go on with their last velocity, within their
+    /// limits. After 0.2 s they stand still, and the bound of the error grows on.
     pub fn live(&self, at: Micros) -> Result<Estimate, Gap> {
         self.estimate(|joint, track| match track.at(at.0) {
             At::Between(known) => Ok((known, Duration::ZERO)),

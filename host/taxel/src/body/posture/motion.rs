@@ -9,7 +9,8 @@ pub struct Motion {
     pub angular: f64,
     /// Greatest acceleration of joints that slide, m/s^2.
     pub linear: f64,
-    /// Greatest velocity of joints that turn on and on, rad/s, where the URDF states none: they show no whole turns.
+    /// Greatest velocity of joints that turn on and on, rad/s, where the URDF states none: they show no whole
+    /// turns.
     pub angular_velocity: f64,
     /// Greatest error of an angle that is read, rad: that of the encoder, and of its time stamp times the
     /// velocity.

@@ -87,8 +87,8 @@ impl JointTrack {
         self.readings.clear();
     }
 
-    /// Way from a reading to the next. Of a joint that turns on and on it is the shorter one; none if it may have
-    /// turned by half a turn.
+    /// Way from a reading to the next. Of a joint that turns on and on it is the shorter one; none if it may
+    /// have turned by half a turn.
     fn step(&self, from: JointReading, to: JointReading) -> Option<f64> {
         let step = to.position - from.position;
         if !self.is_continuous {
@@ -103,8 +103,8 @@ impl JointTrack {
         self.velocity.unwrap_or(f64::INFINITY) * seconds + self.error
     }
 
-    /// A position near a reading where it is not known which way the joint has turned since: it is off by half a
-    /// turn at most.
+    /// A position near a reading where it is not known which way the joint has turned since: it is off by
+    /// half a turn at most.
     fn near(&self, reading: JointReading, passed: f64) -> Bounded {
         Bounded { position: reading.position, error: self.turned(passed).min(PI) }
     }
