@@ -8,7 +8,7 @@ from conftest import Pressed, Worn, table
 
 from taxel_physics.fabric import FORCES, Chain, Fabric
 from taxel_physics.places import Array
-from taxel_physics.wrench import off_line, reach, wrench
+from taxel_physics.wrench import Wrench, off_line, reach, wrench
 
 PITCH_M = 0.01
 """The reference garment's smaller pitch."""
@@ -36,8 +36,12 @@ def chain(request: pytest.FixtureRequest) -> tuple[str, Chain]:
 
 def errors(worn: Worn, each: Pressed, felt_newtons: Array) -> list[float]:
     """Errors of one reading (taxels,), N, against the solver: force, centre, moment."""
+    return differences(worn, each, wrench(worn.places, felt_newtons, each.touch.link))
+
+
+def differences(worn: Worn, each: Pressed, felt: Wrench) -> list[float]:
+    """Differences of a wrench from the solver's: force, centre, moment."""
     touch = each.touch
-    felt = wrench(worn.places, felt_newtons, touch.link)
     true = touch.moment + np.cross(touch.point, touch.force)
     return [
         float(np.linalg.norm(felt.force - touch.force)) / touch.newtons,
