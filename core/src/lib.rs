@@ -4,12 +4,12 @@
 //!
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
 //! [`reflex`] (check of raw codes within a frame), [`selftest`] (select lines, converter inputs), [`health`]
-//! (faulty taxels), [`condition`] (baseline, calibration, filter), [`fold`] (posture), [`contact`] (segments,
-//! moments, tracks), [`surface`] (place and force on the robot), [`gesture`] (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot),
-//! [`unsure`] (contacts that may be drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`]
-//! (reactions), [`scene`] (settings of all stages), [`pipeline`] (composition of the stages), [`boot`]
-//! (causes of restarts), [`wire`] (messages, frames), [`board`] (the device as a function of its inputs) and
-//! [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats,
+//! (faulty taxels), [`fold`] (posture, what the garment's folds press), [`condition`] (baseline, calibration,
+//! filter), [`contact`] (segments, moments, tracks), [`surface`] (place and force on the robot), [`gesture`]
+//! (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`unsure`] (contacts that may be
+//! drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reactions), [`scene`] (settings of
+//! all stages), [`pipeline`] (composition of the stages), [`boot`] (causes of restarts), [`wire`] (messages,
+//! frames), [`board`] (the device as a function of its inputs) and [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats,
 //! [`capacity`] the sizes of the board that ships.
 //!
 //! Two stages compose folders, private to the crate: `image`, `calibrate`, `baseline` and
@@ -36,6 +36,8 @@ pub mod selftest;
 
 pub mod health;
 
+pub mod fold;
+
 mod image;
 
 mod calibrate;
@@ -45,8 +47,6 @@ mod baseline;
 mod filter;
 
 pub mod condition;
-
-pub mod fold;
 
 mod segment;
 

@@ -5,7 +5,7 @@ use crate::body::Placed;
 use crate::capacity::{PARTS, RUNS, TAXELS};
 use crate::condition::ConditionState;
 use crate::contact::{ContactState, HardnessCue};
-use crate::fold::FoldState;
+use crate::fold::{FoldState, PostureState};
 use crate::gesture::TouchState;
 use crate::health::Monitor;
 use crate::intent::{Evidence, Fed, IntentState};
@@ -34,10 +34,11 @@ macro_rules! states {
 }
 
 states! {
-    ConditionState<TAXELS>, "condition/mod.rs", 21592, 21592;
+    ConditionState<TAXELS>, "condition/mod.rs", 31768, 31800;
     ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 65312, 65368;
     HardnessCue, "measure/hardness.rs", 20, 20;
-    FoldState, "fold.rs", 96, 96;
+    PostureState, "fold/mod.rs", 96, 96;
+    FoldState, "fold/mod.rs", 10176, 10208;
     TouchState, "gesture/mod.rs", 3712, 3720;
     Monitor, "health/mod.rs", 2812, 2816;
     Evidence, "intent/evidence.rs", 224, 224;

@@ -3,7 +3,7 @@
 mod reader;
 
 use crate::acquire::{Acquire, Clock};
-use crate::board::{Board, Input, Job, Saved, Settings, SurfacePiece};
+use crate::board::{Board, Input, Job, PieceToStore, Saved, Settings, TableKind};
 use crate::format::Micros;
 use crate::pipeline::{Probe, Stage};
 use crate::selftest::Examine;
@@ -12,8 +12,10 @@ use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 use reader::Reader;
 
-/// Error of a platform without a place for tables of the surface.
-const NO_ROOM: &str = "this board has no room for a table of the surface";
+/// True if this build has a use for tables.
+const TABLES: bool = TableKind::Surface.is_used() || TableKind::Folds.is_used();
+/// Error of a platform without a place for tables.
+const NO_ROOM: &str = "this board has no room for such a table";
 
 /// A byte link that never waits. Interrupts or threads move the bytes between the rings behind it and the
 /// wire.
@@ -34,14 +36,14 @@ pub trait Platform: Clock + Probe {
     /// Makes the stored settings have no effect from the next start on, or restores them (`undo`). The error
     /// says why this failed.
     fn reset_settings(&mut self, undo: bool) -> Result<Saved, &'static str>;
-    /// Stores a piece of a table of the surface beside the one in force. Returns the whole table with its
+    /// Stores a piece of a table beside the one of its kind in force. Returns the whole table with its
     /// last piece; the error says why it was not stored.
-    fn store_surface(&mut self, _: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
+    fn store_table(&mut self, _: &PieceToStore<'_>) -> Result<Option<&'static [u8]>, &'static str> {
         Err(NO_ROOM)
     }
-    /// Makes the table of this length whose pieces were stored last the one that a start finds, or none if
-    /// the length is 0.
-    fn keep_surface(&mut self, _: u32) -> Result<(), &'static str> {
+    /// Makes the table of this length whose pieces were stored last the one of its kind that a start finds, or
+    /// none if the length is 0.
+    fn keep_table(&mut self, _: TableKind, _: u32) -> Result<(), &'static str> {
         Err(NO_ROOM)
     }
     /// Restarts the board. A host may end its loop instead.
@@ -100,24 +102,24 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
                 let now = platform.now();
                 board.step(now, Input::SettingsReset(result), platform);
             }
-            Some(Job::StoreSurface) if cfg!(feature = "surface") => {
+            Some(Job::StoreTable) if TABLES => {
                 acquire.rest();
-                let result = platform.store_surface(&board.surface_piece());
+                let result = platform.store_table(&board.piece_to_store());
                 let now = platform.now();
-                board.step(now, Input::SurfaceStored(result), platform);
+                board.step(now, Input::TableStored(result), platform);
             }
-            Some(Job::KeepSurface) if cfg!(feature = "surface") => {
+            Some(Job::KeepTable(kind)) if TABLES => {
                 acquire.rest();
-                let result = platform.keep_surface(board.surface_piece().length);
+                let result = platform.keep_table(kind, board.piece_to_store().length);
                 let now = platform.now();
-                board.step(now, Input::SurfaceKept(result), platform);
+                board.step(now, Input::TableKept(kind, result), platform);
             }
             Some(Job::Restart) => platform.restart(),
             Some(Job::Examine) => {
                 acquire.rest();
                 examine(acquire, platform, board);
             }
-            Some(Job::Drive(..) | Job::StoreSurface | Job::KeepSurface) | None => {
+            Some(Job::Drive(..) | Job::StoreTable | Job::KeepTable(_)) | None => {
                 platform.idle(board.wake()).await;
             }
         }

@@ -1,6 +1,7 @@
 //! What a build without features refuses, and how it names it: `cargo test -p taxel-core
 //! --no-default-features --test left_out`.
 #![cfg(not(any(
+    feature = "folds",
     feature = "gallery",
     feature = "gesture",
     feature = "intent",
@@ -104,4 +105,5 @@ fn a_request_is_refused_by_the_name_of_what_it_asks_for() {
     assert_eq!(refused(Request::SetSurface(&[0; 164])), left_out("surface"));
     assert_eq!(refused(Request::SetPoses(&[0])), left_out("surface"));
     assert_eq!(refused(Request::SetPressing(10)), left_out("surface"));
+    assert_eq!(refused(Request::SetFolds(&[0; 300])), left_out("folds"));
 }

@@ -11,7 +11,7 @@ use embedded_hal::delay::DelayNs;
 use rp_pac::watchdog::regs::Load;
 use taxel_core::{
     acquire::{Clock, WATCHDOG_MS},
-    board::{Saved, Settings, Shipped, SurfacePiece},
+    board::{PieceToStore, Saved, Settings, Shipped, TableKind},
     boot::{Aside, Boots},
     format::Micros,
     pipeline::{Probe, Stage},
@@ -136,10 +136,12 @@ impl BoardPlatform {
                 }
             }
         }
-        if uses_stored && cfg!(feature = "surface") {
-            let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
-            let table = flash.tables().and_then(|mut tables| tables.in_force()).ok().flatten();
-            board.recall_surface(table.map(in_place));
+        for kind in [TableKind::Surface, TableKind::Folds] {
+            if uses_stored && kind.is_used() {
+                let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
+                let table = flash.tables(kind).and_then(|mut tables| tables.in_force()).ok().flatten();
+                board.recall_table(kind, table.map(in_place));
+            }
         }
         board.booted(self.boots.boot());
     }
@@ -194,21 +196,21 @@ impl Platform for BoardPlatform {
     }
 
     #[inline(never)]
-    fn store_surface(&mut self, piece: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
+    fn store_table(&mut self, piece: &PieceToStore<'_>) -> Result<Option<&'static [u8]>, &'static str> {
         if piece.offset == 0 {
             self.boots.charge(piece.saves);
         }
         let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
         let table =
-            flash.tables().and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
+            flash.tables(piece.kind).and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
         let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
         Ok(is_whole.then(|| in_place(table)))
     }
 
     #[inline(never)]
-    fn keep_surface(&mut self, length: u32) -> Result<(), &'static str> {
+    fn keep_table(&mut self, kind: TableKind, length: u32) -> Result<(), &'static str> {
         let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
-        flash.tables().and_then(|mut tables| tables.keep(length)).map_err(StoreError::sentence)
+        flash.tables(kind).and_then(|mut tables| tables.keep(length)).map_err(StoreError::sentence)
     }
 
     fn restart(&mut self) {

@@ -1,13 +1,13 @@
-//! The sectors of the flash with the settings, with the levels of outputs, and with tables of the surface.
+//! The sectors of the flash with the settings, with the levels of outputs, and with tables.
 
 use crate::watchdog::WATCHDOG;
 use core::ops::Range;
 use embassy_rp::flash::{self, Blocking, ERASE_SIZE, Error, READ_SIZE, WRITE_SIZE};
 use embassy_rp::{peripherals::FLASH, watchdog::Watchdog};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, ReadNorFlash};
-use taxel_core::board::Saved;
+use taxel_core::board::{Saved, TableKind};
 use taxel_core::react::Levels;
-use taxel_store::{Store, StoreError, TABLES_BYTES, Tables, keep_levels};
+use taxel_store::{Store, StoreError, Tables, keep_levels, tables_bytes};
 
 /// Size of the smallest flash of any board with an RP2040.
 const BYTES: usize = 2 * 1024 * 1024;
@@ -19,8 +19,14 @@ const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
 /// The two sectors before them, with the levels of outputs at start-up.
 pub const LEVELS: [u32; 2] = [SECTORS.start - 2 * ERASE_SIZE as u32, SECTORS.start - ERASE_SIZE as u32];
 
-/// The tables of the surface lie before these.
-const TABLES: u32 = LEVELS[0] - TABLES_BYTES;
+/// Where tables of a kind lie: those of the surface before the levels, those of folds before them.
+const fn tables_start(kind: TableKind) -> u32 {
+    let surface = LEVELS[0] - tables_bytes(TableKind::Surface);
+    match kind {
+        TableKind::Surface => surface,
+        TableKind::Folds => surface - tables_bytes(TableKind::Folds),
+    }
+}
 
 /// Address of the flash's first byte.
 const MAPPED: usize = 0x1000_0000;
@@ -42,9 +48,9 @@ impl FedFlash<'_> {
         Store::new(self, SECTORS)
     }
 
-    /// Opens the tables of the surface.
-    pub fn tables(self) -> Result<Tables<Self>, StoreError> {
-        Tables::new(self, TABLES)
+    /// Opens the tables of a kind.
+    pub fn tables(self, kind: TableKind) -> Result<Tables<Self>, StoreError> {
+        Tables::new(self, tables_start(kind), kind)
     }
 
     /// Stores the levels of outputs for the next start.
@@ -53,7 +59,7 @@ impl FedFlash<'_> {
     }
 }
 
-/// A table of the surface, where it lies.
+/// A table, where it lies.
 pub fn in_place(table: Range<u32>) -> &'static [u8] {
     // SAFETY: `Tables` gives ranges of the flash, which is mapped from that address on, and writes only to
     // the half that holds no table in force. The board refers to no other table.

@@ -11,7 +11,7 @@ use taxel::sim::{frame_codes, scale_rate};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::wire::{Request, SURFACE_PIECE, TablePiece};
+use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
 
 /// More than the codes of a garment at rest, with their noise.
 const REST: u16 = 130;
@@ -56,8 +56,8 @@ fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart()
 
     let mut board = Emulated::start(&garment, &codes, 0, &options);
     board.receive();
-    for (index, bytes) in table.chunks(SURFACE_PIECE).enumerate() {
-        let piece = TablePiece { length: table.len() as u32, offset: (index * SURFACE_PIECE) as u32, bytes };
+    for (index, bytes) in table.chunks(TABLE_PIECE).enumerate() {
+        let piece = TablePiece { length: table.len() as u32, offset: (index * TABLE_PIECE) as u32, bytes };
         board.obey(&Request::SetSurface(&postcard::to_allocvec(&piece).unwrap()));
     }
     board.end();

@@ -4,7 +4,7 @@
 use crate::board::Emulated;
 use std::collections::{BTreeMap, BTreeSet};
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{BoardInfo, Input, Shipped};
+use taxel_core::board::{BoardInfo, Input, Shipped, TableKind};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
@@ -90,7 +90,7 @@ impl Twin {
         let info =
             BoardInfo { firmware: "", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: 92_160 };
         let mut board = Shipped::new(info, Garment::reference(), Scene::shipped()).unwrap();
-        board.recall_surface(table);
+        board.recall_table(TableKind::Surface, table);
         Twin { board: Box::new(board), receiver: Receiver::new(), reports: Reports::new() }
     }
 

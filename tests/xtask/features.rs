@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// All features of the firmware but `bench`.
-const ALL: [&str; 7] = ["gallery", "gesture", "intent", "raw", "reflex", "slip", "surface"];
+const ALL: [&str; 8] = ["folds", "gallery", "gesture", "intent", "raw", "reflex", "slip", "surface"];
 /// Name of the image with all of them, and of that without any.
 const EVERYTHING: &str = "everything";
 const ALONE: &str = "contacts alone";
-/// Limits of flash and RAM of both, KiB.
-const MOST: [(&str, [u64; 2]); 2] = [(EVERYTHING, [360, 190]), (ALONE, [260, 150])];
+/// Limits of flash and RAM of some, KiB.
+const MOST: [(&str, [u64; 2]); 3] =
+    [(EVERYTHING, [372, 202]), ("without folds", [360, 190]), (ALONE, [260, 150])];
 /// Heading of the table.
 const IMAGE: &str = "image";
 

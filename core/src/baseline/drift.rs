@@ -7,7 +7,8 @@
 //! pressure. A held contact is therefore never absorbed by the baseline, nor is a slow one once it shows.
 //! While a panel drifts fast, a taxel with less than a sixteenth of a contact's peak does not belong to the
 //! contact: otherwise the surroundings of a contact would not follow, drift away from the panel, join the
-//! contact, and stop their own surroundings. Only a tared baseline drifts; recordings are used unchanged.
+//! contact, and stop their own surroundings. A taxel on which the garment's fold presses moves by the common
+//! drift alone. Only a tared baseline drifts; recordings are used unchanged.
 
 use super::consensus::Consensus;
 use super::feedback::Feedback;
@@ -16,6 +17,7 @@ use super::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::sampled::Sampled;
 use crate::calibrate::terms::LimitTerms;
+use crate::fold::FoldState;
 use crate::garment::{Area, Layout};
 use crate::image::images::Images;
 use crate::image::slices::{panel_of, row_mut, row_of};
@@ -26,6 +28,7 @@ struct Drift<'a, const TAXELS: usize, const CONTACTS: usize> {
     images: &'a Images<TAXELS>,
     sampled: &'a Sampled<'a>,
     feedback: &'a Feedback<CONTACTS>,
+    folds: &'a FoldState,
     terms: LimitTerms,
 }
 
@@ -38,12 +41,12 @@ impl Tracking {
         layout: &Layout,
         sampled: &Sampled<'_>,
         feedback: &Feedback<CONTACTS>,
-        terms: LimitTerms,
+        (folds, terms): (&FoldState, LimitTerms),
     ) {
         if !self.progress.tared {
             return;
         }
-        let mut drift = Drift { calibration, images, sampled, feedback, terms };
+        let mut drift = Drift { calibration, images, sampled, feedback, folds, terms };
         let rows = layout.areas().last().map_or(0, |area| area.first_row.saturating_add(area.rows));
         let slots = rows.saturating_add(2 * layout.areas().len() as u16);
         while let Some(slot) = self.turn.next(sampled.now, slots, self.consensus.is_fast()) {
@@ -67,7 +70,7 @@ impl Tracking {
 impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
     /// Takes the votes of a panel's witnesses; `whole`: its turn begins.
     fn ask(&self, consensus: &mut Consensus, panel: u8, area: &Area, whole: bool) {
-        let Drift { calibration, images, sampled, feedback, .. } = self;
+        let Drift { calibration, images, sampled, feedback, folds, .. } = self;
         let columns = usize::from(area.columns);
         let fast = consensus.was_fast(panel);
         let images = (panel_of(&images.calibrated, area), panel_of(&images.filtered, area));
@@ -75,7 +78,8 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         consensus.vote(panel, area, sampled.codes, taxels, whole, |at| {
             let row = at.checked_div(columns).unwrap_or(0);
             let shown = images.0.get(at).max(images.1.get(at)).filter(|_| fast).copied().unwrap_or(u16::MAX);
-            feedback.presses(panel, row as u16, at.wrapping_sub(row * columns) as u16, shown)
+            folds.holds(usize::from(area.base) + at)
+                || feedback.presses(panel, row as u16, at.wrapping_sub(row * columns) as u16, shown)
         });
     }
 
@@ -85,13 +89,17 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         let common = consensus.step(panel);
         let beside = beside(common);
         let touched = feedback.touches(panel, row, 0, area.columns);
-        if !touched && !self.images.rows.contains(area.first_row.saturating_add(row)) {
+        let first = usize::from(area.base) + usize::from(row) * usize::from(area.columns);
+        let folds = self.folds;
+        let folded = folds.holds_any(first..first + usize::from(area.columns));
+        if !touched && !folded && !self.images.rows.contains(area.first_row.saturating_add(row)) {
             return self.follow_row(area, row, common, |_, _| beside + OWN);
         }
         let fast = consensus.was_fast(panel);
         self.follow_row(area, row, common, |column, shown| {
             let least = if fast { shown } else { u16::MAX };
-            match touched && feedback.presses(panel, row, column, least) {
+            let is_held = folded && folds.holds(first + usize::from(column));
+            match is_held || touched && feedback.presses(panel, row, column, least) {
                 true => 0,
                 false => beside + if shown == 0 { OWN } else { 0 },
             }
@@ -121,7 +129,8 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
             }
             *rest = now as u16;
             *limit = match *limit {
-                // Saturated: the true limit may lie beyond the range, so it is computed again.
+                // Saturated: the true limit may lie beyond the range, so it is computed again. A fold's is
+                // soon computed again in any case.
                 same if same == silent => terms.limit(*rest, terms.margin(*gain)),
                 limit => (i32::from(limit) + step).clamp(0, 0xffff) as u16,
             };

@@ -6,6 +6,7 @@ mod alarms;
 mod budget;
 mod examining;
 mod exchange;
+mod folds;
 mod info;
 mod missed_scans;
 mod outbox;
@@ -22,13 +23,14 @@ mod saving;
 mod settings;
 mod setup;
 mod surface;
+mod tables;
 mod taxel_health;
 mod tx_frame;
 
 pub use info::BoardInfo;
 pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
 pub use setup::{Setup, SetupError};
-pub use surface::{SURFACE_BYTES, SurfacePiece};
+pub use tables::{PieceToStore, TableKind};
 
 use crate::acquire::{Plan, Scan, ScanError};
 use crate::boot::Boot;
@@ -44,6 +46,7 @@ use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use alarms::Senses;
 use budget::{Doing, Ledger};
+use folds::Folds;
 use heapless::{Deque, String, Vec};
 use outbox::{About, Outbox};
 use outputs::Outputs;
@@ -53,6 +56,7 @@ use refusal::Refusal;
 use retest::Retest;
 use saving::Saving;
 use surface::Surface;
+use tables::Uploads;
 
 /// Input of the board: an event, or the passing of time.
 #[derive(Debug)]
@@ -65,10 +69,10 @@ pub enum Input<'a> {
     Saved(Result<Saved, &'static str>),
     /// Result of [`Job::ResetSettings`].
     SettingsReset(Result<Saved, &'static str>),
-    /// Result of [`Job::StoreSurface`]: the whole table with its last piece.
-    SurfaceStored(Result<Option<&'static [u8]>, &'static str>),
-    /// Result of [`Job::KeepSurface`].
-    SurfaceKept(Result<(), &'static str>),
+    /// Result of [`Job::StoreTable`]: the whole table with its last piece.
+    TableStored(Result<Option<&'static [u8]>, &'static str>),
+    /// Result of [`Job::KeepTable`].
+    TableKept(TableKind, Result<(), &'static str>),
     /// Result of a test of lines and inputs: at the start and after each [`Job::Examine`].
     Examined(Result<Findings, ScanError>),
     /// A select line was not at the level to which it was driven.
@@ -94,11 +98,11 @@ pub enum Job {
         /// Restore them.
         undo: bool,
     },
-    /// Store [`Board::surface_piece`]; answered by [`Input::SurfaceStored`].
-    StoreSurface,
-    /// Make the table whose pieces were stored last the one in force, or none if its length is 0; answered by
-    /// [`Input::SurfaceKept`].
-    KeepSurface,
+    /// Store [`Board::piece_to_store`]; answered by [`Input::TableStored`].
+    StoreTable,
+    /// Make the table whose pieces were stored last the one of its kind in force, or none if its length is 0;
+    /// answered by [`Input::TableKept`].
+    KeepTable(TableKind),
     /// Restart, as after power-on.
     Restart,
     /// Stop a free-running scan, and examine lines and inputs: the circuit has changed, the host asks for it,
@@ -112,8 +116,8 @@ enum Work {
     SelfTest,
     Save,
     Reset { undo: bool },
-    StoreSurface,
-    KeepSurface,
+    StoreTable,
+    KeepTable(TableKind),
 }
 
 /// The whole state of the board, for garments of up to TAXELS taxels; RUNS and PARTS as in
@@ -156,6 +160,8 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     /// Calibration from which the gains come.
     certificate: Option<Certificate>,
     surface: Surface,
+    folds: Folds,
+    uploads: Uploads,
 }
 
 /// The board that ships, of the capacities that [`capacity`] states.
@@ -204,6 +210,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             monitor: const { Monitor::new() },
             certificate: None,
             surface: const { Surface::new() },
+            folds: Folds::new(),
+            uploads: const { Uploads::new() },
         }
     }
 
@@ -252,6 +260,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// The scene has changed: resets what its stages have found.
     fn scene_changed(&mut self) {
         self.state.forget();
+        self.refit_folds();
         self.monitor.again();
         self.scans = Pace::new(self.setup.scan_rate());
         self.outbox.pace(&self.setup.scene.stream);
@@ -265,6 +274,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if !self.begun {
             self.begun = true;
             self.reset();
+            self.refit_folds();
         }
     }
 
@@ -279,8 +289,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Scanned(Err(error)) => self.stumbled(error),
             Input::Saved(result) => self.saved(now, result),
             Input::SettingsReset(result) => self.settings_reset(now, result),
-            Input::SurfaceStored(result) => self.surface_stored(now, result),
-            Input::SurfaceKept(result) => self.surface_kept(now, result),
+            Input::TableStored(result) => self.table_stored(now, result),
+            Input::TableKept(kind, result) => self.table_kept(now, kind, result),
             Input::Examined(result) => self.examined(now, result),
             Input::Misled => self.retest.raise(now),
             Input::Reflex(early) => self.reflex(&early),
@@ -360,6 +370,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
         self.outbox.enqueue(self.frame, time, &percept, late, &mut self.health);
         self.surface.note(self.frame, time, touched);
+        self.folds.note(self.frame, time);
         if self.taring && percept.tare == Tare::Done {
             (self.taring, self.tared) = (false, true);
             self.outbox.answer(request::TARE, None);
@@ -387,6 +398,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             health,
             state,
             surface,
+            folds,
             ..
         } = self;
         health.process_us = ledger.process_us();
@@ -407,7 +419,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let pressing = surface.is_due().then_some(|| {
             surface.report(|table, poses| state.pressing(table, poses, &setup.layout, image.values))
         });
-        outbox.prepare(now, about, &image, pressing, health, probe);
+        let folding = folds
+            .is_due()
+            .then_some(|| folds.report(state.condition.folds(), || state.doubts(&setup.layout)));
+        outbox.prepare(now, about, &image, (pressing, folding), health, probe);
         if !outbox.has_rest() {
             ledger.rest();
         }

@@ -2,7 +2,7 @@
 
 use super::outputs::Outputs;
 use super::refusal::Refusal;
-use super::{Board, Work, reading};
+use super::{Board, TableKind, Work, reading};
 use crate::condition::Certificate;
 use crate::contact::Forms;
 use crate::format::{Invalid, LEFT_OUT, Micros, Q15};
@@ -32,7 +32,8 @@ pub(super) fn number_of(work: Work) -> u8 {
         Work::SelfTest => Request::SelfTest.number(),
         Work::Save => Request::Save.number(),
         Work::Reset { .. } => Request::ResetSettings { undo: false }.number(),
-        Work::StoreSurface | Work::KeepSurface => Request::SetSurface(&[]).number(),
+        Work::KeepTable(TableKind::Folds) => Request::SetFolds(&[]).number(),
+        Work::StoreTable | Work::KeepTable(TableKind::Surface) => Request::SetSurface(&[]).number(),
     }
 }
 
@@ -99,9 +100,13 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Ok(())
             }
             Request::Sync { token } => return self.outbox.sync(token, now),
-            Request::Posture(posture) => {
-                self.state.fold.accept(&posture, &self.setup.scene.joints, now).map_err(Refusal::of)
-            }
+            Request::Posture(posture) => self
+                .state
+                .condition
+                .folds_mut()
+                .posture
+                .accept(&posture, &self.setup.scene.joints, now)
+                .map_err(Refusal::of),
             Request::KeyFrame => {
                 self.outbox.forget_image();
                 Ok(())
@@ -133,7 +138,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             {
                 Err(left_out("surface"))
             }
-            Request::SetSurface(bytes) => match self.take_surface(now, bytes) {
+            Request::SetSurface(bytes) => match self.take_table(now, TableKind::Surface, bytes) {
+                Ok(()) => return,
+                refused => refused,
+            },
+            Request::SetFolds(_) if !cfg!(feature = "folds") => Err(left_out("folds")),
+            Request::SetFolds(bytes) => match self.take_table(now, TableKind::Folds, bytes) {
                 Ok(()) => return,
                 refused => refused,
             },

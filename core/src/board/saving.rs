@@ -150,8 +150,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Work::Save => Job::Save,
             Work::Reset { undo } => Job::ResetSettings { undo },
             Work::SelfTest => Job::Examine,
-            Work::StoreSurface => Job::StoreSurface,
-            Work::KeepSurface => Job::KeepSurface,
+            Work::StoreTable => Job::StoreTable,
+            Work::KeepTable(kind) => Job::KeepTable(kind),
         })
     }
 

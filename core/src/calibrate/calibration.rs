@@ -58,10 +58,10 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
         self.limits_for.filter(|_| self.unity).map(|terms| terms.margin_of_unity())
     }
 
-    /// Recomputes the limits if they are for other terms, or for another calibration.
-    pub fn set_limits(&mut self, terms: LimitTerms) {
+    /// Recomputes the limits if they are for other terms, or for another calibration; true if they were.
+    pub fn set_limits(&mut self, terms: LimitTerms) -> bool {
         if self.limits_for == Some(terms) {
-            return;
+            return false;
         }
         self.limits_for = Some(terms);
         self.unity = self.gain.iter().all(is_unity);
@@ -72,6 +72,22 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
                 (last, margin) = (*gain, terms.margin(*gain));
             }
             *limit = terms.limit(*rest, margin);
+        }
+        true
+    }
+
+    /// Moves the baseline of a taxel that was taken under a pressure, counts, to where it is without.
+    pub fn relieve(&mut self, taxel: usize, pressure: u16, falling: bool) {
+        let Some((rest, gain)) = self.baseline.get_mut(taxel).zip(self.gain.get(taxel)) else { return };
+        let codes = (u32::from(pressure) << 12).checked_div((*gain).into()).unwrap_or(0).min(0xffff) as u16;
+        *rest = if falling { rest.saturating_add(codes) } else { rest.saturating_sub(codes) };
+    }
+
+    /// Sets the limit of a taxel that is inactive with less than `floor` counts beyond `level`.
+    pub fn set_level(&mut self, taxel: usize, floor: u16, level: u16, falling: bool) {
+        let code = self.inactive_code(taxel, level.saturating_add(floor), falling);
+        if let Some(limit) = self.limit.get_mut(taxel) {
+            *limit = code;
         }
     }
 

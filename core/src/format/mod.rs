@@ -28,6 +28,7 @@ mod product;
 mod root;
 mod scaled;
 mod shift;
+mod stored_name;
 
 pub use crc32::crc32;
 pub(crate) use extremes::Extremes;
@@ -38,6 +39,7 @@ pub(crate) use product::{product, signed_wide, wide};
 pub use root::root;
 pub use scaled::Scaled;
 pub(crate) use shift::{left, right};
+pub(crate) use stored_name::{STORED_NAME, store_name, stored_name};
 
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};

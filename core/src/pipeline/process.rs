@@ -54,7 +54,8 @@ impl Pipeline {
         let meaning = self.intent().and_then(|stage| {
             let indexed = || present.iter().enumerate();
             let sure = || indexed().filter(|(index, _)| !unsure.is_unsure(*index)).map(|(_, placed)| placed);
-            let own = state.fold.moves(now);
+            let folds = condition.folds();
+            let own = folds.posture.moves(now) && !folds.is_followed();
             let touch = strongest(sure()).map(|placed| Touch { own, ..self.touch(layout, placed) });
             let felt = self.felt(layout, sure());
             stage.process(intent, touch.as_slice(), &felt, &state.fed.values(now), now)

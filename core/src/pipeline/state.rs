@@ -4,7 +4,7 @@ use super::compose::Pipeline;
 use crate::body::Placed;
 use crate::condition::{ConditionState, Image};
 use crate::contact::ContactState;
-use crate::fold::FoldState;
+use crate::fold::Doubt;
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
 #[cfg(feature = "gesture")]
@@ -15,6 +15,7 @@ use crate::shape::Taught;
 use crate::surface::{Pressing, SurfaceState, Table};
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
+use heapless::Vec;
 
 /// Most contacts tracked at a time.
 pub const CONTACTS: usize = 32;
@@ -31,8 +32,6 @@ pub struct PipelineState<const TAXELS: usize, const RUNS: usize, const PARTS: us
     pub(super) gesture: GestureState,
     pub(super) intent: IntentState,
     pub(super) react: ReactState,
-    /// Angles of the joints.
-    pub fold: FoldState,
     /// Concept values that the host feeds.
     pub fed: Fed,
     /// Shapes that the host taught.
@@ -54,7 +53,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Default
             gesture: const { GestureState::new() },
             intent: IntentState::default(),
             react: ReactState::default(),
-            fold: FoldState::default(),
             fed: Fed::default(),
             taught: const { Taught::new() },
         }
@@ -132,6 +130,24 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         values: &[u16],
     ) -> Pressing<CONTACTS> {
         poses.process(table, &self.contact, layout, [self.condition.calibrated(), values])
+    }
+
+    /// By how much the totals of the contacts of the last frame may be off for the folds beneath them.
+    #[inline(never)]
+    pub(crate) fn doubts(&self, layout: &Layout) -> Vec<Doubt, CONTACTS> {
+        let folds = self.condition.folds();
+        let mut sums = [0u32; CONTACTS];
+        for run in self.contact.pressed(layout) {
+            let last = run.first + usize::from(run.run.right - run.run.left);
+            for taxel in (run.first..=last).filter(|taxel| folds.holds(*taxel)) {
+                let doubt = folds.of(taxel as u16).map_or(0, |[_, doubt]| doubt);
+                if let Some(sum) = sums.get_mut(run.contact) {
+                    *sum = sum.saturating_add(doubt.into());
+                }
+            }
+        }
+        let doubted = self.present().iter().zip(sums).filter(|(_, doubt)| *doubt > 0);
+        doubted.map(|(placed, doubt)| Doubt { id: placed.contact.id, doubt }).collect()
     }
 
     /// Which contacts of the last frame may be drift.

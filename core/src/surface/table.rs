@@ -15,7 +15,7 @@
 
 use super::LINKS;
 use super::taxel::TaxelRecord;
-use crate::format::{Invalid, crc32};
+use crate::format::{Invalid, STORED_NAME, crc32, store_name, stored_name};
 use crate::garment::Layout;
 use core::ops::Range;
 
@@ -27,10 +27,8 @@ const VERSION: u8 = 1;
 const CRC: Range<usize> = 4..8;
 /// Position of the garment's sum.
 const SUM: Range<usize> = 12..16;
-/// Bytes of a link's name.
-const NAME: usize = 16;
 /// Position of the names.
-const NAMES: Range<usize> = 16..16 + LINKS * NAME;
+const NAMES: Range<usize> = 16..16 + LINKS * STORED_NAME;
 
 /// Bytes of a table of so many taxels.
 pub const fn table_bytes(taxels: usize) -> usize {
@@ -40,7 +38,7 @@ pub const fn table_bytes(taxels: usize) -> usize {
 /// A checked table, in place.
 #[derive(Debug, Clone, Copy)]
 pub struct Table<'a> {
-    names: &'a [[u8; NAME]],
+    names: &'a [[u8; STORED_NAME]],
     taxels: &'a [TaxelRecord],
 }
 
@@ -102,9 +100,7 @@ impl<'a> Table<'a> {
 
     /// Name of a link.
     pub fn link(&self, link: u8) -> Option<&'a str> {
-        let name = self.names.get(usize::from(link))?;
-        let end = name.iter().position(|byte| *byte == 0).unwrap_or(NAME);
-        core::str::from_utf8(name.get(..end)?).ok()
+        stored_name(self.names.get(usize::from(link))?)
     }
 
     /// The taxels, by number.
@@ -133,12 +129,9 @@ pub fn write_table(
     head[8..10].copy_from_slice(&[VERSION, links.len() as u8]);
     head[10..12].copy_from_slice(&(taxels.len() as u16).to_le_bytes());
     head[SUM].copy_from_slice(&layout.sum().to_le_bytes());
-    let (names, _) = head[NAMES].as_chunks_mut::<NAME>();
-    for (to, link) in names.iter_mut().zip(links) {
-        let Some(to) = to.get_mut(..link.len()).filter(|_| !link.is_empty()) else {
-            return Err(refuse("must name its links in 1 to 16 bytes each"));
-        };
-        to.copy_from_slice(link.as_bytes());
+    let (names, _) = head[NAMES].as_chunks_mut();
+    if !names.iter_mut().zip(links).all(|(to, link)| store_name(link, to)) {
+        return Err(refuse("must name its links in 1 to 16 bytes each"));
     }
     rest.copy_from_slice(bytemuck::cast_slice(taxels));
     let crc = crc32(&to[CRC.end..]);

@@ -34,6 +34,7 @@
 //! | 20 | [`UnsureReport`] | when a contact becomes unsure or sure; the newest state |
 //! | 21 | [`FormsReport`] | if requested: before a `Contacts` in which a form is older than its frame |
 //! | 22 | [`PressingReport`] | if requested: at that rate while something touches, when the link has room |
+//! | 23 | [`FoldsReport`] | ten times per second while a table of folds is in force, when the link has room |
 //!
 //! A link carries nothing but these bytes. A board with several links uses one at a time, by whole messages:
 //! USB while a program there has opened its port, else the UART.

@@ -2,6 +2,7 @@
 
 use crate::body::Placed;
 use crate::boot::Boot;
+use crate::fold::Doubt;
 use crate::format::{Celsius, Micros, Name, Q15};
 use crate::garment::PANELS;
 use crate::health::TaxelHealth;
@@ -75,6 +76,8 @@ pub enum Report<'a> {
     Forms(FormsReport),
     /// What presses on the robot.
     Pressing(PressingReport),
+    /// What the garment's folds are expected to press.
+    Folds(FoldsReport),
 }
 
 /// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
@@ -126,6 +129,8 @@ impl Report<'_> {
     pub const FORMS: u32 = 21;
     /// Number of `Pressing`.
     pub const PRESSING: u32 = 22;
+    /// Number of `Folds`.
+    pub const FOLDS: u32 = 23;
 }
 
 /// Identity and settings of the board. This layout is frozen.
@@ -398,6 +403,29 @@ pub struct PressingReport {
     pub contacts: Vec<Landed, CONTACTS>,
     /// The links that something presses on.
     pub links: Vec<Wrench, LINKS>,
+}
+
+/// What the garment's folds are expected to press, ten times per second while a table of folds is in force.
+/// See [`fold`](crate::fold).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FoldsReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// Time at which the posture in force was received; none without one.
+    pub posed: Option<Micros>,
+    /// True if the folds follow the posture. False if there is none, or it is too old: taxels that fold are
+    /// then touched only beyond the most that they feel at any posture.
+    pub followed: bool,
+    /// Number of taxels of which something is expected, or that are in doubt.
+    pub taxels: u16,
+    /// Sum of the expected pressures, counts.
+    pub total: u32,
+    /// Sum of the doubts, counts.
+    pub doubt: u32,
+    /// Present contacts on such taxels.
+    pub contacts: Vec<Doubt, CONTACTS>,
 }
 
 /// Shapes that the board was taught. The class of a contact is 1 + its index in these names.

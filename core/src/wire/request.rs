@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 /// Greatest length of a host's message: a garment, and its frame around it.
 pub const LONGEST_REQUEST: usize = 3072;
-/// Bytes of a piece of a table of the surface.
-pub const SURFACE_PIECE: usize = 256;
+/// Bytes of a piece of a table.
+pub const TABLE_PIECE: usize = 256;
 
 /// Greatest number of prototypes of an `AddShapes`.
 pub const SHAPES_ADDED: usize = 64;
@@ -114,16 +114,19 @@ pub enum Request<'a> {
     /// Set the rate of [`PressingReport`](super::PressingReport)s per second; 0, as at the start: never;
     /// 65535: with every scan.
     SetPressing(u16),
+    /// postcard of a [`TablePiece`] of the table of folds; as `SetSurface`.
+    SetFolds(&'a [u8]),
 }
 
-/// A piece of a [`Table`](crate::surface::Table) of the surface.
+/// A piece of a [`Table`](crate::surface::Table) of the surface, or of a
+/// [`FoldTable`](crate::fold::FoldTable).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TablePiece<'a> {
     /// Length of the whole table; 0: none is in force from now on.
     pub length: u32,
     /// Position of the piece: 0 begins a table.
     pub offset: u32,
-    /// [`SURFACE_PIECE`] bytes, or what is left.
+    /// [`TABLE_PIECE`] bytes, or what is left.
     pub bytes: &'a [u8],
 }
 
@@ -156,6 +159,7 @@ impl Request<'_> {
             Request::SetSurface(_) => 22,
             Request::SetPoses(_) => 23,
             Request::SetPressing(_) => 24,
+            Request::SetFolds(_) => 25,
         }
     }
 }

@@ -9,7 +9,7 @@ use taxel_core::body::Placed;
 use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::condition::Certificate;
 use taxel_core::contact::{Contact, Phase};
-use taxel_core::fold::{JointAngle, Posture};
+use taxel_core::fold::{Doubt, JointAngle, Posture};
 use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
 use taxel_core::gesture::{GestureConfig, ShippedModel};
@@ -177,7 +177,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 23] {
+fn reports() -> [(&'static str, Report<'static>); 24] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -220,10 +220,23 @@ fn reports() -> [(&'static str, Report<'static>); 23] {
                 links: [wrench()].into_iter().collect(),
             }),
         ),
+        (
+            "Folds",
+            Report::Folds(FoldsReport {
+                frame,
+                time,
+                posed: Some(Micros(70)),
+                followed: true,
+                taxels: 300,
+                total: 70_000,
+                doubt: 9_000,
+                contacts: one(Doubt { id: 300, doubt: 150 }),
+            }),
+        ),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 25] {
+fn requests() -> [(&'static str, Request<'static>); 26] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -255,6 +268,7 @@ fn requests() -> [(&'static str, Request<'static>); 25] {
         ("SetSurface", Request::SetSurface(&[1, 2, 3])),
         ("SetPoses", Request::SetPoses(&[6, 7])),
         ("SetPressing", Request::SetPressing(20)),
+        ("SetFolds", Request::SetFolds(&[8, 9])),
     ]
 }
 

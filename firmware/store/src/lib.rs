@@ -24,4 +24,4 @@ mod waitless;
 
 pub use levels::{Record, in_force, keep_levels};
 pub use store::{CHUNK, Found, Store, StoreError};
-pub use tables::{TABLES_BYTES, Tables};
+pub use tables::{Tables, tables_bytes};

@@ -1,4 +1,4 @@
-//! The table of the garment's surface, in a region of two halves: one holds the table in force, in place; the
+//! A table of a kind, in a region of two halves: one holds the table in force, in place; the
 //! next table is written to the other, piece by piece.
 //!
 //! At the end of a half lies its seal: number, length of the table and CRC-32/ISO-HDLC of both,
@@ -9,7 +9,7 @@
 use crate::store::StoreError;
 use core::ops::Range;
 use embedded_storage::nor_flash::NorFlash;
-use taxel_core::board::{SURFACE_BYTES, SurfacePiece};
+use taxel_core::board::{PieceToStore, TableKind};
 use taxel_core::format::crc32;
 
 /// Size of a sector of the flash.
@@ -17,9 +17,14 @@ const SECTOR: u32 = 4096;
 /// Bytes of a seal.
 const SEAL: usize = 12;
 /// Size of a half: the longest table and its seal.
-const HALF: u32 = (SURFACE_BYTES + SEAL).next_multiple_of(SECTOR as usize) as u32;
-/// Size of the region.
-pub const TABLES_BYTES: u32 = 2 * HALF;
+const fn half_bytes(kind: TableKind) -> u32 {
+    (kind.bytes() + SEAL).next_multiple_of(SECTOR as usize) as u32
+}
+
+/// Size of the region of tables of a kind.
+pub const fn tables_bytes(kind: TableKind) -> u32 {
+    2 * half_bytes(kind)
+}
 
 /// The seal of a half.
 #[derive(Debug, Clone, Copy)]
@@ -33,18 +38,19 @@ struct Seal {
 pub struct Tables<F: NorFlash> {
     flash: F,
     start: u32,
+    kind: TableKind,
 }
 
 impl<F: NorFlash> Tables<F> {
-    /// The region of [`TABLES_BYTES`] from offset `start` of the flash on. Error if it is not of whole
+    /// The region of [`tables_bytes`] from offset `start` of the flash on. Error if it is not of whole
     /// sectors.
-    pub fn new(flash: F, start: u32) -> Result<Self, StoreError> {
+    pub fn new(flash: F, start: u32, kind: TableKind) -> Result<Self, StoreError> {
         let is_whole = F::ERASE_SIZE as u32 == SECTOR && start.is_multiple_of(SECTOR);
-        let ends = (start as usize).checked_add(TABLES_BYTES as usize);
+        let ends = (start as usize).checked_add(tables_bytes(kind) as usize);
         if !is_whole || ends.is_none_or(|end| end > flash.capacity()) {
             return Err(StoreError::Range);
         }
-        Ok(Tables { flash, start })
+        Ok(Tables { flash, start, kind })
     }
 
     /// Where in the flash the table in force lies; none if there is none.
@@ -54,17 +60,17 @@ impl<F: NorFlash> Tables<F> {
     }
 
     /// Stores a piece of the next table. Returns where all of that table lies once its last piece is stored.
-    pub fn store(&mut self, piece: &SurfacePiece<'_>) -> Result<Range<u32>, StoreError> {
+    pub fn store(&mut self, piece: &PieceToStore<'_>) -> Result<Range<u32>, StoreError> {
         let half = self.free()?;
         let end = piece.offset.checked_add(piece.bytes.len() as u32);
-        if piece.length as usize > SURFACE_BYTES || end.is_none_or(|end| end > piece.length) {
+        if piece.length as usize > self.kind.bytes() || end.is_none_or(|end| end > piece.length) {
             return Err(StoreError::Range);
         }
         let last = self.last_sector(half);
         if piece.offset == 0 {
             self.erase(last)?;
         }
-        let at = self.start + half * HALF + piece.offset;
+        let at = self.start + half * half_bytes(self.kind) + piece.offset;
         if at.is_multiple_of(SECTOR) && at != last {
             self.erase(at)?;
         }
@@ -93,16 +99,16 @@ impl<F: NorFlash> Tables<F> {
     }
 
     fn table(&self, half: u32, length: u32) -> Range<u32> {
-        let start = self.start + half * HALF;
+        let start = self.start + half * half_bytes(self.kind);
         start..start + length
     }
 
     fn last_sector(&self, half: u32) -> u32 {
-        self.start + (half + 1) * HALF - SECTOR
+        self.start + (half + 1) * half_bytes(self.kind) - SECTOR
     }
 
     fn seal_at(&self, half: u32) -> u32 {
-        self.start + (half + 1) * HALF - SEAL as u32
+        self.start + (half + 1) * half_bytes(self.kind) - SEAL as u32
     }
 
     /// The half that is not in force.
@@ -123,7 +129,7 @@ impl<F: NorFlash> Tables<F> {
         self.flash.read(self.seal_at(half), &mut bytes).map_err(|_| StoreError::Flash)?;
         let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
         let seal = Seal { half, number: word(0), length: word(4) };
-        let is_whole = word(8) == crc32(&bytes[..8]) && seal.length as usize <= SURFACE_BYTES;
+        let is_whole = word(8) == crc32(&bytes[..8]) && seal.length as usize <= self.kind.bytes();
         Ok(is_whole.then_some(seal))
     }
 

@@ -101,12 +101,12 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
             }
             Some(Job::Restart) => self.restart(),
             // A flash that gives nothing back: a table is refused.
-            Some(Job::StoreSurface) => {
-                let piece = self.board.surface_piece();
+            Some(Job::StoreTable) => {
+                let piece = self.board.piece_to_store();
                 let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
-                self.step(Input::SurfaceStored(Ok(is_whole.then_some(&[]))));
+                self.step(Input::TableStored(Ok(is_whole.then_some(&[]))));
             }
-            Some(Job::KeepSurface) => self.step(Input::SurfaceKept(Ok(()))),
+            Some(Job::KeepTable(kind)) => self.step(Input::TableKept(kind, Ok(()))),
             Some(Job::Drive(..)) | None => {}
         }
         let taxel = (self.now.0 % T as u64) as u16;

@@ -1,5 +1,6 @@
 //! The very board, stepped by hand.
 
+use crate::array;
 use crate::error::{raised, usage};
 use crate::event::{self, Fact, Teller};
 use crate::request;
@@ -72,6 +73,14 @@ impl Board {
         };
         let facts = py.detach(step).map_err(raised)?;
         facts.into_iter().map(|fact| event::object(py, fact)).collect()
+    }
+
+    /// Numbers of the taxels that fold, what each is expected to feel now, and the doubt of it, counts.
+    fn _folds<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 3]> {
+        let folds = py.detach(|| self.lock().board.folds());
+        let [taxels, expected, doubts] =
+            [0, 1, 2].map(|at| folds.iter().map(|all| all[at]).collect::<Vec<u16>>());
+        Ok([array::frozen(py, taxels)?, array::frozen(py, expected)?, array::frozen(py, doubts)?])
     }
 
     /// Queues a request, by its name and its values in JSON.

@@ -14,6 +14,7 @@
 //! | `board` | `Board`: the very board, stepped by hand |
 //! | `recording` | recordings: contents, events, messages |
 //! | `features` | features of a touch, moments of an image |
+//! | `folds` | what the garment's folds press |
 //! | `map` | fuzzy cognitive maps |
 //! | `program` | the command `taxel` (feature `cli`) |
 #![forbid(unsafe_code)]
@@ -37,6 +38,8 @@ mod board;
 mod recording;
 
 mod features;
+
+mod folds;
 
 mod map;
 
@@ -62,5 +65,6 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(recording::attachment, module)?)?;
     module.add_function(wrap_pyfunction!(features::features, module)?)?;
     module.add_function(wrap_pyfunction!(features::moments, module)?)?;
+    module.add_function(wrap_pyfunction!(folds::learn_folds, module)?)?;
     module.add_class::<map::Map>()
 }

@@ -3,6 +3,7 @@
 use crate::error::argument;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
+use std::path::Path;
 use taxel::client::Client;
 use taxel::session::setting;
 use taxel::source::SceneFile;
@@ -57,6 +58,7 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         "set_posture" => Request::Posture(posture(client, &values)?),
         "set_gains" => return gains(client, &values),
         "set_body" => return Ok(setting::set_body(client, values.text("body"), values.text("garment"))?),
+        "set_folds" => return Ok(setting::set_folds(client, Path::new(values.text("folds")))?),
         "set_poses" => return poses(client, &values),
         "set_pressing" => Request::SetPressing(values.whole("hz", 0, 65_535)? as u16),
         "set_garment" => return Ok(setting::set_garment(client, values.text("garment"))?),

@@ -250,6 +250,7 @@ impl Client {
                 report.links.iter_mut().for_each(|wrench| cleaned::name(&mut wrench.name));
                 Event::Pressing(Box::new(report))
             }
+            Report::Folds(report) => Event::Folds(Box::new(report)),
             Report::Shapes(report) => self.take_shapes(&report),
             Report::Reaction(mut report) => {
                 cleaned::name(&mut report.reaction.name);

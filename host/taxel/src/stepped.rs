@@ -31,7 +31,7 @@ use crate::error::{Context, Result, SourceError, UsageError};
 use crate::source::{lasting, simulated_info};
 use std::thread;
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, Input, Job, Shipped, SurfacePiece};
+use taxel_core::board::{Board, Input, Job, PieceToStore, Shipped};
 use taxel_core::boot::Boot;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
@@ -54,7 +54,7 @@ pub struct Stepped {
     board: Box<Shipped>,
     client: Client,
     codes: Vec<Code>,
-    /// The table of the surface being received.
+    /// The table being received.
     table: Vec<u8>,
     last: Option<Micros>,
 }
@@ -76,6 +76,14 @@ impl Stepped {
     /// Number of taxels: the length of a scan.
     pub fn taxels(&self) -> usize {
         self.board.setup().layout.taxels()
+    }
+
+    /// The taxels that fold: number, expected pressure and doubt of it, counts.
+    pub fn folds(&self) -> Vec<[u16; 3]> {
+        let folds = self.board.state().condition.folds();
+        let taxels = folds.table().map_or(&[][..], |table| table.taxels());
+        let told = |taxel: &u16| folds.of(*taxel).map(|[expected, doubt]| [*taxel, expected, doubt]);
+        taxels.iter().filter_map(told).collect()
     }
 
     /// The client, for requests; they reach the board with the next step.
@@ -126,8 +134,8 @@ impl Stepped {
                 Some(Job::Scan(_)) => return true,
                 Some(Job::Save) => Input::Saved(Err(NO_FLASH)),
                 Some(Job::ResetSettings { .. }) => Input::SettingsReset(Err(NO_FLASH)),
-                Some(Job::StoreSurface) => Input::SurfaceStored(Ok(self.stored())),
-                Some(Job::KeepSurface) => Input::SurfaceKept(Ok(())),
+                Some(Job::StoreTable) => Input::TableStored(Ok(self.stored())),
+                Some(Job::KeepTable(kind)) => Input::TableKept(kind, Ok(())),
                 Some(Job::Examine) => {
                     self.examined(now);
                     continue;
@@ -143,7 +151,7 @@ impl Stepped {
 
     /// Takes a piece of a table; returns the table with its last piece.
     fn stored(&mut self) -> Option<&'static [u8]> {
-        let SurfacePiece { length, offset, bytes, .. } = self.board.surface_piece();
+        let PieceToStore { length, offset, bytes, .. } = self.board.piece_to_store();
         self.table.truncate(offset as usize);
         self.table.extend_from_slice(bytes);
         (self.table.len() == length as usize).then(|| lasting(&self.table))

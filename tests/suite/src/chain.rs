@@ -3,7 +3,7 @@
 use crate::surface::TABLE;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{BoardInfo, Input, SetupError, Shipped};
+use taxel_core::board::{BoardInfo, Input, SetupError, Shipped, TableKind};
 pub use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
@@ -51,7 +51,7 @@ impl Chain {
     #[inline(never)]
     pub fn ship(&mut self) -> Result<(), SetupError> {
         self.board.set_garment(Garment::reference())?;
-        self.board.recall_surface(Some(&TABLE.0));
+        self.board.recall_table(TableKind::Surface, Some(&TABLE.0));
         self.board.set_scene(Scene::shipped())
     }
 

@@ -3,7 +3,7 @@
 use super::super::tx_frame::TxFrame;
 use super::super::{BoardInfo, Setup};
 use super::contacts::{ContactQueue, List};
-use super::{About, GestureQueue, Outbox, Waiting};
+use super::{About, GestureQueue, Outbox, Slow, Waiting};
 use crate::body::Placed;
 use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
@@ -25,7 +25,10 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         now: Micros,
         about: About<'_>,
         image: &Image<'_>,
-        pressing: Option<impl FnOnce() -> Option<PressingReport>>,
+        (pressing, folds): Slow<
+            impl FnOnce() -> Option<PressingReport>,
+            impl FnOnce() -> Option<FoldsReport>,
+        >,
         health: &mut Health,
     ) {
         let tx_frame = &mut self.tx_frame;
@@ -79,7 +82,9 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some(temperature) = self.temperature.take() {
             tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some(pressing) = pressing.filter(|_| cfg!(feature = "surface") && self.streaming) {
-            put_pressing(tx_frame, pressing)
+            put_made(tx_frame, Report::PRESSING, pressing)
+        } else if let Some(folds) = folds.filter(|_| cfg!(feature = "folds") && self.streaming) {
+            put_made(tx_frame, Report::FOLDS, folds)
         } else if let Some((frame, time)) = self.image.due.take() {
             let is_light = || !about.took_picture && measures_little(about.present, about.form_ages);
             self.put_image(frame, time, &about.setup.layout, image, is_light, health)
@@ -199,10 +204,10 @@ fn put_unsure(tx_frame: &mut TxFrame, frame: u32, time: Micros, unsure: &UnsureS
     tx_frame.put(Report::UNSURE, &UnsureReport { frame, time, contacts })
 }
 
-/// Encodes what presses on the robot. Own frame: it is summed up here.
+/// Encodes a report that is made here, of much that is summed up. Own frame: it needs much stack.
 #[inline(never)]
-fn put_pressing(tx_frame: &mut TxFrame, pressing: impl FnOnce() -> Option<PressingReport>) -> bool {
-    pressing().is_none_or(|report| tx_frame.put(Report::PRESSING, &report))
+fn put_made<T: Serialize>(tx_frame: &mut TxFrame, number: u32, make: impl FnOnce() -> Option<T>) -> bool {
+    make().is_none_or(|report| tx_frame.put(number, &report))
 }
 
 /// Encodes a [`ShapesReport`].

@@ -101,6 +101,9 @@ struct Waiting<const TAXELS: usize> {
     last: ImageReference<TAXELS>,
 }
 
+/// Reports that are made when they are sent, of much that is summed up then: what presses, what folds.
+type Slow<P, F> = (Option<P>, Option<F>);
+
 impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Nothing to send yet.
     #[inline(never)]
@@ -289,13 +292,16 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         now: Micros,
         about: About<'_>,
         image: &Image<'_>,
-        pressing: Option<impl FnOnce() -> Option<PressingReport>>,
+        (pressing, folds): Slow<
+            impl FnOnce() -> Option<PressingReport>,
+            impl FnOnce() -> Option<FoldsReport>,
+        >,
         health: &mut Health,
         probe: &mut impl Probe,
     ) {
         if !self.has_rest() {
             probe.begin(Stage::Encode);
-            self.next(now, about, image, pressing, health);
+            self.next(now, about, image, (pressing, folds), health);
             probe.begin(Stage::Idle);
         }
     }

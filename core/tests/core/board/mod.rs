@@ -1,9 +1,11 @@
 //! The board as a list of inputs.
 
+mod folds;
 mod requests;
 mod settings;
 mod stream;
 mod surface;
+mod tables;
 
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Job};

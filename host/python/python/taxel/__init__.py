@@ -16,9 +16,10 @@ from __future__ import annotations
 import os
 from types import TracebackType
 
+import numpy as np
 import numpy.typing as npt
 
-from . import _taxel, fcm
+from . import _taxel, fcm, folds
 from ._recording import Images, Message, Recording, _whole, features, moments, read
 from ._requests import Requests
 from ._taxel import (
@@ -41,6 +42,7 @@ from ._taxel import (
     Intent,
     Log,
     Lost,
+    Folds,
     Pressing,
     Raw,
     Reaction,
@@ -80,6 +82,7 @@ __all__ = [
     "Log",
     "Lost",
     "Message",
+    "Folds",
     "Pressing",
     "Raw",
     "Reaction",
@@ -98,6 +101,7 @@ __all__ = [
     "UsageError",
     "__version__",
     "fcm",
+    "folds",
     "features",
     "moments",
     "open",
@@ -140,6 +144,11 @@ class Board(_taxel.Board, Requests):
         cls, garment: str | os.PathLike[str] = "reference", scene: str | os.PathLike[str] | None = None
     ) -> Board:
         return super().__new__(cls, os.fspath(garment), None if scene is None else os.fspath(scene))
+
+    def folds(self) -> tuple[npt.NDArray[np.uint16], npt.NDArray[np.uint16], npt.NDArray[np.uint16]]:
+        """Numbers of the taxels that fold, what each is expected to feel now, and the doubt of it, counts."""
+        taxels, expected, doubts = super()._folds()
+        return taxels, expected, doubts
 
     def step(self, codes: npt.ArrayLike, time_us: int) -> list[Event]:
         """Takes one scan: the codes of all taxels by their numbers, whole numbers from 0 to 65535, and the

@@ -66,6 +66,10 @@ class Requests:
         """
         self._ask("set_poses", poses={link: [list(at), list(turn)] for link, (at, turn) in poses.items()})
 
+    def set_folds(self, path: str | os.PathLike[str]) -> None:
+        """Stores on the board what the garment's folds press: a file that ``learn_folds`` has written."""
+        self._ask("set_folds", folds=os.fspath(path))
+
     def set_pressing(self, hz: int = 65535) -> None:
         """Sets the rate of ``Pressing`` events per second, of a board that has a body; 0 is never."""
         self._ask("set_pressing", hz=hz)

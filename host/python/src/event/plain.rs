@@ -51,6 +51,7 @@ classes! {
     "unsure" => Unsure, "Ids of the contacts that may be drift.";
     "forms" => Forms, "Ages of the forms of contacts.";
     "pressing" => Pressing, "What presses on the robot: contacts on links, and the force on each link.";
+    "folds" => Folds, "What the garment's folds are expected to press.";
     "shapes" => Shapes, "The base of shapes in use.";
     "reaction" => Reaction, "A reaction that began or ended.";
     "reflex" => Reflex, "A reaction that began within a frame.";

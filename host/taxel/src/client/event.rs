@@ -4,9 +4,9 @@ use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, FormsReport, GestureReport, Health, IntentReport, Level, PressingReport,
-    ReactionReport, ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature, UnsureReport,
-    WireError,
+    Budget, ConfidenceReport, FoldsReport, FormsReport, GestureReport, Health, IntentReport, Level,
+    PressingReport, ReactionReport, ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature,
+    UnsureReport, WireError,
 };
 
 /// An event; persistent state is found in the [`Client`](super::Client).
@@ -54,6 +54,8 @@ pub enum Event {
     Forms(Box<FormsReport>),
     /// What presses on the robot.
     Pressing(Box<PressingReport>),
+    /// What the garment's folds are expected to press.
+    Folds(Box<FoldsReport>),
     /// The base of shapes; the names are in the client, too.
     Shapes {
         /// Names of the classes; empty while the built-in base is in use.

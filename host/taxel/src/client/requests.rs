@@ -23,7 +23,7 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
 
 /// Name of a request, by its number.
 pub fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 25] = [
+    const NAMES: [&str; 26] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -49,6 +49,7 @@ pub fn request_name(number: u8) -> &'static str {
         "set-surface",
         "set-poses",
         "set-pressing",
+        "set-folds",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }

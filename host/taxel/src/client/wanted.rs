@@ -33,7 +33,7 @@ enum Key {
     Raw,
     Pressing,
     /// A piece of a table, which the board keeps.
-    Surface,
+    Table,
     /// Of this slot.
     Concept(u8),
     /// Of this concept.
@@ -92,7 +92,7 @@ impl Wanted {
 
     /// True if another request may be sent: what follows a piece of a table waits for its answer.
     pub fn takes_more(&self) -> bool {
-        self.asked.len() < WINDOW && !self.asked.iter().any(|(key, ..)| *key == Key::Surface)
+        self.asked.len() < WINDOW && !self.asked.iter().any(|(key, ..)| *key == Key::Table)
     }
 
     /// True if a board with this `Hello` may still have its settings.
@@ -202,7 +202,7 @@ impl Sets {
             Request::SetForms { .. } => (Key::Forms, false),
             Request::SetRaw { hz } => (Key::Raw, *hz == 0),
             Request::SetPressing(hz) => (Key::Pressing, *hz == 0),
-            Request::SetSurface(_) => (Key::Surface, true),
+            Request::SetSurface(_) | Request::SetFolds(_) => (Key::Table, true),
             Request::Concept { slot, .. } => (Key::Concept(*slot), false),
             Request::Feed(feed) => (Key::Feed(feed.concept.clone()), false),
             Request::Tare { .. } => (Key::Tare, false),
@@ -221,7 +221,7 @@ impl Sets {
 
     /// True for a piece of a table.
     pub fn is_piece(&self) -> bool {
-        self.0 == Key::Surface
+        self.0 == Key::Table
     }
 }
 

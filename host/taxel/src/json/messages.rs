@@ -6,10 +6,10 @@
 
 use super::contact::ContactLine;
 use super::lines::{
-    AnswerLine, BootLine, ConfidenceLine, ContactsLine, FormAge, FormsLine, FrameLine, GestureLine,
-    HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, PinFaultLine, RawLine,
-    ReactionLine, ReflexLine, RefusedLine, RegionLine, SelfTestLine, ShapesLine, SymbolLine, SymbolsLine,
-    SyncLine, TemperatureLine, UnsureLine, UnusableLine, WordsLine,
+    AnswerLine, BootLine, ConfidenceLine, ContactsLine, DoubtLine, FoldsLine, FormAge, FormsLine, FrameLine,
+    GestureLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, PinFaultLine,
+    RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, SelfTestLine, ShapesLine, SymbolLine,
+    SymbolsLine, SyncLine, TemperatureLine, UnsureLine, UnusableLine, WordsLine,
 };
 use super::meaning::MeaningOfTouch;
 use super::pressing;
@@ -67,6 +67,16 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             JsonLine::Forms(FormsLine { frame: report.frame, time_us: report.time.0, ages })
         }
         Event::Pressing(report) => JsonLine::Pressing(pressing::line(report)),
+        Event::Folds(report) => JsonLine::Folds(FoldsLine {
+            frame: report.frame,
+            time_us: report.time.0,
+            posed_us: report.posed.map(|time| time.0),
+            followed: report.followed,
+            taxels: report.taxels,
+            expected: report.total,
+            doubt: report.doubt,
+            contacts: report.contacts.iter().map(|it| DoubtLine { id: it.id, doubt: it.doubt }).collect(),
+        }),
         Event::Shapes { names, prototypes } => {
             JsonLine::Shapes(ShapesLine { classes: names, prototypes: *prototypes })
         }

@@ -1,4 +1,5 @@
-//! Training of what a board recognises: shapes, touches over time; and the parts that these share.
+//! Training of what a board recognises: shapes, touches over time, folds of the garment; and the parts that
+//! these share.
 
 pub mod confusion;
 pub mod doubts;
@@ -6,4 +7,5 @@ pub mod fingerprint;
 pub mod folds;
 pub mod linear;
 pub mod shapes;
+pub mod stratified;
 pub mod touches;

@@ -92,6 +92,7 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Unsure(report) => report.time,
         Event::Forms(report) => report.time,
         Event::Pressing(report) => report.time,
+        Event::Folds(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
         Event::Boot(_)

@@ -2,16 +2,18 @@
 
 use crate::body;
 use crate::client::Client;
-use crate::error::{Context, Result, SettingError, UsageError};
+use crate::error::{Context, FileError, Result, SettingError, UsageError};
 use crate::files::garments;
 use crate::source::SceneFile;
 use crate::tell::verbose;
+use std::path::Path;
+use taxel_core::board::TableKind;
 use taxel_core::format::Name;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::gesture::{Certainty, GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::surface::{LINKS, Pose};
-use taxel_core::wire::{Request, SURFACE_PIECE, TablePiece};
+use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
 
 /// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
 /// the board checks its own pins and capacity.
@@ -41,19 +43,31 @@ pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
         }
     };
     verbose::tell(format_args!("sending body {body}, {} bytes", table.len()));
-    send_table(client, &table)
+    send_table(client, TableKind::Surface, &table)
+}
+
+/// Queues the requests that store a table of folds on the board, as [`learn::folds`](crate::learn::folds) makes
+/// them. The board checks it.
+pub fn set_folds(client: &mut Client, file: &Path) -> Result<()> {
+    let table = std::fs::read(file).map_err(|error| FileError::read(file, error))?;
+    verbose::tell(format_args!("sending folds {}, {} bytes", file.display(), table.len()));
+    send_table(client, TableKind::Folds, &table)
 }
 
 /// Queues the requests that store a table on the board; an empty one takes the board's table out of force. The
 /// board answers each piece, the last one once the table is in force.
-fn send_table(client: &mut Client, table: &[u8]) -> Result<()> {
+fn send_table(client: &mut Client, kind: TableKind, table: &[u8]) -> Result<()> {
     let length = table.len() as u32;
     // At least one: an empty piece of an empty table.
-    for index in 0..table.len().div_ceil(SURFACE_PIECE).max(1) {
-        let offset = index * SURFACE_PIECE;
-        let bytes = &table[offset..table.len().min(offset + SURFACE_PIECE)];
+    for index in 0..table.len().div_ceil(TABLE_PIECE).max(1) {
+        let offset = index * TABLE_PIECE;
+        let bytes = &table[offset..table.len().min(offset + TABLE_PIECE)];
         let piece = TablePiece { length, offset: offset as u32, bytes };
-        client.request(&Request::SetSurface(&postcard::to_allocvec(&piece)?))?;
+        let piece = postcard::to_allocvec(&piece)?;
+        client.request(&match kind {
+            TableKind::Surface => Request::SetSurface(&piece),
+            TableKind::Folds => Request::SetFolds(&piece),
+        })?;
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel_core::acquire::Clock;
-use taxel_core::board::{BoardInfo, Saved, Settings, Shipped, SurfacePiece};
+use taxel_core::board::{BoardInfo, PieceToStore, Saved, Settings, Shipped, TableKind};
 use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
@@ -19,7 +19,7 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_core::scene::Scene;
-use taxel_store::{Found, Store, StoreError, TABLES_BYTES, Tables};
+use taxel_store::{Found, Store, StoreError, Tables, tables_bytes};
 
 /// Boards are boxed, but built on the stack.
 const STACK: usize = 8 << 20;
@@ -167,7 +167,7 @@ impl Playing {
     /// A board as after power-up.
     fn board(&self) -> Result<Shipped> {
         let mut board = Shipped::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
-        board.recall_surface(self.table);
+        board.recall_table(TableKind::Surface, self.table);
         board.booted(Boot::default());
         Ok(board)
     }
@@ -177,9 +177,11 @@ impl Playing {
         *board = self.board()?;
         let found = Store::new(&mut *flash, 0..SimFlash::BYTES).and_then(|mut store| store.load(board));
         let found = found.map_err(Error::other)?;
-        let table = Tables::new(&mut *flash, SimFlash::BYTES).and_then(|mut tables| tables.in_force());
-        if let Some(table) = table.map_err(Error::other)? {
-            board.recall_surface(Some(lasting(bytes_of(flash, table))));
+        for kind in [TableKind::Surface, TableKind::Folds] {
+            let table = tables(flash, kind).and_then(|mut tables| tables.in_force());
+            if let Some(table) = table.map_err(Error::other)? {
+                board.recall_table(kind, Some(lasting(bytes_of(flash, table))));
+            }
         }
         let aside = if found == Found::Aside { Aside::Request } else { Aside::No };
         board.booted(Boot { cause: BootCause::Request, resets: 0, aside });
@@ -190,7 +192,7 @@ impl Playing {
     fn all(&self, board: &mut Shipped, link: BoardEnd) {
         let mut offset_us = 0;
         let mut origin = Instant::now();
-        let mut flash = SimFlash::new(SimFlash::BYTES + TABLES_BYTES);
+        let mut flash = SimFlash::new(tables_start(TableKind::Folds) + tables_bytes(TableKind::Folds));
         // The inputs have been checked, so every round builds the same board.
         while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
             let SimBoard { mut lines, delay, adc, clock } = simulated;
@@ -228,7 +230,19 @@ impl Playing {
     }
 }
 
-/// A table of the surface that a board refers to from now on. It stays until the program ends, as flash
+/// Where the tables of a kind lie in the simulated flash: after the settings.
+const fn tables_start(kind: TableKind) -> u32 {
+    match kind {
+        TableKind::Surface => SimFlash::BYTES,
+        TableKind::Folds => SimFlash::BYTES + tables_bytes(TableKind::Surface),
+    }
+}
+
+fn tables(flash: &mut SimFlash, kind: TableKind) -> std::result::Result<Tables<&mut SimFlash>, StoreError> {
+    Tables::new(flash, tables_start(kind), kind)
+}
+
+/// A table that a board refers to from now on. It stays until the program ends, as flash
 /// would.
 pub fn lasting(table: &[u8]) -> &'static [u8] {
     Box::leak(table.into())
@@ -298,15 +312,15 @@ impl Platform for Virtual<'_> {
         store.put_aside(!undo).map_err(StoreError::sentence)
     }
 
-    fn store_surface(&mut self, piece: &SurfacePiece<'_>) -> Result<Option<&'static [u8]>, &'static str> {
-        let tables = Tables::new(&mut *self.flash, SimFlash::BYTES);
+    fn store_table(&mut self, piece: &PieceToStore<'_>) -> Result<Option<&'static [u8]>, &'static str> {
+        let tables = tables(self.flash, piece.kind);
         let table = tables.and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
         let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
         Ok(is_whole.then(|| lasting(bytes_of(self.flash, table))))
     }
 
-    fn keep_surface(&mut self, length: u32) -> Result<(), &'static str> {
-        let tables = Tables::new(&mut *self.flash, SimFlash::BYTES);
+    fn keep_table(&mut self, kind: TableKind, length: u32) -> Result<(), &'static str> {
+        let tables = tables(self.flash, kind);
         tables.and_then(|mut tables| tables.keep(length)).map_err(StoreError::sentence)
     }
 

@@ -194,7 +194,8 @@ fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
             if tells {
                 let posture = Posture { joints: joints.collect() };
                 state
-                    .fold
+                    .condition
+                    .posture_mut()
                     .accept(&posture, &scene.joints, Micros(start))
                     .expect("it is a joint of the scene");
             }

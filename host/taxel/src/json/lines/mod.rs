@@ -3,6 +3,7 @@
 //! The docs of the fields are the descriptions in the messages' schemas.
 
 mod board;
+mod folds;
 mod frame;
 mod perceived;
 mod pressing;
@@ -12,6 +13,7 @@ pub use board::{
     AnswerLine, BootLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, LogLine,
     PinFaultLine, RefusedLine, SelfTestLine, SyncLine, TemperatureLine, UnusableLine,
 };
+pub use folds::{DoubtLine, FoldsLine};
 pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
 pub use perceived::{IntentLine, ReactionLine, ReflexLine, RegionLine, SymbolLine, SymbolsLine, WordsLine};
 pub use pressing::{LandedLine, PressingLine, PushLine, WrenchLine};
@@ -38,6 +40,7 @@ pub enum JsonLine<'a> {
     Unsure(UnsureLine<'a>),
     Forms(FormsLine),
     Pressing(PressingLine<'a>),
+    Folds(FoldsLine),
     Shapes(ShapesLine<'a>),
     Reaction(ReactionLine<'a>),
     Reflex(ReflexLine),

@@ -2,7 +2,7 @@
 
 use super::data::Example;
 use super::train::Known;
-use crate::learn::folds::stratified;
+use crate::learn::stratified::stratified;
 use crate::tell::progress::{Progress, Unit};
 use taxel_core::shape::Recognised;
 

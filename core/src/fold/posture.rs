@@ -1,12 +1,4 @@
-//! Posture: angles of the robot's joints, sent by the host. While a joint moves, the garment may fold against
-//! itself.
-//!
-//! | | |
-//! |---|---|
-//! | input | [`Posture`] messages |
-//! | output | the last posture, its age, whether a joint moves |
-//! | latency | none |
-//! | RAM | [`FoldState`]: 96 bytes |
+//! Posture: angles of the robot's joints, as the host has last told them.
 
 use crate::format::{Invalid, Micros, Name};
 use heapless::Vec;
@@ -33,9 +25,9 @@ pub struct Posture {
     pub joints: Vec<JointAngle, JOINTS>,
 }
 
-/// The posture as last reported.
+/// The posture as last told.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
-pub struct FoldState {
+pub struct PostureState {
     angles: [Option<i16>; JOINTS],
     told: Option<Micros>,
     /// Time of the last message in which a joint had moved.
@@ -46,8 +38,15 @@ pub struct FoldState {
 const MOVES: u16 = 20;
 /// Time for which a joint counts as moving after such a message, us.
 const MOVES_FOR_US: u64 = 300_000;
+/// Age from which on a posture counts for nothing, us: an arm may have moved by half a turn.
+pub const STALE_US: u64 = 500_000;
 
-impl FoldState {
+impl PostureState {
+    /// None yet.
+    pub const fn new() -> PostureState {
+        PostureState { angles: [None; JOINTS], told: None, moved: None }
+    }
+
     /// Takes a message that arrived at `now`, for a scene with `joints`. A refused message changes nothing.
     pub fn accept(&mut self, posture: &Posture, joints: &[Name], now: Micros) -> Result<(), Invalid> {
         let known = joints.len().min(JOINTS);
@@ -81,6 +80,11 @@ impl FoldState {
         self.moved.is_some_and(|moved| now.since(moved) < MOVES_FOR_US)
     }
 
+    /// True if the last message came less than [`STALE_US`] before `now`.
+    pub fn is_fresh(&self, now: Micros) -> bool {
+        self.told.is_some_and(|told| now.since(told) < STALE_US)
+    }
+
     /// Time of the last message.
     pub fn told(&self) -> Option<Micros> {
         self.told
@@ -96,7 +100,7 @@ mod tests {
     fn a_posture_is_taken_whole_or_not_at_all() {
         let joints = [name("elbow"), name("shoulder")];
         let angle = |joint, centidegrees| JointAngle { joint, centidegrees };
-        let mut state = FoldState::default();
+        let mut state = PostureState::default();
         let bad = Posture { joints: [angle(0, 900), angle(2, 0)].into_iter().collect() };
         assert_eq!(state.accept(&bad, &joints, Micros(5)).unwrap_err().parameter, "posture.joint");
         assert_eq!((state.angle(0), state.told()), (None, None));
@@ -111,7 +115,7 @@ mod tests {
     #[test]
     fn a_joint_moves_while_its_angle_changes_and_a_little_longer() {
         let joints = [name("elbow")];
-        let mut state = FoldState::default();
+        let mut state = PostureState::default();
         let mut tell = |centidegrees, us| {
             let posture = Posture { joints: [JointAngle { joint: 0, centidegrees }].into_iter().collect() };
             state.accept(&posture, &joints, Micros(us)).unwrap();

@@ -1,0 +1,184 @@
+//! Where the joints of a fold stand between its knots.
+
+use super::record::{FoldRecord, NO_JOINT};
+
+/// Sum of the weights of [`Bend::corners`].
+pub(super) const WHOLE: u16 = 256;
+
+/// Share of the way to the next knot within which a posture counts as at a knot.
+const NEAR: u16 = WHOLE / 4;
+
+/// A knot beside the present posture, and how much it counts.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Corner {
+    pub knot: u16,
+    pub weight: u16,
+}
+
+/// The bend of a fold.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Bend {
+    /// Angles that the sleeve has followed to, hundredths of a degree.
+    played: [Option<i16>; 2],
+    /// The knots around the present posture.
+    pub corners: [Corner; 4],
+    /// True if both joints are known.
+    pub is_known: bool,
+    /// The knot that the posture was at last.
+    pub knot: u16,
+    /// Taxels that are yet to be compared there.
+    pub left: u16,
+    /// Taxels that were compared there.
+    pub compared: u16,
+}
+
+impl Bend {
+    /// Nowhere.
+    pub const NONE: Bend = Bend {
+        played: [None; 2],
+        corners: [Corner { knot: 0, weight: 0 }; 4],
+        is_known: false,
+        knot: u16::MAX,
+        left: 0,
+        compared: 0,
+    };
+
+    /// Number of the nearest knot.
+    pub fn nearest(&self) -> u16 {
+        let [first, rest @ ..] = self.corners;
+        rest.into_iter().fold(first, |most, next| if next.weight > most.weight { next } else { most }).knot
+    }
+
+    /// Moves to these angles (hundredths of a degree) of the fold's joints, if they are known. When it
+    /// comes to another knot than the last one, its taxels are to be compared.
+    pub fn turn(&mut self, fold: &FoldRecord, angles: [Option<i16>; 2]) {
+        let FoldRecord { joints, knots: [_, inner], play, .. } = *fold;
+        let [mut first, mut second] = [(0, 0); 2];
+        self.is_known = false;
+        for (axis, at) in [&mut first, &mut second].into_iter().enumerate() {
+            let (Some(joint), Some(angle), Some(play), Some(played)) =
+                (joints.get(axis), angles.get(axis), play.get(axis), self.played.get_mut(axis))
+            else {
+                return;
+            };
+            if *joint == NO_JOINT {
+                continue;
+            }
+            let Some(angle) = angle.map(i32::from) else { return };
+            let play = i32::from(*play);
+            let followed = played.map_or(angle, |played| i32::from(played).clamp(angle - play, angle + play));
+            *played = Some(followed as i16);
+            *at = between(fold, axis, followed);
+        }
+        self.is_known = true;
+        let ((row, down), (column, right)) = (first, second);
+        let both = (down * right + WHOLE / 2) / WHOLE;
+        let weights = [WHOLE + both - down - right, right - both, down - both, both];
+        let start = row * u16::from(inner) + column;
+        let below = start + u16::from(inner);
+        for ((corner, knot), weight) in
+            self.corners.iter_mut().zip([start, start + 1, below, below + 1]).zip(weights)
+        {
+            *corner = Corner { knot, weight };
+        }
+        let is_at_knot = [down, right].iter().all(|share| *share <= NEAR || *share >= WHOLE - NEAR);
+        if !is_at_knot {
+            self.left = 0;
+        } else if self.knot != self.nearest() {
+            (self.knot, self.left, self.compared) = (self.nearest(), fold.taxels, 0);
+        }
+    }
+}
+
+/// The knot at or below an angle, and the share of the way to the next one, of [`WHOLE`].
+fn between(fold: &FoldRecord, axis: usize, angle: i32) -> (u16, u16) {
+    let (Some(first), Some(step), Some(knots)) =
+        (fold.first.get(axis), fold.step.get(axis), fold.knots.get(axis))
+    else {
+        return (0, 0);
+    };
+    let step = u32::from(*step).max(1);
+    let last = u32::from(knots.saturating_sub(1));
+    let along = (angle - i32::from(*first)).max(0).unsigned_abs().min(last * step);
+    let knot = along / step;
+    (knot as u16, ((along - knot * step) * u32::from(WHOLE) / step) as u16)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::vec::Vec;
+
+    fn pair() -> FoldRecord {
+        FoldRecord {
+            joints: [0, 1],
+            knots: [3, 4],
+            first: [-1000, 0],
+            step: [1000, 500],
+            play: [0, 0],
+            taxels: 7,
+            zero: 0,
+        }
+    }
+
+    #[test]
+    fn corners_are_those_of_bilinear_interpolation() {
+        let fold = pair();
+        for (a, b) in (-20..=20).flat_map(|a| (-4..=20).map(move |b| (a * 97, b * 83))) {
+            let mut bend = Bend::NONE;
+            bend.turn(&fold, [Some(a), Some(b)]);
+            let there: Vec<Corner> = bend.corners.into_iter().filter(|corner| corner.weight > 0).collect();
+            assert!(there.iter().all(|corner| corner.knot < 12), "{there:?}");
+            assert_eq!(there.iter().map(|corner| corner.weight).sum::<u16>(), WHOLE);
+            // The mean of the knots' places is the posture, within the table.
+            let mean = |of: &dyn Fn(u16) -> f64| -> f64 {
+                there.iter().map(|corner| of(corner.knot) * f64::from(corner.weight) / 256.0).sum()
+            };
+            let down = mean(&|knot| f64::from(knot / 4) * 1000.0 - 1000.0);
+            let right = mean(&|knot| f64::from(knot % 4) * 500.0);
+            assert!((down - f64::from(a.clamp(-1000, 1000))).abs() <= 8.0, "{a}: {down}");
+            assert!((right - f64::from(b.clamp(0, 1500))).abs() <= 4.0, "{b}: {right}");
+        }
+    }
+
+    #[test]
+    fn a_sleeve_follows_once_the_play_is_used_up() {
+        let mut fold = pair();
+        (fold.joints[1], fold.knots, fold.first, fold.step) = (NO_JOINT, [19, 1], [0, 0], [1000, 0]);
+        fold.play = [900, 0];
+        let mut bend = Bend::NONE;
+        let mut knot = |angle: i16| {
+            bend.turn(&fold, [Some(angle), None]);
+            bend.corners.iter().map(|c| f64::from(c.knot) * f64::from(c.weight) / 256.0).sum::<f64>()
+        };
+        let near = |a: f64, b: f64| assert!((a - b).abs() < 0.01, "{a} {b}");
+        near(knot(5000), 5.0);
+        near(knot(5800), 5.0);
+        near(knot(7000), 6.1);
+        near(knot(6000), 6.1);
+        near(knot(5000), 5.9);
+        near(knot(18_000), 17.1);
+        assert!(!{
+            bend.turn(&fold, [None, None]);
+            bend.is_known
+        });
+    }
+
+    #[test]
+    fn each_arrival_at_another_knot_asks_for_a_comparison() {
+        let mut fold = pair();
+        (fold.joints[1], fold.knots, fold.first, fold.step) = (NO_JOINT, [4, 1], [0, 0], [1000, 0]);
+        let mut bend = Bend::NONE;
+        let mut asks = |angle: i16| {
+            bend.left = 0;
+            bend.turn(&fold, [Some(angle), None]);
+            bend.left > 0
+        };
+        assert_eq!(
+            [100, 200, 600, 240, 1240, 1300, 800].map(&mut asks),
+            [true, false, false, false, true, false, false]
+        );
+        assert_eq!([100, 900, 1200].map(&mut asks), [true, true, false]);
+    }
+}

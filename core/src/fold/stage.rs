@@ -1,0 +1,328 @@
+//! What the taxels that fold are expected to feel, and its corrections.
+
+use super::bend::{Bend, WHOLE};
+use super::posture::PostureState;
+use super::record::{FoldCell, FoldRecord};
+use super::table::FoldTable;
+use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
+use crate::capacity::TAXELS;
+use crate::format::{Micros, Name};
+use core::ops::Range;
+use serde::{Deserialize, Serialize};
+
+/// Time in which every taxel that folds is renewed, us.
+const TURN_US: u64 = 20_000;
+/// Words of a bit for each taxel.
+const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0 };
+/// Most days' worth of comparisons at a knot that count: a correction then moves by an eighth.
+const MOST_PASSES: u8 = 7;
+
+/// Sums of what is expected at the present posture.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Expected {
+    /// Number of taxels of which something is expected, or that are in doubt.
+    pub taxels: u16,
+    /// Sum of the expected pressures, counts.
+    pub total: u32,
+    /// Sum of the doubts, counts.
+    pub doubt: u32,
+}
+
+/// By how much the total of a contact may be off for the folds beneath it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Doubt {
+    /// Id of the contact.
+    pub id: u32,
+    /// Sum of the doubts of its taxels, counts.
+    pub doubt: u32,
+}
+
+/// Expectation, doubt and corrections of the taxels that fold.
+#[derive(Debug, Clone)]
+pub struct FoldState {
+    /// Angles of the joints.
+    pub posture: PostureState,
+    table: Option<FoldTable<'static>>,
+    /// Number in the scene of each joint of the table.
+    joints: [Option<u8>; JOINTS],
+    bends: [Bend; FOLDS],
+    /// Corrections of the cells' means, in units of the table.
+    corrections: [i8; CELLS],
+    /// Comparisons so far at each knot, at most [`MOST_PASSES`].
+    passes: [u8; KNOTS],
+    /// Expectations and doubts, in units of the table.
+    expected: [u8; FOLDED],
+    doubt: [u8; FOLDED],
+    /// A bit for each taxel of which something is expected, or that is in doubt.
+    held: [u32; WORDS],
+    /// The taxels renewed in the last frame, as numbers in the table's list; the next one follows.
+    turn: Range<u16>,
+    renewed: Option<Micros>,
+    is_stale: bool,
+}
+
+impl FoldState {
+    /// Nothing folds.
+    pub const fn new() -> FoldState {
+        FoldState {
+            posture: PostureState::new(),
+            table: None,
+            joints: [None; JOINTS],
+            bends: [Bend::NONE; FOLDS],
+            corrections: [0; CELLS],
+            passes: [0; KNOTS],
+            expected: [0; FOLDED],
+            doubt: [0; FOLDED],
+            held: [0; WORDS],
+            turn: 0..0,
+            renewed: None,
+            is_stale: true,
+        }
+    }
+
+    /// Puts a table in force, or none; `joints` are the scene's. Corrections are forgotten.
+    pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
+        self.table = table;
+        self.joints = [None; JOINTS];
+        for (joint, to) in (0..).zip(&mut self.joints) {
+            let called = table.and_then(|table| table.joint(joint));
+            let at = called.and_then(|called| joints.iter().position(|joint| joint == called));
+            *to = at.map(|at| at as u8);
+        }
+        self.held.fill(0);
+        self.forget();
+    }
+
+    /// Forgets all corrections: a new day. The posture stays.
+    pub(crate) fn forget(&mut self) {
+        self.corrections.fill(0);
+        self.passes.fill(0);
+        self.bends.fill(Bend::NONE);
+        self.expected.fill(0);
+        self.doubt.fill(0);
+        (self.turn, self.renewed) = (0..0, None);
+    }
+
+    /// The table in force.
+    pub fn table(&self) -> Option<FoldTable<'static>> {
+        if cfg!(feature = "folds") { self.table } else { None }
+    }
+
+    /// True if the folds are known at the present posture: contacts then mean something while joints move.
+    pub fn is_followed(&self) -> bool {
+        self.table().is_some() && !self.is_stale
+    }
+
+    /// True if something is expected of a taxel, or it is in doubt: its baseline does not follow its code.
+    pub(crate) fn holds(&self, taxel: usize) -> bool {
+        self.held.get(taxel / 32).is_some_and(|word| word >> (taxel % 32) & 1 == 1)
+    }
+
+    /// True if [`FoldState::holds`] any of these taxels.
+    pub(crate) fn holds_any(&self, taxels: Range<usize>) -> bool {
+        self.table().is_some() && taxels.into_iter().any(|taxel| self.holds(taxel))
+    }
+
+    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over each with the sum of its
+    /// expectation and doubt, counts.
+    #[inline(never)]
+    pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, u16)) {
+        let Some(table) = self.table() else { return };
+        let all = table.taxels().len() as u16;
+        let since = self.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US));
+        let share = (u64::from(all) * since).div_ceil(TURN_US) as u16;
+        let count = if whole { all } else { share.clamp(1, all.max(1)) };
+        let start = if self.turn.end >= all { 0 } else { self.turn.end };
+        self.turn = start..start.saturating_add(count).min(all);
+        self.renewed = Some(now);
+        self.is_stale = !self.posture.is_fresh(now);
+        let mut at = FoldStart::FIRST;
+        for (index, fold) in table.folds().iter().enumerate() {
+            let angle = |joint: u8| {
+                let joint = self.joints.get(usize::from(joint)).copied().flatten()?;
+                self.posture.angle(joint.into())
+            };
+            let angles = if self.is_stale { [None; 2] } else { fold.joints.map(angle) };
+            let Some(bend) = self.bends.get_mut(index) else { break };
+            bend.turn(fold, angles);
+            let bend = *bend;
+            for slot in at.slots(fold, &self.turn) {
+                let [expected, doubt] = self.expectation(&table, fold, &bend, &at, slot);
+                let (Some(to), Some(doubts)) = (self.expected.get_mut(slot), self.doubt.get_mut(slot)) else {
+                    break;
+                };
+                (*to, *doubts) = (expected, doubt);
+                let Some(taxel) = table.taxels().get(slot).copied().map(usize::from) else { break };
+                let level = (u16::from(expected) + u16::from(doubt)).saturating_mul(table.unit());
+                if let Some(word) = self.held.get_mut(taxel / 32) {
+                    let bit = 1 << (taxel % 32);
+                    if level > 0 { *word |= bit } else { *word &= !bit }
+                }
+                set(taxel, level);
+            }
+            at = at.after(fold);
+        }
+    }
+
+    /// Expectation and doubt of a taxel, in units.
+    #[inline(always)]
+    fn expectation(
+        &self,
+        table: &FoldTable<'_>,
+        fold: &FoldRecord,
+        bend: &Bend,
+        at: &FoldStart,
+        slot: usize,
+    ) -> [u8; 2] {
+        let first = at.cell + (slot - at.slot) * fold.cells();
+        if !bend.is_known {
+            return [0, self.most(table, first, fold.cells())];
+        }
+        let (mut mean, mut spread, mut days) = (0i32, 0u32, 0u32);
+        for corner in bend.corners {
+            if corner.weight == 0 {
+                continue;
+            }
+            let cell = first + usize::from(corner.knot);
+            let (Some(felt), Some(correction)) = (table.cells().get(cell), self.corrections.get(cell)) else {
+                break;
+            };
+            let weight = u32::from(corner.weight);
+            mean += weight as i32 * (i32::from(felt.mean) + i32::from(*correction));
+            spread += weight * u32::from(felt.spread);
+            days += weight * u32::from(felt.days);
+        }
+        let knot = at.knot + usize::from(bend.nearest());
+        let passes = self.passes.get(knot).copied().unwrap_or(0);
+        let round = u32::from(WHOLE) / 2;
+        let doubt = (spread + share(days, passes) + round) / u32::from(WHOLE);
+        let mean = (mean + round as i32) / i32::from(WHOLE);
+        [mean.clamp(0, 255) as u8, doubt.min(255) as u8]
+    }
+
+    /// The most that a taxel feels at any posture.
+    #[inline(never)]
+    fn most(&self, table: &FoldTable<'_>, first: usize, cells: usize) -> u8 {
+        let felt = table.cells().get(first..first + cells).unwrap_or(&[]);
+        let corrections = self.corrections.get(first..first + cells).unwrap_or(&[]);
+        let most = felt.iter().zip(corrections).map(|(FoldCell { mean, spread, days }, correction)| {
+            let mean = (i32::from(*mean) + i32::from(*correction)).max(0);
+            mean + i32::from(*spread) + i32::from(*days)
+        });
+        most.max().unwrap_or(0).min(255) as u8
+    }
+
+    /// Hands over each taxel of which something is expected or in doubt, with its expectation, counts.
+    pub(crate) fn each(&self, mut take: impl FnMut(usize, u16)) {
+        let Some(table) = self.table() else { return };
+        for ((taxel, expected), doubt) in table.taxels().iter().zip(&self.expected).zip(&self.doubt) {
+            if *expected | *doubt != 0 {
+                take(usize::from(*taxel), u16::from(*expected).saturating_mul(table.unit()));
+            }
+        }
+    }
+
+    /// Compares the taxels whose turn it was and whose joint has come to another knot with what they feel:
+    /// `felt` gives the pressure of a taxel without the expectation, counts, or none if it may be touched.
+    #[inline(never)]
+    pub(crate) fn learn(&mut self, felt: impl Fn(usize) -> Option<u16>) {
+        let Some(table) = self.table() else { return };
+        let unit = u32::from(table.unit()).max(1);
+        let mut at = FoldStart::FIRST;
+        for (index, fold) in table.folds().iter().enumerate() {
+            let Some(bend) = self.bends.get_mut(index) else { break };
+            let knot = usize::from(bend.knot);
+            let passes = self.passes.get_mut(at.knot + knot);
+            if let Some(passes) = passes.filter(|_| bend.is_known && bend.left > 0) {
+                for slot in at.slots(fold, &self.turn).take(bend.left.into()) {
+                    bend.left -= 1;
+                    let (Some(taxel), Some(expected)) = (table.taxels().get(slot), self.expected.get(slot))
+                    else {
+                        break;
+                    };
+                    let Some(felt) = felt(usize::from(*taxel)) else { continue };
+                    let off = ((u32::from(felt) + unit / 2) / unit) as i32 - i32::from(*expected);
+                    let cell = at.cell + (slot - at.slot) * fold.cells() + knot;
+                    if let Some(correction) = self.corrections.get_mut(cell) {
+                        let now = i32::from(*correction) + nearer(off, *passes);
+                        *correction = now.clamp(-127, 127) as i8;
+                    }
+                    bend.compared += 1;
+                }
+                // A comparison in which most taxels may have been touched is none.
+                if bend.left == 0 && bend.compared > fold.taxels / 2 {
+                    *passes = (*passes + 1).min(MOST_PASSES);
+                }
+            }
+            at = at.after(fold);
+        }
+    }
+
+    /// Expectation of a taxel and its doubt, counts; none if it does not fold.
+    pub fn of(&self, taxel: u16) -> Option<[u16; 2]> {
+        let table = self.table()?;
+        let mut first = 0;
+        let slot = table.folds().iter().find_map(|fold| {
+            let its = table.taxels().get(first..first + usize::from(fold.taxels))?;
+            let slot = its.binary_search(&taxel).ok().map(|at| first + at);
+            first += its.len();
+            slot
+        })?;
+        let counts = |units: Option<&u8>| u16::from(units.copied().unwrap_or(0)).saturating_mul(table.unit());
+        Some([counts(self.expected.get(slot)), counts(self.doubt.get(slot))])
+    }
+
+    /// Sums over the taxels that `counts` takes.
+    pub fn expected(&self, counts: impl Fn(usize) -> bool) -> Expected {
+        let mut sum = Expected::default();
+        let Some(table) = self.table() else { return sum };
+        for ((taxel, expected), doubt) in table.taxels().iter().zip(&self.expected).zip(&self.doubt) {
+            if *expected | *doubt != 0 && counts(usize::from(*taxel)) {
+                sum.taxels += 1;
+                sum.total += u32::from(*expected) * u32::from(table.unit());
+                sum.doubt += u32::from(*doubt) * u32::from(table.unit());
+            }
+        }
+        sum
+    }
+}
+
+/// `days` after so many comparisons: their mean is nearer to the day's own.
+fn share(days: u32, passes: u8) -> u32 {
+    days.checked_div(1 + u32::from(passes)).unwrap_or(days)
+}
+
+/// Change of a correction that is off by `off`: so that it becomes the mean of the comparisons, as long as
+/// these are few.
+fn nearer(off: i32, passes: u8) -> i32 {
+    let passes = 1 + i32::from(passes);
+    (2 * off + if off < 0 { -passes } else { passes }).checked_div(2 * passes).unwrap_or(0)
+}
+
+/// Where the entries of a fold begin.
+#[derive(Clone, Copy)]
+struct FoldStart {
+    slot: usize,
+    cell: usize,
+    knot: usize,
+}
+
+impl FoldStart {
+    const FIRST: FoldStart = FoldStart { slot: 0, cell: 0, knot: 0 };
+
+    /// The fold's taxels within a range of the table's list.
+    fn slots(&self, fold: &FoldRecord, range: &Range<u16>) -> Range<usize> {
+        let end = self.slot + usize::from(fold.taxels);
+        usize::from(range.start).max(self.slot)..usize::from(range.end).min(end)
+    }
+
+    /// The place of the fold after this one.
+    fn after(&self, fold: &FoldRecord) -> FoldStart {
+        let taxels = usize::from(fold.taxels);
+        FoldStart {
+            slot: self.slot + taxels,
+            cell: self.cell + taxels * fold.cells(),
+            knot: self.knot + fold.cells(),
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! The garment folds at an elbow, and presses on itself: the board expects it, and feels what is more.
+
+use super::{BoardAndHost, TAXELS};
+use taxel_core::board::TableKind;
+use taxel_core::fold::{
+    FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, Posture, fold_table_bytes,
+    write_fold_table,
+};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{FoldsReport, Report, Request, TABLE_PIECE};
+
+/// Taxels that fold: the middle of two rows.
+const FOLDED: [u16; 12] = [20, 21, 22, 23, 24, 25, 36, 37, 38, 39, 40, 41];
+/// Counts of a unit of the table.
+const UNIT: u16 = 4;
+/// What each feels at 0, 30, 60 and 90 degrees, units: a ridge that appears and grows.
+const FELT: [u8; 4] = [0, 40, 120, 200];
+
+fn layout() -> Layout {
+    Layout::build(&Garment::block(), TAXELS, 4095).unwrap()
+}
+
+/// What the elbow was learned to press.
+fn elbow(spread: u8, days: u8) -> Vec<u8> {
+    let fold = FoldRecord {
+        joints: [0, NO_JOINT],
+        knots: [4, 1],
+        first: [0, 0],
+        step: [3000, 0],
+        play: [0, 0],
+        taxels: FOLDED.len() as u16,
+        zero: 0,
+    };
+    let cell = |mean: u8| FoldCell { mean, spread: spread.min(mean), days: days.min(mean) };
+    let cells = vec![FELT.map(cell); FOLDED.len()].concat();
+    let parts = FoldTableParts {
+        joints: &["left_elbow"],
+        folds: &[fold],
+        taxels: &FOLDED,
+        cells: &cells,
+        unit: UNIT,
+    };
+    let mut bytes = vec![0; fold_table_bytes(1, FOLDED.len(), cells.len())];
+    write_fold_table(&parts, &layout(), &mut bytes).unwrap();
+    bytes
+}
+
+/// What the fold presses at an angle, counts.
+fn pressed(degrees: f64) -> f64 {
+    let at = (degrees / 30.0).clamp(0.0, 3.0);
+    let (low, share) = (at.floor() as usize, at.fract());
+    let next = FELT[(low + 1).min(3)];
+    f64::from(UNIT) * (f64::from(FELT[low]) * (1.0 - share) + f64::from(next) * share)
+}
+
+impl BoardAndHost {
+    fn bend(&mut self, degrees: f64) {
+        let joint = JointAngle { joint: 0, centidegrees: (degrees * 100.0) as i16 };
+        let posture = Posture { joints: [joint].into_iter().collect() };
+        assert_eq!(self.answer(&Request::Posture(posture)), None);
+    }
+
+    /// Scans with these pressures besides the fold's; returns contacts as (id, total), and what is told of
+    /// the folds.
+    fn feel(&mut self, fold: f64, touch: &[(u16, f64)]) -> (Vec<(u32, u32)>, Option<FoldsReport>) {
+        for taxel in 0..TAXELS as u16 {
+            let more: f64 = touch.iter().filter(|(at, _)| *at == taxel).map(|(_, counts)| counts).sum();
+            let fold = if FOLDED.contains(&taxel) { fold } else { 0.0 };
+            self.press(&[usize::from(taxel)], (100.0 + fold + more) as u16);
+        }
+        self.scan();
+        let (mut contacts, mut told) = (None, None);
+        self.drain(usize::MAX, |report| match report {
+            Report::Contacts(list) => {
+                contacts =
+                    Some(list.contacts.iter().map(|told| (told.contact.id, told.contact.total)).collect())
+            }
+            Report::Folds(report) => told = Some(report.clone()),
+            _ => {}
+        });
+        (contacts.unwrap_or_default(), told)
+    }
+
+    /// Bends to and fro between 0 and 90 degrees for so many seconds, told at 50 Hz; the fold presses
+    /// `share` of what was learned. Returns the frames with contacts.
+    fn sway(&mut self, seconds: f64, share: f64) -> usize {
+        let mut touched = 0;
+        for frame in 0..(seconds * 200.0) as usize {
+            let degrees = 45.0 - 45.0 * (frame as f64 / 200.0 * 2.0).cos();
+            if frame % 4 == 0 {
+                self.bend(degrees);
+            }
+            touched += usize::from(!self.feel(share * pressed(degrees), &[]).0.is_empty());
+        }
+        touched
+    }
+}
+
+/// A tared board with a table in force, unless it is empty.
+fn wearing(table: &[u8]) -> BoardAndHost {
+    let mut bench = BoardAndHost::new(Scene::shipped());
+    bench.press(&std::array::from_fn::<_, TAXELS, _>(|taxel| taxel), 100);
+    bench.ask(&Request::Start);
+    bench.ask(&Request::Tare { frames: 4 });
+    (0..8).for_each(|_| drop(bench.feel(0.0, &[])));
+    if !table.is_empty() {
+        let want = vec![None; table.len().div_ceil(TABLE_PIECE)];
+        assert_eq!(bench.send_table(TableKind::Folds, table), want);
+    }
+    bench
+}
+
+#[test]
+fn a_fold_is_no_touch_once_it_is_known() {
+    assert!(wearing(&[]).sway(3.2, 1.0) > 300, "unknown, it is one");
+    // 20 ms of posture and of turn are 1.8 degrees: at most 40 counts.
+    assert_eq!(wearing(&elbow(12, 0)).sway(20.0, 1.0), 0);
+}
+
+#[test]
+fn a_touch_inside_a_fold_has_its_own_force() {
+    let mut bench = wearing(&elbow(5, 0));
+    bench.bend(60.0);
+    let touch = [(21, 500.0), (22, 500.0), (37, 500.0), (38, 500.0)];
+    for _ in 0..40 {
+        bench.bend(60.0);
+        assert_eq!(bench.feel(480.0, &[]).0, []);
+    }
+    let felt: Vec<_> = (0..30).map(|_| bench.feel(480.0, &touch)).collect();
+    let last = &felt.iter().rev().find(|(contacts, _)| !contacts.is_empty()).unwrap().0;
+    let [(id, total)] = last[..] else { panic!("{last:?}") };
+    assert!((1990..=2010).contains(&total), "{total}");
+    // Its doubt is that of its four taxels.
+    let told = felt.iter().rev().find_map(|(_, told)| told.clone()).unwrap();
+    assert_eq!((told.taxels, told.total, told.doubt), (12, 12 * 480, 12 * 20));
+    assert!(told.followed);
+    assert_eq!(told.contacts.iter().map(|doubt| (doubt.id, doubt.doubt)).collect::<Vec<_>>(), [(id, 80)]);
+}
+
+#[test]
+fn without_a_fresh_posture_only_what_no_fold_presses_is_a_touch() {
+    let mut bench = wearing(&elbow(5, 0));
+    bench.bend(60.0);
+    let (mut touched, mut last) = (0, None);
+    for frame in 0..200 {
+        // The arm goes on without a word.
+        let (contacts, told) = bench.feel(if frame < 60 { 480.0 } else { 800.0 }, &[]);
+        touched += usize::from(!contacts.is_empty() && frame > 110);
+        last = told.or(last);
+    }
+    let last = last.unwrap();
+    assert_eq!((touched, last.followed, last.total), (0, false, 0));
+    assert_eq!(last.doubt, 12 * 205 * 4);
+    let touch = [(21, 900.0), (22, 900.0), (37, 900.0), (38, 900.0)];
+    let felt = (0..10).map(|_| bench.feel(800.0, &touch).0).collect::<Vec<_>>();
+    assert!(felt.last().is_some_and(|contacts| contacts.len() == 1), "{felt:?}");
+    // Elsewhere nothing is different.
+    let beside = [(1, 300.0), (2, 300.0)];
+    let felt = (0..10).map(|_| bench.feel(0.0, &beside).0).collect::<Vec<_>>();
+    assert!(felt.last().is_some_and(|contacts| contacts.len() == 1), "{felt:?}");
+}
+
+#[test]
+fn a_day_is_learned_while_nothing_touches() {
+    // Worn otherwise today: 25 % more than was learned, within what days may differ by.
+    let mut bench = wearing(&elbow(12, 90));
+    assert_eq!(bench.sway(30.0, 1.25), 0);
+    bench.bend(90.0);
+    let before = (0..60).filter_map(|_| bench.feel(1.25 * 800.0, &[]).1).last().unwrap();
+    let off = f64::from(before.total) / (12.0 * 1.25 * 800.0) - 1.0;
+    assert!(off.abs() < 0.04, "{before:?}");
+    // The doubt of days has gone down to an eighth.
+    assert!(before.doubt <= 12 * 4 * (12 + 90 / 8 + 1), "{before:?}");
+
+    // A fingertip rests on the fold for a while: that is no fold.
+    let mut bench = wearing(&elbow(12, 0));
+    let rest: Vec<_> = FOLDED.map(|taxel| (taxel, 300.0)).to_vec();
+    for degrees in [0.0, 30.0, 60.0, 90.0, 60.0, 30.0, 60.0] {
+        for _ in 0..40 {
+            bench.bend(degrees);
+            bench.feel(pressed(degrees), &rest);
+        }
+    }
+    let (contacts, _) = bench.feel(480.0, &rest);
+    let [(_, total)] = contacts[..] else { panic!("{contacts:?}") };
+    assert!((12 * 280..=12 * 320).contains(&total), "{total}");
+}
+
+#[test]
+fn a_held_bend_is_no_drift() {
+    let mut bench = wearing(&elbow(12, 0));
+    for _ in 0..12_000 {
+        bench.bend(90.0);
+        assert_eq!(bench.feel(830.0, &[]).0, []);
+    }
+    // Had the baseline followed, straight would now be far below it, and the next bend too weak.
+    for _ in 0..40 {
+        bench.bend(0.0);
+        bench.feel(0.0, &[]);
+    }
+    let touch = [(21, 200.0), (22, 200.0), (37, 200.0), (38, 200.0)];
+    let felt = (0..10).map(|_| bench.feel(0.0, &touch).0).collect::<Vec<_>>();
+    let [(_, total)] = felt.last().unwrap()[..] else { panic!("{felt:?}") };
+    assert!((790..=810).contains(&total), "{total}");
+}
+
+#[test]
+fn a_tare_of_a_bent_arm_is_that_of_a_straight_one() {
+    let mut bench = wearing(&elbow(5, 0));
+    for _ in 0..20 {
+        bench.bend(60.0);
+        bench.feel(480.0, &[]);
+    }
+    bench.ask(&Request::Tare { frames: 20 });
+    for _ in 0..40 {
+        bench.bend(60.0);
+        bench.feel(480.0, &[]);
+    }
+    assert_eq!(bench.sway(10.0, 1.0), 0);
+    let rest = bench.board.state().condition.baseline().unwrap();
+    assert!(rest.iter().all(|rest| (95..=105).contains(rest)), "{rest:?}");
+}
+
+#[test]
+fn a_table_that_is_wrong_is_refused_by_name() {
+    let good = elbow(5, 5);
+    let refusal = |change: &dyn Fn(&mut Vec<u8>)| {
+        let mut table = good.clone();
+        change(&mut table);
+        let crc = taxel_core::format::crc32(&table[8..]);
+        table[4..8].copy_from_slice(&crc.to_le_bytes());
+        FoldTable::check(&table, &layout()).unwrap_err().to_string()
+    };
+    let first = 280;
+    let taxels = first + 20;
+    assert_eq!(refusal(&|table| table[8] = 2), "folds must be a table of folds, version 1");
+    assert_eq!(refusal(&|table| table.truncate(400)), "folds must be a table of folds, version 1");
+    assert_eq!(refusal(&|table| table[20] ^= 1), "folds must be made for this garment");
+    assert_eq!(refusal(&|table| table[24] = 0), "folds must name its joints");
+    assert_eq!(refusal(&|table| table[16] = 0), "folds must have a unit of at least 1 count");
+    assert_eq!(refusal(&|table| table[first] = 1), "folds must name one or two joints of the table");
+    assert_eq!(refusal(&|table| table[first + 1] = 0), "folds must name one or two joints of the table");
+    assert_eq!(refusal(&|table| table[first + 3] = 2), "folds must leave out what belongs to a second joint");
+    assert_eq!(refusal(&|table| table[first + 2] = 0), "folds must have knots, and angles between them");
+    assert_eq!(refusal(&|table| table[first + 13] = 100), "folds must have a play of at most 90 degrees");
+    let order = "folds must list the taxels of each fold once, in ascending order";
+    assert_eq!(refusal(&|table| table[taxels] = 21), order);
+    assert_eq!(refusal(&|table| table[first + 16] = 13), order);
+    assert_eq!(
+        refusal(&|table| table[taxels + 22] = 64),
+        "folds must list taxels of the garment, each in one fold"
+    );
+    assert_eq!(
+        refusal(&|table| table[first + 2] = 3),
+        "folds must have as many taxels and cells as its folds, and at most 256 knots"
+    );
+    let mut bench = wearing(&[]);
+    let undamaged = Some("folds must arrive undamaged".to_string());
+    let damaged = [&good[..300], &[1], &good[301..]].concat();
+    assert_eq!(bench.send_table(TableKind::Folds, &damaged).last(), Some(&undamaged));
+    assert!(bench.send_table(TableKind::Folds, &good).iter().all(Option::is_none));
+}
