@@ -120,7 +120,10 @@ impl Condition {
     }
 }
 
-/// Corrects what the folds are expected to press, on panels that nothing touches.
+/// Taxels beside a contact that may belong to it.
+const BESIDE: u16 = 3;
+
+/// Corrects what the folds are expected to press, where nothing touches.
 fn learn<const TAXELS: usize, const CONTACTS: usize>(
     folds: &mut FoldState,
     calibration: &TaxelCalibration<TAXELS>,
@@ -129,13 +132,16 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     sampled: &Sampled<'_>,
     feedback: &Feedback<CONTACTS>,
 ) {
-    let pressed = feedback.home.iter().chain(&feedback.beyond);
-    let touched = pressed.fold(0u8, |panels, pressed| panels | 1u8.unbounded_shl(pressed.rect.panel.into()));
     folds.learn(|taxel| {
-        let mut areas = areas_of(layout, sampled.panels & !touched);
-        let is_quiet = areas.any(|(_, area)| {
-            let count = usize::from(area.rows) * usize::from(area.columns);
-            (usize::from(area.base)..usize::from(area.base) + count).contains(&taxel)
+        let is_quiet = areas_of(layout, sampled.panels).any(|(panel, area)| {
+            let at = taxel.wrapping_sub(area.base.into());
+            let columns = usize::from(area.columns);
+            let (Some(row), Some(column)) = (at.checked_div(columns), at.checked_rem(columns)) else {
+                return false;
+            };
+            let pressed = feedback.home.iter().chain(&feedback.beyond);
+            row < area.rows.into()
+                && !pressed.into_iter().any(|it| it.rect.holds(panel, row as u16, column as u16, BESIDE))
         });
         let code =
             sampled.codes.get(taxel).filter(|_| is_quiet && images.calibrated.get(taxel) == Some(&0))?;

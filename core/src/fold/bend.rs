@@ -25,7 +25,7 @@ pub(super) struct Bend {
     /// True if both joints are known.
     pub is_known: bool,
     /// The knot that the posture was at last.
-    pub knot: u16,
+    pub knot: Option<u16>,
     /// Taxels that are yet to be compared there.
     pub left: u16,
     /// Taxels that were compared there.
@@ -38,7 +38,7 @@ impl Bend {
         played: [None; 2],
         corners: [Corner { knot: 0, weight: 0 }; 4],
         is_known: false,
-        knot: u16::MAX,
+        knot: None,
         left: 0,
         compared: 0,
     };
@@ -84,8 +84,8 @@ impl Bend {
         let is_at_knot = [down, right].iter().all(|share| *share <= NEAR || *share >= WHOLE - NEAR);
         if !is_at_knot {
             self.left = 0;
-        } else if self.knot != self.nearest() {
-            (self.knot, self.left, self.compared) = (self.nearest(), fold.taxels, 0);
+        } else if self.knot != Some(self.nearest()) {
+            (self.knot, self.left, self.compared) = (Some(self.nearest()), fold.taxels, 0);
         }
     }
 }

@@ -7,7 +7,7 @@
 //! | output | expected pressure and doubt of each of these taxels, counts, see [`FoldState`] |
 //! | saturation | an expectation ends at 255 of the table's units, a correction at 127 |
 //! | latency | 20 ms: all taxels that fold are renewed in turn in this time |
-//! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 10,176 bytes |
+//! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 11,216 bytes |
 //! | M0+ cycles | row `folds` of `docs/bench/cycles.txt` |
 //!
 //! The table has a *fold* for each joint, or pair of joints, that folds the garment: its taxels, and for each
@@ -22,7 +22,8 @@
 //!
 //! Corrections: whenever a joint comes to another knot, the taxels that nothing touches are compared once
 //! with what is expected there. A taxel that is held against something at one posture therefore teaches
-//! nothing more while it lasts, and panels with a contact teach nothing at all. A tare begins a new day.
+//! nothing more while it lasts, and what lies within three taxels of a contact teaches nothing at all. A tare
+//! begins a new day.
 //!
 //! Without a posture, or with one older than [`STALE_US`], a fold may be anything: its taxels are touched
 //! only beyond the most that they feel at any posture. The report of what is expected says so.

@@ -14,6 +14,10 @@ use serde::{Deserialize, Serialize};
 const TURN_US: u64 = 20_000;
 /// Words of a bit for each taxel.
 const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0 };
+/// Words of a bit for each cell.
+const KNOWN_WORDS: usize = CELLS / 32;
+/// Joints of a table.
+const KNOWN: usize = if cfg!(feature = "folds") { JOINTS } else { 0 };
 /// Most days' worth of comparisons at a knot that count: a correction then moves by an eighth.
 const MOST_PASSES: u8 = 7;
 
@@ -44,10 +48,12 @@ pub struct FoldState {
     pub posture: PostureState,
     table: Option<FoldTable<'static>>,
     /// Number in the scene of each joint of the table.
-    joints: [Option<u8>; JOINTS],
+    joints: [Option<u8>; KNOWN],
     bends: [Bend; FOLDS],
     /// Corrections of the cells' means, in units of the table.
     corrections: [i8; CELLS],
+    /// A bit for each cell that was compared: one that was touched whenever its joint came there was not.
+    known: [u32; KNOWN_WORDS],
     /// Comparisons so far at each knot, at most [`MOST_PASSES`].
     passes: [u8; KNOTS],
     /// Expectations and doubts, in units of the table.
@@ -58,7 +64,7 @@ pub struct FoldState {
     /// The taxels renewed in the last frame, as numbers in the table's list; the next one follows.
     turn: Range<u16>,
     renewed: Option<Micros>,
-    is_stale: bool,
+    is_posed: bool,
 }
 
 impl FoldState {
@@ -67,23 +73,24 @@ impl FoldState {
         FoldState {
             posture: PostureState::new(),
             table: None,
-            joints: [None; JOINTS],
+            joints: [None; KNOWN],
             bends: [Bend::NONE; FOLDS],
             corrections: [0; CELLS],
+            known: [0; KNOWN_WORDS],
             passes: [0; KNOTS],
             expected: [0; FOLDED],
             doubt: [0; FOLDED],
             held: [0; WORDS],
             turn: 0..0,
             renewed: None,
-            is_stale: true,
+            is_posed: false,
         }
     }
 
     /// Puts a table in force, or none; `joints` are the scene's. Corrections are forgotten.
     pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
         self.table = table;
-        self.joints = [None; JOINTS];
+        self.joints = [None; KNOWN];
         for (joint, to) in (0..).zip(&mut self.joints) {
             let called = table.and_then(|table| table.joint(joint));
             let at = called.and_then(|called| joints.iter().position(|joint| joint == called));
@@ -95,7 +102,11 @@ impl FoldState {
 
     /// Forgets all corrections: a new day. The posture stays.
     pub(crate) fn forget(&mut self) {
+        if !cfg!(feature = "folds") {
+            return;
+        }
         self.corrections.fill(0);
+        self.known.fill(0);
         self.passes.fill(0);
         self.bends.fill(Bend::NONE);
         self.expected.fill(0);
@@ -110,7 +121,7 @@ impl FoldState {
 
     /// True if the folds are known at the present posture: contacts then mean something while joints move.
     pub fn is_followed(&self) -> bool {
-        self.table().is_some() && !self.is_stale
+        self.table().is_some() && self.is_posed
     }
 
     /// True if something is expected of a taxel, or it is in doubt: its baseline does not follow its code.
@@ -135,14 +146,14 @@ impl FoldState {
         let start = if self.turn.end >= all { 0 } else { self.turn.end };
         self.turn = start..start.saturating_add(count).min(all);
         self.renewed = Some(now);
-        self.is_stale = !self.posture.is_fresh(now);
+        self.is_posed = self.posture.is_fresh(now);
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
                 let joint = self.joints.get(usize::from(joint)).copied().flatten()?;
                 self.posture.angle(joint.into())
             };
-            let angles = if self.is_stale { [None; 2] } else { fold.joints.map(angle) };
+            let angles = if self.is_posed { fold.joints.map(angle) } else { [None; 2] };
             let Some(bend) = self.bends.get_mut(index) else { break };
             bend.turn(fold, angles);
             let bend = *bend;
@@ -188,14 +199,13 @@ impl FoldState {
                 break;
             };
             let weight = u32::from(corner.weight);
+            let passes = passes_of(&self.known, &self.passes, at.knot + usize::from(corner.knot), cell);
             mean += weight as i32 * (i32::from(felt.mean) + i32::from(*correction));
             spread += weight * u32::from(felt.spread);
-            days += weight * u32::from(felt.days);
+            days += weight * share(felt.days, passes);
         }
-        let knot = at.knot + usize::from(bend.nearest());
-        let passes = self.passes.get(knot).copied().unwrap_or(0);
         let round = u32::from(WHOLE) / 2;
-        let doubt = (spread + share(days, passes) + round) / u32::from(WHOLE);
+        let doubt = (spread + days + round) / u32::from(WHOLE);
         let mean = (mean + round as i32) / i32::from(WHOLE);
         [mean.clamp(0, 255) as u8, doubt.min(255) as u8]
     }
@@ -231,9 +241,8 @@ impl FoldState {
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let Some(bend) = self.bends.get_mut(index) else { break };
-            let knot = usize::from(bend.knot);
-            let passes = self.passes.get_mut(at.knot + knot);
-            if let Some(passes) = passes.filter(|_| bend.is_known && bend.left > 0) {
+            let knot = usize::from(bend.knot.unwrap_or(0));
+            if bend.is_known && bend.left > 0 {
                 for slot in at.slots(fold, &self.turn).take(bend.left.into()) {
                     bend.left -= 1;
                     let (Some(taxel), Some(expected)) = (table.taxels().get(slot), self.expected.get(slot))
@@ -243,14 +252,21 @@ impl FoldState {
                     let Some(felt) = felt(usize::from(*taxel)) else { continue };
                     let off = ((u32::from(felt) + unit / 2) / unit) as i32 - i32::from(*expected);
                     let cell = at.cell + (slot - at.slot) * fold.cells() + knot;
-                    if let Some(correction) = self.corrections.get_mut(cell) {
-                        let now = i32::from(*correction) + nearer(off, *passes);
+                    let passes = passes_of(&self.known, &self.passes, at.knot + knot, cell);
+                    if let Some((correction, known)) =
+                        self.corrections.get_mut(cell).zip(self.known.get_mut(cell / 32))
+                    {
+                        let now = i32::from(*correction) + nearer(off, passes);
                         *correction = now.clamp(-127, 127) as i8;
+                        *known |= 1 << (cell % 32);
                     }
                     bend.compared += 1;
                 }
                 // A comparison in which most taxels may have been touched is none.
-                if bend.left == 0 && bend.compared > fold.taxels / 2 {
+                if bend.left == 0
+                    && bend.compared > fold.taxels / 2
+                    && let Some(passes) = self.passes.get_mut(at.knot + knot)
+                {
                     *passes = (*passes + 1).min(MOST_PASSES);
                 }
             }
@@ -287,9 +303,17 @@ impl FoldState {
     }
 }
 
-/// `days` after so many comparisons: their mean is nearer to the day's own.
-fn share(days: u32, passes: u8) -> u32 {
-    days.checked_div(1 + u32::from(passes)).unwrap_or(days)
+/// Comparisons so far of a cell at its knot.
+fn passes_of(known: &[u32], passes: &[u8], knot: usize, cell: usize) -> u8 {
+    let is_known = known.get(cell / 32).is_some_and(|word| word >> (cell % 32) & 1 == 1);
+    if is_known { passes.get(knot).copied().unwrap_or(0) } else { 0 }
+}
+
+/// What is left of `days` after so many comparisons, whose mean is nearer to the day's own: `days / (1 + n)`.
+fn share(days: u8, passes: u8) -> u32 {
+    const SHARES: [u16; MOST_PASSES as usize + 1] = [256, 128, 86, 64, 52, 43, 37, 32];
+    let share = SHARES.get(usize::from(passes)).copied().unwrap_or(256);
+    (u32::from(days) * u32::from(share)).div_ceil(256)
 }
 
 /// Change of a correction that is off by `off`: so that it becomes the mean of the comparisons, as long as

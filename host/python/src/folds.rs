@@ -23,12 +23,16 @@ pub fn learn_folds<'py>(
     folds: Vec<Vec<String>>,
     step_deg: f32,
     shift_mm: f32,
+    shift_deg: f32,
 ) -> PyResult<(Bound<'py, PyBytes>, Vec<Bound<'py, PyDict>>)> {
     if !(step_deg.is_finite() && (0.5..=90.0).contains(&step_deg)) {
         return Err(usage("step_deg must be 0.5 to 90"));
     }
     if !(shift_mm.is_finite() && (0.0..=100.0).contains(&shift_mm)) {
         return Err(usage("shift_mm must be 0 to 100"));
+    }
+    if !(shift_deg.is_finite() && (0.0..=90.0).contains(&shift_deg)) {
+        return Err(usage("shift_deg must be 0 to 90"));
     }
     let garment = garments::load(garment).map_err(raised)?;
     let layout = Layout::build(&garment, TAXELS, u16::MAX).map_err(raised)?;
@@ -50,7 +54,7 @@ pub fn learn_folds<'py>(
         }
         read.push(sweep);
     }
-    let settings = FoldSettings { folds, step_deg, shift_mm };
+    let settings = FoldSettings { folds, step_deg, shift_mm, shift_deg };
     let learned = py.detach(|| learn(&layout, &read, &settings)).map_err(raised)?;
     let told = learned.folds.iter().map(|fold| value::dict(py, &about(fold))).collect::<PyResult<_>>()?;
     Ok((PyBytes::new(py, &learned.table), told))

@@ -434,5 +434,6 @@ def learn_folds(
     folds: list[list[str]],
     step_deg: float,
     shift_mm: float,
+    shift_deg: float,
 ) -> tuple[bytes, list[dict[str, Any]]]: ...
 def run_program(words: Sequence[str]) -> int: ...

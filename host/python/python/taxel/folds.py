@@ -63,13 +63,15 @@ def learn(
     garment: str | os.PathLike[str] = "reference",
     folds: Sequence[Sequence[str]] = (),
     step_deg: float = 8.0,
-    shift_mm: float = 15.0,
+    shift_mm: float = 22.0,
+    shift_deg: float = 10.0,
 ) -> Learned:
     """Learns the table of folds.
 
     - ``folds``: one or two joints of each fold; by default each joint of the sweeps is one
     - ``step_deg``: angle between the knots of a joint
     - ``shift_mm``: most by which the garment shifts from day to day
+    - ``shift_deg``: most by which the angle differs from day to day at which a fold appears
     """
     read = []
     for sweep in sweeps:
@@ -79,6 +81,6 @@ def learn(
             raise TypeError(f"pressures are uint16, not {felt.dtype}")
         read.append((list(sweep.degrees), np.ascontiguousarray(angles), felt))
     table, told = _taxel.learn_folds(
-        os.fspath(garment), read, [list(joints) for joints in folds], step_deg, shift_mm
+        os.fspath(garment), read, [list(joints) for joints in folds], step_deg, shift_mm, shift_deg
     )
     return Learned(table, told)

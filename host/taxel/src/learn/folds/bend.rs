@@ -76,6 +76,19 @@ impl Knots {
         Some(all)
     }
 
+    /// The knots within so many degrees of one, itself among them.
+    pub fn beside(&self, knot: usize, degrees: f32) -> Vec<usize> {
+        let inner = self.axes.get(1).map_or(1, |axis| axis.knots);
+        let is_near = |other: &usize| {
+            let apart = [(other / inner).abs_diff(knot / inner), (other % inner).abs_diff(knot % inner)];
+            self.axes
+                .iter()
+                .zip(apart)
+                .all(|(axis, apart)| apart as f32 * axis.step <= degrees.max(axis.step))
+        };
+        (0..self.count()).filter(is_near).collect()
+    }
+
     /// Its record, for the numbers of its joints in the table.
     pub fn record(&self, number: impl Fn(&str) -> u8, taxels: usize) -> FoldRecord {
         let mut record = FoldRecord {

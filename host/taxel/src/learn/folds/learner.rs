@@ -28,11 +28,13 @@ pub struct FoldSettings {
     pub step_deg: f32,
     /// Most by which the garment shifts from day to day, mm.
     pub shift_mm: f32,
+    /// Most by which the angle differs from day to day at which a fold appears, degrees.
+    pub shift_deg: f32,
 }
 
 impl Default for FoldSettings {
     fn default() -> FoldSettings {
-        FoldSettings { folds: Vec::new(), step_deg: 8.0, shift_mm: 15.0 }
+        FoldSettings { folds: Vec::new(), step_deg: 8.0, shift_mm: 22.0, shift_deg: 10.0 }
     }
 }
 
@@ -70,6 +72,8 @@ pub struct LearnedFolds {
 struct Course {
     taxel: usize,
     mean: Vec<f32>,
+    /// The most that it felt on any day.
+    most: Vec<f32>,
     spread: Vec<f32>,
     days: Vec<f32>,
 }
@@ -127,11 +131,8 @@ pub fn learn(layout: &Layout, sweeps: &[Sweep], settings: &FoldSettings) -> Resu
         all.push(its);
     }
     fit_to_board(&mut folds, &all, sweeps, settings.step_deg)?;
-    let courses: Vec<Vec<Course>> = folds
-        .iter()
-        .zip(&all)
-        .map(|(fold, its)| courses(layout, sweeps, fold, its, settings.shift_mm))
-        .collect();
+    let courses: Vec<Vec<Course>> =
+        folds.iter().zip(&all).map(|(fold, its)| courses(layout, sweeps, fold, its, settings)).collect();
     write(layout, sweeps, &folds, &courses)
 }
 
@@ -247,7 +248,13 @@ fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[Sweep], step: 
 }
 
 /// What each taxel of a fold feels.
-fn courses(layout: &Layout, sweeps: &[Sweep], fold: &Fold, its: &[usize], shift_mm: f32) -> Vec<Course> {
+fn courses(
+    layout: &Layout,
+    sweeps: &[Sweep],
+    fold: &Fold,
+    its: &[usize],
+    settings: &FoldSettings,
+) -> Vec<Course> {
     let knots = fold.knots.count();
     let mut courses: Vec<Course> = its
         .iter()
@@ -267,30 +274,29 @@ fn courses(layout: &Layout, sweeps: &[Sweep], fold: &Fold, its: &[usize], shift_
                 let off = daily.iter().map(|means| (means[knot] - mean[knot]).abs());
                 1.5 * off.filter(|off| off.is_finite()).fold(0.0f32, f32::max)
             });
-            Course { taxel: *taxel, days: days.collect(), mean, spread }
+            let most = (0..knots).map(|knot| {
+                daily.iter().map(|means| means[knot]).filter(|mean| mean.is_finite()).fold(0.0f32, f32::max)
+            });
+            Course { taxel: *taxel, most: most.collect(), days: days.collect(), mean, spread }
         })
         .collect();
-    // A shift brings what the neighbours feel, at an angle or the next.
-    let most = |taxel: usize, knot: usize| {
-        let course = courses.iter().find(|course| course.taxel == taxel)?;
-        let beside = [knot.saturating_sub(1), knot, (knot + 1).min(knots - 1)];
-        Some(beside.iter().map(|knot| course.mean[*knot]).fold(0.0f32, f32::max))
-    };
+    // A shift brings what the neighbours feel, at an angle or beside it.
+    let beside: Vec<Vec<usize>> =
+        (0..knots).map(|knot| fold.knots.beside(knot, settings.shift_deg)).collect();
     let shifted: Vec<Vec<f32>> = courses
         .iter()
         .map(|course| {
-            let near = near(layout, course.taxel, shift_mm);
-            (0..knots)
-                .map(|knot| {
-                    let strongest = near.iter().filter_map(|taxel| most(*taxel, knot)).fold(0.0f32, f32::max);
-                    (1.0 + DAY_SHARE) * strongest - course.mean[knot]
-                })
-                .collect()
+            let near = near(layout, course.taxel, settings.shift_mm);
+            let near: Vec<&Course> = courses.iter().filter(|other| near.contains(&other.taxel)).collect();
+            let strongest = |knot: &usize| near.iter().map(|other| other.most[*knot]).fold(0.0f32, f32::max);
+            let strongest: Vec<f32> = (0..knots).map(|knot| strongest(&knot)).collect();
+            let of = |beside: &Vec<usize>| beside.iter().map(|knot| strongest[*knot]).fold(0.0f32, f32::max);
+            beside.iter().map(of).collect()
         })
         .collect();
     for (course, shifted) in courses.iter_mut().zip(shifted) {
-        for (days, shifted) in course.days.iter_mut().zip(shifted) {
-            *days = days.max(shifted);
+        for ((days, mean), shifted) in course.days.iter_mut().zip(&course.mean).zip(shifted) {
+            *days = days.max((1.0 + DAY_SHARE) * shifted - mean);
         }
     }
     courses

@@ -6,29 +6,29 @@ use crate::error::{LearnError, Result};
 #[derive(Debug, Clone, Default)]
 pub struct Sweep {
     joints: Vec<String>,
-    taxels: usize,
     angles: Vec<f32>,
-    felt: Vec<u16>,
+    /// By taxel, then by frame, which is how it is read.
+    felt: Vec<Vec<u16>>,
 }
 
 impl Sweep {
     /// No frame yet, of these joints and so many taxels.
     pub fn new(joints: Vec<String>, taxels: usize) -> Sweep {
-        Sweep { joints, taxels, ..Sweep::default() }
+        Sweep { joints, angles: Vec::new(), felt: vec![Vec::new(); taxels] }
     }
 
     /// Adds a frame: the joints' angles (degrees) as the board knew them, and the pressure of every taxel
     /// (counts), as conditioned by a board that knows of no folds.
     pub fn push(&mut self, degrees: &[f32], felt: &[u16]) -> Result<()> {
         require!(
-            degrees.len() == self.joints.len() && felt.len() == self.taxels,
+            degrees.len() == self.joints.len() && felt.len() == self.felt.len(),
             LearnError::Data,
             "frame {}: {} angles and {} taxels instead of {} and {}",
             self.frames(),
             degrees.len(),
             felt.len(),
             self.joints.len(),
-            self.taxels
+            self.felt.len()
         );
         require!(
             degrees.iter().all(|angle| angle.is_finite() && angle.abs() <= 180.0),
@@ -37,7 +37,7 @@ impl Sweep {
             self.frames()
         );
         self.angles.extend_from_slice(degrees);
-        self.felt.extend_from_slice(felt);
+        self.felt.iter_mut().zip(felt).for_each(|(all, felt)| all.push(*felt));
         Ok(())
     }
 
@@ -48,7 +48,7 @@ impl Sweep {
 
     /// Number of taxels.
     pub fn taxels(&self) -> usize {
-        self.taxels
+        self.felt.len()
     }
 
     /// Names of the joints.
@@ -64,6 +64,6 @@ impl Sweep {
 
     /// What a taxel felt, counts, frame by frame.
     pub(super) fn felt(&self, taxel: usize) -> impl Iterator<Item = u16> {
-        self.felt.chunks(self.taxels.max(1)).map(move |frame| frame[taxel])
+        self.felt[taxel].iter().copied()
     }
 }
