@@ -1,7 +1,7 @@
 //! Modules of the page as one script, for a page that loads no files.
 
 /// Modules in the order of their imports.
-const MODULES: [(&str, &str); 10] = [
+const MODULES: [(&str, &str); 12] = [
     ("dom", include_str!("../view/page/dom.js")),
     ("colours", include_str!("../view/page/colours.js")),
     ("garment", include_str!("../view/page/garment.js")),
@@ -10,6 +10,8 @@ const MODULES: [(&str, &str); 10] = [
     ("axes", include_str!("../view/page/axes.js")),
     ("relief-gl", include_str!("../view/page/relief-gl.js")),
     ("relief-flat", include_str!("../view/page/relief-flat.js")),
+    ("drawing", include_str!("../view/page/drawing.js")),
+    ("orbit", include_str!("../view/page/orbit.js")),
     ("relief", include_str!("../view/page/relief.js")),
     ("frozen", include_str!("frozen.js")),
 ];

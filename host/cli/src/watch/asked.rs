@@ -1,6 +1,6 @@
 //! The requests of the command line to a board, and the answers to them.
 
-use super::BoardArgs;
+use super::LiveArgs;
 use taxel::client::{Event, request_name};
 use taxel_core::wire::{self, Request};
 
@@ -14,13 +14,16 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Collects the requests in frames of the wire that were queued because of these options.
-    pub fn of(frames: &[u8], args: &BoardArgs) -> Asked {
+    /// Collects the requests in frames of the wire that were queued because of these options, except those that
+    /// may be refused.
+    pub fn of(frames: &[u8], args: &LiveArgs) -> Asked {
         let number = |frame: &[u8]| wire::open(&mut frame.to_vec()).ok()?.first().copied();
         let mut numbers: Vec<u8> = frames.split(|byte| *byte == 0).filter_map(number).collect();
+        let body = [Request::SetSurface(&[]), Request::SetPressing(0)].map(|request| request.number());
+        numbers.retain(|number| !args.body_may_fail || !body.contains(number));
         // A tare that only a simulated scene asks for may be refused: somebody touches already.
         let tare = Request::Tare { frames: 0 }.number();
-        numbers.retain(|number| *number != tare || args.tare.is_some());
+        numbers.retain(|number| *number != tare || args.board.tare.is_some());
         Asked { numbers, refusal: None }
     }
 

@@ -30,13 +30,25 @@ export const home = () => ({ ...HOME, zoom: 1, shift: [0, 0] });
  * @param {Camera} camera
  * @param {number} turn
  * @param {number} tilt
+ * @param {number} lowest tilt
  * @returns {Camera}
  */
-export const turned = (camera, turn, tilt) => ({
+export const turned = (camera, turn, tilt, lowest = LOWEST) => ({
   ...camera,
   turn: (camera.turn + turn) % (2 * Math.PI),
-  tilt: Math.max(LOWEST, Math.min(HIGHEST, camera.tilt + tilt)),
+  tilt: Math.max(lowest, Math.min(HIGHEST, camera.tilt + tilt)),
 });
+
+/**
+ * Direction from the middle of the scene to the viewer, of length 1.
+ * @param {Camera} camera
+ * @returns {Triple}
+ */
+export const toward = ({ turn, tilt }) => [
+  Math.sin(turn) * Math.cos(tilt),
+  Math.cos(turn) * Math.cos(tilt),
+  Math.sin(tilt),
+];
 
 /**
  * Nearer by a factor; what is seen at `at`, pixels from the middle, stays there.
