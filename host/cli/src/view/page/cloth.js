@@ -30,7 +30,7 @@ const ALONE = 0.45;
 /** Free space between two links that stand side by side, m. */
 const GAP = 0.08;
 /** Free space around the robot, in which forces are drawn, mm. */
-const AROUND = 40;
+const AROUND = 30;
 /** Longest arrow, m. */
 const LONGEST = 0.2;
 /** Light on cloth that is seen from the inside, and at the rim. */

@@ -36,14 +36,18 @@ import { GlPainter } from "./relief-gl.js";
  * @property {Uint32Array} order faces to be drawn by the canvas
  */
 
-/** From the front, a little from the robot's left. */
-const FRONT = { turn: 0.45, tilt: 0.12 };
+/** From the front, a little from the robot's left, and from afar: near and far links are to be compared. */
+const FRONT = { turn: 0.45, tilt: 0.12, distance: 12 };
 /** The robot is seen from below, too. */
 const LOWEST = -1.4;
 /** Margins for the texts, pixels. */
 const MARGINS = /** @type {[number, number]} */ ([30, 22]);
 /** Sum of the pressure that an arrow of 10 cm stands for, ends of the colours. */
-const PER_ARROW = 16;
+const PER_ARROW = 40;
+/** Height of a line of names, and width of a letter, pixels; letters of the force behind a name. */
+const [LINE, LETTER, FORCE] = [14, 6.8, 7];
+/** Shortest time between two texts in a place, ms: nobody reads faster. */
+const SAID_MS = 100;
 const TURNS = "Arrow keys turn and tilt it, Page Up and Page Down move nearer and farther, Home resets.";
 
 /** The robot in an element. */
@@ -86,6 +90,12 @@ export class OnRobot {
     /** @type {Aspect[]} */
     this.aspects = [];
     this.looked = "";
+    /** When the texts were written. */
+    this.said = 0;
+    /** @type {ReturnType<typeof setTimeout> | undefined} they wait for that */
+    this.late = undefined;
+    /** @type {string[]} */
+    this.named = [];
     /** Pictures drawn so far. */
     this.pictures = 0;
     this.become();
@@ -180,8 +190,8 @@ export class OnRobot {
     const sides = this.turns
       ? [{ camera: orbit.camera, name: "", left: 0, width }]
       : [
-          { camera: { ...home(), turn: 0, tilt: 0 }, name: "front", left: 0, width: half },
-          { camera: { ...home(), turn: Math.PI, tilt: 0 }, name: "back", left: half, width: half },
+          { camera: { ...home(), ...FRONT, turn: 0, tilt: 0 }, name: "front", left: 0, width: half },
+          { camera: { ...home(), ...FRONT, turn: Math.PI, tilt: 0 }, name: "back", left: half, width: half },
         ];
     this.aspects = sides.map((side) => {
       const view = sight(side.camera, standing.box, [side.width, height], MARGINS);
@@ -197,6 +207,8 @@ export class OnRobot {
     });
     const [first] = this.aspects;
     if (first && this.turns) light(this.data, standing.normals, first.viewer);
+    this.placeNames();
+    this.said = 0;
     this.bones.setAttribute("d", this.poses ? this.aspects.map((aspect) => this.skeleton(aspect)).join("") : "");
   }
 
@@ -235,6 +247,11 @@ export class OnRobot {
     const { body, bounds, posed } = this;
     if (!body || !bounds || !posed) return;
     const contacts = scene.pressing?.contacts ?? [];
+    const wait = this.said + SAID_MS - performance.now();
+    const isDue = wait <= 0;
+    clearTimeout(this.late);
+    if (isDue) this.said = performance.now();
+    else this.late = setTimeout(() => this.mark(scene), wait);
     const perMetre = 10 * PER_ARROW * scene.top;
     const arrows = this.aspects.flatMap((aspect) =>
       contacts.flatMap((touch) => {
@@ -244,57 +261,62 @@ export class OnRobot {
         const isBehind = normal.reduce((sum, part, axis) => sum + part * (aspect.viewer[axis] ?? 0), 0) < 0;
         // One of two sides shows it.
         if (isBehind && !this.turns) return [];
-        const words = `${touch.id} · ${scene.force(Math.hypot(...touch.force))}`;
-        return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), isBehind, words }];
+        const { id } = touch;
+        const words = `${id} · ${scene.force(Math.hypot(...touch.force))}`;
+        return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), id, isBehind, words }];
       }),
     );
     grown(this.forces, arrows.length, marker).forEach((group, at) => {
       const one = arrows[at];
-      group.setAttribute("display", one ? "inline" : "none");
-      if (!one) return;
-      group.setAttribute("opacity", one.isBehind ? "0.4" : "1");
+      set(group, "display", one ? "inline" : "none");
       const [halo, line, words] = group.children;
-      for (const path of [halo, line]) path?.setAttribute("d", one.d);
-      words?.setAttribute("x", one.at[0].toFixed(1));
-      words?.setAttribute("y", (one.at[1] - 7).toFixed(1));
-      if (words) say(words, one.words);
+      if (!one || !halo || !line || !words) return;
+      set(group, "opacity", one.isBehind ? "0.4" : "1");
+      for (const path of [halo, line]) set(path, "d", one.d);
+      set(words, "transform", `translate(${text([one.at[0], one.at[1] - 7])})`);
+      if (isDue || !words.textContent?.startsWith(`${one.id} `)) say(words, one.words);
     });
-    this.name(scene, body);
+    if (isDue) this.name(scene);
     this.choose(scene.chosen);
     const note = [
       this.poses ? "" : "No robot is known: each link stands in its own frame.",
       this.cloth?.bare.length ? `No place on the robot: ${this.cloth.bare.join(", ")}.` : "",
-      contacts.length ? `An arrow of 10 cm: ${scene.force(PER_ARROW * scene.top)}.` : "",
+      contacts.length ? `An arrow of 10 cm: ${scene.force(PER_ARROW * scene.top)}; none is longer than 20 cm.` : "",
     ];
     say(this.note, note.filter(Boolean).join(" "));
   }
 
   /**
+   * Writes the links' names, each with the force that presses on it.
    * @param {BodyScene} scene
-   * @param {BodyState} body
    */
-  name({ pressing, force }, body) {
-    const { cloth, standing } = this;
-    if (!cloth || !standing) return;
+  name({ pressing, force }) {
+    grown(this.names, this.named.length, () => draw("text")).forEach((words, at) => {
+      const name = this.named[at] ?? "";
+      const pressed = pressing?.links.find(({ link }) => link === name)?.pressed ?? 0;
+      say(words, pressed > 0 ? `${name} ${force(pressed)}` : name);
+    });
+  }
+
+  /** Places the names of the sides, and of the links that wear cloth or end a limb. */
+  placeNames() {
+    const { cloth, standing, body } = this;
+    if (!cloth || !standing || !body) return;
     const named = this.aspects.flatMap((aspect) => [
-      ...(aspect.name ? [{ words: aspect.name, at: /** @type {const} */ ([aspect.left + aspect.width / 2, 14]) }] : []),
+      ...(aspect.name ? [{ name: aspect.name, at: middle(aspect) }] : []),
       ...body.links.flatMap(({ name }, link) => {
-        const corners = [...cloth.links.keys()].filter((corner) => cloth.links[corner] === link);
+        const at = below(aspect, cloth, link);
         const isEnd = !body.links.some(({ parent }) => parent === link);
         const origin = standing.origins[link];
-        const pressed = pressing?.links.find((wrench) => wrench.link === name)?.pressed ?? 0;
-        const words = pressed > 0 ? `${name} ${force(pressed)}` : name;
-        if (corners.length) return [{ words, at: below(aspect, corners) }];
-        return isEnd && origin ? [{ words, at: pixel(aspect, origin) }] : [];
+        if (at) return [{ name, at }];
+        return isEnd && origin ? [{ name, at: pixel(aspect, origin) }] : [];
       }),
     ]);
+    apart(named);
+    this.named = named.map(({ name }) => name);
     grown(this.names, named.length, () => draw("text")).forEach((words, at) => {
-      const one = named[at];
-      words.setAttribute("display", one ? "inline" : "none");
-      if (!one) return;
-      words.setAttribute("x", one.at[0].toFixed(1));
-      words.setAttribute("y", one.at[1].toFixed(1));
-      say(words, one.words);
+      const [x, y] = named[at]?.at ?? [0, 0];
+      words.setAttribute("transform", `translate(${text([x, y])})`);
     });
   }
 
@@ -306,10 +328,10 @@ export class OnRobot {
     const facingIt = (/** @type {Aspect} */ { viewer }) =>
       viewer.reduce((sum, part, axis) => sum + part * (normal[axis] ?? 0), 0);
     const aspect = this.aspects.find((one) => facingIt(one) > 0) ?? this.aspects[0];
-    this.ring.setAttribute("display", corner < 0 || !aspect ? "none" : "inline");
+    set(this.ring, "display", corner < 0 || !aspect ? "none" : "inline");
     if (corner < 0 || !aspect) return;
-    this.ring.setAttribute("cx", (aspect.seen[3 * corner] ?? 0).toFixed(1));
-    this.ring.setAttribute("cy", (aspect.seen[3 * corner + 1] ?? 0).toFixed(1));
+    const at = text([aspect.seen[3 * corner] ?? 0, aspect.seen[3 * corner + 1] ?? 0]);
+    set(this.ring, "transform", `translate(${at})`);
   }
 }
 
@@ -324,21 +346,56 @@ function pixel({ sight: { place }, left }, point) {
   return [x + left, y];
 }
 
-/** @param {[number, number]} point */
-const text = ([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`;
-
 /**
- * The point below some corners in the picture, where their name stands.
+ * The middle of a side's upper edge.
  * @param {Aspect} aspect
- * @param {number[]} corners
  * @returns {[number, number]}
  */
-function below({ seen }, corners) {
-  const [sum, lowest] = corners.reduce(
-    ([sum, lowest], corner) => [sum + (seen[3 * corner] ?? 0), Math.max(lowest, seen[3 * corner + 1] ?? 0)],
-    [0, -Infinity],
-  );
-  return [sum / corners.length, lowest + 15];
+const middle = ({ left, width }) => [left + width / 2, 14];
+
+/**
+ * Moves names down until none is on another.
+ * @param {{ name: string, at: [number, number] }[]} names
+ */
+function apart(names) {
+  names.forEach(({ name, at }, index) => {
+    const isOn = (/** @type {typeof names[0]} */ other) =>
+      Math.abs(other.at[1] - at[1]) < LINE &&
+      Math.abs(other.at[0] - at[0]) < LETTER * ((name.length + other.name.length) / 2 + FORCE);
+    for (let other = names.slice(0, index).find(isOn); other; other = names.slice(0, index).find(isOn))
+      at[1] = other.at[1] + LINE;
+  });
+}
+
+/**
+ * Sets an attribute if it has changed: what has not is not drawn again.
+ * @param {Element} element
+ * @param {string} name
+ * @param {string} value
+ */
+function set(element, name, value) {
+  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+}
+
+/** @param {[number, number]} point to half a pixel */
+const text = ([x, y]) => `${Math.round(2 * x) / 2} ${Math.round(2 * y) / 2}`;
+
+/**
+ * The point below the cloth of a link in the picture, where its name stands; null if it wears none.
+ * @param {Aspect} aspect
+ * @param {import("./cloth.js").Cloth} cloth
+ * @param {number} link
+ * @returns {[number, number] | null}
+ */
+function below({ seen }, { links }, link) {
+  let [count, sum, lowest] = [0, 0, 0];
+  for (let corner = 0; corner < links.length; corner += 1) {
+    if (links[corner] !== link) continue;
+    lowest = count ? Math.max(lowest, seen[3 * corner + 1] ?? 0) : (seen[3 * corner + 1] ?? 0);
+    sum += seen[3 * corner] ?? 0;
+    count += 1;
+  }
+  return count ? [sum / count, lowest + LINE] : null;
 }
 
 /**

@@ -69,9 +69,9 @@ export class Regions {
     this.list.replaceChildren(
       ...this.parts.map(({ name, panels, told }) => {
         const figures = panels.map(({ panel, canvas }) =>
-          make("figure", {}, make("figcaption", {}, make("b", {}, panel.name)), canvas),
+          make("figure", {}, ...(panel.name === name ? [] : [make("figcaption", {}, panel.name)]), canvas),
         );
-        return make("li", {}, make("h3", {}, name), told, make("div", {}, ...figures));
+        return make("li", {}, make("h2", {}, name), told, make("div", {}, ...figures));
       }),
     );
   }
