@@ -2,6 +2,7 @@
 
 use super::lines::{BodyLine, BodyLink, PoseOfLink, PosesLine};
 use anyhow::Result;
+use std::path::Path;
 use std::sync::Arc;
 use taxel::body::robot::{self, Robot, RobotLink};
 use taxel::body::{self, Pose, ReadBody, RobotSurface, Surface, TaxelPlace};
@@ -51,6 +52,11 @@ impl Wearer {
     /// The robot.
     pub fn robot(&self) -> Option<&Arc<Robot>> {
         self.robot.as_ref()
+    }
+
+    /// The lists of taxels that were read with the body.
+    pub fn lists(&self) -> impl Iterator<Item = &Path> {
+        self.body.lists()
     }
 
     /// True if it wears this garment already.

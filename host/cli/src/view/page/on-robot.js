@@ -415,13 +415,15 @@ function arrow(tail, tip) {
 /** An arrow in white with a dark halo, and its text. */
 function marker() {
   const shape = { fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" };
-  const words = { fill: "var(--mark)", stroke: "var(--halo)", "stroke-width": 3.5, "paint-order": "stroke fill" };
+  // A style, because a report has one of its own for texts.
+  const style =
+    "fill:var(--mark);stroke:var(--halo);stroke-width:3.5px;paint-order:stroke fill;font:650 13px system-ui,sans-serif";
   return draw(
     "g",
     {},
     draw("path", { ...shape, stroke: "var(--halo)", "stroke-width": 5 }),
     draw("path", { ...shape, stroke: "var(--mark)", "stroke-width": 2.2 }),
-    draw("text", words),
+    draw("text", { style }),
   );
 }
 
