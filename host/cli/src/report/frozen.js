@@ -44,11 +44,11 @@ const changed = () =>
   });
 
 /**
- * Counts in the unit of the report.
- * @param {number} counts
+ * Pressure or force in the unit of the report.
+ * @param {number} value
  */
-function words(counts) {
-  return `${Number((counts * told.per_count).toPrecision(3))} ${told.unit}`;
+function words(value) {
+  return `${Number((value * told.per_count).toPrecision(3))} ${told.unit}`;
 }
 
 /**

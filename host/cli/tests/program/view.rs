@@ -297,7 +297,9 @@ fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
     assert_eq!((&links[0]["name"], &links[0]["parent"]), (&"base_link".into(), &Value::Null));
     let torso = links.iter().position(|link| link["name"] == "torso").unwrap();
     // The first taxel of the chest: on the torso, 61 mm from its axis, facing away from it.
-    let [link, at, normal] = &body["taxels"][0].as_array().unwrap()[..] else { panic!("{}", body["taxels"][0]) };
+    let [link, at, normal] = &body["taxels"][0].as_array().unwrap()[..] else {
+        panic!("{}", body["taxels"][0])
+    };
     let number = |value: &Value| value.as_f64().unwrap();
     assert_eq!(link, torso);
     assert!((number(&at[0]).hypot(number(&at[1])) - 0.06112).abs() < 1e-5, "{at}");
@@ -326,9 +328,8 @@ fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
     let mut late = self::page(port);
     line(&mut late, "body", |_| true);
     line(&mut late, "poses", |_| true);
-    let Told::Image { head, .. } = std::iter::repeat_with(|| next(&mut late))
-        .find(|told| matches!(told, Told::Image { .. }))
-        .unwrap()
+    let Told::Image { head, .. } =
+        std::iter::repeat_with(|| next(&mut late)).find(|told| matches!(told, Told::Image { .. })).unwrap()
     else {
         panic!("no image")
     };
@@ -372,5 +373,8 @@ fn a_body_that_does_not_fit_the_garment_is_named() {
     let mut viewer = Viewer::new(&source, hub);
     let error = watch(&args, source, &mut viewer).unwrap_err();
     let text = format!("{error:#}");
-    assert!(text.starts_with("reference, line ") && text.contains("must be a panel of the garment: mat"), "{text}");
+    assert!(
+        text.starts_with("reference, line ") && text.contains("must be a panel of the garment: mat"),
+        "{text}"
+    );
 }

@@ -310,8 +310,8 @@ export function facing(seen, faces, normals, [x, y, z]) {
  * @returns {{ tip: Triple, tail: Triple, normal: Triple }}
  */
 export function arrowOf(pose, { at_m: at, normal, force }, perMetre, { least }) {
-  const shifted = (/** @type {Triple} */ [x, y, z]) =>
-    /** @type {Triple} */ ([x - least[0] + AROUND, y - least[1] + AROUND, z - least[2] + AROUND]);
+  /** @type {(point: Triple) => Triple} */
+  const shifted = ([x, y, z]) => [x - least[0] + AROUND, y - least[1] + AROUND, z - least[2] + AROUND];
   const long = Math.hypot(...force);
   const share = long > 0 ? Math.min(long / perMetre, LONGEST) / long : 0;
   const from = /** @type {Triple} */ (at.map((part, axis) => part - share * (force[axis] ?? 0)));

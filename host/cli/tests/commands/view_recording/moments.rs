@@ -181,11 +181,17 @@ fn a_recording_is_shown_on_a_robot() {
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
     let body = file("mat.toml");
-    std::fs::write(&body, "[[patches]]\npanel = \"mat\"\non.plane = { at = [0, 0, 0], normal = [1, 0, 0], down = [0, 0, -1] }")
-        .unwrap();
+    std::fs::write(
+        &body,
+        "[[patches]]\npanel = \"mat\"\non.plane = { at = [0, 0, 0], normal = [1, 0, 0], down = [0, 0, -1] }",
+    )
+    .unwrap();
     let (status, why) = failed(&["--body", body.to_str().unwrap()]);
     assert_eq!(status, Some(1));
-    assert!(why.contains("mat.toml, line 2") && why.contains("must be a panel of the garment: chest"), "{why}");
+    assert!(
+        why.contains("mat.toml, line 2") && why.contains("must be a panel of the garment: chest"),
+        "{why}"
+    );
     let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "-"]);
     assert!(status == Some(2) && why.contains("is a recording, whose robot does not move now"), "{why}");
     let (status, why) = failed(&["--robot", "reference"]);
