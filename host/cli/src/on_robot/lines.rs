@@ -18,8 +18,11 @@ pub struct BodyLine<'a> {
     pub links: Vec<BodyLink<'a>>,
     /// Number of the link, place (m) and direction away from the robot of each taxel, in the frame of the link;
     /// null for a taxel without a place.
-    pub taxels: Vec<Option<(usize, [f64; 3], [f64; 3])>>,
+    pub taxels: Vec<Option<OnLink>>,
 }
+
+/// Number of a link, place and direction in its frame.
+pub type OnLink = (usize, [f64; 3], [f64; 3]);
 
 /// A link.
 #[derive(Debug, Clone, Serialize)]

@@ -1,6 +1,7 @@
 //! A robot, its posture, and the garment on it.
 
 use super::lines::{BodyLine, BodyLink, PoseOfLink, PosesLine};
+use crate::fault::Blame;
 use anyhow::Result;
 use std::path::Path;
 use std::sync::Arc;
@@ -45,7 +46,7 @@ impl Wearer {
     pub fn read(body: &str, robot: Option<&str>, joints: &str) -> Result<Wearer> {
         let body = body::read(body)?;
         let robot = robot.map(robot::read).transpose()?.map(Arc::new);
-        let posture = robot.as_ref().map(|robot| robot.posture_of(joints)).transpose()?;
+        let posture = robot.as_ref().map(|robot| robot.posture_of(joints)).transpose().usage()?;
         Ok(Wearer { body, robot, posture: posture.unwrap_or_default(), worn: None, told: None })
     }
 
@@ -89,14 +90,17 @@ impl Wearer {
     /// Takes another posture: the positions of [`Robot::free`], rad or m, within their limits. Returns whether
     /// cloth has slid over the skin, so that the places are others. The error names a panel that has slid off.
     pub fn pose(&mut self, posture: Vec<f64>) -> Result<bool> {
-        self.posture = posture;
-        let Some(worn) = &mut self.worn else { return Ok(false) };
-        let Some(on_robot) = &worn.on_robot else { return Ok(false) };
-        let slid = on_robot.slid(&self.posture)?;
-        let has_slid = *slid != worn.surface;
-        if has_slid {
-            worn.surface = slid.into_owned();
+        let mut has_slid = false;
+        if let Some(worn) = &mut self.worn
+            && let Some(on_robot) = &worn.on_robot
+        {
+            let slid = on_robot.slid(&posture)?;
+            has_slid = *slid != worn.surface;
+            if has_slid {
+                worn.surface = slid.into_owned();
+            }
         }
+        self.posture = posture;
         Ok(has_slid)
     }
 

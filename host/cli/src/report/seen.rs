@@ -165,7 +165,9 @@ impl Show<anyhow::Error> for Seen {
         match event {
             Event::Hello => {
                 self.worn = client.worn().cloned();
-                if let (Some(wearer), Some(worn)) = (&mut self.wearer, client.worn()) {
+                if let (Some(wearer), Some(worn)) = (&mut self.wearer, client.worn())
+                    && !wearer.wears(worn)
+                {
                     wearer.wear(worn)?;
                 }
                 self.concepts = client.concepts().iter().map(ToString::to_string).collect();

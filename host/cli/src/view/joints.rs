@@ -42,7 +42,7 @@ mod tests {
         let robot = wearer.robot().unwrap().clone();
         hub.wear(wearer);
         let page = hub.join().unwrap();
-        let mut told = |lines: &str| -> Vec<Value> {
+        let told = |lines: &str| -> Vec<Value> {
             follow(&robot, lines.as_bytes(), &hub);
             let parcels = std::iter::from_fn(|| page.line_now());
             let lines = parcels.map(|parcel| match parcel {

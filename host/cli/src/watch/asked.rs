@@ -37,3 +37,32 @@ impl Asked {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taxel::client::Client;
+
+    /// The sentence about a board that refuses everything that is asked of it.
+    fn refused(args: &LiveArgs, requests: &[Request<'_>]) -> Option<String> {
+        let mut client = Client::new();
+        requests.iter().for_each(|request| client.request(request).unwrap());
+        let mut asked = Asked::of(&client.queued(), args);
+        for request in requests {
+            let refusal = Some("no".into());
+            asked.answered(&Event::Answer { request: request.number(), refusal });
+        }
+        asked.refusal
+    }
+
+    #[test]
+    fn whoever_can_do_without_a_body_goes_on_if_it_is_refused() {
+        let args = LiveArgs::of("sim:idle".parse().unwrap());
+        let needless = LiveArgs { body_may_fail: true, ..args.clone() };
+        let body = [Request::SetSurface(&[]), Request::SetPressing(50)];
+        assert_eq!(refused(&args, &body).unwrap(), "the board refuses set-surface: no");
+        assert_eq!(refused(&needless, &body), None);
+        let more = [Request::SetPressing(50), Request::Budget { hz: 1 }];
+        assert_eq!(refused(&needless, &more).unwrap(), "the board refuses budget: no");
+    }
+}

@@ -368,7 +368,8 @@ fn a_body_that_does_not_fit_the_garment_is_named() {
     let (hub, _) = served();
     hub.wear(Wearer::read("reference", None, "").unwrap());
     let args = LiveArgs::of("sim:idle".parse().unwrap());
-    let options = SourceOptions { garment: Some("mat".into()), frames: Some(9), ..SourceOptions::default() };
+    let options =
+        SourceOptions { garment: Some("mat-64x32".into()), frames: Some(9), ..SourceOptions::default() };
     let source = source::open(&args.board.source, &options).unwrap();
     let mut viewer = Viewer::new(&source, hub);
     let error = watch(&args, source, &mut viewer).unwrap_err();

@@ -1,5 +1,6 @@
-// Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs and
-// host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs: TAXEL_BLESS=1 updates it.
+// Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs,
+// host/cli/src/on_robot/lines.rs and host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs:
+// TAXEL_BLESS=1 updates it.
 
 /** Garment, scene and firmware of the board, and how the page shows them. */
 export type PageHello = {

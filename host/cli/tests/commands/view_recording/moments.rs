@@ -194,6 +194,8 @@ fn a_recording_is_shown_on_a_robot() {
     );
     let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "-"]);
     assert!(status == Some(2) && why.contains("is a recording, whose robot does not move now"), "{why}");
+    let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "waits=3deg"]);
+    assert!(status == Some(2) && why.contains("there is no joint \"waits\""), "{why}");
     let (status, why) = failed(&["--robot", "reference"]);
     assert!(status == Some(2) && why.contains("--body"), "{why}");
 }
