@@ -5,10 +5,10 @@ import { Chromium } from "./chromium.mjs";
 import { View } from "./program.mjs";
 
 /** Both, filled before the first test runs. */
-export function page(source, { search = "", ...size } = {}) {
+export function page(source, { search = "", options = [], ...size } = {}) {
   const both = {};
   before(async () => {
-    both.view = await View.start("--source", source);
+    both.view = await View.start("--source", source, ...options);
     both.browser = await Chromium.start();
     await both.browser.open(both.view.url + search, size);
   });

@@ -1,4 +1,4 @@
-// Pictures of the page: node picture.mjs [--source SOURCE] [--view VIEW] [--dark] [--size WxH] [--until EXPRESSION] [--keys KEYS] FILE.png
+// Pictures of the page: node picture.mjs [--source SOURCE] [--body BODY] [--robot URDF] [--joints JOINTS] [--view VIEW] [--dark] [--size WxH] [--until EXPRESSION] [--keys KEYS] FILE.png
 
 import { writeFile } from "node:fs/promises";
 import { parseArgs } from "node:util";
@@ -9,6 +9,9 @@ const { values, positionals } = parseArgs({
   allowPositionals: true,
   options: {
     source: { type: "string", default: "sim:pat" },
+    body: { type: "string" },
+    robot: { type: "string" },
+    joints: { type: "string" },
     view: { type: "string", default: "panels" },
     dark: { type: "boolean", default: false },
     size: { type: "string", default: "1280x800" },
@@ -18,7 +21,8 @@ const { values, positionals } = parseArgs({
   },
 });
 const [width, height] = values.size.split("x").map(Number);
-const program = await View.start("--source", values.source);
+const options = ["source", "body", "robot", "joints"].flatMap((name) => (values[name] ? [`--${name}`, values[name]] : []));
+const program = await View.start(...options);
 const browser = await Chromium.start();
 try {
   await browser.open(program.url, { width, height, dark: values.dark, mobile: width < 600 });

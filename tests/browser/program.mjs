@@ -10,7 +10,7 @@ export class View {
   /** Starts it with options; where they name no port, it finds one itself. */
   static async start(...options) {
     const port = options.includes("--port") ? [] : ["--port", "0"];
-    const program = spawn(PROGRAM, ["view", ...port, ...options], { stdio: ["ignore", "pipe", "inherit"] });
+    const program = spawn(PROGRAM, ["view", ...port, ...options], { stdio: ["pipe", "pipe", "inherit"] });
     const url = await new Promise((done, fail) => {
       let said = "";
       program.once("error", fail).once("exit", (code) => fail(new Error(`${PROGRAM} ended with ${code}`)));
@@ -25,6 +25,11 @@ export class View {
 
   constructor(program, url, port) {
     Object.assign(this, { program, url, port });
+  }
+
+  /** Writes a line to its standard input. */
+  tell(line) {
+    this.program.stdin.write(`${line}\n`);
   }
 
   /** Bytes of memory that are in use. */

@@ -71,6 +71,34 @@ test("a report has the surface of the page, which turns and is read", async () =
   await browser.until(`/, row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("told").textContent)`);
 });
 
+test("a report shows the garment on its robot, which turns and is read", async () => {
+  const { browser } = both;
+  const file = join(folder, "five.html");
+  await run(PROGRAM, ["report", "--source", "sim:five", "--body", "reference", "--robot", "reference", "-o", file]);
+  await browser.visit(pathToFileURL(file).href, {});
+  await browser.value('document.getElementById("robot").scrollIntoView()');
+  await browser.until("document.querySelectorAll('#robot svg g g').length === 5");
+  assert.deepEqual(await violations(browser), []);
+  const told = () => browser.value("[...document.querySelectorAll('#robot svg g g text')].map((text) => text.textContent)");
+  for (const text of await told()) assert.match(text, /^\d+ · [\d.]+ N$/);
+  const found = await (await screen(browser)).colours(await box(browser, "#robot"));
+  assert.ok(found.length > 50, `${found.length} colours`);
+  const bones = () => browser.value("document.querySelector('#robot svg path').getAttribute('d')");
+  const still = await bones();
+  await browser.value('document.querySelector("#robot .relief").focus()');
+  await browser.key("ArrowLeft");
+  await browser.until(`document.querySelector('#robot svg path').getAttribute('d') !== ${JSON.stringify(still)}`);
+  await browser.key("Home");
+  await browser.until(`document.querySelector('#robot svg path').getAttribute('d') === ${JSON.stringify(still)}`);
+  // Where the torso's name stands, there is cloth above.
+  const names = "[...document.querySelectorAll('#robot svg g text')].find((text) => text.textContent.startsWith('torso'))";
+  const { left, top, width } = await browser.value(
+    `(({ left, top, width }) => ({ left, top, width }))(${names}.getBoundingClientRect())`,
+  );
+  await browser.pointer(left + width / 2, top - 20);
+  await browser.until(`/^(chest|back), row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("told-robot").textContent)`);
+});
+
 test("terminal, page and report show a touch in one palette on one scale", async () => {
   const { browser, view } = both;
   const html = await readFile(report, "utf8");

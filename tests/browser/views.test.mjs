@@ -86,26 +86,29 @@ test("the surface is turned by pointer and keys, and comes back", async () => {
   await browser.value("document.activeElement.blur()");
 });
 
-test("the body shows the back from behind", async () => {
+test("without a body the panels stand by region, and say what is felt there", async () => {
   const { browser } = both;
   await show(browser, "body");
   await pauseAtTouch(browser, 7000);
-  const seen = await screen(browser);
-  const { left, top, width, height } = await box(browser, "#view-body canvas");
-  const half = (side) => ({ left: left + (side * width) / 2, top, width: width / 2, height });
-  // Colours of pressed taxels, exactly as the scale has them.
-  const pressed = await browser.value(`(async () => {
-    const { palette, stepOf } = await import("./colours.js");
-    const { image } = taxel.store.shown();
-    return [...new Set([...image].filter(Boolean).map((value) => palette.ramp[stepOf(value, taxel.settings.top)].join()))];
-  })()`);
-  assert.ok(pressed.length > 20, `${pressed.length} colours`);
-  const touched = async (side) => {
-    const found = new Set(await seen.colours(half(side)));
-    return pressed.filter((rgb) => found.has(rgb)).length / pressed.length;
-  };
-  const [front, back] = [await touched(0), await touched(1)];
-  assert.ok(back > 0.9 && front < 0.3, `${front} of the colours of pressed taxels in front, ${back} behind`);
+  const regions = await browser.value(`[...document.querySelectorAll("#view-body li")].map((item) =>
+    [item.querySelector("h2").textContent, item.querySelector("p").textContent])`);
+  const { contacts, panels } = await browser.value(
+    "({ contacts: taxel.store.shown().head.frame.contacts, panels: taxel.store.garment.panels })",
+  );
+  assert.deepEqual(
+    regions.map(([name]) => name),
+    [...new Set(panels.map(({ region }) => region))],
+  );
+  for (const [name, told] of regions) {
+    const count = contacts.filter(({ region }) => region === name).length;
+    const wanted = count === 0 ? /^no contact$/ : new RegExp(`^${count} contacts?, [\\d.]+ N, at most [\\d.]+ kPa$`);
+    assert.match(told, wanted, name);
+  }
+  assert.ok(contacts.length > 0);
+  // A touched panel has the colours of the scale.
+  const [pressed] = contacts;
+  const found = await colours(browser, `#view-body [aria-label="Pressure on the ${panels[pressed.panel].name}"]`);
+  assert.ok(found.length > 10, `${found.length} colours`);
 });
 
 test("the map shows the activations of the frame", async () => {

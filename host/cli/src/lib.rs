@@ -11,6 +11,7 @@
 //! | [`palette`] | colours and scale of pressure, for all that shows it |
 //! | [`watch`] | a followed board: options, loop, sentences about events |
 //! | [`terminal`] | views in the terminal |
+//! | [`on_robot`] | the robot that wears the garment, for what shows it |
 //! | [`report`] | a recording or a board on one page |
 //! | [`serve`] | the door of a server on this machine |
 //! | [`view`] | the page in the browser, and its server |
@@ -32,6 +33,8 @@ pub mod palette;
 pub mod watch;
 
 pub mod terminal;
+
+pub mod on_robot;
 
 pub mod report;
 

@@ -21,6 +21,7 @@ pub(super) const VIEW: &str = "Examples:
   taxel view --open
   taxel view --source sim:five
   taxel view walk.mcap --open
+  taxel view --source sim:five --body reference --robot reference --open
   taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
 pub(super) const FOXGLOVE: &str = if cfg!(feature = "foxglove") { SERVED } else { NO_FOXGLOVE };

@@ -1,10 +1,11 @@
-// The surface of a report: that of the page, with the moment that the report holds.
+// The surface and the robot of a report: those of the page, with the moment that the report holds.
 
 import { $, forgetColours } from "../view/page/dom.js";
 import { take } from "../view/page/colours.js";
 import { garmentOf, placeOf } from "../view/page/garment.js";
 import { heightOf } from "../view/page/mesh.js";
 import { Relief } from "../view/page/relief.js";
+import { OnRobot } from "../view/page/on-robot.js";
 
 const told = JSON.parse($("data").textContent ?? "");
 take(told.palette);
@@ -24,23 +25,49 @@ const scene = {
   chosen: null,
 };
 
-const changed = () => requestAnimationFrame(() => relief.draw(scene));
+/** @type {import("../view/page/on-robot.js").BodyScene | null} */
+const onRobot = told.body && {
+  body: told.body,
+  poses: told.poses?.links ?? null,
+  panels: garment.panels,
+  image: told.image,
+  top: told.top,
+  pressing: told.pressing,
+  force: words,
+  chosen: null,
+};
+
+const changed = () =>
+  requestAnimationFrame(() => {
+    relief.draw(scene);
+    if (onRobot) robot?.draw(onRobot);
+  });
+
+/**
+ * Pressure or force in the unit of the report.
+ * @param {number} value
+ */
+function words(value) {
+  return `${Number((value * told.per_count).toPrecision(3))} ${told.unit}`;
+}
 
 /**
  * Says what the taxel under the pointer measured.
- * @param {number | null} taxel
+ * @param {{ chosen: number | null }} picture
+ * @param {string} below element that says it
+ * @returns {(taxel: number | null) => void}
  */
-function point(taxel) {
-  if (taxel === scene.chosen) return;
-  scene.chosen = taxel;
+const point = (picture, below) => (taxel) => {
+  if (taxel === picture.chosen) return;
+  picture.chosen = taxel;
   changed();
   if (taxel === null) return;
   const { panel, row, column } = placeOf(garment, taxel);
-  const value = Number((told.image[taxel] * told.per_count).toPrecision(3));
-  $("told").textContent = `${panel.name}, row ${row}, column ${column}: ${value} ${told.unit}`;
-}
+  $(below).textContent = `${panel.name}, row ${row}, column ${column}: ${words(told.image[taxel])}`;
+};
 
-const relief = new Relief($("surface"), { changed, point });
+const relief = new Relief($("surface"), { changed, point: point(scene, "told") });
+const robot = onRobot && new OnRobot($("robot"), { changed, point: point(onRobot, "told-robot") });
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const themed = () => {
   document.documentElement.dataset.theme = dark.matches ? "dark" : "light";

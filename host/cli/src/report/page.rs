@@ -13,13 +13,13 @@ use taxel_core::garment::Area;
 const QUIET: f64 = 0.02;
 
 const STYLE: &str = "
-:root{--paper:#fff;--ink:#1c2430;--soft:#5d6878;--line:#d7dce3;--mark:#fff;--halo:#10151c}
-@media(prefers-color-scheme:dark){:root{--paper:#12141a;--ink:#d8dee9;--soft:#97a1b3;--line:#2e3440}}
+:root{--paper:#fff;--ink:#1c2430;--soft:#5d6878;--quiet:#5d6878;--line:#d7dce3;--mark:#fff;--halo:#10151c}
+@media(prefers-color-scheme:dark){:root{--paper:#12141a;--ink:#d8dee9;--soft:#97a1b3;--quiet:#97a1b3;--line:#2e3440}}
 body{margin:2rem auto;max-width:1120px;padding:0 1rem;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,'DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2rem 0 .4rem}p{margin:.3rem 0;max-width:75ch}
 .panels{display:flex;flex-wrap:wrap;gap:12px}svg{max-width:100%;height:auto}svg text{fill:var(--ink);font-size:12px}svg .title{font-size:14px;font-weight:600}svg .mark{fill:var(--soft);font-size:10px}
 .level{fill:none;stroke:#fff;stroke-opacity:.75;stroke-width:.7}.axis{stroke:#fff;stroke-width:1.6}.centre{fill:#fff;stroke:#000;stroke-width:.8}.peak{stroke:#e8123c;stroke-width:1.8;fill:none}svg .id{fill:#fff;font-weight:600;paint-order:stroke;stroke:#000;stroke-width:2.5px}
-#surface{height:460px}
+#surface,#robot{height:460px}.quiet{color:var(--soft)}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round}.grid{stroke:var(--line);fill:none}
 table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}td,th{padding:3px 12px 3px 0;text-align:left;border-bottom:1px solid var(--line)}th{color:var(--soft);font-weight:500}
 .bar{display:inline-block;height:10px;margin-right:6px}.swatch{display:inline-block;width:16px;height:12px}pre{font-size:12.5px;overflow-x:auto;white-space:pre-wrap}.scroll{overflow-x:auto}
@@ -38,7 +38,7 @@ pub fn page(seen: &Seen) -> Result<String> {
         bail!("{}: no image was received, so there is nothing to report", seen.label);
     }
     let top = palette::end_of(&seen.hold);
-    let Moment { time_us, total, image, contacts } = &seen.top;
+    let Moment { time_us, total, image, contacts, .. } = &seen.top;
     let moment = format!("{:.3} s", *time_us as f64 / 1e6);
     let limits = ranges::limits(top);
     let each = |draw: Draw<'_>| -> String {
@@ -51,7 +51,7 @@ pub fn page(seen: &Seen) -> Result<String> {
     };
     let scale = seen.scale();
     let force = format!("{} {}", scale.told(*total as f64), scale.unit());
-    let sections = [
+    let mut sections = vec![
         (
             "Pressure, 2-D",
             format!(
@@ -82,6 +82,13 @@ pub fn page(seen: &Seen) -> Result<String> {
         ("Events", tables::events(seen)),
         ("Health", tables::health(seen)),
     ];
+    if seen.wearer.is_some() {
+        let text = format!(
+            "<p>The same moment: the panels on the robot in the same colours; an arrow for what presses there.</p>\n{}",
+            surface::ROBOT
+        );
+        sections.insert(2, ("On the robot", text));
+    }
     let body: String = sections.iter().map(|(title, text)| format!("<h2>{title}</h2>\n{text}")).collect();
     Ok(format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\

@@ -2,13 +2,16 @@
 
 use super::scale::PageUnit;
 use super::series::Series;
+use crate::on_robot::Wearer;
 use crate::watch::narrate::Narrator;
 use anyhow::Result;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use taxel::client::{Client, Counts, Event, ImageNews, Worn};
 use taxel::recording::Skipped;
 use taxel::session::Show;
 use taxel_core::body::Placed;
+use taxel_core::format::Micros;
 use taxel_core::garment::Area;
 use taxel_core::health::TaxelHealth;
 use taxel_core::wire::Health;
@@ -46,6 +49,8 @@ pub struct Seen {
     pub(super) unsaid: usize,
     pub(super) health: Option<Health>,
     pub(super) ill: BTreeMap<u16, TaxelHealth>,
+    /// The robot that wears the garment; none if it is not shown.
+    pub(super) wearer: Option<Wearer>,
     /// Damage of a recording.
     pub skipped: Skipped,
     narrator: Narrator,
@@ -58,6 +63,8 @@ pub(super) struct Moment {
     pub total: u64,
     pub image: Vec<u16>,
     pub contacts: Vec<Placed>,
+    /// What presses on the robot: the message `pressing`; null without one.
+    pub pressing: Value,
 }
 
 impl Seen {
@@ -80,9 +87,15 @@ impl Seen {
             unsaid: 0,
             health: None,
             ill: BTreeMap::new(),
+            wearer: None,
             skipped: Skipped::default(),
             narrator: Narrator::new(counts_per_newton),
         }
+    }
+
+    /// Also shows the garment on this robot.
+    pub fn on(self, wearer: Option<Wearer>) -> Seen {
+        Seen { wearer, ..self }
     }
 
     /// Unit of the page.
@@ -104,7 +117,15 @@ impl Seen {
         self.hold.resize(image.len(), 0);
         self.hold.iter_mut().zip(image).for_each(|(held, value)| *held = (*held).max(*value));
         if total > self.top.total || self.top.image.is_empty() {
-            self.top = Moment { time_us, total, image: image.to_vec(), contacts: client.contacts().to_vec() };
+            let pressing = self.wearer.as_ref().and_then(|wearer| wearer.pressing(client, Micros(time_us)));
+            self.top = Moment {
+                time_us,
+                total,
+                image: image.to_vec(),
+                contacts: client.contacts().to_vec(),
+                // Numbers, texts, and keys that are texts: this cannot fail.
+                pressing: serde_json::to_value(pressing).unwrap_or_default(),
+            };
         }
     }
 
@@ -144,6 +165,11 @@ impl Show<anyhow::Error> for Seen {
         match event {
             Event::Hello => {
                 self.worn = client.worn().cloned();
+                if let (Some(wearer), Some(worn)) = (&mut self.wearer, client.worn())
+                    && !wearer.wears(worn)
+                {
+                    wearer.wear(worn)?;
+                }
                 self.concepts = client.concepts().iter().map(ToString::to_string).collect();
             }
             Event::Frame { time, image: ImageNews::Whole, .. } => self.image(client, time.0),
@@ -159,6 +185,7 @@ impl Show<anyhow::Error> for Seen {
                 let values = report.concepts.iter().map(|value| value.to_f64()).collect();
                 self.activations.push(report.time.0, values);
             }
+            Event::Pressing(report) => self.wearer.iter_mut().for_each(|wearer| wearer.take(report)),
             Event::Health(health) => self.health = Some(*health),
             Event::HealthMap { .. } => self.ill.clone_from(client.ill()),
             _ => {}

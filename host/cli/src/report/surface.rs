@@ -1,12 +1,16 @@
-//! The moment as a surface: the page's own, with what it would be sent.
+//! The moment as a surface, and on the robot: the page's own pictures, with what they would be sent.
 
 use super::script;
 use super::seen::Seen;
+use crate::on_robot::Wearer;
 use crate::palette;
 use serde_json::{Value, json};
 
 /// Its style.
 pub const STYLE: &str = include_str!("../view/page/relief.css");
+
+/// Where the script draws the robot.
+pub const ROBOT: &str = "<div id=\"robot\"></div>\n<p id=\"told-robot\">&nbsp;</p>\n";
 
 /// The surface on a scale that ends at `top` counts.
 pub fn draw(seen: &Seen, top: u16) -> String {
@@ -47,5 +51,8 @@ fn data(seen: &Seen, top: u16) -> Value {
         "peaks": peaks.collect::<Vec<_>>(),
         "unit": unit.unit(),
         "per_count": unit.value(1.0),
+        "body": seen.wearer.as_ref().and_then(Wearer::body),
+        "poses": seen.wearer.as_ref().and_then(Wearer::poses),
+        "pressing": seen.top.pressing,
     })
 }

@@ -8,14 +8,17 @@ use super::recent::Recent;
 use super::said::Said;
 use super::shot::{Shot, text};
 use super::tape::{self, Tape};
+use crate::on_robot::Wearer;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+use taxel::client::Client;
 use taxel::recording::Store;
 use taxel::source::shared;
 use taxel_core::garment::Circuit;
+use taxel_core::wire::PressingReport;
 
 /// Most pages at a time.
 pub const PAGES: usize = 16;
@@ -33,6 +36,7 @@ const ORDERS: usize = 64;
 pub struct PageHub {
     shared: Mutex<PageShared>,
     recent: Mutex<Recent>,
+    wearer: Mutex<Option<Wearer>>,
     orders: shared::Shared<VecDeque<Order>>,
     /// One reference per recording being sent, plus the hub's own.
     transfers: Arc<()>,
@@ -61,6 +65,48 @@ impl PageHub {
 
     fn recent(&self) -> MutexGuard<'_, Recent> {
         self.recent.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The robot that wears the garment; none if pages do not show it.
+    pub fn wearer(&self) -> MutexGuard<'_, Option<Wearer>> {
+        self.wearer.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Shows the garment on this robot.
+    pub fn wear(&self, wearer: Wearer) {
+        *self.wearer() = Some(wearer);
+    }
+
+    /// The robot wears the garment of the last `Hello`. The error says why it does not fit, and pages show none.
+    pub fn worn(&self, client: &Client) -> Result<()> {
+        let mut wearer = self.wearer();
+        let (Some(wearer), Some(worn)) = (&mut *wearer, client.worn()) else { return Ok(()) };
+        if wearer.wears(worn) {
+            return Ok(());
+        }
+        let fits = wearer.wear(worn);
+        match wearer.body() {
+            Some(body) => self.state("body", &body),
+            None => self.forget("body"),
+        }
+        wearer.poses().iter().for_each(|poses| self.state("poses", poses));
+        fits
+    }
+
+    /// The robot's joints have these positions: see [`Wearer::pose`].
+    pub fn posture(&self, posture: Vec<f64>) -> Result<()> {
+        let mut wearer = self.wearer();
+        let Some(wearer) = &mut *wearer else { return Ok(()) };
+        if wearer.pose(posture)? {
+            wearer.body().iter().for_each(|body| self.state("body", body));
+        }
+        wearer.poses().iter().for_each(|poses| self.state("poses", poses));
+        Ok(())
+    }
+
+    /// Handles a report of the board about what presses on the robot.
+    pub fn heard(&self, report: &PressingReport) {
+        self.wearer().iter_mut().for_each(|wearer| wearer.take(report));
     }
 
     /// Adds a page with the current state; none if there are too many pages.

@@ -4,7 +4,7 @@
 use super::line_kind::LineKind;
 use crate::palette::PaletteTold;
 use serde::Serialize;
-use taxel::json::lines::{FrameLine, HelloLine};
+use taxel::json::lines::{FrameLine, HelloLine, PressingLine};
 #[cfg(feature = "schema")]
 use taxel::json::schema::TypeIs;
 use taxel_core::garment::Absent;
@@ -96,6 +96,10 @@ pub struct PageFrame<'a> {
     #[cfg_attr(feature = "schema", schemars(with = "u32"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seeks: Option<u32>,
+    /// What presses on the robot; absent without a body.
+    #[cfg_attr(feature = "schema", schemars(with = "PressingLine"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressing: Option<PressingLine<'a>>,
     /// True if the image is from before the page was opened.
     #[cfg_attr(feature = "schema", schemars(with = "bool"))]
     #[serde(skip_serializing_if = "Option::is_none")]

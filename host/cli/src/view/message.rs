@@ -1,7 +1,7 @@
 //! Messages between the program and a page, over one WebSocket at `/socket`.
 //!
 //! Text messages to a page are JSON objects with a `type`: the lines `health`, `health_map` and `budget` of
-//! `taxel live --json`, and those of `lines.rs` beside this.
+//! `taxel live --json`, those of `lines.rs` beside this, and `body` and `poses` of `on_robot/lines.rs`.
 //!
 //! A binary message is an image, all numbers little-endian:
 //!
@@ -90,7 +90,13 @@ fn map(map: &MapConfig) -> PageMap<'_> {
 pub fn frame<'a>(client: &'a Client, event: &'a Event) -> Option<PageFrame<'a>> {
     let Some(JsonLine::Frame(line)) = json::line(client, event) else { return None };
     let intent = MeaningOfTouch::of(client.leading(), client.concepts(), &client.activations_of_leading());
-    Some(PageFrame { line: FrameLine { intent, ..line }, at_us: None, seeks: None, past: None })
+    Some(PageFrame {
+        line: FrameLine { intent, ..line },
+        at_us: None,
+        seeks: None,
+        pressing: None,
+        past: None,
+    })
 }
 
 /// `glow`: the pressure in the second before a moment of a recording, by taxel.

@@ -58,7 +58,7 @@ fn write(stream: TcpStream, hub: &PageHub, mailbox: &Mailbox) -> io::Result<()> 
     }
     // If many pages open at once, some get no earlier images, because these take memory for each page.
     if let Some((_transfer, bytes)) = hub.transfer().and_then(|kept| Some((kept, hub.recording()?))) {
-        for parcel in Past::of(&bytes) {
+        for parcel in Past::of(&bytes, hub) {
             if mailbox.is_closed() || !send(parcel)? {
                 return Ok(());
             }

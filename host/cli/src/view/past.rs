@@ -1,5 +1,6 @@
 //! Images of the half minute before a page was opened, so that a reloaded page can step back through them.
 
+use super::hub::PageHub;
 use super::lines::PageFrame;
 use super::mailbox::{Mailbox, Parcel};
 use super::message;
@@ -16,12 +17,13 @@ pub struct Past<'a> {
     client: Client,
     mailbox: Mailbox,
     last: Option<Micros>,
+    hub: &'a PageHub,
 }
 
 impl<'a> Past<'a> {
     /// Reads the result of [`super::Recent::recording`].
-    pub fn of(bytes: &'a [u8]) -> Past<'a> {
-        Past { bytes: bytes.iter(), client: Client::new(), mailbox: Mailbox::default(), last: None }
+    pub fn of(bytes: &'a [u8], hub: &'a PageHub) -> Past<'a> {
+        Past { bytes: bytes.iter(), client: Client::new(), mailbox: Mailbox::default(), last: None, hub }
     }
 
     /// Handles an image. Returns whether it is due.
@@ -30,8 +32,10 @@ impl<'a> Past<'a> {
         let Some((_, image)) = self.client.image() else { return false };
         let total = self.client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         let Some(line) = message::frame(&self.client, event) else { return false };
+        let wearer = self.hub.wearer();
+        let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(&self.client, *time));
         self.mailbox.shot(&Shot {
-            line: text(&PageFrame { past: Some(true), ..line }),
+            line: text(&PageFrame { past: Some(true), pressing, ..line }),
             image: image.into(),
             time_us: time.0,
             total,

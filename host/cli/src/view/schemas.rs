@@ -5,6 +5,7 @@ use super::lines::{
     TaxelLine,
 };
 use super::message::PageWish;
+use crate::on_robot::{BodyLine, PosesLine};
 use serde_json::Value;
 use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine};
 use taxel::json::schema::of;
@@ -17,6 +18,8 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("HealthMapLine", of::<HealthMapLine>()),
         ("BudgetLine", of::<BudgetLine>()),
         ("ImageHead", of::<ImageHead>()),
+        ("BodyLine", of::<BodyLine<'static>>()),
+        ("PosesLine", of::<PosesLine<'static>>()),
         ("GlowLine", of::<GlowLine>()),
         ("PinsLine", of::<PinsLine>()),
         ("TaxelLine", of::<TaxelLine>()),

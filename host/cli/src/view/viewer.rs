@@ -1,7 +1,7 @@
 //! Passes a board's stream to the pages.
 
 use super::hub::PageHub;
-use super::lines::EndLine;
+use super::lines::{EndLine, PageFrame};
 use super::message;
 use super::pace::Pace;
 use super::raw::RawCodes;
@@ -67,15 +67,19 @@ impl Viewer {
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
         let Some(line) = message::frame(client, event) else { return };
+        let wearer = self.hub.wearer();
+        let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, time));
+        let line = text(&PageFrame { pressing, ..line });
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        self.hub.shot(&Shot { line: text(&line), image: image.into(), time_us: time.0, total });
+        self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
     }
 
-    fn hello(&self, client: &Client) {
+    fn hello(&self, client: &Client) -> Result<()> {
         let circuit =
             client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
         self.hub.wired(circuit);
         self.hub.state("hello", &message::hello(client, &self.label, self.counts_per_newton));
+        self.hub.worn(client)
     }
 
     fn link(&mut self, client: &Client) {
@@ -91,13 +95,14 @@ impl Show<anyhow::Error> for Viewer {
 
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
-            Event::Hello => self.hello(client),
+            Event::Hello => self.hello(client)?,
             Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
             Event::Health(_) => self.hub.state("health", &json::message(client, event)),
             Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
             Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
             Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
+            Event::Pressing(report) => self.hub.heard(report),
             Event::Sync(report) if report.token == self.token => {
                 self.latency = Some(self.asked.elapsed() / 2)
             }

@@ -168,6 +168,9 @@ pub struct LiveArgs {
     /// Print one taxel's time, code and pressure, frame by frame
     #[arg(long, value_name = "PANEL,ROW,COL")]
     pub taxel: Option<TaxelPlace>,
+    /// The board may refuse the body, and reports of what presses on it: whoever watches can do without.
+    #[arg(skip)]
+    pub body_may_fail: bool,
     /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
@@ -193,6 +196,7 @@ impl LiveArgs {
             save: None,
             force: Overwrite::default(),
             taxel: None,
+            body_may_fail: false,
             realtime: false,
             svg: None,
         }

@@ -35,7 +35,7 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     let mut session = Session::new(source, returns);
     let (client, source) = session.parts();
     prepare(client, &args.board, source)?;
-    let mut asked = if source.listens { Asked::of(&client.queued(), &args.board) } else { Asked::default() };
+    let mut asked = if source.listens { Asked::of(&client.queued(), args) } else { Asked::default() };
     let mut limits = Limits::of(args);
     let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
     let mut patience = Patience { limited, began: Instant::now(), told: false };

@@ -11,6 +11,7 @@ use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
+use taxel_cli::on_robot::Wearer;
 use taxel_cli::view::{PageHub, Said, Shot, Viewer, serve};
 use taxel_cli::watch::{LiveArgs, watch};
 use tungstenite::client::IntoClientRequest;
@@ -283,4 +284,98 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
     assert!(gap > 256, "{numbers:?}");
     // As many samples as are kept arrive; the others are counted.
     assert_eq!(missed, gap - 256);
+}
+
+#[test]
+fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
+    let (hub, port) = served();
+    hub.wear(Wearer::read("reference", Some("reference"), "left_elbow=90deg").unwrap());
+    let mut page = page(port);
+    let run = watched(&hub, "sim:five", 200, true);
+    let body = line(&mut page, "body", |_| true);
+    let links = body["links"].as_array().unwrap();
+    assert_eq!((&links[0]["name"], &links[0]["parent"]), (&"base_link".into(), &Value::Null));
+    let torso = links.iter().position(|link| link["name"] == "torso").unwrap();
+    // The first taxel of the chest: on the torso, 61 mm from its axis, facing away from it.
+    let [link, at, normal] = &body["taxels"][0].as_array().unwrap()[..] else {
+        panic!("{}", body["taxels"][0])
+    };
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert_eq!(link, torso);
+    assert!((number(&at[0]).hypot(number(&at[1])) - 0.06112).abs() < 1e-5, "{at}");
+    assert!(number(&at[0]) * number(&normal[0]) + number(&at[1]) * number(&normal[1]) > 0.06, "{normal}");
+    assert_eq!(body["taxels"].as_array().unwrap().len(), 2048);
+    // Each link has a pose; that of the hand is the elbow's.
+    let poses = line(&mut page, "poses", |_| true);
+    assert_eq!(poses["links"].as_object().unwrap().len(), links.len());
+    let turn = &poses["links"]["left_hand"]["turn"];
+    assert!((number(&turn[3]) - std::f64::consts::FRAC_1_SQRT_2).abs() < 1e-9, "{turn}");
+    // The board has no body: what presses is computed.
+    let pressing = loop {
+        if let Told::Image { head, .. } = next(&mut page)
+            && head["frame"]["contacts"].as_array().is_some_and(|contacts| contacts.len() == 5)
+        {
+            assert_eq!(head["frame"]["pressing"]["frame"], head["frame"]["frame"]);
+            break head["frame"]["pressing"].clone();
+        }
+    };
+    assert_eq!(pressing["contacts"].as_array().unwrap().len(), 5);
+    let pressed: Vec<&str> =
+        pressing["links"].as_array().unwrap().iter().map(|link| link["link"].as_str().unwrap()).collect();
+    assert_eq!(pressed, ["torso", "left_upper_arm", "right_upper_arm"]);
+    run.join().unwrap();
+    // A page that comes late sees it, too, and so do the images from before.
+    let mut late = self::page(port);
+    line(&mut late, "body", |_| true);
+    line(&mut late, "poses", |_| true);
+    let Told::Image { head, .. } =
+        std::iter::repeat_with(|| next(&mut late)).find(|told| matches!(told, Told::Image { .. })).unwrap()
+    else {
+        panic!("no image")
+    };
+    assert_eq!((&head["frame"]["past"], head["frame"]["pressing"].is_object()), (&true.into(), true));
+}
+
+#[test]
+fn cloth_that_slides_is_told_again() {
+    let folder = std::env::temp_dir().join(format!("taxel-slides-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("slides.toml");
+    let text = "[[patches]]\npanel = \"left arm\"\nslides = [{ joint = \"left_elbow\", down = 0.005 }]\n\
+                on.cone = { at = [0, 0, -0.16], axis = [0, 0, -1], radius = 0.04, angle = 1.5, facing = [0, 1, 0] }\n";
+    std::fs::write(&file, text).unwrap();
+    let (hub, port) = served();
+    let wearer = Wearer::read(file.to_str().unwrap(), Some("reference"), "").unwrap();
+    let robot = wearer.robot().unwrap().clone();
+    hub.wear(wearer);
+    let mut page = page(port);
+    let run = watched(&hub, "sim:idle", 20, false);
+    // Row 15, column 8 of the left arm; the chest has no place.
+    let height = |body: &Value| body["taxels"][2 * 512 + 15 * 16 + 8][1][2].as_f64().unwrap();
+    let body = line(&mut page, "body", |_| true);
+    assert!(body["taxels"][0].is_null());
+    let before = height(&body);
+    run.join().unwrap();
+    hub.posture(robot.posture_of("left_elbow=1rad").unwrap()).unwrap();
+    let slid = height(&line(&mut page, "body", |body| height(body) != before));
+    // 5 mm along the cloth, which narrows by 1.5 degrees.
+    assert!((before - slid - 0.005).abs() < 1e-5, "{before} to {slid}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_body_that_does_not_fit_the_garment_is_named() {
+    let (hub, _) = served();
+    hub.wear(Wearer::read("reference", None, "").unwrap());
+    let args = LiveArgs::of("sim:idle".parse().unwrap());
+    let options =
+        SourceOptions { garment: Some("mat-64x32".into()), frames: Some(9), ..SourceOptions::default() };
+    let source = source::open(&args.board.source, &options).unwrap();
+    let mut viewer = Viewer::new(&source, hub);
+    let error = watch(&args, source, &mut viewer).unwrap_err();
+    let text = format!("{error:#}");
+    assert!(
+        text.starts_with("reference, line ") && text.contains("must be a panel of the garment: mat"),
+        "{text}"
+    );
 }

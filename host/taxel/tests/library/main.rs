@@ -17,6 +17,7 @@ mod maps;
 mod meaning;
 mod people;
 mod points;
+mod pressing;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
 mod ros2;

@@ -1,6 +1,7 @@
 //! The command `taxel report`.
 
 use crate::fault::Fault;
+use crate::on_robot::Wearer;
 use crate::report::{Seen, page};
 use crate::watch::{self, LiveArgs, Overwrite};
 use anyhow::{Result, bail};
@@ -30,6 +31,15 @@ pub struct ReportArgs {
     /// Whether an existing page is replaced.
     #[command(flatten)]
     pub force: Overwrite,
+    /// Also show the garment on the robot: the body, a TOML file or `reference`
+    #[arg(long, value_name = "BODY")]
+    pub body: Option<String>,
+    /// The robot that wears the body: a URDF file or `reference`
+    #[arg(long, value_name = "URDF", requires = "body")]
+    pub robot: Option<String>,
+    /// Positions of joints, deg, rad or m: elbow=30deg,wrist=-0.5rad; the others rest
+    #[arg(long, value_name = "JOINTS", requires = "robot")]
+    pub joints: Option<String>,
     /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
     /// once]
     #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
@@ -41,11 +51,16 @@ const WATCHED: f64 = 10.0;
 
 /// Runs the command.
 pub fn run(args: ReportArgs) -> Result<()> {
+    let read =
+        |body: &String| Wearer::read(body, args.robot.as_deref(), args.joints.as_deref().unwrap_or_default());
+    let wearer = args.body.as_ref().map(read).transpose()?;
     let inputs = args.file.clone().into_iter().chain(args.source.as_ref().and_then(SourceSpec::file));
-    let output = Output::stream(&args.output, args.force, inputs)?;
+    let named = [&args.body, &args.robot].into_iter().flatten().map(PathBuf::from);
+    let lists = wearer.iter().flat_map(Wearer::lists).map(Path::to_path_buf);
+    let output = Output::stream(&args.output, args.force, inputs.chain(named).chain(lists))?;
     let seen = match (&args.file, args.source) {
-        (Some(path), _) => recorded(path, args.seconds)?,
-        (None, Some(spec)) => watched(spec, args.seconds)?,
+        (Some(path), _) => recorded(path, args.seconds, wearer)?,
+        (None, Some(spec)) => watched(spec, args.seconds, wearer)?,
         (None, None) => bail!(Fault::usage("give a recording, or a --source")),
     };
     let told = !output.is_standard();
@@ -60,13 +75,13 @@ pub fn run(args: ReportArgs) -> Result<()> {
 }
 
 /// Reads a recording.
-fn recorded(path: &Path, seconds: Option<f64>) -> Result<Seen> {
+fn recorded(path: &Path, seconds: Option<f64>, wearer: Option<Wearer>) -> Result<Seen> {
     let overview = Overview::of(path)?;
     let mut play = Play::open(path)?;
     let mut progress =
         Progress::of(format!("reading {}", path.display()), Unit::Bytes, Some(play.passed()[1]));
     let scale = overview.counts_per_newton().map(|counts| counts as f32);
-    let mut seen = Seen::new(path.display().to_string(), scale);
+    let mut seen = Seen::new(path.display().to_string(), scale).on(wearer);
     let mut began = None;
     while let Some((_, event)) = play.next_event()? {
         seen.event(play.client(), &event)?;
@@ -84,11 +99,11 @@ fn recorded(path: &Path, seconds: Option<f64>) -> Result<Seen> {
 }
 
 /// Watches a board.
-fn watched(spec: SourceSpec, seconds: Option<f64>) -> Result<Seen> {
+fn watched(spec: SourceSpec, seconds: Option<f64>, wearer: Option<Wearer>) -> Result<Seen> {
     let options = SourceOptions { seconds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;
     let seconds = seconds.or(source.real_time.then_some(WATCHED));
-    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton);
+    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(wearer);
     watch::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
     Ok(seen)
 }

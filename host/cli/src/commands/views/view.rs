@@ -1,17 +1,23 @@
 //! `taxel view`: shows a board's stream or a recording in the browser.
 
-use crate::view::{PageHub, Player, Tape, Viewer, browser, serve};
+use crate::fault::Fault;
+use crate::on_robot::Wearer;
+use crate::view::{PageHub, Player, Tape, Viewer, browser, joints, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::thread;
 use taxel::files::calibrate::Calibration;
 use taxel::record::Origin;
 use taxel::source::{SourceOptions, SourceSpec, Speed};
 
 /// Default port, unless it is taken: T, A, X, L on a telephone keypad.
 const PORT: u16 = 8295;
+
+/// `--joints` that come on the standard input.
+const LINES: &str = "-";
 
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
@@ -22,6 +28,13 @@ pub struct ViewArgs {
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
+    /// The robot that wears the body: a URDF file or `reference`
+    #[arg(long, value_name = "URDF", requires = "body")]
+    pub robot: Option<String>,
+    /// Positions of joints, deg, rad or m: elbow=30deg,wrist=-0.5rad; the others rest. `-`: lines of them on the
+    /// standard input, each as soon as it comes
+    #[arg(long, value_name = "JOINTS", requires = "robot")]
+    pub joints: Option<String>,
     /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
     #[arg(long, value_name = "N")]
     pub port: Option<u16>,
@@ -46,6 +59,13 @@ impl ViewArgs {
             _ => None,
         }
     }
+
+    /// The robot that wears the garment; none without a body.
+    fn wearer(&self) -> Result<Option<Wearer>> {
+        let joints = self.joints.as_deref().filter(|joints| *joints != LINES).unwrap_or_default();
+        let read = |body: &String| Wearer::read(body, self.robot.as_deref(), joints);
+        self.board.body.as_ref().map(read).transpose()
+    }
 }
 
 /// Runs the command.
@@ -53,26 +73,46 @@ pub fn run(args: ViewArgs) -> Result<()> {
     if let Some((file, speed)) = args.recording() {
         return play(&args, &file, speed);
     }
+    let wearer = args.wearer()?;
     let listener = bind(args.port)?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let (source, calibration) = args.board.open(options)?;
     let hub = Arc::new(PageHub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
+    if let Some(wearer) = wearer {
+        let robot = wearer.robot().cloned();
+        hub.wear(wearer);
+        if let Some(robot) = robot.filter(|_| args.joints.as_deref() == Some(LINES)) {
+            let hub = hub.clone();
+            thread::Builder::new().name("joints".into()).spawn(move || {
+                joints::follow(&robot, std::io::stdin().lock(), &hub);
+            })?;
+        }
+    }
     announce(&source.label, listener, &hub, args.open)?;
     let mut viewer = Viewer::new(&source, hub);
-    watch::watch(&LiveArgs::on(args.board), source, &mut viewer)?;
+    // Where a board does not listen, the host alone knows the body.
+    let body = args.board.body.filter(|_| source.listens);
+    let board = BoardArgs { body, ..args.board };
+    watch::watch(&LiveArgs { body_may_fail: true, ..LiveArgs::on(board) }, source, &mut viewer)?;
     println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
-        std::thread::park();
+        thread::park();
     }
 }
 
 /// Shows a recording.
 fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
-    args.board.check_recorded(&file.display().to_string())?;
+    // The host places the taxels of a recording: its board is not asked.
+    BoardArgs { body: None, ..args.board.clone() }.check_recorded(&file.display().to_string())?;
+    ensure!(
+        args.joints.as_deref() != Some(LINES),
+        Fault::usage(format!("--joints -: {} is a recording, whose robot does not move now", file.display()))
+    );
     let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(PageHub::default());
+    args.wearer()?.into_iter().for_each(|wearer| hub.wear(wearer));
     let player = Player::open(file, speed, calibration, hub.clone())?;
     announce(&file.display().to_string(), bind(args.port)?, &hub, args.open)?;
     player.run()

@@ -7,6 +7,7 @@
  * @property {number} turn about the vertical, radians
  * @property {number} tilt above the floor, radians
  * @property {number} zoom multiple of the fitted size
+ * @property {number} distance of the eye, multiples of half the scene's diagonal
  * @property {[number, number]} shift of the fitted picture, pixels
  * @typedef {object} Sight a camera that looks at a scene
  * @property {Float32Array} matrix from the scene to WebGL's clip space, by columns
@@ -19,24 +20,36 @@ const HOME = { turn: 0.16, tilt: 0.6 };
 /** Tilts between which the floor is seen from above, radians. */
 const [LOWEST, HIGHEST] = [0.08, Math.PI / 2];
 const [FARTHEST, NEAREST] = [0.5, 12];
-/** Distance of the eye, multiples of half the scene's diagonal. */
+/** Distance of the eye at home, multiples of half the scene's diagonal. */
 const DISTANCE = 3.2;
 
 /** @returns {Camera} the camera at the beginning, and after a reset */
-export const home = () => ({ ...HOME, zoom: 1, shift: [0, 0] });
+export const home = () => ({ ...HOME, zoom: 1, shift: [0, 0], distance: DISTANCE });
 
 /**
  * Turned and tilted by these angles.
  * @param {Camera} camera
  * @param {number} turn
  * @param {number} tilt
+ * @param {number} lowest tilt
  * @returns {Camera}
  */
-export const turned = (camera, turn, tilt) => ({
+export const turned = (camera, turn, tilt, lowest = LOWEST) => ({
   ...camera,
   turn: (camera.turn + turn) % (2 * Math.PI),
-  tilt: Math.max(LOWEST, Math.min(HIGHEST, camera.tilt + tilt)),
+  tilt: Math.max(lowest, Math.min(HIGHEST, camera.tilt + tilt)),
 });
+
+/**
+ * Direction from the middle of the scene to the viewer, of length 1.
+ * @param {Camera} camera
+ * @returns {Triple}
+ */
+export const toward = ({ turn, tilt }) => [
+  Math.sin(turn) * Math.cos(tilt),
+  Math.cos(turn) * Math.cos(tilt),
+  Math.sin(tilt),
+];
 
 /**
  * Nearer by a factor; what is seen at `at`, pixels from the middle, stays there.
@@ -60,11 +73,11 @@ export function nearer(camera, factor, [x, y] = [0, 0]) {
  * @param {[number, number]} margins at the sides, above and below
  * @returns {Sight}
  */
-export function sight({ turn, tilt, zoom, shift }, box, [width, height], margins) {
+export function sight({ turn, tilt, zoom, shift, distance }, box, [width, height], margins) {
   const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
   const [cx, cy, cz] = [box[0] / 2, box[1] / 2, box[2] / 2];
   const reach = Math.hypot(cx, cy, cz) || 1;
-  const eye = DISTANCE * reach;
+  const eye = distance * reach;
   /** Right, up, and the divisor of perspective, each as a row of factors for x, y, z and 1. */
   const right = affine([cosTurn, -sinTurn, 0], [cx, cy, cz]);
   const up = affine([-sinTurn * sinTilt, -cosTurn * sinTilt, cosTilt], [cx, cy, cz]);

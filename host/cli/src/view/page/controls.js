@@ -32,7 +32,7 @@ const LIVE_KEYS = [
 /** Keys apart from these, and those of views and layers. */
 const KEYS = [
   ["Tab", "to a panel: arrow keys read its taxels"],
-  ["Tab", "to the surface: arrow keys turn it, Page Up and Page Down move it, Home resets it"],
+  ["Tab", "to the surface or the robot: arrow keys turn it, Page Up and Page Down move it, Home resets it"],
   ["+ −", "scale"],
   ["a", "adapt the scale to the pressure shown"],
   ["u", "kPa or counts"],

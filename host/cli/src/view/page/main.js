@@ -55,7 +55,7 @@ const concepts = new Concepts($("concepts"), $("leading"));
 const views = {
   panels: new Panels($("view-panels"), hover),
   surface: new Surface($("view-surface"), hover, changed),
-  body: new Body($("view-body")),
+  body: new Body($("view-body"), hover, changed),
   map: new CognitiveMap($("view-map")),
   health: new Health($("view-health")),
 };

@@ -1,5 +1,6 @@
-// Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs and
-// host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs: TAXEL_BLESS=1 updates it.
+// Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs,
+// host/cli/src/on_robot/lines.rs and host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs:
+// TAXEL_BLESS=1 updates it.
 
 /** Garment, scene and firmware of the board, and how the page shows them. */
 export type PageHello = {
@@ -269,6 +270,52 @@ export type ImageHead = {
     at_us?: number;
     /** Of a recording: number of jumps in time. */
     seeks?: number;
+    /** What presses on the robot; absent without a body. */
+    pressing?: {
+      /** Type of the message. */
+      type: "pressing";
+      /** Number of the scan. */
+      frame: number;
+      /** Start of the scan, us of the board. */
+      time_us: number;
+      /** Time at which the board received the poses in force, us of the board; null without poses. */
+      posed_us: number | null;
+      /** The contacts that have a place. */
+      contacts: {
+        /** Id of the contact. */
+        id: number;
+        /** Name of the link. */
+        link: string;
+        /** Place, m. */
+        at_m: [number, number, number];
+        /** Direction away from the robot. */
+        normal: [number, number, number];
+        /** Force, counts. */
+        force: [number, number, number];
+        /** The same in the frame of the poses; null without a pose of the link. */
+        base: {
+          /** Place, m. */
+          at_m: [number, number, number];
+          /** Direction away from the robot. */
+          normal: [number, number, number];
+          /** Force, counts. */
+          force: [number, number, number];
+        } | null;
+      }[];
+      /** The links that something presses on. */
+      links: {
+        /** Name of the link. */
+        link: string;
+        /** Sum of the taxels' forces along their normals, counts. */
+        force: [number, number, number];
+        /** Their moment about the link's origin, counts times m. */
+        moment: [number, number, number];
+        /** Sum of their magnitudes, counts. */
+        pressed: number;
+        /** Centre of pressure, m. */
+        center_m: [number, number, number];
+      }[];
+    };
     /** True if the image is from before the page was opened. */
     past?: boolean;
   };
@@ -278,6 +325,36 @@ export type ImageHead = {
   replaced: number;
   /** Samples and lines that were dropped, because the page did not read. */
   missed: number;
+};
+
+/** Where the taxels lie on the robot. */
+export type BodyLine = {
+  /** Type of the message. */
+  type: "body";
+  /** Name of the body. */
+  name: string;
+  /** The links: all of a robot, each after its parent; without a robot those that taxels lie on. */
+  links: {
+    /** Its name. */
+    name: string;
+    /** Number of the link that it hangs on; null for the root, and without a robot. */
+    parent: number | null;
+  }[];
+  /** Number of the link, place (m) and direction away from the robot of each taxel, in the frame of the link; null for a taxel without a place. */
+  taxels: ([number, [number, number, number], [number, number, number]] | null)[];
+};
+
+/** Where the links of the robot are. */
+export type PosesLine = {
+  /** Type of the message. */
+  type: "poses";
+  /** Pose of each link in the frame of the root, by its name. */
+  links: Record<string, {
+    /** Origin, m. */
+    at_m: [number, number, number];
+    /** Rotation: a quaternion x, y, z, w of length 1. */
+    turn: [number, number, number, number];
+  }>;
 };
 
 /** The pressure just before a moment of a recording. */

@@ -31,7 +31,7 @@ export class FlatPainter {
 
   /**
    * Takes another mesh.
-   * @param {Mesh} mesh
+   * @param {Pick<Mesh, "faces">} mesh
    */
   build({ faces }) {
     this.faces = faces;
@@ -46,14 +46,10 @@ export class FlatPainter {
    * @param {[number, number]} size of the picture in pixels of the screen
    * @param {number} ratio of these pixels to those of `seen`
    */
-  draw(seen, { data }, [width, height], ratio) {
-    const { canvas, context, faces, near } = this;
+  draw(seen, { data }, size, ratio) {
+    const { faces, near } = this;
+    const context = this.begin(size, ratio);
     if (!context) return;
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
-    context.lineJoin = "round";
-    context.lineWidth = 0.8;
     // Seen from above, a height conceals the floor that it rises from.
     for (const strip of this.floor) fill(context, seen, strip, this.colour(0, 1));
     let count = 0;
@@ -69,7 +65,35 @@ export class FlatPainter {
       count += 1;
     }
     const raised = this.raised.subarray(0, count).sort((a, b) => (near[a] ?? 0) - (near[b] ?? 0));
-    for (const face of raised) {
+    this.fill(raised, seen, data);
+  }
+
+  /**
+   * An empty picture; null without a canvas.
+   * @param {[number, number]} size of the picture in pixels of the screen
+   * @param {number} ratio of these pixels to those of what is drawn
+   */
+  begin([width, height], ratio) {
+    const { canvas, context } = this;
+    if (!context) return null;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    context.lineJoin = "round";
+    context.lineWidth = 0.8;
+    return context;
+  }
+
+  /**
+   * Fills faces, one over the other.
+   * @param {Iterable<number>} order their numbers
+   * @param {Float32Array} seen x, y and nearness of each taxel
+   * @param {Float32Array} data of a relief
+   */
+  fill(order, seen, data) {
+    const { context, faces } = this;
+    if (!context) return;
+    for (const face of order) {
       const corners = faces.subarray(4 * face, 4 * face + 4);
       const mean = (/** @type {number} */ which) =>
         corners.reduce((sum, taxel) => sum + (data[STRIDE * taxel + which] ?? 0), 0) / 4;

@@ -1,4 +1,4 @@
-// A relief drawn by WebGL.
+// A relief, or cloth on a robot, drawn by WebGL.
 
 import { palette } from "./colours.js";
 import { STRIDE } from "./mesh.js";
@@ -11,14 +11,14 @@ import { STRIDE } from "./mesh.js";
 
 const VERTEX = `#version 300 es
 uniform mat4 sight;
-in vec2 place;
+in vec3 place;
 in vec3 relief;
 out float share;
 out float light;
 void main() {
   share = relief.y;
   light = relief.z;
-  gl_Position = sight * vec4(place, relief.x, 1.0);
+  gl_Position = sight * vec4(place.xy, place.z + relief.x, 1.0);
 }`;
 
 // Each step of the ramp is a colour of its own, as on the panels.
@@ -61,7 +61,9 @@ export class GlPainter {
     gl.useProgram(program);
     gl.enable(gl.DEPTH_TEST);
     this.steps = gl.getUniformLocation(program, "steps");
-    this.places = this.input(program, "place", 2);
+    this.place = gl.getAttribLocation(program, "place");
+    this.places = gl.createBuffer();
+    gl.enableVertexAttribArray(this.place);
     this.relief = this.input(program, "relief", STRIDE);
     this.corners = gl.createBuffer();
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.corners);
@@ -95,14 +97,26 @@ export class GlPainter {
   }
 
   /**
-   * Takes another mesh.
-   * @param {Mesh} mesh
+   * Takes other places: x and y of each taxel, or x, y and z.
+   * @param {Float32Array} places
+   * @param {2 | 3} numbers
    */
-  build({ places, faces }) {
+  move(places, numbers) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+    gl.vertexAttribPointer(this.place, numbers, gl.FLOAT, false, 0, 0);
+    gl.bufferData(gl.ARRAY_BUFFER, places, gl.DYNAMIC_DRAW);
+  }
+
+  /**
+   * Takes another mesh.
+   * @param {Pick<Mesh, "places" | "faces">} mesh
+   * @param {2 | 3} numbers of a place
+   */
+  build({ places, faces }, numbers = 2) {
     const { gl } = this;
     this.ramp();
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
-    gl.bufferData(gl.ARRAY_BUFFER, places, gl.STATIC_DRAW);
+    this.move(places, numbers);
     const corners = new Uint32Array((faces.length / 4) * 6);
     [0, 1, 3, 1, 2, 3].forEach((corner, at) => {
       for (let face = 0; face < faces.length / 4; face += 1) corners[face * 6 + at] = faces[face * 4 + corner] ?? 0;
@@ -113,7 +127,7 @@ export class GlPainter {
 
   /**
    * @param {Sight} sight
-   * @param {Relief} relief
+   * @param {Pick<Relief, "data">} relief
    * @param {[number, number]} size of the picture in pixels of the screen
    */
   draw({ matrix }, { data }, [width, height]) {

@@ -5,6 +5,8 @@ import { diamond, label } from "./marks.js";
 
 /** Margin of a saved picture, pixels. */
 const MARGIN = 12;
+/** What a picture has of a view. */
+const DRAWN = "canvas, svg, figcaption b, .marks b, .regions :is(h2, p, figcaption), .note";
 
 /** The menu. `context` has the store and the name of the view. */
 export class Save {
@@ -89,12 +91,13 @@ export async function picture(root) {
   context.fillStyle = colour("card");
   context.fillRect(0, 0, width + 2 * MARGIN, height + 2 * MARGIN);
   context.translate(MARGIN, MARGIN);
-  for (const part of root.querySelectorAll("canvas, svg, figcaption b, .marks b:not([hidden])")) {
+  for (const part of root.querySelectorAll(DRAWN)) {
+    if (!part.checkVisibility()) continue;
     const box = part.getBoundingClientRect();
     const place = /** @type {[number, number]} */ ([box.left - left, box.top - top]);
     if (part instanceof HTMLCanvasElement) context.drawImage(part, ...place, box.width, box.height);
     else if (part.closest(".marks")) mark(context, part.textContent ?? "", box, place);
-    else if (part.tagName === "B") caption(context, part.textContent ?? "", place);
+    else if (part instanceof HTMLElement) caption(context, part.textContent ?? "", place);
     else context.drawImage(await drawing(part), ...place, box.width, box.height);
   }
   return canvas.toDataURL("image/png");

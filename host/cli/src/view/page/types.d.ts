@@ -1,6 +1,7 @@
 // Types that several modules of the page share. What comes from the program is in messages.d.ts.
 
 import type {
+  BodyLine,
   BudgetLine,
   EndLine,
   GlowLine,
@@ -14,6 +15,7 @@ import type {
   PageWish,
   PinsLine,
   PlayerLine,
+  PosesLine,
   SayLine,
   TaxelLine,
 } from "./messages.d.ts";
@@ -53,6 +55,8 @@ export type Contact = Frame["contacts"][number];
 /** The head of an image, as it is kept: `samples` are times and totals by turns. */
 export interface Head extends Omit<ImageHead, "samples"> {
   samples: Float64Array;
+  /** Where the robot's links were when it came; null if that is not known. */
+  poses: PosesLine | null;
 }
 
 /** An image, as it comes. */
@@ -78,6 +82,9 @@ export interface Still extends Shown {
 export type Said = OverviewLine["said"][number];
 export type LinkState = LinkLine;
 export type Overview = OverviewLine;
+export type BodyState = BodyLine;
+export type PoseOfLink = PosesLine["links"][string];
+export type Pressing = NonNullable<Frame["pressing"]>;
 export type PlayerState = PlayerLine;
 export type TaxelState = TaxelLine;
 
@@ -90,6 +97,8 @@ export interface States {
   pins?: PinsLine;
   budget?: BudgetLine;
   taxel?: TaxelState;
+  body?: BodyState;
+  poses?: PosesLine;
   end?: EndLine;
   player?: PlayerState;
   glow?: GlowLine & { values?: Uint16Array };

@@ -89,9 +89,10 @@ impl Player {
             told: Instant::now(),
             hub,
         };
-        if player.reel.seek(0).map(|(at, event)| player.moment(at, &event)).is_none() {
-            bail!("{} holds no image", path.display());
-        }
+        let Some((at, event)) = player.reel.seek(0) else { bail!("{} holds no image", path.display()) };
+        // A body that does not fit is an error, unless another garment is worn later on.
+        player.hub.worn(player.reel.client())?;
+        player.moment(at, &event);
         player.tell();
         Ok(player)
     }

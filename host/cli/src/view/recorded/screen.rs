@@ -3,6 +3,7 @@
 use crate::view::hub::PageHub;
 use crate::view::lines::PageFrame;
 use crate::view::message;
+use crate::view::said::Said;
 use crate::view::shot::{Shot, text};
 use crate::watch::rate::Rate;
 use std::sync::Arc;
@@ -56,6 +57,7 @@ impl PageScreen {
             Event::Hello => self.hello(client),
             Event::Frame { .. } => self.image(client, at, event, seeks),
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
+            Event::Pressing(report) => self.hub.heard(report),
             event => self.state(client, event),
         }
     }
@@ -66,7 +68,9 @@ impl PageScreen {
         self.rate.add(*time);
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         let Some(line) = message::frame(client, event) else { return };
-        let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), ..line });
+        let wearer = self.hub.wearer();
+        let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, *time));
+        let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), pressing, ..line });
         self.hub.show(Shot { line, image: image.into(), time_us: time.0, total });
     }
 
@@ -75,6 +79,9 @@ impl PageScreen {
             client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
         self.hub.wired(circuit);
         self.hub.state("hello", &message::hello(client, &self.label, self.scale));
+        if let Err(error) = self.hub.worn(client) {
+            self.hub.say(&Said::note(format!("{error:#}")));
+        }
     }
 
     fn state(&self, client: &Client, event: &Event) {

@@ -1,6 +1,7 @@
 //! The report page has the figures of the source.
 
 use super::stage::play;
+use taxel_cli::on_robot::Wearer;
 use taxel_cli::report::{Seen, page};
 
 #[test]
@@ -49,4 +50,23 @@ fn a_page_is_in_one_unit() {
 fn without_an_image_there_is_no_page() {
     let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
     assert_eq!(error, "file:x: no image was received, so there is nothing to report");
+}
+
+#[test]
+fn a_garment_is_shown_on_its_robot() {
+    let wearer = Wearer::read("reference", Some("reference"), "waist=20deg").unwrap();
+    let mut seen = Seen::new("sim:five".into(), Some(1000.0)).on(Some(wearer));
+    play("sim:five", &mut seen);
+    let html = page(&seen).unwrap();
+    assert_eq!(html.matches("<h2>On the robot</h2>").count(), 1);
+    let data = html.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    assert_eq!(data["pressing"]["contacts"].as_array().unwrap().len(), 5);
+    let sin = data["poses"]["links"]["torso"]["turn"][2].as_f64().unwrap();
+    assert!((sin - 10f64.to_radians().sin()).abs() < 1e-9, "{sin}");
+    assert_eq!(data["body"]["taxels"].as_array().unwrap().len(), data["image"].as_array().unwrap().len());
+    let mut without = Seen::new("sim:idle".into(), None);
+    play("sim:idle", &mut without);
+    let html = page(&without).unwrap();
+    assert!(!html.contains("On the robot") && html.contains("\"body\":null"));
 }

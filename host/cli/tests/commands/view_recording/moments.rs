@@ -163,3 +163,39 @@ fn headline_and_bars_are_of_one_moment() {
     let bars: Vec<f64> = all.iter().filter_map(|moment| led(&moment.line)).collect();
     assert!(bars.len() > 100 && bars.iter().all(|bar| *bar > 0.1), "a headline stands over an empty bar");
 }
+
+#[test]
+fn a_recording_is_shown_on_a_robot() {
+    let path = recorded("robot.mcap", "sim:five", 2, &[]);
+    let view = View::start(&[path.to_str().unwrap(), "--body", "reference", "--robot", "reference"]);
+    let mut page = view.page();
+    page.line("body", |body| body["name"] == "reference");
+    page.line("poses", |_| true);
+    let (image, _) = page.image(|frame| frame["contacts"].as_array().unwrap().len() == 5);
+    assert_eq!(image["pressing"]["frame"], image["frame"]);
+    assert_eq!(image["pressing"]["contacts"].as_array().unwrap().len(), 5);
+    // The garment of the recording has no such panel; nor does a recorded robot move now.
+    let failed = |arguments: &[&str]| {
+        let mut program = std::process::Command::new(PROGRAM);
+        let output = program.args(["view", path.to_str().unwrap()]).args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let body = file("mat.toml");
+    std::fs::write(
+        &body,
+        "[[patches]]\npanel = \"mat\"\non.plane = { at = [0, 0, 0], normal = [1, 0, 0], down = [0, 0, -1] }",
+    )
+    .unwrap();
+    let (status, why) = failed(&["--body", body.to_str().unwrap()]);
+    assert_eq!(status, Some(1));
+    assert!(
+        why.contains("mat.toml, line 2") && why.contains("must be a panel of the garment: chest"),
+        "{why}"
+    );
+    let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "-"]);
+    assert!(status == Some(2) && why.contains("is a recording, whose robot does not move now"), "{why}");
+    let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "waits=3deg"]);
+    assert!(status == Some(2) && why.contains("there is no joint \"waits\""), "{why}");
+    let (status, why) = failed(&["--robot", "reference"]);
+    assert!(status == Some(2) && why.contains("--body"), "{why}");
+}

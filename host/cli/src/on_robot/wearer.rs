@@ -1,0 +1,159 @@
+//! A robot, its posture, and the garment on it.
+
+use super::lines::{BodyLine, BodyLink, PoseOfLink, PosesLine};
+use crate::fault::Blame;
+use anyhow::Result;
+use std::path::Path;
+use std::sync::Arc;
+use taxel::body::robot::{self, Robot, RobotLink};
+use taxel::body::{self, Pose, ReadBody, RobotSurface, Surface, TaxelPlace};
+use taxel::client::{Client, Worn};
+use taxel::json::{computed_pressing, lines::PressingLine, pressing};
+use taxel_core::format::Micros;
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::wire::PressingReport;
+
+/// Age up to which a report of the board belongs to a frame, us; a board may report ten times a second.
+const FRESH: u64 = 150_000;
+
+/// Wears a garment, once that is known.
+#[derive(Debug)]
+pub struct Wearer {
+    body: ReadBody,
+    robot: Option<Arc<Robot>>,
+    /// Positions of the robot's joints, rad or m; empty without a robot.
+    posture: Vec<f64>,
+    worn: Option<GarmentOn>,
+    /// Last report of the board.
+    told: Option<Box<PressingReport>>,
+}
+
+/// A garment on the body.
+#[derive(Debug)]
+struct GarmentOn {
+    garment: Garment,
+    layout: Layout,
+    /// In the frames of the links, where the posture has slid the cloth to.
+    surface: Surface,
+    /// With a robot: what follows from its posture.
+    on_robot: Option<RobotSurface>,
+    /// Number of each of the surface's links among those of [`BodyLine`].
+    links: Vec<usize>,
+}
+
+impl Wearer {
+    /// Reads a body, and a robot and the positions of its joints (`elbow=30deg`); the others rest.
+    pub fn read(body: &str, robot: Option<&str>, joints: &str) -> Result<Wearer> {
+        let body = body::read(body)?;
+        let robot = robot.map(robot::read).transpose()?.map(Arc::new);
+        let posture = robot.as_ref().map(|robot| robot.posture_of(joints)).transpose().usage()?;
+        Ok(Wearer { body, robot, posture: posture.unwrap_or_default(), worn: None, told: None })
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> Option<&Arc<Robot>> {
+        self.robot.as_ref()
+    }
+
+    /// The lists of taxels that were read with the body.
+    pub fn lists(&self) -> impl Iterator<Item = &Path> {
+        self.body.lists()
+    }
+
+    /// True if it wears this garment already.
+    pub fn wears(&self, worn: &Worn) -> bool {
+        self.worn.as_ref().is_some_and(|on| on.garment == worn.garment)
+    }
+
+    /// Puts a garment on. Errors name the body's file, line and key; then nothing is worn.
+    pub fn wear(&mut self, worn: &Worn) -> Result<()> {
+        self.worn = None;
+        self.told = None;
+        let (garment, layout) = (worn.garment.clone(), worn.layout.clone());
+        self.worn = Some(match &self.robot {
+            Some(robot) => {
+                let on_robot = self.body.on_robot(&garment, &layout, robot.clone())?;
+                let surface = on_robot.slid(&self.posture)?.into_owned();
+                // Each was found when the surface was made.
+                let links = surface.links().iter().filter_map(|name| robot.link(name).ok()).collect();
+                GarmentOn { garment, layout, surface, on_robot: Some(on_robot), links }
+            }
+            None => {
+                let surface = self.body.surface(&garment, &layout)?;
+                let links = (0..surface.links().len()).collect();
+                GarmentOn { garment, layout, surface, on_robot: None, links }
+            }
+        });
+        Ok(())
+    }
+
+    /// Takes another posture: the positions of [`Robot::free`], rad or m, within their limits. Returns whether
+    /// cloth has slid over the skin, so that the places are others. The error names a panel that has slid off.
+    pub fn pose(&mut self, posture: Vec<f64>) -> Result<bool> {
+        let mut has_slid = false;
+        if let Some(worn) = &mut self.worn
+            && let Some(on_robot) = &worn.on_robot
+        {
+            let slid = on_robot.slid(&posture)?;
+            has_slid = *slid != worn.surface;
+            if has_slid {
+                worn.surface = slid.into_owned();
+            }
+        }
+        self.posture = posture;
+        Ok(has_slid)
+    }
+
+    /// Where the taxels lie; none before a garment is worn.
+    pub fn body(&self) -> Option<BodyLine<'_>> {
+        let worn = self.worn.as_ref()?;
+        let links = match &self.robot {
+            Some(robot) => {
+                let parent = |link: usize| Some(robot.joints().get(link.checked_sub(1)?)?.parent);
+                let links = robot.links().iter().enumerate();
+                links.map(|(at, link)| BodyLink { name: &link.name, parent: parent(at) }).collect()
+            }
+            None => {
+                let names = worn.surface.links().iter();
+                names.map(|name| BodyLink { name, parent: None }).collect()
+            }
+        };
+        let taxel = |place: &Option<TaxelPlace>| {
+            let place = place.as_ref()?;
+            Some((*worn.links.get(place.link)?, rounded(place.at), rounded(place.normal)))
+        };
+        let taxels = worn.surface.places().iter().map(taxel).collect();
+        Some(BodyLine { name: &self.body.name, links, taxels })
+    }
+
+    /// Where the links are; none without a robot.
+    pub fn poses<'a>(&'a self) -> Option<PosesLine<'a>> {
+        let robot = self.robot.as_ref()?;
+        let poses = robot.poses(&self.posture);
+        let pose = |(at, link): (usize, &'a RobotLink)| {
+            let Pose { at, turn } = poses.of(at, 0)?;
+            Some((link.name.as_str(), PoseOfLink { at_m: rounded(at), turn: turn.to_array() }))
+        };
+        Some(PosesLine { links: robot.links().iter().enumerate().filter_map(pose).collect() })
+    }
+
+    /// Takes a report of the board.
+    pub fn take(&mut self, report: &PressingReport) {
+        self.told = Some(Box::new(report.clone()));
+    }
+
+    /// What presses on the robot in the client's newest frame, of this time: by the board's report, if there is one of
+    /// that time, else computed. None before a garment is worn.
+    pub fn pressing<'a>(&'a self, client: &Client, time: Micros) -> Option<PressingLine<'a>> {
+        let worn = self.worn.as_ref()?;
+        match &self.told {
+            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(report)),
+            _ => computed_pressing(client, time, &worn.layout, &worn.surface),
+        }
+    }
+}
+
+/// To a micrometre, and 0 without a sign.
+fn rounded(vector: body::DVec3) -> [f64; 3] {
+    vector.to_array().map(|part| (part * 1e6).round() / 1e6 + 0.0)
+}

@@ -1,0 +1,439 @@
+// The garment on the robot in three dimensions: cloth in the colours of the pressure, contacts, the forces that press,
+// and the links. Without WebGL the canvas shows it from the front and from behind. `taxel report` shows the same.
+
+import { home, sight, toward } from "./camera.js";
+import { arrowOf, clothOf, facing, light, nothing, shade, sideBySide, stand, STRIDE } from "./cloth.js";
+import { draw, make, say } from "./dom.js";
+import { Drawing } from "./drawing.js";
+import { under } from "./mesh.js";
+import { Orbit } from "./orbit.js";
+import { GlPainter } from "./relief-gl.js";
+
+/**
+ * @typedef {import("./types.d.ts").Triple} Triple
+ * @typedef {import("./types.d.ts").BodyState} BodyState
+ * @typedef {import("./types.d.ts").PoseOfLink} PoseOfLink
+ * @typedef {import("./types.d.ts").Pressing} Pressing
+ * @typedef {import("./camera.js").Camera} Camera
+ * @typedef {import("./camera.js").Sight} Sight
+ * @typedef {object} BodyScene
+ * @property {BodyState} body
+ * @property {Record<string, PoseOfLink> | null} poses of the links; null without a robot
+ * @property {import("./types.d.ts").Panel[]} panels
+ * @property {ArrayLike<number>} image counts
+ * @property {number} top end of the colours, counts
+ * @property {Pressing | null} pressing
+ * @property {(counts: number) => string} force in words
+ * @property {number | null} chosen a taxel that is marked
+ * @typedef {object} Aspect a side from which the robot is seen
+ * @property {Camera} camera
+ * @property {string} name
+ * @property {number} left pixels
+ * @property {number} width pixels
+ * @property {Sight} sight
+ * @property {Float32Array} seen x, y and nearness of each corner of the cloth
+ * @property {Triple} viewer direction
+ * @property {Uint32Array} order faces to be drawn by the canvas
+ */
+
+/** From the front, a little from the robot's left, and from afar: near and far links are to be compared. */
+const FRONT = { turn: 0.45, tilt: 0.12, distance: 12 };
+/** The robot is seen from below, too. */
+const LOWEST = -1.4;
+/** Margins for the texts, pixels. */
+const MARGINS = /** @type {[number, number]} */ ([30, 22]);
+/** Sum of the pressure that an arrow of 10 cm stands for, ends of the colours. */
+const PER_ARROW = 40;
+/** Height of a line of names, and width of a letter, pixels; letters of the force behind a name. */
+const [LINE, LETTER, FORCE] = [14, 6.8, 7];
+/** Shortest time between two texts in a place, ms: nobody reads faster. */
+const SAID_MS = 100;
+const TURNS = "Arrow keys turn and tilt it, Page Up and Page Down move nearer and farther, Home resets.";
+
+/** The robot in an element. */
+export class OnRobot {
+  /**
+   * @param {HTMLElement} root
+   * @param {import("./relief.js").Watch} watch
+   */
+  constructor(root, watch) {
+    this.watch = watch;
+    this.stage = make("div", { class: "relief" });
+    this.back = draw("svg", { "aria-hidden": "true" });
+    this.bones = draw("path", { fill: "none", stroke: "var(--quiet)", "stroke-width": 1.5, "stroke-linecap": "round" });
+    this.back.append(this.bones);
+    this.stage.append(this.back);
+    this.drawing = new Drawing(this.stage, () => {
+      this.body = null;
+      this.become();
+      watch.changed();
+    });
+    this.front = draw("svg", { "aria-hidden": "true" });
+    this.names = draw("g", { "font-size": 12, "text-anchor": "middle", fill: "var(--ink)" });
+    this.forces = draw("g", { "font-size": 13, "font-weight": 650, "text-anchor": "middle" });
+    this.ring = draw("circle", { r: 7, fill: "none", stroke: "var(--mark)", "stroke-width": 1.5, display: "none" });
+    this.front.append(this.names, this.forces, this.ring);
+    this.note = make("p", { class: "note quiet" });
+    this.stage.append(this.front, this.note);
+    root.replaceChildren(this.stage);
+    this.orbit = new Orbit(
+      this.stage,
+      { changed: () => this.turns && watch.changed(), point: (at, x, y) => watch.point(this.taxelAt(at), x, y) },
+      FRONT,
+      LOWEST,
+    );
+    /** @type {BodyState | null} */
+    this.body = null;
+    /** @type {Record<string, PoseOfLink> | null} */
+    this.poses = null;
+    this.data = new Float32Array(0);
+    /** @type {Aspect[]} */
+    this.aspects = [];
+    this.looked = "";
+    /** When the texts were written. */
+    this.said = 0;
+    /** @type {ReturnType<typeof setTimeout> | undefined} they wait for that */
+    this.late = undefined;
+    /** @type {string[]} */
+    this.named = [];
+    /** Pictures drawn so far. */
+    this.pictures = 0;
+    this.become();
+  }
+
+  /** What draws the cloth. */
+  get painter() {
+    return this.drawing.painter;
+  }
+
+  /** Whether the robot can be turned. */
+  get turns() {
+    return this.painter instanceof GlPainter;
+  }
+
+  /** A picture that turns is a control, one that does not is a picture. */
+  become() {
+    const told = this.turns
+      ? { role: "application", tabindex: "0", "aria-label": `The garment on the robot. ${TURNS}` }
+      : { role: "img", "aria-label": "The garment on the robot, from the front and from behind" };
+    for (const name of ["role", "tabindex", "aria-label"]) this.stage.removeAttribute(name);
+    for (const [name, value] of Object.entries(told)) this.stage.setAttribute(name, value);
+  }
+
+  /**
+   * Draws a scene; false if there is no room.
+   * @param {BodyScene} scene
+   */
+  draw(scene) {
+    const { clientWidth: width, clientHeight: height } = this.stage;
+    if (!width || !height) return false;
+    this.build(scene);
+    this.look(width, height);
+    const { cloth, data, painter } = this;
+    if (!cloth) return false;
+    shade(data, cloth, scene.image, scene.top);
+    const { ratio, size } = this.drawing.sharpness();
+    const [first] = this.aspects;
+    if (painter instanceof GlPainter) first && painter.draw(first.sight, { data }, size);
+    else {
+      painter.begin(size, ratio);
+      for (const { seen, order, viewer } of this.aspects) {
+        light(data, this.standing?.normals ?? data, viewer);
+        painter.fill(order, seen, data);
+      }
+    }
+    this.mark(scene);
+    this.pictures += 1;
+    return true;
+  }
+
+  /**
+   * Takes another body or posture.
+   * @param {BodyScene} scene
+   */
+  build({ body, poses, panels }) {
+    const { painter } = this;
+    const isOther = body !== this.body;
+    if (!isOther && poses === this.poses) return;
+    if (isOther) {
+      const links = (/** @type {BodyState | null} */ of) => JSON.stringify(of?.links);
+      // Cloth that has slid does not move the camera.
+      if (!this.bounds || links(body) !== links(this.body)) this.bounds = nothing();
+      this.cloth = clothOf(body, panels);
+      this.data = new Float32Array(STRIDE * this.cloth.taxels.length);
+    }
+    const { cloth, bounds } = this;
+    if (!cloth || !bounds) return;
+    [this.body, this.poses] = [body, poses];
+    this.posed = poses ?? sideBySide(body);
+    this.standing = stand(cloth, body, this.posed, bounds);
+    if (!(painter instanceof GlPainter)) painter.build(cloth);
+    else if (isOther) painter.build({ places: this.standing.places, faces: cloth.faces }, 3);
+    else painter.move(this.standing.places, 3);
+    this.looked = "";
+  }
+
+  /**
+   * Looks at the robot: where everything is in the picture. It changes less often than the pressure.
+   * @param {number} width
+   * @param {number} height
+   */
+  look(width, height) {
+    const { standing, cloth, orbit } = this;
+    const key = `${width} ${height} ${JSON.stringify(orbit.camera)}`;
+    if (!standing || !cloth || key === this.looked) return;
+    this.looked = key;
+    for (const svg of [this.back, this.front])
+      for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` }))
+        svg.setAttribute(name, String(value));
+    const half = width / 2;
+    const sides = this.turns
+      ? [{ camera: orbit.camera, name: "", left: 0, width }]
+      : [
+          { camera: { ...home(), ...FRONT, turn: 0, tilt: 0 }, name: "front", left: 0, width: half },
+          { camera: { ...home(), ...FRONT, turn: Math.PI, tilt: 0 }, name: "back", left: half, width: half },
+        ];
+    this.aspects = sides.map((side) => {
+      const view = sight(side.camera, standing.box, [side.width, height], MARGINS);
+      const seen = new Float32Array(standing.places.length);
+      for (let at = 0; at < seen.length; at += 3) {
+        const [x = 0, y = 0, z = 0] = standing.places.subarray(at, at + 3);
+        const [right, down, near] = view.place(x, y, z);
+        seen.set([right + side.left, down, near], at);
+      }
+      const viewer = toward(side.camera);
+      const order = this.turns ? new Uint32Array(0) : facing(seen, cloth.faces, standing.normals, viewer);
+      return { ...side, sight: view, seen, viewer, order };
+    });
+    const [first] = this.aspects;
+    if (first && this.turns) light(this.data, standing.normals, first.viewer);
+    this.placeNames();
+    this.said = 0;
+    this.bones.setAttribute("d", this.poses ? this.aspects.map((aspect) => this.skeleton(aspect)).join("") : "");
+  }
+
+  /**
+   * Lines from each link's origin to that of the link that it hangs on.
+   * @param {Aspect} aspect
+   */
+  skeleton(aspect) {
+    const { body, standing } = this;
+    if (!body || !standing) return "";
+    const lines = body.links.map(({ parent }, at) => {
+      const [from, to] = [parent === null ? null : standing.origins[parent], standing.origins[at]];
+      if (!from || !to) return "";
+      const ends = [from, to].map((end) => text(pixel(aspect, end)));
+      return `M${ends.join("L")}`;
+    });
+    return lines.join("");
+  }
+
+  /**
+   * The taxel at a point of the picture; null if there is none.
+   * @param {[number, number] | null} at
+   */
+  taxelAt(at) {
+    const { cloth, aspects } = this;
+    const aspect = at && aspects.find(({ left, width }) => at[0] >= left && at[0] < left + width);
+    const corner = cloth && aspect ? under(aspect.seen, cloth.faces, ...at) : null;
+    return corner === null ? null : (cloth?.taxels[corner] ?? null);
+  }
+
+  /**
+   * Names the links, and draws each contact with its force, and the chosen taxel.
+   * @param {BodyScene} scene
+   */
+  mark(scene) {
+    const { body, bounds, posed } = this;
+    if (!body || !bounds || !posed) return;
+    const contacts = scene.pressing?.contacts ?? [];
+    const wait = this.said + SAID_MS - performance.now();
+    const isDue = wait <= 0;
+    clearTimeout(this.late);
+    if (isDue) this.said = performance.now();
+    else this.late = setTimeout(() => this.mark(scene), wait);
+    const perMetre = 10 * PER_ARROW * scene.top;
+    const arrows = this.aspects.flatMap((aspect) =>
+      contacts.flatMap((touch) => {
+        const pose = posed[touch.link];
+        if (!pose) return [];
+        const { tip, tail, normal } = arrowOf(pose, touch, perMetre, bounds);
+        const isBehind = normal.reduce((sum, part, axis) => sum + part * (aspect.viewer[axis] ?? 0), 0) < 0;
+        // One of two sides shows it.
+        if (isBehind && !this.turns) return [];
+        const { id } = touch;
+        const words = `${id} · ${scene.force(Math.hypot(...touch.force))}`;
+        return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), id, isBehind, words }];
+      }),
+    );
+    grown(this.forces, arrows.length, marker).forEach((group, at) => {
+      const one = arrows[at];
+      set(group, "display", one ? "inline" : "none");
+      const [halo, line, words] = group.children;
+      if (!one || !halo || !line || !words) return;
+      set(group, "opacity", one.isBehind ? "0.4" : "1");
+      for (const path of [halo, line]) set(path, "d", one.d);
+      set(words, "transform", `translate(${text([one.at[0], one.at[1] - 7])})`);
+      if (isDue || !words.textContent?.startsWith(`${one.id} `)) say(words, one.words);
+    });
+    if (isDue) this.name(scene);
+    this.choose(scene.chosen);
+    const note = [
+      this.poses ? "" : "No robot is known: each link stands in its own frame.",
+      this.cloth?.bare.length ? `No place on the robot: ${this.cloth.bare.join(", ")}.` : "",
+      contacts.length ? `An arrow of 10 cm: ${scene.force(PER_ARROW * scene.top)}; none is longer than 20 cm.` : "",
+    ];
+    say(this.note, note.filter(Boolean).join(" "));
+  }
+
+  /**
+   * Writes the links' names, each with the force that presses on it.
+   * @param {BodyScene} scene
+   */
+  name({ pressing, force }) {
+    grown(this.names, this.named.length, () => draw("text")).forEach((words, at) => {
+      const name = this.named[at] ?? "";
+      const pressed = pressing?.links.find(({ link }) => link === name)?.pressed ?? 0;
+      say(words, pressed > 0 ? `${name} ${force(pressed)}` : name);
+    });
+  }
+
+  /** Places the names of the sides, and of the links that wear cloth or end a limb. */
+  placeNames() {
+    const { cloth, standing, body } = this;
+    if (!cloth || !standing || !body) return;
+    const named = this.aspects.flatMap((aspect) => [
+      ...(aspect.name ? [{ name: aspect.name, at: middle(aspect) }] : []),
+      ...body.links.flatMap(({ name }, link) => {
+        const at = below(aspect, cloth, link);
+        const isEnd = !body.links.some(({ parent }) => parent === link);
+        const origin = standing.origins[link];
+        if (at) return [{ name, at }];
+        return isEnd && origin ? [{ name, at: pixel(aspect, origin) }] : [];
+      }),
+    ]);
+    apart(named);
+    this.named = named.map(({ name }) => name);
+    grown(this.names, named.length, () => draw("text")).forEach((words, at) => {
+      const [x, y] = named[at]?.at ?? [0, 0];
+      words.setAttribute("transform", `translate(${text([x, y])})`);
+    });
+  }
+
+  /** @param {number | null} chosen */
+  choose(chosen) {
+    const corner = chosen === null ? -1 : (this.cloth?.taxels.indexOf(chosen) ?? -1);
+    // Where it can be seen: on the side that it faces.
+    const normal = this.standing?.normals.subarray(3 * corner, 3 * corner + 3) ?? [];
+    const facingIt = (/** @type {Aspect} */ { viewer }) =>
+      viewer.reduce((sum, part, axis) => sum + part * (normal[axis] ?? 0), 0);
+    const aspect = this.aspects.find((one) => facingIt(one) > 0) ?? this.aspects[0];
+    set(this.ring, "display", corner < 0 || !aspect ? "none" : "inline");
+    if (corner < 0 || !aspect) return;
+    const at = text([aspect.seen[3 * corner] ?? 0, aspect.seen[3 * corner + 1] ?? 0]);
+    set(this.ring, "transform", `translate(${at})`);
+  }
+}
+
+/**
+ * Where a point of the scene is in the picture.
+ * @param {Aspect} aspect
+ * @param {Triple} point
+ * @returns {[number, number]}
+ */
+function pixel({ sight: { place }, left }, point) {
+  const [x, y] = place(...point);
+  return [x + left, y];
+}
+
+/**
+ * The middle of a side's upper edge.
+ * @param {Aspect} aspect
+ * @returns {[number, number]}
+ */
+const middle = ({ left, width }) => [left + width / 2, 14];
+
+/**
+ * Moves names down until none is on another.
+ * @param {{ name: string, at: [number, number] }[]} names
+ */
+function apart(names) {
+  names.forEach(({ name, at }, index) => {
+    const isOn = (/** @type {typeof names[0]} */ other) =>
+      Math.abs(other.at[1] - at[1]) < LINE &&
+      Math.abs(other.at[0] - at[0]) < LETTER * ((name.length + other.name.length) / 2 + FORCE);
+    for (let other = names.slice(0, index).find(isOn); other; other = names.slice(0, index).find(isOn))
+      at[1] = other.at[1] + LINE;
+  });
+}
+
+/**
+ * Sets an attribute if it has changed: what has not is not drawn again.
+ * @param {Element} element
+ * @param {string} name
+ * @param {string} value
+ */
+function set(element, name, value) {
+  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+}
+
+/** @param {[number, number]} point to half a pixel */
+const text = ([x, y]) => `${Math.round(2 * x) / 2} ${Math.round(2 * y) / 2}`;
+
+/**
+ * The point below the cloth of a link in the picture, where its name stands; null if it wears none.
+ * @param {Aspect} aspect
+ * @param {import("./cloth.js").Cloth} cloth
+ * @param {number} link
+ * @returns {[number, number] | null}
+ */
+function below({ seen }, { links }, link) {
+  let [count, sum, lowest] = [0, 0, 0];
+  for (let corner = 0; corner < links.length; corner += 1) {
+    if (links[corner] !== link) continue;
+    lowest = count ? Math.max(lowest, seen[3 * corner + 1] ?? 0) : (seen[3 * corner + 1] ?? 0);
+    sum += seen[3 * corner] ?? 0;
+    count += 1;
+  }
+  return count ? [sum / count, lowest + LINE] : null;
+}
+
+/**
+ * An arrow between two points of the picture.
+ * @param {[number, number]} tail
+ * @param {[number, number]} tip
+ */
+function arrow(tail, tip) {
+  const [x, y] = [tip[0] - tail[0], tip[1] - tail[1]];
+  const long = Math.hypot(x, y);
+  const head = Math.min(9, 0.6 * long) / (long || 1);
+  const barb = (/** @type {1 | -1} */ side) =>
+    text([tip[0] - head * (x + side * 0.55 * y), tip[1] - head * (y - side * 0.55 * x)]);
+  return `M${text(tail)}L${text(tip)}M${barb(1)}L${text(tip)}L${barb(-1)}`;
+}
+
+/** An arrow in white with a dark halo, and its text. */
+function marker() {
+  const shape = { fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" };
+  // A style, because a report has one of its own for texts.
+  const style =
+    "fill:var(--mark);stroke:var(--halo);stroke-width:3.5px;paint-order:stroke fill;font:650 13px system-ui,sans-serif";
+  return draw(
+    "g",
+    {},
+    draw("path", { ...shape, stroke: "var(--halo)", "stroke-width": 5 }),
+    draw("path", { ...shape, stroke: "var(--mark)", "stroke-width": 2.2 }),
+    draw("text", { style }),
+  );
+}
+
+/**
+ * The children of a group, at least so many.
+ * @param {Element} group
+ * @param {number} count
+ * @param {() => Element} another
+ */
+function grown(group, count, another) {
+  while (group.children.length < count) group.append(another());
+  return [...group.children];
+}
