@@ -136,8 +136,8 @@ impl BoardPlatform {
                 }
             }
         }
-        for kind in [TableKind::Surface, TableKind::Folds] {
-            if uses_stored && kind.is_used() {
+        for kind in [TableKind::Surface, TableKind::Folds].into_iter().filter(|kind| kind.is_used()) {
+            if uses_stored {
                 let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
                 let table = flash.tables(kind).and_then(|mut tables| tables.in_force()).ok().flatten();
                 board.recall_table(kind, table.map(in_place));

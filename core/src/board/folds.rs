@@ -22,8 +22,8 @@ pub(super) struct Folds {
 }
 
 impl Folds {
-    pub fn new() -> Folds {
-        Folds { table: None, fits: false, rate: Pace::new(RATE_HZ), due: None }
+    pub const fn new() -> Folds {
+        Folds { table: None, fits: false, rate: Pace::NEVER, due: None }
     }
 
     /// Notes a frame to tell of.
@@ -72,7 +72,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             return;
         }
         let table = self.folds.table.and_then(|table| FoldTable::check(table, &self.setup.layout).ok());
-        self.folds.fits = table.is_some();
+        (self.folds.fits, self.folds.rate) = (table.is_some(), Pace::new(RATE_HZ));
         self.state.condition.folds_mut().wear(table, &self.setup.scene.joints);
     }
 }

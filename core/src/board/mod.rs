@@ -56,7 +56,7 @@ use refusal::Refusal;
 use retest::Retest;
 use saving::Saving;
 use surface::Surface;
-use tables::Uploads;
+use tables::{TABLES, Uploads};
 
 /// Input of the board: an event, or the passing of time.
 #[derive(Debug)]
@@ -210,7 +210,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             monitor: const { Monitor::new() },
             certificate: None,
             surface: const { Surface::new() },
-            folds: Folds::new(),
+            folds: const { Folds::new() },
             uploads: const { Uploads::new() },
         }
     }
@@ -289,8 +289,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Scanned(Err(error)) => self.stumbled(error),
             Input::Saved(result) => self.saved(now, result),
             Input::SettingsReset(result) => self.settings_reset(now, result),
-            Input::TableStored(result) => self.table_stored(now, result),
-            Input::TableKept(kind, result) => self.table_kept(now, kind, result),
+            Input::TableStored(result) if TABLES => self.table_stored(now, result),
+            Input::TableKept(kind, result) if TABLES => self.table_kept(now, kind, result),
+            Input::TableStored(_) | Input::TableKept(..) => {}
             Input::Examined(result) => self.examined(now, result),
             Input::Misled => self.retest.raise(now),
             Input::Reflex(early) => self.reflex(&early),

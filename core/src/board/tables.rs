@@ -37,7 +37,7 @@ impl TableKind {
 }
 
 /// True if this build has a use for any table.
-const TABLES: bool = TableKind::Surface.is_used() || TableKind::Folds.is_used();
+pub(super) const TABLES: bool = TableKind::Surface.is_used() || TableKind::Folds.is_used();
 
 /// A piece of a table, to be stored.
 #[derive(Debug, Clone, Copy)]
@@ -155,9 +155,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Takes the result of storing a piece: the whole table with the last one.
     #[inline(never)]
     pub(super) fn table_stored(&mut self, now: Micros, result: Result<Option<&'static [u8]>, &'static str>) {
-        if !TABLES {
-            return;
-        }
         self.table_worked(now);
         let kind = self.uploads.kind();
         let Some(upload) = self.uploads.upload.as_mut() else { return };
@@ -185,9 +182,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Takes the result of keeping the table that was stored last, or none.
     #[inline(never)]
     pub(super) fn table_kept(&mut self, now: Micros, kind: TableKind, result: Result<(), &'static str>) {
-        if !TABLES {
-            return;
-        }
         self.table_worked(now);
         let upload = self.uploads.upload.take();
         if result.is_ok() {

@@ -62,7 +62,8 @@ impl Condition {
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
                 let floor = self.config.floor;
-                folds.renew(sampled.now, renewed, |taxel, level| {
+                folds.renew(sampled.now, renewed, |taxel, [begins, goes_on]| {
+                    let level = if touched(layout, feedback, taxel, 1) { goes_on } else { begins };
                     calibration.set_level(taxel, floor, level, falling);
                 });
             }
@@ -120,6 +121,21 @@ impl Condition {
     }
 }
 
+/// True if a taxel lies within so many taxels of a contact.
+fn touched<const CONTACTS: usize>(
+    layout: &Layout,
+    feedback: &Feedback<CONTACTS>,
+    taxel: usize,
+    beside: u16,
+) -> bool {
+    let mut pressed = feedback.home.iter().chain(&feedback.beyond).peekable();
+    if pressed.peek().is_none() {
+        return false;
+    }
+    let place = layout.place(taxel);
+    place.is_some_and(|place| pressed.any(|it| it.rect.holds(place.panel, place.row, place.column, beside)))
+}
+
 /// Taxels beside a contact that may belong to it.
 const BESIDE: u16 = 3;
 
@@ -133,18 +149,9 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     feedback: &Feedback<CONTACTS>,
 ) {
     folds.learn(|taxel| {
-        let is_quiet = areas_of(layout, sampled.panels).any(|(panel, area)| {
-            let at = taxel.wrapping_sub(area.base.into());
-            let columns = usize::from(area.columns);
-            let (Some(row), Some(column)) = (at.checked_div(columns), at.checked_rem(columns)) else {
-                return false;
-            };
-            let pressed = feedback.home.iter().chain(&feedback.beyond);
-            row < area.rows.into()
-                && !pressed.into_iter().any(|it| it.rect.holds(panel, row as u16, column as u16, BESIDE))
-        });
-        let code =
-            sampled.codes.get(taxel).filter(|_| is_quiet && images.calibrated.get(taxel) == Some(&0))?;
+        let is_read = layout.place(taxel).is_some_and(|place| sampled.panels >> place.panel & 1 == 1);
+        let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched(layout, feedback, taxel, BESIDE);
+        let code = sampled.codes.get(taxel).filter(|_| is_read && is_quiet)?;
         Some(calibration.pressure(taxel, *code, sampled.falling))
     });
 }

@@ -15,9 +15,9 @@
 //! its joint only after some turn back: the angle plays between two stops that the joint drags along
 //! (Prandtl's play operator).
 //!
-//! A taxel is touched if it feels more than it is expected to, by more than the doubt and the scene's floor.
-//! Its pressure is then what it feels less what it is expected to feel: a touch stronger than the doubt is
-//! never hidden. The doubt is what the learner saw the taxel differ by on one day, and, until corrections are
+//! A taxel is touched if it feels more than it is expected to, by more than the doubt and the scene's floor;
+//! beside a contact, by more than the floor. Its pressure is then what it feels less what it is expected to
+//! feel: a touch stronger than the doubt is never hidden, and is felt as a whole. The doubt is what the learner saw the taxel differ by on one day, and, until corrections are
 //! made, what it may differ by from day to day.
 //!
 //! Corrections: whenever a joint comes to another knot, the taxels that nothing touches are compared once

@@ -134,10 +134,10 @@ impl FoldState {
         self.table().is_some() && taxels.into_iter().any(|taxel| self.holds(taxel))
     }
 
-    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over each with the sum of its
-    /// expectation and doubt, counts.
+    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over each with the level beyond
+    /// which a touch begins there, and that beyond which one that is there goes on, counts.
     #[inline(never)]
-    pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, u16)) {
+    pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, [u16; 2])) {
         let Some(table) = self.table() else { return };
         let all = table.taxels().len() as u16;
         let since = self.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US));
@@ -169,7 +169,9 @@ impl FoldState {
                     let bit = 1 << (taxel % 32);
                     if level > 0 { *word |= bit } else { *word &= !bit }
                 }
-                set(taxel, level);
+                let expected =
+                    if bend.is_known { u16::from(expected).saturating_mul(table.unit()) } else { level };
+                set(taxel, [level, expected]);
             }
             at = at.after(fold);
         }

@@ -57,6 +57,9 @@ pub struct BoardArgs {
     /// `reference`
     #[arg(long, value_name = "BODY")]
     pub body: Option<String>,
+    /// Table of what the garment's folds press, which the board stores: a file of `taxel body learn`
+    #[arg(long, value_name = "FILE")]
+    pub folds: Option<PathBuf>,
     /// Reports per second of what presses on each link, of a board that has a body; 65535: one for each frame
     /// [default: 65535 with --body, else 0]
     #[arg(long, value_name = "HZ")]
@@ -86,6 +89,7 @@ impl BoardArgs {
             feed: Vec::new(),
             shapes: None,
             body: None,
+            folds: None,
             pressing: None,
             once: false,
             seed: None,
@@ -96,7 +100,7 @@ impl BoardArgs {
     pub fn files(&self) -> Vec<PathBuf> {
         let text = |name: &Option<String>| name.clone().map(PathBuf::from);
         let named = [text(&self.garment), text(&self.body), self.source.file()];
-        let told = [&self.scene, &self.calibration, &self.shapes].map(Clone::clone);
+        let told = [&self.scene, &self.calibration, &self.shapes, &self.folds].map(Clone::clone);
         named.into_iter().chain(told).flatten().collect()
     }
 
@@ -112,6 +116,7 @@ impl BoardArgs {
             ("--feed", !self.feed.is_empty()),
             ("--shapes", self.shapes.is_some()),
             ("--body", self.body.is_some()),
+            ("--folds", self.folds.is_some()),
             ("--pressing", self.pressing.is_some()),
         ];
         match options.into_iter().find(|(_, is_there)| *is_there) {

@@ -130,6 +130,9 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(body) = args.body.as_ref().filter(|_| !source.has_body) {
         setting::set_body(client, body, args.garment.as_deref().unwrap_or("reference"))?;
     }
+    if let Some(folds) = &args.folds {
+        setting::set_folds(client, folds)?;
+    }
     client.start(args.tare.unwrap_or(source.tare))?;
     if let Some(model) = args.gestures {
         gesture_model::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;

@@ -14,6 +14,7 @@
 //! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata
 //! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
 
+mod angles;
 mod bag;
 mod counters;
 mod file;
@@ -29,6 +30,7 @@ mod standing;
 mod tally;
 mod topics;
 
+pub use angles::Angles;
 pub use file::RecordingFile;
 pub use limit::Rotate;
 pub use message::json_message;

@@ -9,6 +9,7 @@ mod drift;
 mod errors;
 mod faults;
 mod fcm;
+mod folds;
 mod health;
 mod landed;
 mod lines;

@@ -2,6 +2,7 @@
 
 mod check;
 mod drape;
+mod learn;
 mod posed;
 mod show;
 
@@ -9,6 +10,7 @@ use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
 use drape::DrapeArgs;
+use learn::BodyLearnArgs;
 use posed::PosedArgs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -108,6 +110,11 @@ enum BodyTask {
         after_help = "Example:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt"
     )]
     Drape(DrapeArgs),
+    /// Learn what the garment's folds press where joints bend, from recordings in which nothing touches it
+    #[command(
+        after_help = "Example:\n  taxel body learn monday.mcap tuesday.mcap wednesday.mcap -o elbows.folds\n  taxel live --folds elbows.folds"
+    )]
+    Learn(BodyLearnArgs),
 }
 
 /// Runs the command.
@@ -125,6 +132,7 @@ pub fn run(args: &BodyArgs) -> Result<()> {
             Ok(())
         }
         BodyTask::Drape(args) => drape::run(args),
+        BodyTask::Learn(args) => learn::run(args),
         BodyTask::Show(written) => written.write(show::picture),
         BodyTask::Places(written) => written.write(|_, surface, _| body::text(surface)),
     }

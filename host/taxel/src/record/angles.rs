@@ -1,0 +1,64 @@
+//! The joints' angles that a recording holds.
+
+use crate::error::{LearnError, Result};
+use crate::recording::Messages;
+use serde::Deserialize;
+use std::path::Path;
+
+/// Topic of the postures that were sent to the board.
+const POSTURE: &str = "/taxel/posture";
+
+/// Angles in the order in which the board was told them.
+#[derive(Debug, Clone, Default)]
+pub struct Angles {
+    /// The board's time, us; joint; degrees.
+    told: Vec<(u64, String, f32)>,
+}
+
+#[derive(Deserialize)]
+struct Told {
+    time_us: u64,
+    joints: Vec<Joint>,
+}
+
+#[derive(Deserialize)]
+struct Joint {
+    joint: String,
+    degrees: f32,
+}
+
+impl Angles {
+    /// Reads those of a recording. Error if it holds none.
+    pub fn read(path: &Path) -> Result<Angles> {
+        let mut angles = Angles::default();
+        let mut messages = Messages::of_topic(path, POSTURE)?;
+        while let Some(message) = messages.next_message()? {
+            let told: Told = serde_json::from_slice(message.data).map_err(|error| {
+                error!(LearnError::Data, "{}: a message of {POSTURE} is damaged: {error}", path.display())
+            })?;
+            let all = told.joints.into_iter().map(|it| (told.time_us, it.joint, it.degrees));
+            angles.told.extend(all);
+        }
+        require!(
+            !angles.told.is_empty(),
+            LearnError::Data,
+            "{}: no angles of joints in it: tell the board its posture while you record",
+            path.display()
+        );
+        angles.told.sort_by_key(|(time, ..)| *time);
+        Ok(angles)
+    }
+
+    /// Names of the joints.
+    pub fn joints(&self) -> Vec<String> {
+        let mut joints: Vec<String> = self.told.iter().map(|(_, joint, _)| joint.clone()).collect();
+        joints.sort();
+        joints.dedup();
+        joints
+    }
+
+    /// All angles by the board's time, us: joint, degrees.
+    pub fn all(&self) -> impl Iterator<Item = (u64, &str, f32)> {
+        self.told.iter().map(|(time, joint, degrees)| (*time, joint.as_str(), *degrees))
+    }
+}

@@ -1,0 +1,217 @@
+//! What the garment's folds press: learned from scripts of bending arms, subtracted by the board.
+
+use crate::random::Noise;
+use std::path::PathBuf;
+use taxel::client::{Event, ImageNews};
+use taxel::error::{ErrorKind, LearnError};
+use taxel::files::scripts;
+use taxel::learn::folds::{FoldSettings, LearnedFolds, Sweep, learn};
+use taxel::session::setting;
+use taxel::sim::{FRAME_PERIOD_US, Player, Script};
+use taxel::stepped::Stepped;
+use taxel_core::fold::{JointAngle, Posture};
+use taxel_core::format::Micros;
+use taxel_core::garment::Layout;
+use taxel_core::intent::Leading;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{FoldsReport, Request};
+
+/// The shipped script of a bending arm as on another day: ridges elsewhere, of another force, bent at another
+/// pace.
+fn bending(day: u64) -> Script {
+    let mut script = scripts::load("elbow").expect("built in");
+    let mut random = Noise(day);
+    let mut drawn = |from: f64, to: f64| from + (to - from) * random.unit();
+    let (rise, hold, fall) = (drawn(0.6, 1.4), drawn(0.2, 0.6), drawn(0.6, 1.4));
+    let (along, across, force) = (drawn(-0.8, 0.8), drawn(-0.8, 0.8), drawn(0.85, 1.15));
+    script.seed = day;
+    script.duration_s = 0.4 + rise + hold + fall;
+    for joint in &mut script.joints {
+        (joint.rise_s, joint.hold_s, joint.fall_s) = (rise, hold, Some(fall));
+    }
+    for touch in &mut script.touches {
+        (touch.rise_s, touch.hold_s, touch.fall_s) = (rise, hold, fall);
+        touch.force_n *= force;
+        touch.at = touch.at.map(|[x, y]| [x + across, y + along]);
+    }
+    script
+}
+
+/// What a board says of a script.
+#[derive(Default)]
+struct Seen {
+    sweep: Sweep,
+    contacts: Vec<(u64, u32, u32)>,
+    leading: Vec<Leading>,
+    told: Vec<FoldsReport>,
+}
+
+fn layout(script: &Script) -> Layout {
+    Layout::build(&scripts::garment(script).expect("it is a preset"), 2048, 4095).expect("it is checked")
+}
+
+/// Plays a script to a board that is told the angles at 50 Hz, with a table in force or none.
+fn play(script: &Script, folds: Option<&LearnedFolds>) -> Seen {
+    let garment = scripts::garment(script).expect("it is a preset");
+    let mut board = Stepped::new(garment.clone(), Scene::shipped()).expect("they fit");
+    let mut player = Player::new(script, &garment).expect("the script is checked");
+    let mut codes = vec![0u16; board.taxels()];
+    let mut seen = Seen { sweep: Sweep::new(vec!["left_elbow".into()], codes.len()), ..Seen::default() };
+    let frames = (script.duration_s * 1e6) as u64 / FRAME_PERIOD_US;
+    let begin = beginning(script, folds);
+    board.client().request(&Request::Tare { frames: script.tare_frames as u16 }).expect("it fits");
+    let mut angle = 0.0;
+    for step in 0..begin + frames {
+        let time = step * FRAME_PERIOD_US;
+        let start = step.saturating_sub(begin) * FRAME_PERIOD_US;
+        if let Some(folds) = folds.filter(|_| step == TARED + u64::from(script.tare_frames)) {
+            setting::set_folds(board.client(), &written(folds)).expect("it is a table");
+        }
+        player.frame(start, &mut codes);
+        if step % 4 == 0 {
+            angle = script.posture(start as f64 / 1e6).map(|(_, angle)| angle).next().expect("it bends");
+            let joint = JointAngle { joint: 0, centidegrees: (100.0 * angle) as i16 };
+            let posture = Posture { joints: [joint].into_iter().collect() };
+            board.client().request(&Request::Posture(posture)).expect("it fits");
+        }
+        board
+            .step(&codes, Micros(time), &mut |client, event| {
+                match event {
+                    Event::Frame { image: ImageNews::Whole, .. } if step > begin => {
+                        let image = client.image().expect("it is whole").1;
+                        seen.sweep.push(&[angle as f32], image)?;
+                    }
+                    // Before the tare the garment at rest looks like a touch.
+                    Event::Contacts { .. } if step > begin => {
+                        let told = client.contacts().iter().map(|it| (time, it.contact.id, it.contact.total));
+                        seen.contacts.extend(told);
+                    }
+                    Event::Intent(report) if step > begin => seen.leading.push(report.leading),
+                    Event::Folds(report) => seen.told.push((**report).clone()),
+                    Event::Answer { refusal: Some(why), .. } => panic!("{why}"),
+                    _ => {}
+                }
+                Ok(())
+            })
+            .expect("the codes are of this garment");
+    }
+    assert!(folds.is_none() || seen.told.last().is_some_and(|told| told.followed), "no table in force");
+    seen
+}
+
+/// Frames after a tare in which a touch that was none ends, and means nothing any more.
+const TARED: u64 = 200;
+
+/// Frames before the script: the board is tared, and stores the table, a piece with each frame.
+fn beginning(script: &Script, folds: Option<&LearnedFolds>) -> u64 {
+    let storing = folds.map_or(0, |folds| folds.table.len() as u64 / 256 + 4);
+    TARED + u64::from(script.tare_frames) + storing
+}
+
+/// The table in a file.
+fn written(folds: &LearnedFolds) -> PathBuf {
+    let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("elbow.folds");
+    std::fs::write(&file, &folds.table).expect("the folder of tests is there");
+    file
+}
+
+fn learned() -> LearnedFolds {
+    let sweeps: Vec<Sweep> = (1..=6).map(|day| play(&bending(day), None).sweep).collect();
+    learn(&layout(&bending(1)), &sweeps, &FoldSettings::default()).expect("it folds")
+}
+
+#[test]
+fn a_bending_arm_is_no_touch_and_a_hand_on_it_is() {
+    let folds = learned();
+    let [fold] = &folds.folds[..] else { panic!("{:?}", folds.folds) };
+    println!("{fold:?}");
+    assert_eq!(fold.joints, ["left_elbow"]);
+    assert!(fold.explained > 0.9, "{fold:?}");
+
+    // The script that ships, and days that nobody has learned from.
+    let others = (21..=26).map(bending).chain([scripts::load("elbow").expect("built in")]);
+    for script in others {
+        assert!(!play(&script, None).contacts.is_empty(), "without the table it is a touch");
+        let seen = play(&script, Some(&folds));
+        assert_eq!(seen.contacts, [], "seed {}", script.seed);
+        assert!(seen.leading.iter().all(|leading| *leading == Leading::None), "{:?}", seen.leading);
+    }
+
+    // A palm of 12 N on the bent arm, beside and on the ridges.
+    for (seed, row) in [(31, 6.0), (32, 12.0), (33, 16.0), (34, 19.5)] {
+        let mut script = bending(seed);
+        let elbow = &script.joints[0];
+        let (bent_s, hold_s) = (elbow.start_s + elbow.rise_s, 1.6);
+        script.joints[0].hold_s = hold_s;
+        script.touches.iter_mut().for_each(|ridge| ridge.hold_s = hold_s);
+        let mut palm = script.touches[0].clone();
+        (palm.shape, palm.size_mm, palm.force_n) = (taxel::sim::Shape::Ball, None, 12.0);
+        palm.at = Some([7.5, row]);
+        (palm.start_s, palm.rise_s, palm.hold_s, palm.fall_s) = (bent_s + 0.2, 0.2, 0.8, 0.2);
+        script.duration_s += 1.6;
+        script.touches.push(palm);
+        let alone = {
+            let mut alone = script.clone();
+            alone.touches.drain(..2);
+            let held = (bent_s + 0.6) * 1e6;
+            let seen = play(&alone, None);
+            total_at(&seen, held as u64, beginning(&alone, None))
+        };
+        let seen = play(&script, Some(&folds));
+        let begin = beginning(&script, Some(&folds));
+        let held = ((bent_s + 0.6) * 1e6) as u64;
+        let felt = total_at(&seen, held, begin);
+        let doubt = seen
+            .told
+            .iter()
+            .filter(|told| told.time.0 >= held + begin * FRAME_PERIOD_US)
+            .find_map(|told| told.contacts.first().map(|it| it.doubt))
+            .unwrap_or(0);
+        println!("row {row}: {felt} of {alone} counts, doubt {doubt}");
+        assert!(f64::from(felt.abs_diff(alone)) <= (0.1 * f64::from(alone)).max(doubt.into()), "{row}");
+    }
+}
+
+/// Sum of the contacts at a time of the script.
+fn total_at(seen: &Seen, at_us: u64, begin: u64) -> u32 {
+    let from = at_us + begin * FRAME_PERIOD_US;
+    let first = seen.contacts.iter().find(|(time, ..)| *time >= from).map_or(0, |(time, ..)| *time);
+    seen.contacts.iter().filter(|(time, ..)| *time == first).map(|(.., total)| total).sum()
+}
+
+#[test]
+fn what_cannot_be_learned_is_said() {
+    let layout = layout(&bending(1));
+    let refused = |sweeps: &[Sweep], folds: &[&[&str]]| {
+        let folds = folds.iter().map(|fold| fold.iter().map(|it| it.to_string()).collect()).collect();
+        let error = learn(&layout, sweeps, &FoldSettings { folds, ..FoldSettings::default() }).unwrap_err();
+        assert!(matches!(error.kind(), ErrorKind::Learn(LearnError::Data(_) | LearnError::TooLarge(_))));
+        error.to_string()
+    };
+    assert_eq!(refused(&[], &[]), "there are no sweeps to learn from");
+    let sweep = |frames: usize, taxels: usize, felt: u16| {
+        let mut sweep = Sweep::new(vec!["elbow".into()], taxels);
+        for frame in 0..frames {
+            let mut all = vec![0; taxels];
+            all[7..7 + 600].fill(if frame > 50 { felt } else { 0 });
+            sweep.push(&[frame as f32 / 2.0], &all).unwrap();
+        }
+        sweep
+    };
+    assert_eq!(refused(&[sweep(80, 1000, 9)], &[]), "sweep 1: 1000 taxels, the garment has 2048");
+    assert_eq!(refused(&[sweep(9, 2048, 9)], &[]), "sweep 1: 9 frames are too few, 50 at least");
+    assert_eq!(
+        refused(&[sweep(80, 2048, 0)], &[]),
+        "no taxel is pressed while the joints move: nothing folds"
+    );
+    assert_eq!(refused(&[sweep(80, 2048, 90)], &[&["knee"]]), "joint knee: no sweep tells its angle");
+    let three = ["elbow", "elbow", "elbow"];
+    assert_eq!(refused(&[sweep(80, 2048, 90)], &[&three]), "a fold has one joint or two, not 3");
+    let many = refused(&[sweep(80, 2048, 90)], &[]);
+    assert!(many.ends_with("taxels fold or may, a board holds 512: state a smaller shift"), "{many}");
+    let mut other = Sweep::new(vec!["elbow".into()], 4);
+    let error = other.push(&[f32::NAN], &[0; 4]).unwrap_err().to_string();
+    assert_eq!(error, "frame 0: angles must be -180 to 180 degrees");
+    let error = other.push(&[0.0], &[0; 3]).unwrap_err().to_string();
+    assert_eq!(error, "frame 0: 1 angles and 3 taxels instead of 1 and 4");
+}
