@@ -30,6 +30,8 @@ pub struct Postures {
     sent: Instant,
     /// When joint states were last complained of.
     told: Option<Instant>,
+    /// A robot's posture takes what comes.
+    is_posing: bool,
 }
 
 impl Postures {
@@ -42,6 +44,7 @@ impl Postures {
             asked: None,
             sent: Instant::now(),
             told: None,
+            is_posing: false,
         })
     }
 
@@ -63,6 +66,7 @@ impl Postures {
         posing: &mut Posing,
         time: impl Fn(u64) -> JointTime,
     ) {
+        self.is_posing = true;
         let mut wrong = None;
         self.read(|state| {
             let named = state.name.iter().zip(&state.position);
@@ -84,7 +88,9 @@ impl Postures {
 
     /// Takes what has come, and sends the newest.
     pub fn turn(&mut self, client: &mut Client) -> Result<()> {
-        self.read(|_| ());
+        if !self.is_posing {
+            self.read(|_| ());
+        }
         let waits = if self.asked.is_some() { ANSWER } else { PAUSE };
         let joints = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
         if self.sent.elapsed() < waits || joints.is_empty() {

@@ -1,6 +1,6 @@
 //! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
-use super::{GestureModel, Overwrite, TaxelPlace, feed, forms, motion};
+use super::{GestureModel, Overwrite, TaxelPlace, feed, forms};
 use crate::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
@@ -76,7 +76,7 @@ pub struct BoardArgs {
     pub poses: Option<f64>,
     /// What bounds the joints' motion, for the error of places in the base: angular=20 rad/s2, linear=5 m/s2,
     /// angular_velocity=10 rad/s, angular_error=0 rad, linear_error=0 m
-    #[arg(long, value_name = "NAME=VALUE,...", requires = "robot", value_parser = motion)]
+    #[arg(long, value_name = "NAME=VALUE,...", requires = "robot")]
     pub motion: Option<Motion>,
     /// End when the connection to the board is lost, instead of waiting for the board
     #[arg(long)]
