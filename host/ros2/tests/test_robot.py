@@ -19,6 +19,8 @@ from taxel_msgs.msg import Contacts, Pressing
 
 BODY = ("--body", "reference")
 ROBOT = (*BODY, "--robot", "reference")
+
+
 def by_frame(told, kind):
     lines = [json.loads(message.data) for message in told.messages]
     return {line["frame"]: line for line in lines if line["type"] == kind}

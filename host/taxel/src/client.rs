@@ -159,7 +159,8 @@ impl Client {
         }
     }
 
-    /// Notes the most by which a frame's places in the base are off, m, by what the host knows of the posture.
+    /// Notes the most by which a frame's places in the base are off, m, by what the host knows of the
+    /// posture.
     pub fn tell_pose_error(&mut self, frame: u32, metres: f64) {
         self.pose_error = Some((frame, metres));
     }

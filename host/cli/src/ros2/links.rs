@@ -36,8 +36,8 @@ impl Links {
         if self.per_newton.is_some() { LINK_WRENCH } else { LINK_COUNTS }
     }
 
-    /// Places the body on the garment that the board wears, and offers the topics of its links, if it is another
-    /// garment than before.
+    /// Places the body on the garment that the board wears, and offers the topics of its links, if it is
+    /// another garment than before.
     pub fn offer(&mut self, node: &mut RosNode, client: &Client) -> Result<()> {
         let (Some(body), Some(board)) = (&self.body, client.worn()) else { return Ok(()) };
         if self.worn.as_ref().is_some_and(|(garment, _)| *garment == board.garment) {

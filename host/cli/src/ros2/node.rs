@@ -141,8 +141,8 @@ impl RosNode {
     }
 }
 
-/// Quality of service as the middleware knows it. A reliable topic refuses a message at once if it has no room:
-/// a subscriber that has stopped does not stop the board's stream.
+/// Quality of service as the middleware knows it. A reliable topic refuses a message at once if it has no
+/// room: a subscriber that has stopped does not stop the board's stream.
 fn profile(qos: RosQos) -> QosProfile {
     let reliability = if qos.reliable {
         Reliability::Reliable { when_full: WhenFull::Fail }

@@ -32,8 +32,8 @@ impl Panels {
         Panels { per_newton, areas: Vec::new(), surface: None, due_us: 0 }
     }
 
-    /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed. With a
-    /// surface, points lie on links.
+    /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed. With
+    /// a surface, points lie on links.
     pub fn offer(
         &mut self,
         node: &mut RosNode,

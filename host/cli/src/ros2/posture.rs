@@ -22,7 +22,8 @@ const COMPLAINT: Duration = Duration::from_secs(5);
 /// Shortest time between two postures: joint states may come every millisecond.
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// The newest joint states, and those that the board has not answered yet. One posture is under way at a time.
+/// The newest joint states, and those that the board has not answered yet. One posture is under way at a
+/// time.
 pub struct Postures {
     states: Subscription<JointState>,
     newest: Option<JointState>,
@@ -57,8 +58,8 @@ impl Postures {
         }
     }
 
-    /// Hands over the positions of a robot's joints that have come, at the times that their stamps are by `time`.
-    /// What is wrong with them is another program's mistake: it is told every five seconds.
+    /// Hands over the positions of a robot's joints that have come, at the times that their stamps are by
+    /// `time`. What is wrong with them is another program's mistake: it is told every five seconds.
     pub fn pose(
         &mut self,
         node: &RosNode,
@@ -121,7 +122,8 @@ impl Postures {
     }
 }
 
-/// When joint states with this stamp, seconds and nanoseconds, were read: now, if there is none, else by `time`.
+/// When joint states with this stamp, seconds and nanoseconds, were read: now, if there is none, else by
+/// `time`.
 fn at((sec, nanosec): (i32, u32), time: impl Fn(u64) -> JointTime) -> JointTime {
     let us = u64::try_from(sec).unwrap_or(0) * 1_000_000 + u64::from(nanosec / 1000);
     if us == 0 { JointTime::Now } else { time(us) }

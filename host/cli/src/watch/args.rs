@@ -67,8 +67,8 @@ pub struct BoardArgs {
     /// body's links, for contacts in the robot's base
     #[arg(long, value_name = "URDF", requires = "body")]
     pub robot: Option<String>,
-    /// Positions of the joints, a JSON object a line: {"time_us": 5128, "positions": {"left_elbow": 0.5}}, in rad
-    /// or m, at the board's time, the host's (host_time_us), or now; - for the standard input
+    /// Positions of the joints, a JSON object a line: {"time_us": 5128, "positions": {"left_elbow": 0.5}}, in
+    /// rad or m, at the board's time, the host's (host_time_us), or now; - for the standard input
     #[arg(long, value_name = "FILE", requires = "robot")]
     pub joint_states: Option<PathBuf>,
     /// Poses of the links sent to the board per second [default: 50]

@@ -169,8 +169,8 @@ impl Recorder {
         file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
-    /// Continues in another file when due. It begins with a key frame, so that the file stands alone: with the
-    /// one next to the requested time.
+    /// Continues in another file when due. It begins with a key frame, so that the file stands alone: with
+    /// the one next to the requested time.
     fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Event::Frame { alone: true, .. } = event else { return Ok(()) };
         let Some(file) = &self.file else { return Ok(()) };

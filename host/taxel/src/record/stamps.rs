@@ -68,8 +68,8 @@ impl Stamps {
         Stamp { board_us, host_us, uncertainty_us: None }
     }
 
-    /// The board's time of a stamp, us: the inverse of [`Stamps::of_time`]. None before the first message, and for
-    /// stamps from before the board's start.
+    /// The board's time of a stamp, us: the inverse of [`Stamps::of_time`]. None before the first message,
+    /// and for stamps from before the board's start.
     pub fn board_time(&self, client: &Client, host_us: u64) -> Option<Micros> {
         let by_clock = client.board_time_at(host_us).filter(|time| time.0 > 0);
         by_clock.or_else(|| {

@@ -61,8 +61,8 @@ pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     cloud((host_us, &frame(area)), area, ["x", "y", "z", "pressure"], &points)
 }
 
-/// `sensor_msgs/msg/PointCloud2` of a panel at a time, us, in a frame: a point for each taxel, whose numbers have
-/// these names.
+/// `sensor_msgs/msg/PointCloud2` of a panel at a time, us, in a frame: a point for each taxel, whose numbers
+/// have these names.
 pub(super) fn cloud<const N: usize>(
     (us, frame): (u64, &str),
     area: &Area,

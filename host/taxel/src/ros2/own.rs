@@ -23,8 +23,8 @@ fn head(us: u64) -> Cdr {
     Cdr::default().time(us).text("")
 }
 
-/// `taxel_msgs/msg/Contacts`: the present contacts of a client, and the `released` ones; with a body also their
-/// places on links, with counts per newton also their forces.
+/// `taxel_msgs/msg/Contacts`: the present contacts of a client, and the `released` ones; with a body also
+/// their places on links, with counts per newton also their forces.
 pub fn contacts(
     us: u64,
     client: &Client,

@@ -1,4 +1,5 @@
-//! What presses on the robot, by link: a message of the package `taxel_msgs`, forces and points as standard messages.
+//! What presses on the robot, by link: a message of the package `taxel_msgs`, forces and points as standard
+//! messages.
 
 use super::cdr::Cdr;
 use super::messages::cloud;
@@ -12,8 +13,8 @@ use taxel_core::wire::PressingReport;
 /// Fields of a point.
 const FIELDS: [&str; 7] = ["x", "y", "z", "normal_x", "normal_y", "normal_z", "pressure"];
 
-/// `taxel_msgs/msg/Pressing`: `base` is the frame of the robot's base, if there is a robot. Forces are newtons with
-/// counts per newton, else counts.
+/// `taxel_msgs/msg/Pressing`: `base` is the frame of the robot's base, if there is a robot. Forces are
+/// newtons with counts per newton, else counts.
 pub fn pressing(
     us: u64,
     client: &Client,
@@ -75,15 +76,15 @@ fn metres(at: Micrometres) -> [f64; 3] {
     at.map(|um| f64::from(um) / 1e6)
 }
 
-/// `geometry_msgs/msg/WrenchStamped` of a link, about its origin; zero if nothing presses on it. Newtons and newton
-/// metres with counts per newton, else counts and counts times metres.
+/// `geometry_msgs/msg/WrenchStamped` of a link, about its origin; zero if nothing presses on it. Newtons and
+/// newton metres with counts per newton, else counts and counts times metres.
 pub fn wrench(us: u64, link: &str, wrench: Option<&Wrench>, per_newton: Option<f32>) -> Vec<u8> {
     let parts = wrench.map_or([[0.0; 3]; 2], |wrench| vectors(wrench, scale(per_newton)));
     Cdr::default().time(us).text(link).f64s(parts.concat()).finish()
 }
 
-/// `sensor_msgs/msg/PointCloud2` of a panel in the frame of the link that it lies on: place and normal of each taxel,
-/// and its pressure, counts. NaN for a taxel without a place. None if none has one.
+/// `sensor_msgs/msg/PointCloud2` of a panel in the frame of the link that it lies on: place and normal of
+/// each taxel, and its pressure, counts. NaN for a taxel without a place. None if none has one.
 pub fn points(us: u64, area: &Area, surface: &Surface, values: &[u16]) -> Option<Vec<u8>> {
     let places = surface.places().get(usize::from(area.base)..)?;
     let link = places.iter().take(values.len()).flatten().next()?.link;

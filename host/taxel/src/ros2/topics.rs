@@ -15,8 +15,8 @@ pub struct RosQos {
 /// A topic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RosTopic {
-    /// Its name; `PANEL`, `LINK` and `CONCEPT` stand for one topic each. A name that does not begin with `/` lies in the
-    /// node's namespace, behind the node's name if it begins with `~/`.
+    /// Its name; `PANEL`, `LINK` and `CONCEPT` stand for one topic each. A name that does not begin with `/`
+    /// lies in the node's namespace, behind the node's name if it begins with `~/`.
     pub name: &'static str,
     /// Package and name of its type.
     pub message: (&'static str, &'static str),

@@ -23,9 +23,9 @@ const WAITING: usize = 1024;
 ///
 /// `{"time_us": 5128, "positions": {"left_elbow": 0.5}}`
 ///
-/// Positions are in rad or m; `time_us` is the board's time, `host_time_us` the host's, us since 1970. Without
-/// either they are of the time at which the line is read. The lines of a recording's topic `/taxel/joints` are of
-/// this form. Empty lines do not count.
+/// Positions are in rad or m; `time_us` is the board's time, `host_time_us` the host's, us since 1970.
+/// Without either they are of the time at which the line is read. The lines of a recording's topic
+/// `/taxel/joints` are of this form. Empty lines do not count.
 pub struct JointStates {
     /// Path of the file, or `standard input`.
     name: String,
@@ -84,8 +84,8 @@ impl JointStates {
         Ok(JointStates { name, lines, number: 0, next: None, until_us: 0 })
     }
 
-    /// Hands over the positions whose time has come, and the first ones after it: between two readings a posture
-    /// is known better than after the last one. Errors name file and line.
+    /// Hands over the positions whose time has come, and the first ones after it: between two readings a
+    /// posture is known better than after the last one. Errors name file and line.
     pub fn turn(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
         let Some(now) = posing.now() else { return Ok(()) };
         while self.until_us <= now.0 {

@@ -15,8 +15,8 @@ pub enum JointTime {
 }
 
 impl JointTime {
-    /// The board's time, us, by its clock; before that is known, by what has passed since, if it is `now` on the
-    /// board and `host_us` on the host. Below 0 before the board's start.
+    /// The board's time, us, by its clock; before that is known, by what has passed since, if it is `now` on
+    /// the board and `host_us` on the host. Below 0 before the board's start.
     pub(super) fn on_board(self, client: &Client, now: Micros, host_us: u64) -> i128 {
         match self {
             JointTime::Board(time) => time.0.into(),

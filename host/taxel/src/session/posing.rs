@@ -38,12 +38,12 @@ pub struct JointPositions {
     pub positions: Vec<(String, f64)>,
 }
 
-/// Turns positions of a robot's joints into poses of the links that wear the garment, sends them to the board,
-/// and bounds the error of what the board makes of them.
+/// Turns positions of a robot's joints into poses of the links that wear the garment, sends them to the
+/// board, and bounds the error of what the board makes of them.
 ///
-/// Positions come through [`Session::take_joints`](super::Session::take_joints) or [`Posing::take`]. Poses are
-/// those of the [live](JointHistory::live) posture in the frame of the robot's root, the base. While nobody tells
-/// positions, none are sent.
+/// Positions come through [`Session::take_joints`](super::Session::take_joints) or [`Posing::take`]. Poses
+/// are those of the [live](JointHistory::live) posture in the frame of the robot's root, the base. While
+/// nobody tells positions, none are sent.
 #[derive(Debug)]
 pub struct Posing {
     body: ReadBody,
@@ -74,8 +74,8 @@ struct WornBody {
 }
 
 impl Posing {
-    /// Reads a body and a robot: presets or files. `hz` poses a second, 0.1 to 1000, are sent at most; `motion`
-    /// bounds the errors.
+    /// Reads a body and a robot: presets or files. `hz` poses a second, 0.1 to 1000, are sent at most;
+    /// `motion` bounds the errors.
     pub fn open(body: &str, robot: &str, motion: Motion, hz: f64) -> Result<Posing> {
         require!(
             POSES.contains(&hz),
@@ -222,8 +222,8 @@ impl Posing {
         }
     }
 
-    /// The most by which a taxel is elsewhere in the base, at a time, than the board's poses say, m. None if it is
-    /// not known.
+    /// The most by which a taxel is elsewhere in the base, at a time, than the board's poses say, m. None if
+    /// it is not known.
     fn error(&self, time: Micros) -> Option<f64> {
         let (worn, told) = (self.worn.as_ref()?, self.in_force.as_ref()?);
         let estimate = self.history.live(time).ok()?;

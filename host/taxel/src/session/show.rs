@@ -23,8 +23,8 @@ pub trait Show<E = Error> {
         Ok(())
     }
 
-    /// Called before poses of a robot are sent: hands over positions of joints that come with the receiver's own
-    /// messages.
+    /// Called before poses of a robot are sent: hands over positions of joints that come with the receiver's
+    /// own messages.
     fn pose(&mut self, _client: &Client, _posing: &mut Posing) -> Result<(), E> {
         Ok(())
     }

@@ -18,8 +18,9 @@ pub struct PressingLine<'a> {
     pub posed_us: Option<u64>,
     /// Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses.
     pub pose_age_us: Option<i64>,
-    /// The most by which a place in the frame of the poses is off, m, because joints have moved since the poses, or
-    /// are not known exactly: by what the host that tells the poses knows of the joints. Null if it does not know.
+    /// The most by which a place in the frame of the poses is off, m, because joints have moved since the
+    /// poses, or are not known exactly: by what the host that tells the poses knows of the joints. Null if it
+    /// does not know.
     pub pose_error_m: Option<f64>,
     /// The contacts that have a place.
     pub contacts: Vec<LandedLine<'a>>,
