@@ -1,7 +1,7 @@
 //! A robot's posture, told to a board while it streams, against motions that are known exactly.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel::body::posture::Motion;
 use taxel::body::robot::{self, Robot};
@@ -177,7 +177,7 @@ fn file(name: &str, text: &str) -> PathBuf {
 }
 
 /// Plays lines beside a simulation; what was taken, and what failed.
-fn played(path: &PathBuf, mut each: impl FnMut(u64, u64)) -> Result<usize, taxel::Error> {
+fn played(path: &Path, mut each: impl FnMut(u64, u64)) -> Result<usize, taxel::Error> {
     let mut session = open("sim:pat", true, 1.5);
     session.pose_by(posing(20.0));
     let mut lines = JointStates::open(path)?;
