@@ -4,14 +4,17 @@ use crate::error::{argument, raised};
 use crate::event::{self, Fact, Teller};
 use crate::request;
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use taxel::body::posture::Motion;
 use taxel::client::clock::SteadyTime;
 use taxel::client::passed::Passed;
 use taxel::client::{Event, ImageNews};
-use taxel::session::{Returns, Session, Turn, setting};
+use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, Turn, setting};
 use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel_core::format::Micros;
 
 /// An open board: an iterator over its events.
 #[pyclass(frozen, subclass, module = "taxel")]
@@ -75,8 +78,14 @@ impl Open {
     }
 }
 
-/// Opens a source.
-fn open(spec: &str, options: SourceOptions, tare: Option<u16>, returns: Returns) -> anyhow::Result<Open> {
+/// Opens a source, for a robot if one is named.
+fn open(
+    spec: &str,
+    options: SourceOptions,
+    tare: Option<u16>,
+    returns: Returns,
+    posing: Option<Posing>,
+) -> anyhow::Result<Open> {
     let parsed: SourceSpec = spec.parse().map_err(|why| argument(format!("source {spec}: {why}")))?;
     let source = source::open(&parsed, &options)?;
     let (tare, listens, wears_asked) = (tare.unwrap_or(source.tare), source.listens, source.wears_asked);
@@ -99,6 +108,7 @@ fn open(spec: &str, options: SourceOptions, tare: Option<u16>, returns: Returns)
     if options.raw {
         client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;
     }
+    posing.into_iter().for_each(|posing| session.pose_by(posing));
     let longest_us = options.seconds.map(|seconds| (seconds * 1e6) as u64);
     let (teller, clock, passed) = (Teller::default(), SteadyTime::start(), Passed::default());
     let over = options.frames == Some(0);
@@ -109,6 +119,21 @@ impl Stream {
     /// The session, once no other thread has it.
     fn lock(&self) -> MutexGuard<'_, Option<Open>> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does something with an open board that listens, between two looks of the reading thread.
+    fn ask(&self, ask: impl FnOnce(&mut Open) -> anyhow::Result<()>) -> anyhow::Result<()> {
+        self.asking.fetch_add(1, Ordering::AcqRel);
+        let mut open = self.lock();
+        self.asking.fetch_sub(1, Ordering::AcqRel);
+        match open.as_mut() {
+            None => Err(argument("the stream is closed").into()),
+            Some(open) if !open.session.source().listens => {
+                let label = &open.session.source().label;
+                Err(argument(format!("{label} is a recording, whose board does not listen")).into())
+            }
+            Some(open) => ask(open),
+        }
     }
 
     /// Looks for an event until nothing has come for a while: a second or so.
@@ -130,11 +155,30 @@ impl Stream {
     }
 }
 
+/// The robot that wears a body, if one is named.
+fn posing(
+    body: Option<&str>,
+    robot: Option<&str>,
+    bounds: Option<&str>,
+    hz: Option<f64>,
+) -> anyhow::Result<Option<Posing>> {
+    let Some(robot) = robot else {
+        let is_alone = bounds.is_some() || hz.is_some();
+        anyhow::ensure!(!is_alone, argument("motion and poses_hz are those of a robot: name one"));
+        return Ok(None);
+    };
+    let body = body.ok_or_else(|| argument("a robot wears a body: name one"))?;
+    let motion = bounds.map(str::parse).transpose();
+    let motion: Option<Motion> = motion.map_err(|why| argument(format!("motion: {why}")))?;
+    Ok(Some(Posing::open(body, robot, motion.unwrap_or_default(), hz.unwrap_or(POSES_HZ))?))
+}
+
 #[pymethods]
 impl Stream {
     #[new]
-    #[pyo3(signature = (source, *, seed=None, garment=None, body=None, realtime=false, repeat=false, frames=None,
-                        seconds=None, raw=false, tare=None, once=false))]
+    #[pyo3(signature = (source, *, seed=None, garment=None, body=None, robot=None, motion=None, poses_hz=None,
+                        realtime=false, repeat=false, frames=None, seconds=None, raw=false, tare=None,
+                        once=false))]
     #[allow(clippy::too_many_arguments)] // keywords in Python
     fn new(
         py: Python<'_>,
@@ -142,6 +186,9 @@ impl Stream {
         seed: Option<u64>,
         garment: Option<String>,
         body: Option<String>,
+        robot: Option<String>,
+        motion: Option<String>,
+        poses_hz: Option<f64>,
         realtime: bool,
         repeat: bool,
         frames: Option<u64>,
@@ -155,7 +202,11 @@ impl Stream {
         }
         let options = SourceOptions { seed, realtime, repeat, frames, seconds, raw, garment, body };
         let returns = if once { Returns::Never } else { Returns::Always };
-        let open = py.detach(|| open(source, options, tare, returns)).map_err(raised)?;
+        let opened = || {
+            let posing = posing(options.body.as_deref(), robot.as_deref(), motion.as_deref(), poses_hz)?;
+            open(source, options, tare, returns, posing)
+        };
+        let open = py.detach(opened).map_err(raised)?;
         Ok(Stream { open: Mutex::new(Some(open)), asking: AtomicUsize::new(0) })
     }
 
@@ -192,19 +243,26 @@ impl Stream {
 
     /// Queues a request, by its name and its values in JSON.
     fn _request(&self, py: Python<'_>, name: &str, values: &str) -> PyResult<()> {
-        let ask = || {
-            self.asking.fetch_add(1, Ordering::AcqRel);
-            let mut open = self.lock();
-            self.asking.fetch_sub(1, Ordering::AcqRel);
-            match open.as_mut() {
-                None => Err(argument("the stream is closed").into()),
-                Some(open) if !open.session.source().listens => {
-                    let label = &open.session.source().label;
-                    Err(argument(format!("{label} is a recording, whose board does not listen")).into())
-                }
-                Some(open) => request::ask(open.session.parts().0, name, values),
-            }
+        py.detach(|| self.ask(|open| request::ask(open.session.parts().0, name, values))).map_err(raised)
+    }
+
+    /// Takes positions of joints at a time of the host, ns since 1970, or of the board, us; else now.
+    fn _set_joints(
+        &self,
+        py: Python<'_>,
+        positions: BTreeMap<String, f64>,
+        host_ns: Option<u64>,
+        time_us: Option<u64>,
+    ) -> PyResult<()> {
+        let at = match (time_us, host_ns) {
+            (Some(us), _) => JointTime::Board(Micros(us)),
+            (None, Some(ns)) => JointTime::Host(ns / 1000),
+            (None, None) => JointTime::Now,
         };
-        py.detach(ask).map_err(raised)
+        let take = |open: &mut Open| {
+            let positions = positions.iter().map(|(joint, at)| (joint.as_str(), *at));
+            Ok(open.session.take_joints(at, positions)?)
+        };
+        py.detach(|| self.ask(take)).map_err(raised)
     }
 }

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import time
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -52,3 +56,53 @@ def test_a_simulated_board_has_a_body_from_the_start() -> None:
     with taxel.open("sim:pat", body="reference", seconds=1) as board:
         links = {link["link"] for event in board if isinstance(event, taxel.Pressing) for link in event.links}
     assert links == {"torso"}
+
+
+WAIST = 0.5
+ARMS = [f"{side}_shoulder_{way}" for side in ("left", "right") for way in ("pitch", "roll", "yaw")]
+
+
+def test_joints_become_poses_of_the_links() -> None:
+    options: dict[str, Any] = {"body": "reference", "robot": "reference", "motion": {"angular": 2.0}}
+    joints = {"waist": WAIST, **dict.fromkeys(ARMS, 0.0)}
+    posed, errors = 0, []
+    with taxel.open("sim:five", realtime=True, seconds=4, **options) as board:
+        for event in board:
+            if isinstance(event, taxel.Contacts):
+                board.set_joints(joints, time.time_ns())
+            if not isinstance(event, taxel.Pressing) or event.pose_age_us is None:
+                continue
+            assert event.posed_us == event.time_us - event.pose_age_us
+            for contact in [one for one in event.contacts if one["link"] == "torso"]:
+                x, y, z = contact["at_m"]
+                cos, sin = math.cos(WAIST), math.sin(WAIST)
+                want = [x * cos - y * sin, x * sin + y * cos, z]
+                assert contact["base"]["at_m"] == pytest.approx(want, abs=1e-4)
+                posed += 1
+            if event.pose_error_m is not None:
+                errors.append(event.pose_error_m)
+    assert posed > 50 and len(errors) > 50
+    # The robot does not move, but for all that is known it might.
+    assert 0 < sorted(errors)[len(errors) // 2] < 0.1
+
+
+def test_wrong_joints_and_robots_are_refused_by_name() -> None:
+    with pytest.raises(taxel.UsageError, match="a robot wears a body"):
+        taxel.open("sim:pat", robot="reference")
+    with pytest.raises(taxel.UsageError, match="name one"):
+        taxel.open("sim:pat", body="reference", poses_hz=10.0)
+    with pytest.raises(taxel.UsageError, match="motion: \"speed=1.0\": the name must be"):
+        taxel.open("sim:pat", body="reference", robot="reference", motion={"speed": 1.0})
+    with pytest.raises(taxel.UsageError, match="poses per second must be 0.1 to 1000"):
+        taxel.open("sim:pat", body="reference", robot="reference", poses_hz=0.0)
+    with taxel.open("sim:pat", body="reference", seconds=1) as board:
+        with pytest.raises(taxel.UsageError, match="no robot was named"):
+            board.set_joints({"waist": 0.0})
+    with taxel.open("sim:pat", body="reference", robot="reference", realtime=True, seconds=2) as board:
+        next(board)
+        next(event for event in board if isinstance(event, taxel.Frame))
+        for positions, why in [({"wast": 0.0}, 'no joint "wast"'), ({"waist": 9.0}, "out of its range")]:
+            with pytest.raises(taxel.Error, match=why):
+                board.set_joints(positions)
+        with pytest.raises(taxel.UsageError, match="stamped .* s from now"):
+            board.set_joints({"waist": 0.0}, 1)

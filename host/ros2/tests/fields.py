@@ -27,10 +27,14 @@ def contact(message, line, per_newton):
     azimuth = line["azimuth"]
     assert math.isnan(message.azimuth) if azimuth is None else message.azimuth == azimuth
     assert message.force == message.total / per_newton
+    # Without a body there is no place on a link.
+    assert message.body_link or math.isnan(message.link_position.x)
     told = set(line) - set(SAME) - {"phase", "x_mm", "y_mm", "breadth_mm", "peak_breadth_mm", "azimuth"}
     assert not told, f"without a field: {told}"
     own = set(message.get_fields_and_field_types()) - set(SAME)
-    assert own == {"header", "contact", "phase", "position", "force", "azimuth", "breadth", "peak_breadth"}
+    on_link = {"body_link", "link_position", "link_normal", "link_force"}
+    other = {"header", "contact", "phase", "position", "force", "azimuth", "breadth", "peak_breadth"}
+    assert own == other | on_link
 
 
 def contacts(message, line, per_newton=1000.0):
@@ -80,3 +84,34 @@ def health(message, line):
     for key in ["scans", "failed", "overruns", "thinned_frames", "thinned_contacts", "lost", "refused"]:
         assert getattr(message, key) == line[key], key
     assert [message.scan, message.process] == [line["scan_us"] / 1e6, line["process_us"] / 1e6]
+
+
+def vector(point, told, scale=1.0):
+    """The same point or vector: two roundings apart."""
+    for own, other in zip((point.x, point.y, point.z), told):
+        assert math.isclose(own, other / scale, rel_tol=1e-12, abs_tol=1e-12), (point, told)
+
+
+def pressing(message, line, per_newton=1000.0):
+    """All fields of Pressing.msg."""
+    assert message.frame == line["frame"] and message.newtons
+    for own, key, scale in [("pose_age", "pose_age_us", 1e6), ("pose_error", "pose_error_m", 1.0)]:
+        own, told = getattr(message, own), line[key]
+        assert math.isnan(own) if told is None else math.isclose(own, told / scale, rel_tol=1e-12), key
+    assert [len(message.contacts), len(message.links)] == [len(line["contacts"]), len(line["links"])]
+    for one, told in zip(message.contacts, line["contacts"]):
+        assert [one.id, one.link] == [told["id"], told["link"]]
+        vector(one.position, told["at_m"])
+        vector(one.normal, told["normal"])
+        vector(one.force, told["force"], per_newton)
+        if told["base"] is None:
+            assert math.isnan(one.base_position.x)
+        else:
+            vector(one.base_position, told["base"]["at_m"])
+            vector(one.base_normal, told["base"]["normal"])
+            vector(one.base_force, told["base"]["force"], per_newton)
+    for one, told in zip(message.links, line["links"]):
+        assert [one.link, one.pressed] == [told["link"], told["pressed"] / per_newton]
+        vector(one.force, told["force"], per_newton)
+        vector(one.moment, told["moment"], per_newton)
+        vector(one.center, told["center_m"])

@@ -109,6 +109,8 @@ pub struct Client {
     boot: Option<Boot>,
     /// Classes taught to the board; empty while the built-in base is in use.
     shapes: Vec<String>,
+    /// A frame, and the most by which a place in the base is off there, m.
+    pose_error: Option<(u32, f64)>,
 }
 
 impl Default for Client {
@@ -153,7 +155,14 @@ impl Client {
             self_test: None,
             boot: None,
             shapes: Vec::new(),
+            pose_error: None,
         }
+    }
+
+    /// Notes the most by which a frame's places in the base are off, m, by what the host knows of the
+    /// posture.
+    pub fn tell_pose_error(&mut self, frame: u32, metres: f64) {
+        self.pose_error = Some((frame, metres));
     }
 
     /// Handles one byte. If it completes a message, updates the state and returns the event.

@@ -42,7 +42,8 @@ const NO_ROS2: &str = "Example, in the folder of taxel:
 
 const NODE: &str = "Examples:
   taxel ros2 --source sim:pat
-  taxel ros2 --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32 --namespace /left";
+  taxel ros2 --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32 --namespace /left
+  taxel ros2 --source sim:five --body reference --robot reference";
 
 pub(super) const RECORD: &str = "Examples:
   taxel record -o touch.mcap

@@ -50,9 +50,18 @@ impl Wearer {
         Ok(Wearer { body, robot, posture: posture.unwrap_or_default(), worn: None, told: None })
     }
 
-    /// The robot.
-    pub fn robot(&self) -> Option<&Arc<Robot>> {
-        self.robot.as_ref()
+    /// The posture in which these joints have moved, rad or m, and the others not; none without a robot. Joints
+    /// that have no position of their own do not count.
+    pub fn moved(&self, positions: &[(String, f64)]) -> Option<Vec<f64>> {
+        let robot = self.robot.as_ref()?;
+        let mut posture = self.posture.clone();
+        for (name, position) in positions {
+            let free = robot.free().iter().position(|joint| robot.joints()[*joint].name == *name);
+            if let Some(to) = free.and_then(|free| posture.get_mut(free)) {
+                *to = *position;
+            }
+        }
+        Some(posture)
     }
 
     /// The lists of taxels that were read with the body.
@@ -147,7 +156,7 @@ impl Wearer {
     pub fn pressing<'a>(&'a self, client: &Client, time: Micros) -> Option<PressingLine<'a>> {
         let worn = self.worn.as_ref()?;
         match &self.told {
-            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(report)),
+            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(client, report)),
             _ => computed_pressing(client, time, &worn.layout, &worn.surface),
         }
     }

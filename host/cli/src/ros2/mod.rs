@@ -11,12 +11,14 @@
 //! | `node.rs` | the node, its publishers and subscriptions |
 //! | `parameters.rs` | its parameters |
 //! | `panels.rs` | images, points and forces of the panels, thinned |
+//! | `links.rs` | what presses on the robot's links |
 //! | `posture.rs` | joint states on their way to the board |
 //! | `concepts.rs` | concepts on their way to the board |
 //! | `services.rs` | services, and the board's answers to them |
 //! | `show.rs` | [`RosShow`]: hands the stream to all of them |
 
 mod concepts;
+mod links;
 mod names;
 mod node;
 mod panels;

@@ -49,9 +49,9 @@ impl RosNode {
         Ok(RosNode { place, node, publishers: BTreeMap::new(), lost: 0 })
     }
 
-    /// Whole name of a topic, one of a panel or concept if `part` names it.
+    /// Whole name of a topic, one of a panel, link or concept if `part` names it.
     pub fn name(&self, topic: &RosTopic, part: &str) -> String {
-        let name = topic.name.replace("PANEL", part).replace("CONCEPT", part);
+        let name = topic.name.replace("PANEL", part).replace("LINK", part).replace("CONCEPT", part);
         self.place.absolute(&name)
     }
 
@@ -141,8 +141,8 @@ impl RosNode {
     }
 }
 
-/// Quality of service as the middleware knows it. A reliable topic refuses a message at once if it has no room:
-/// a subscriber that has stopped does not stop the board's stream.
+/// Quality of service as the middleware knows it. A reliable topic refuses a message at once if it has no
+/// room: a subscriber that has stopped does not stop the board's stream.
 fn profile(qos: RosQos) -> QosProfile {
     let reliability = if qos.reliable {
         Reliability::Reliable { when_full: WhenFull::Fail }

@@ -2,10 +2,12 @@
 
 use super::node::RosNode;
 use anyhow::Result;
+use std::sync::Arc;
+use taxel::body::Surface;
 use taxel::client::Client;
 use taxel::ros2::parameters::IMAGE_HZ;
 use taxel::ros2::topics::{FRAMES, IMAGE, POINTS, RosTopic, WRENCH};
-use taxel::ros2::{messages, topic_part};
+use taxel::ros2::{messages, pressing, topic_part};
 use taxel_core::garment::Area;
 
 /// The topics of each panel.
@@ -18,6 +20,8 @@ pub struct Panels {
     pub per_newton: Option<f32>,
     /// Panels that were offered.
     areas: Vec<Area>,
+    /// Places of the taxels, with a body.
+    surface: Option<Arc<Surface>>,
     /// The board's time from which the next image is due, us.
     due_us: u64,
 }
@@ -25,11 +29,19 @@ pub struct Panels {
 impl Panels {
     /// None yet.
     pub fn new(per_newton: Option<f32>) -> Panels {
-        Panels { per_newton, areas: Vec::new(), due_us: 0 }
+        Panels { per_newton, areas: Vec::new(), surface: None, due_us: 0 }
     }
 
-    /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed.
-    pub fn offer(&mut self, node: &mut RosNode, client: &Client, us: u64) -> Result<()> {
+    /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed. With
+    /// a surface, points lie on links.
+    pub fn offer(
+        &mut self,
+        node: &mut RosNode,
+        client: &Client,
+        us: u64,
+        surface: Option<&Arc<Surface>>,
+    ) -> Result<()> {
+        self.surface = surface.cloned();
         let areas = client.layout().map_or(&[][..], |layout| layout.areas());
         if self.areas == areas {
             return Ok(());
@@ -52,9 +64,10 @@ impl Panels {
         node.publish(&FRAMES, "", messages::frames(us, areas))
     }
 
-    /// Topics of a panel: points need a pitch, forces a calibration.
+    /// Topics of a panel: points need a pitch or a place, forces a calibration.
     fn topics(&self, area: &Area) -> impl Iterator<Item = RosTopic> + use<> {
-        let (is_flat, is_calibrated) = (!area.pitch_um.contains(&0), self.per_newton.is_some());
+        let (is_flat, is_calibrated) =
+            (!area.pitch_um.contains(&0) || self.surface.is_some(), self.per_newton.is_some());
         OF_PANEL
             .into_iter()
             .filter(move |topic| (is_flat || *topic != POINTS) && (is_calibrated || *topic != WRENCH))
@@ -82,13 +95,19 @@ impl Panels {
                 }
                 let message = match topic {
                     IMAGE => messages::image(us, area, values),
-                    POINTS => messages::points(us, area, values),
+                    POINTS => self.points(us, area, values),
                     _ => messages::wrench(us, area, self.newtons(values)),
                 };
                 node.publish(&topic, &part, message)?;
             }
         }
         Ok(())
+    }
+
+    /// Points on the link of a panel, or on the panel itself if nobody says where it lies.
+    fn points(&self, us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
+        let placed = self.surface.as_ref().and_then(|surface| pressing::points(us, area, surface, values));
+        placed.unwrap_or_else(|| messages::points(us, area, values))
     }
 
     fn newtons(&self, values: &[u16]) -> f64 {

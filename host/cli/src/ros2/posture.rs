@@ -4,25 +4,35 @@ use super::node::RosNode;
 use super::raw::JointState;
 use anyhow::Result;
 use ros2_client::Subscription;
+use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
 use taxel::client::Client;
 use taxel::ros2::messages;
 use taxel::ros2::topics::{JOINT_STATES, POSTURE};
+use taxel::session::{JointTime, Posing};
+use taxel::tell::words;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Name, name};
 use taxel_core::wire::Request;
 
 /// Longest wait for the board's answer before the next posture is sent.
 const ANSWER: Duration = Duration::from_millis(500);
+/// Shortest time between two complaints about joint states.
+const COMPLAINT: Duration = Duration::from_secs(5);
 /// Shortest time between two postures: joint states may come every millisecond.
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// The newest joint states, and those that the board has not answered yet. One posture is under way at a time.
+/// The newest joint states, and those that the board has not answered yet. One posture is under way at a
+/// time.
 pub struct Postures {
     states: Subscription<JointState>,
     newest: Option<JointState>,
     asked: Option<JointState>,
     sent: Instant,
+    /// When joint states were last complained of.
+    told: Option<Instant>,
+    /// A robot's posture takes what comes.
+    is_posing: bool,
 }
 
 impl Postures {
@@ -34,14 +44,53 @@ impl Postures {
             newest: None,
             asked: None,
             sent: Instant::now(),
+            told: None,
+            is_posing: false,
         })
+    }
+
+    /// Takes what has come.
+    fn read(&mut self, mut each: impl FnMut(&JointState)) {
+        // What cannot be read is another program's mistake.
+        while let Some(state) = self.states.take().ok().flatten() {
+            each(&state.0);
+            self.newest = Some(state.0);
+        }
+    }
+
+    /// Hands over the positions of a robot's joints that have come, at the times that their stamps are by
+    /// `time`. What is wrong with them is another program's mistake: it is told every five seconds.
+    pub fn pose(
+        &mut self,
+        node: &RosNode,
+        client: &Client,
+        posing: &mut Posing,
+        time: impl Fn(u64) -> JointTime,
+    ) {
+        self.is_posing = true;
+        let mut wrong = None;
+        self.read(|state| {
+            let named = state.name.iter().zip(&state.position);
+            // Others than this robot's may be told, too.
+            let own: Vec<(String, f64)> = named
+                .filter(|(joint, _)| posing.robot().joint(joint).is_ok())
+                .map(|(joint, position)| (joint.clone(), *position))
+                .collect();
+            let positions = own.iter().map(|(joint, position)| (joint.as_str(), *position));
+            if let Err(error) = posing.take(client, at(state.header.stamp, &time), positions) {
+                wrong = Some(words::sentence(&error));
+            }
+        });
+        if let Some(wrong) = wrong.filter(|_| self.told.is_none_or(|told| told.elapsed() > COMPLAINT)) {
+            self.told = Some(Instant::now());
+            node.log(LogLevel::Warn, &format!("joint_states: {wrong}"));
+        }
     }
 
     /// Takes what has come, and sends the newest.
     pub fn turn(&mut self, client: &mut Client) -> Result<()> {
-        // What cannot be read is another program's mistake.
-        while let Some(state) = self.states.take().ok().flatten() {
-            self.newest = Some(state.0);
+        if !self.is_posing {
+            self.read(|_| ());
         }
         let waits = if self.asked.is_some() { ANSWER } else { PAUSE };
         let joints = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
@@ -73,6 +122,13 @@ impl Postures {
     }
 }
 
+/// When joint states with this stamp, seconds and nanoseconds, were read: now, if there is none, else by
+/// `time`.
+fn at((sec, nanosec): (i32, u32), time: impl Fn(u64) -> JointTime) -> JointTime {
+    let us = u64::try_from(sec).unwrap_or(0) * 1_000_000 + u64::from(nanosec / 1000);
+    if us == 0 { JointTime::Now } else { time(us) }
+}
+
 /// Angles of the scene's joints. A scene's names have at most 16 bytes: as much of the joint's name counts.
 fn posture(joints: &[Name], state: &JointState) -> Posture {
     let angle = |(joint, position): (&String, &f64)| {
@@ -89,6 +145,12 @@ fn posture(joints: &[Name], state: &JointState) -> Posture {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn joint_states_without_a_stamp_are_of_now() {
+        assert_eq!(at((3, 4_999), JointTime::Host), JointTime::Host(3_000_004));
+        assert_eq!([at((0, 999), JointTime::Host), at((-5, 0), JointTime::Host)], [JointTime::Now; 2]);
+    }
 
     #[test]
     fn joints_are_found_by_name_and_turned_to_degrees() {

@@ -1,6 +1,7 @@
 //! Hands a board's stream to the node.
 
 use super::concepts::Concepts;
+use super::links::Links;
 use super::node::RosNode;
 use super::panels::Panels;
 use super::posture::Postures;
@@ -8,16 +9,21 @@ use super::services::Services;
 use anyhow::Result;
 use ros2_client::log::LogLevel;
 use serde_json::Value;
+use taxel::body::ReadBody;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json;
 use taxel::record::{Stamp, Stamps};
 use taxel::ros2::messages::{self, BoardState};
 use taxel::ros2::own;
 use taxel::ros2::topics::{CLOCK, CONTACTS, DIAGNOSTICS, FRAMES, HEALTH, INTENT, JSON, REACTIONS, SYMBOLS};
-use taxel::session::Show;
+use taxel::session::{JointTime, Posing, Show};
 use taxel::source::Source;
 use taxel_core::fold::Posture;
+use taxel_core::format::Micros;
 use taxel_core::wire::Request;
+
+/// Number of the request that tells the board poses.
+const SET_POSES: u8 = Request::SetPoses(&[]).number();
 
 /// Publishes a board's stream, and passes on what comes for the board.
 pub struct RosShow {
@@ -26,6 +32,9 @@ pub struct RosShow {
     /// The board's time is ROS's.
     is_clock: bool,
     panels: Panels,
+    links: Links,
+    /// Frame of the robot's base; empty without a robot.
+    base: String,
     postures: Postures,
     concepts: Concepts,
     services: Services,
@@ -35,7 +44,13 @@ pub struct RosShow {
 
 impl RosShow {
     /// Offers everything. With `is_clock`, stamps are the board's time, which is told on `/clock`.
-    pub fn open(mut node: RosNode, source: &Source, is_clock: bool) -> Result<RosShow> {
+    /// With a body, what presses on its links is told.
+    pub fn open(
+        mut node: RosNode,
+        source: &Source,
+        is_clock: bool,
+        body: Option<ReadBody>,
+    ) -> Result<RosShow> {
         for topic in [CONTACTS, SYMBOLS, REACTIONS, INTENT, HEALTH, JSON, FRAMES, DIAGNOSTICS] {
             node.offer(&topic, "")?;
         }
@@ -47,6 +62,8 @@ impl RosShow {
             stamps: Stamps::start(),
             is_clock,
             panels: Panels::new(source.counts_per_newton),
+            links: Links::new(body, source.counts_per_newton),
+            base: String::new(),
             postures: Postures::open(&mut node)?,
             concepts: Concepts::default(),
             services: Services::open(&mut node, deaf)?,
@@ -65,15 +82,18 @@ impl RosShow {
         let node = &mut self.node;
         match event {
             Event::Hello => {
-                self.panels.offer(node, client, us)?;
+                self.links.offer(node, client)?;
+                self.panels.offer(node, client, us, self.links.surface())?;
                 self.concepts.offer(node, client)
             }
             Event::Frame { image: ImageNews::Whole, .. } => self.panels.image(node, client, us, board_us),
             Event::Contacts { frame, dropped, released, .. } => {
                 let list_of = (*frame, *dropped);
-                let message = own::contacts(us, client, list_of, released, self.panels.per_newton);
+                let on = (self.links.surface().map(AsRef::as_ref), self.panels.per_newton);
+                let message = own::contacts(us, client, list_of, released, on);
                 node.publish(&CONTACTS, "", message)
             }
+            Event::Pressing(report) => self.links.report(node, client, report, us, &self.base),
             Event::Symbols(list) => node.publish(&SYMBOLS, "", own::symbols(us, client, list)),
             Event::Reaction(report) => node.publish(&REACTIONS, "", own::reaction(us, report)),
             Event::Intent(report) => node.publish(&INTENT, "", own::intent(us, client, report)),
@@ -89,6 +109,9 @@ impl RosShow {
                 self.services.answered(*request, refusal.as_deref());
                 if *request == Request::Posture(Posture::default()).number() {
                     self.postures.answered(node, client, refusal.is_none())?;
+                }
+                if let (SET_POSES, Some(why)) = (*request, refusal) {
+                    node.log(LogLevel::Warn, &format!("the board refuses poses: {why}"));
                 }
                 Ok(())
             }
@@ -137,6 +160,19 @@ impl Show<anyhow::Error> for RosShow {
         let us = self.us(stamp);
         let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
         self.node.publish(&DIAGNOSTICS, "", messages::diagnostics(us, firmware, BoardState::Lost(text)))
+    }
+
+    fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
+        if self.base.is_empty() {
+            self.base = posing.base().into();
+        }
+        // The inverse of the stamps of what is published.
+        let time = |us| match self.is_clock {
+            true => JointTime::Board(Micros(us)),
+            false => self.stamps.board_time(client, us).map_or(JointTime::Host(us), JointTime::Board),
+        };
+        self.postures.pose(&self.node, client, posing, time);
+        Ok(())
     }
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {

@@ -93,10 +93,11 @@ impl PageHub {
         fits
     }
 
-    /// The robot's joints have these positions: see [`Wearer::pose`].
-    pub fn posture(&self, posture: Vec<f64>) -> Result<()> {
+    /// Joints of the robot have come to these positions, rad or m: see [`Wearer::pose`].
+    pub fn joints(&self, positions: &[(String, f64)]) -> Result<()> {
         let mut wearer = self.wearer();
         let Some(wearer) = &mut *wearer else { return Ok(()) };
+        let Some(posture) = wearer.moved(positions) else { return Ok(()) };
         if wearer.pose(posture)? {
             wearer.body().iter().for_each(|body| self.state("body", body));
         }

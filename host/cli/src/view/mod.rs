@@ -8,7 +8,7 @@
 mod assets;
 pub mod browser;
 mod hub;
-pub mod joints;
+
 mod line_kind;
 mod lines;
 mod mailbox;

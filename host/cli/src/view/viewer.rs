@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json;
-use taxel::session::Show;
+use taxel::session::{JointPositions, Show};
 use taxel::source::Source;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Pins};
@@ -91,6 +91,14 @@ impl Viewer {
 impl Show<anyhow::Error> for Viewer {
     fn bytes(&mut self, bytes: &[u8]) {
         self.hub.keep(bytes);
+    }
+
+    fn joints(&mut self, _: &Client, taken: &JointPositions) -> Result<()> {
+        // Cloth that slides off its panel is no reason to show nothing any more.
+        if let Err(error) = self.hub.joints(&taken.positions) {
+            self.hub.say(&Said::note(format!("{error:#}")));
+        }
+        Ok(())
     }
 
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {

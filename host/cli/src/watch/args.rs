@@ -5,7 +5,9 @@ use crate::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
+use taxel::body::posture::Motion;
 use taxel::files::calibrate::Calibration;
+use taxel::session::{POSES, POSES_HZ, Posing};
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
 use taxel_core::intent::Feed;
 
@@ -64,6 +66,21 @@ pub struct BoardArgs {
     /// [default: 65535 with --body, else 0]
     #[arg(long, value_name = "HZ")]
     pub pressing: Option<u16>,
+    /// Robot that wears the garment: a URDF file or `reference`. Positions of its joints become poses of the
+    /// body's links, for contacts in the robot's base
+    #[arg(long, value_name = "URDF", requires = "body")]
+    pub robot: Option<String>,
+    /// Positions of the joints, a JSON object a line: {"time_us": 5128, "positions": {"left_elbow": 0.5}}, in
+    /// rad or m, at the board's time, the host's (host_time_us), or now; - for the standard input
+    #[arg(long, value_name = "FILE", requires = "robot")]
+    pub joint_states: Option<PathBuf>,
+    /// Poses of the links sent to the board per second [default: 50]
+    #[arg(long, value_name = "HZ", requires = "robot", value_parser = poses_hz, allow_negative_numbers = true)]
+    pub poses: Option<f64>,
+    /// What bounds the joints' motion, for the error of places in the base: angular=20 rad/s2, linear=5 m/s2,
+    /// angular_velocity=10 rad/s, angular_error=0 rad, linear_error=0 m
+    #[arg(long, value_name = "NAME=VALUE,...", requires = "robot")]
+    pub motion: Option<Motion>,
     /// End when the connection to the board is lost, instead of waiting for the board
     #[arg(long)]
     pub once: bool,
@@ -91,6 +108,10 @@ impl BoardArgs {
             body: None,
             folds: None,
             pressing: None,
+            robot: None,
+            joint_states: None,
+            poses: None,
+            motion: None,
             once: false,
             seed: None,
         }
@@ -99,8 +120,9 @@ impl BoardArgs {
     /// Paths of the input files, which no output may replace. A preset's name is among them like a path.
     pub fn files(&self) -> Vec<PathBuf> {
         let text = |name: &Option<String>| name.clone().map(PathBuf::from);
-        let named = [text(&self.garment), text(&self.body), self.source.file()];
-        let told = [&self.scene, &self.calibration, &self.shapes, &self.folds].map(Clone::clone);
+        let named = [text(&self.garment), text(&self.body), text(&self.robot), self.source.file()];
+        let told =
+            [&self.scene, &self.calibration, &self.shapes, &self.folds, &self.joint_states].map(Clone::clone);
         named.into_iter().chain(told).flatten().collect()
     }
 
@@ -118,6 +140,7 @@ impl BoardArgs {
             ("--body", self.body.is_some()),
             ("--folds", self.folds.is_some()),
             ("--pressing", self.pressing.is_some()),
+            ("--robot", self.robot.is_some()),
         ];
         match options.into_iter().find(|(_, is_there)| *is_there) {
             Some((option, _)) => {
@@ -125,6 +148,13 @@ impl BoardArgs {
             }
             None => Ok(()),
         }
+    }
+
+    /// Reads the robot that wears the garment, if one is named.
+    pub fn posing(&self) -> Result<Option<Posing>> {
+        let Some((robot, body)) = self.robot.as_ref().zip(self.body.as_ref()) else { return Ok(None) };
+        let motion = self.motion.unwrap_or_default();
+        Ok(Some(Posing::open(body, robot, motion, self.poses.unwrap_or(POSES_HZ))?))
     }
 
     /// Opens the source, and the calibration if there is one; the source then uses its counts per newton.
@@ -206,6 +236,12 @@ impl LiveArgs {
             svg: None,
         }
     }
+}
+
+/// Parses a rate of poses.
+fn poses_hz(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate| POSES.contains(rate));
+    rate.ok_or_else(|| format!("must be {} to {}", POSES.start(), POSES.end()))
 }
 
 /// Parses a time of the command line, s.

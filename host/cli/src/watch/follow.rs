@@ -14,7 +14,7 @@ use taxel::files::calibrate::Calibration;
 use taxel::files::output::Output;
 use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
-use taxel::session::{Returns, Session, Show, Turn, setting};
+use taxel::session::{JointStates, Returns, Session, Show, Turn, setting};
 use taxel::source::{SceneFile, Source};
 use taxel::tell::verbose;
 use taxel_core::wire::Request;
@@ -35,11 +35,14 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     let mut session = Session::new(source, returns);
     let (client, source) = session.parts();
     prepare(client, &args.board, source)?;
+    let mut joints = args.board.joint_states.as_deref().map(JointStates::open).transpose()?;
     let mut asked = if source.listens { Asked::of(&client.queued(), args) } else { Asked::default() };
     let mut limits = Limits::of(args);
+    args.board.posing()?.into_iter().for_each(|posing| session.pose_by(posing));
     let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
     let mut patience = Patience { limited, began: Instant::now(), told: false };
     while !limits.ended && asked.refusal.is_none() {
+        pose(&mut session, joints.as_mut(), show)?;
         let turn = session.turn(&mut |client, bytes| show.asked(client, bytes))?;
         if turn == Turn::End {
             break;
@@ -74,6 +77,19 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
         (None, Some(_)) => Ok(()),
         (None, None) => Err(silent(source, client.counts().bytes)),
     }
+}
+
+/// Hands positions of joints to whoever tells the board its posture, and to the receiver.
+fn pose(
+    session: &mut Session,
+    joints: Option<&mut JointStates>,
+    show: &mut dyn Show<anyhow::Error>,
+) -> Result<()> {
+    let Some((client, posing)) = session.posing() else { return Ok(()) };
+    show.pose(client, posing)?;
+    joints.map_or(Ok(()), |joints| joints.turn(client, posing))?;
+    let taken = posing.taken();
+    taken.iter().try_for_each(|taken| show.joints(client, taken))
 }
 
 /// Prints events for `-v`.

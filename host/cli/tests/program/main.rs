@@ -9,6 +9,7 @@ mod exports;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod hostile;
+mod joints;
 mod live;
 mod maps;
 mod mistakes;

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import taxel
 from lerobot.robots import (  # type: ignore[import-not-found,unused-ignore]
@@ -29,6 +29,9 @@ class TaxelRobotConfig(RobotConfig):  # type: ignore[misc,unused-ignore]
     tare: int = 64
     #: Images of a window.
     rows: int = ROWS
+    #: Where the garment lies on the robot, `reference` or a TOML file, and the links whose forces are observed.
+    body: str | None = None
+    links: list[str] = field(default_factory=list)
 
 
 class TaxelRobot(Wrapped, Robot):  # type: ignore[misc,unused-ignore]
@@ -41,6 +44,6 @@ class TaxelRobot(Wrapped, Robot):  # type: ignore[misc,unused-ignore]
         Robot.__init__(self, config)
 
         def open_garment() -> taxel.Stream:
-            return taxel.open(config.source, realtime=True, repeat=True, tare=config.tare)
+            return taxel.open(config.source, realtime=True, repeat=True, tare=config.tare, body=config.body)
 
-        Wrapped.__init__(self, make_robot_from_config(config.robot), Touch(open_garment, config.rows))
+        Wrapped.__init__(self, make_robot_from_config(config.robot), Touch(open_garment, config.rows, config.links))

@@ -7,7 +7,7 @@ LeRobot puts the numbers into ``observation.state``. A data set describes its fe
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,10 @@ from .touch import INTENTIONS, Seen
 
 #: Names of the features of a window.
 VALUES, COUNT, TIMES = "observation.touch", "observation.touch_count", "observation.touch_time_us"
+#: Name of the feature of what presses on links, and its parts: force (counts) and moment (counts times m) about the
+#: link's origin, and the centre of pressure (m), in the link's frame. 0 where nothing presses.
+LINKS = "observation.touch_links"
+PARTS = ("fx", "fy", "fz", "mx", "my", "mz", "px", "py", "pz")
 
 
 def _word(name: str) -> str:
@@ -24,9 +28,17 @@ def _word(name: str) -> str:
     return "".join(one if one.isalnum() else "_" for one in name)
 
 
-def observation_features(panels: Iterable[str]) -> dict[str, type]:
+def _parts(presses: Mapping[str, Any]) -> list[float]:
+    """What presses on a link, in the order of ``PARTS``."""
+    if not presses:
+        return [0.0] * len(PARTS)
+    return [float(part) for key in ("force", "moment", "center_m") for part in presses[key]]
+
+
+def observation_features(panels: Iterable[str], links: Iterable[str] = ()) -> dict[str, type]:
     """The numbers of an observation, for ``Robot.observation_features``."""
     names = [f"touch.{_word(panel)}.{what}" for panel in panels for what in ("total", "peak")]
+    names += [f"touch.{_word(link)}.{part}" for link in links for part in PARTS]
     return dict.fromkeys(names + [f"touch.{name}" for name in INTENTIONS], float)
 
 
@@ -36,13 +48,17 @@ def observation(seen: Seen) -> dict[str, Any]:
     for panel, image in seen.panels.items():
         numbers[f"touch.{_word(panel)}.total"] = float(image.sum(dtype=np.int64))
         numbers[f"touch.{_word(panel)}.peak"] = float(image.max())
+    for link, presses in seen.presses.items():
+        parts = zip(PARTS, _parts(presses), strict=True)
+        numbers.update({f"touch.{_word(link)}.{part}": value for part, value in parts})
     numbers.update({f"touch.{name}": value for name, value in seen.felt.items()})
     return numbers | {name.removeprefix("observation."): value for name, value in dataset_frame(seen).items()}
 
 
-def dataset_features(rows: int, taxels: int) -> dict[str, dict[str, Any]]:
-    """The features of a window, to be added to those of a data set."""
-    return {
+def dataset_features(rows: int, taxels: int, links: int = 0) -> dict[str, dict[str, Any]]:
+    """The features of a window and of the forces on so many links, to be added to those of a data set."""
+    on_links = {"dtype": "float32", "shape": (links, len(PARTS)), "names": ["link", "part"]}
+    return ({LINKS: on_links} if links else {}) | {
         VALUES: {"dtype": "float32", "shape": (rows, taxels), "names": ["sample", "taxel"]},
         COUNT: {"dtype": "int64", "shape": (1,), "names": None},
         TIMES: {"dtype": "int64", "shape": (rows,), "names": None},
@@ -50,9 +66,11 @@ def dataset_features(rows: int, taxels: int) -> dict[str, dict[str, Any]]:
 
 
 def dataset_frame(seen: Seen) -> dict[str, npt.NDArray[Any]]:
-    """The row of a window, to be added to a data set's row. Counts of 16 bits are exact in ``float32``."""
+    """The row of a window and of the forces on links, to be added to a data set's row. Counts of 16 bits are exact in
+    ``float32``."""
     window = seen.window
-    return {
+    parts = [_parts(presses) for presses in seen.presses.values()]
+    return ({LINKS: np.array(parts, np.float32)} if parts else {}) | {
         VALUES: window.values.astype(np.float32),
         COUNT: np.array([window.images], np.int64),
         TIMES: window.time_us,

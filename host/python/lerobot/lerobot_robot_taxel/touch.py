@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterable
 from types import TracebackType
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +28,11 @@ class Seen:
     """What an observation holds."""
 
     def __init__(
-        self, window: Window, panels: dict[str, npt.NDArray[np.uint16]], felt: dict[str, float]
+        self,
+        window: Window,
+        panels: dict[str, npt.NDArray[np.uint16]],
+        felt: dict[str, float],
+        presses: dict[str, dict[str, Any]],
     ) -> None:
         #: All images since the last observation.
         self.window = window
@@ -36,13 +40,20 @@ class Seen:
         self.panels = panels
         #: Activations of the intentions.
         self.felt = felt
+        #: What presses on each link, as `taxel.Pressing.links` have it; none where nothing does.
+        self.presses = presses
 
 
 class Touch:
     """Reads a garment in a thread of its own, which waits without holding up others."""
 
-    def __init__(self, open_stream: Callable[[], Stream], rows: int = ROWS) -> None:
+    def __init__(
+        self, open_stream: Callable[[], Stream], rows: int = ROWS, links: Iterable[str] = ()
+    ) -> None:
         self._open = open_stream
+        #: Links of the robot whose forces are observed: of a board with a body.
+        self.links = tuple(links)
+        self._presses: dict[str, dict[str, Any]] = {}
         self._windows = Windows(rows)
         self._news = threading.Condition()
         self._frame: taxel.Frame | None = None
@@ -90,6 +101,9 @@ class Touch:
     def _take(self, event: taxel.Event) -> None:
         if isinstance(event, taxel.Hello):
             self._panels = {one["name"]: (one["rows"], one["columns"]) for one in event.panels}
+        if isinstance(event, taxel.Pressing):
+            with self._news:
+                self._presses = {one["link"]: one for one in event.links}
         if not isinstance(event, taxel.Frame) or event.image is None:
             return
         with self._news:
@@ -107,7 +121,8 @@ class Touch:
             frame = self._frame
             if frame is None or frame.image is None:
                 raise taxel.BoardError("the garment is not connected")
-            return Seen(self._windows.take(frame.image.size), frame.panels, dict(self._felt))
+            presses = {link: self._presses.get(link, {}) for link in self.links}
+            return Seen(self._windows.take(frame.image.size), frame.panels, dict(self._felt), presses)
 
     @property
     def panels(self) -> dict[str, tuple[int, int]]:

@@ -18,7 +18,7 @@ class Wrapped:
     @property
     def observation_features(self) -> dict[str, Any]:
         """The robot's, and the numbers of touch."""
-        return {**self.inner.observation_features, **schema.observation_features(self.touch.panels)}
+        return {**self.inner.observation_features, **schema.observation_features(self.touch.panels, self.touch.links)}
 
     @property
     def action_features(self) -> dict[str, Any]:

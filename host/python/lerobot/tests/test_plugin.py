@@ -101,6 +101,31 @@ def test_rows_of_a_data_set_have_its_features() -> None:
     }
 
 
+def test_forces_by_link_have_a_fixed_shape() -> None:
+    links = ("torso", "left_upper_arm")
+    touch = Touch(lambda: taxel.open("sim:pat", realtime=True, repeat=True, body="reference"), links=links)
+    robot = Wrapped(Arm(), touch)
+    features = robot.observation_features
+    robot.connect()
+    pressed = 0.0
+    for _ in range(100):
+        time.sleep(1 / 30)
+        seen = robot.get_observation()
+        assert set(features) <= set(seen)
+        wrenches = seen["touch_links"]
+        assert wrenches.shape == (2, 9) and wrenches.dtype == np.float32
+        assert [seen[f"touch.torso.{part}"] for part in schema.PARTS] == pytest.approx(wrenches[0], rel=1e-6)
+        assert not wrenches[1].any()
+        pressed = max(pressed, seen["touch.torso.fx"])
+        if wrenches[0].any():
+            # The back is pressed forward, and its centre of pressure lies behind the axis.
+            assert seen["touch.torso.fx"] > 0 and seen["touch.torso.px"] < 0
+    robot.disconnect()
+    assert pressed > 1000
+    assert schema.dataset_features(ROWS, 2048, 2)[schema.LINKS]["shape"] == (2, 9)
+    assert schema.LINKS not in schema.dataset_features(ROWS, 2048)
+
+
 def test_errors_of_the_stream_are_raised() -> None:
     with pytest.raises(taxel.UsageError):
         Touch(lambda: taxel.open("sim:nope")).connect()

@@ -14,6 +14,7 @@ docs/python.md of the project.
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from types import TracebackType
 
 import numpy as np
@@ -112,6 +113,18 @@ __all__ = [
 class Stream(_taxel.Stream, Requests):
     """An open board: an iterator over its events, to be used with ``with``."""
 
+    def set_joints(
+        self, positions: Mapping[str, float], host_ns: int | None = None, *, time_us: int | None = None
+    ) -> None:
+        """Tells positions of the robot's joints, rad or m, by name.
+
+        They were read at ``host_ns``, the host's time (nanoseconds since 1970, as of ``time.time_ns()``), or at
+        ``time_us``, the board's; without either, now. They may come late and joint by joint. The board gets poses of
+        the links that wear the garment as long as they come. Before the board has told its time they are passed over.
+        """
+        told = {joint: float(position) for joint, position in positions.items()}
+        super()._set_joints(told, host_ns, time_us)
+
     def __enter__(self) -> Stream:
         return self
 
@@ -162,6 +175,9 @@ def open(
     seed: int | None = None,
     garment: str | None = None,
     body: str | None = None,
+    robot: str | None = None,
+    motion: Mapping[str, float] | None = None,
+    poses_hz: float | None = None,
     realtime: bool = False,
     repeat: bool = False,
     frames: int | None = None,
@@ -179,6 +195,11 @@ def open(
     - ``garment``: a preset or a TOML file, for the board
     - ``body``: where the taxels lie on the robot, a preset or a TOML file: the board tells in ``Pressing`` events
       what presses on each link
+    - ``robot``: that wears the body, ``reference`` or a URDF file: ``Stream.set_joints`` tells its joints, and contacts
+      of ``Pressing`` events have a place in its base
+    - ``motion``: what bounds the joints' motion, for ``pose_error_m``: ``angular`` (rad/s2), ``linear`` (m/s2),
+      ``angular_velocity`` (rad/s), ``angular_error`` (rad), ``linear_error`` (m)
+    - ``poses_hz``: poses sent to the board per second, by default 50
     - ``realtime``: a simulation or a replay takes its time; else it is as fast as it is read
     - ``repeat``: a simulation repeats its script
     - ``frames``, ``seconds``: end after so many images, or so much of the board's time
@@ -198,6 +219,9 @@ def open(
         seed=seed,
         garment=garment,
         body=body,
+        robot=robot,
+        motion=None if motion is None else ",".join(f"{name}={value}" for name, value in motion.items()),
+        poses_hz=poses_hz,
         realtime=realtime,
         repeat=repeat,
         frames=frames,

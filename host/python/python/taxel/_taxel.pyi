@@ -193,6 +193,10 @@ class Pressing(_Scanned):
     @property
     def posed_us(self) -> int | None: ...
     @property
+    def pose_age_us(self) -> int | None: ...
+    @property
+    def pose_error_m(self) -> float | None: ...
+    @property
     def contacts(self) -> list[dict[str, Any]]: ...
     @property
     def links(self) -> list[dict[str, Any]]: ...
@@ -369,6 +373,9 @@ class Stream:
         seed: int | None = None,
         garment: str | None = None,
         body: str | None = None,
+        robot: str | None = None,
+        motion: str | None = None,
+        poses_hz: float | None = None,
         realtime: bool = False,
         repeat: bool = False,
         frames: int | None = None,
@@ -383,6 +390,9 @@ class Stream:
     @property
     def label(self) -> str | None: ...
     def _request(self, name: str, values: str) -> None: ...
+    def _set_joints(
+        self, positions: dict[str, float], host_ns: int | None, time_us: int | None
+    ) -> None: ...
 
 class Board:
     def __new__(cls: type[_B], garment: str = "reference", scene: str | None = None) -> _B: ...

@@ -4,12 +4,13 @@ use super::config::Body;
 use super::listed::Listed;
 use super::pose::Pose;
 use super::posture::Estimate;
-use super::robot::{Poses, Robot};
+use super::robot::{JointKind, Poses, Robot};
 use super::slides::{PatchSlide, slides};
 use super::surface::Surface;
 use crate::error::{Error, Result, RobotError, SettingError};
 use glam::DVec2;
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
 
@@ -171,5 +172,24 @@ impl RobotSurface {
             self.robot.displacement((*link, frame), farthest + way + off, posture, errors)
         };
         self.links.iter().zip(&self.farthest).map(of).fold(0.0, f64::max) + off
+    }
+
+    /// The most, in metres, by which any taxel is elsewhere in a frame, at the time of an estimate, than a
+    /// board says whose links were told in the posture `told`. A board's table has the cloth as it lies with
+    /// the joints at 0: the way that it slides counts, too.
+    pub fn told_displacement(&self, told: &[f64], estimate: &Estimate, frame: usize) -> f64 {
+        let errors: Vec<f64> = (0..estimate.posture.len())
+            .map(|free| {
+                let off = told.get(free).map_or(f64::INFINITY, |told| (told - estimate.posture[free]).abs());
+                let turns = self.robot.free().get(free).and_then(|joint| self.robot.joints().get(*joint));
+                let is_continuous = turns.is_some_and(|joint| joint.kind == JointKind::Continuous);
+                // Whole turns are none.
+                let off = if is_continuous { (off % TAU).min(TAU - off % TAU) } else { off };
+                off + estimate.errors.get(free).copied().unwrap_or(f64::INFINITY)
+            })
+            .collect();
+        let slid: f64 = self.slides.iter().map(|slide| slide.way(&estimate.posture).length()).sum();
+        let told = Estimate { posture: told.to_vec(), errors, age: estimate.age };
+        self.displacement(&told, frame) + slid
     }
 }

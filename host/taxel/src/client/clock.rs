@@ -119,10 +119,29 @@ impl HostClock {
         let middle =
             known.origin.saturating_add(board.0.into()).saturating_add(((low + high) / 2.0).round() as i128);
         Some(HostTime {
-            us: u64::try_from(middle.max(0)).unwrap_or(u64::MAX),
+            us: clamped(middle),
             uncertainty_us: (((high - low) / 2.0).ceil() as u64).saturating_add(1),
         })
     }
+
+    /// Converts a host time, us, to board time: the inverse of [`HostClock::host_time`], within 1 us. None
+    /// before the first round trip; 0 for times before the board's start.
+    pub fn board_time(&self, host_us: u64) -> Option<Micros> {
+        let known = self.known.as_ref()?;
+        let since = i128::from(host_us) - known.origin;
+        let mut board = since;
+        // The offset depends on the result, by 500 ppm at most: each round leaves that much of the error.
+        for _ in 0..3 {
+            let Bounds { low, high } = known.offset_at(Micros(clamped(board)));
+            board = since.saturating_sub(((low + high) / 2.0).round() as i128);
+        }
+        Some(Micros(clamped(board)))
+    }
+}
+
+/// The nearest time that there is.
+fn clamped(us: i128) -> u64 {
+    u64::try_from(us.max(0)).unwrap_or(u64::MAX)
 }
 
 impl ClockEstimate {
@@ -239,6 +258,22 @@ mod tests {
     }
 
     #[test]
+    fn times_of_the_host_are_times_of_the_board() {
+        let mut clock = HostClock::default();
+        assert_eq!(clock.board_time(5), None);
+        // The board's clock is fast by 400 ppm, for ten minutes.
+        for second in 0..600 {
+            let (host, board) = (5_000_000_000 + second * 1_000_000, 70 + second * 1_000_400);
+            clock.take(&trip(host, board + 40, board + 60, host + 100));
+        }
+        for board in [0, 70, 300_000_000, 600_000_000, 610_000_000] {
+            let host = clock.host_time(Micros(board)).unwrap().us;
+            assert!(clock.board_time(host).unwrap().0.abs_diff(board) <= 1, "{board}");
+        }
+        assert_eq!(clock.board_time(0), Some(Micros(0)));
+    }
+
+    #[test]
     fn nonsense_does_no_harm() {
         let mut clock = HostClock::default();
         clock.take(&trip(10, 50, 40, 20));
@@ -248,6 +283,7 @@ mod tests {
             clock.take(&trip(times[0], times[1], times[2], times[3]));
             let _ = clock.host_time(Micros(u64::MAX)).is_some_and(|time| time.us > 0);
             let _ = clock.host_time(Micros(0));
+            let _ = clock.board_time(0).max(clock.board_time(u64::MAX));
         }
     }
 }

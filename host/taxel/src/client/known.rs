@@ -66,6 +66,12 @@ impl Client {
         self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
     }
 
+    /// The most by which a place in the base is off in a frame, m, because joints have moved since the
+    /// board's poses or are not known exactly; none if nobody knows.
+    pub fn pose_error(&self, frame: u32) -> Option<f64> {
+        self.pose_error.filter(|(of, _)| *of == frame).map(|(_, metres)| metres)
+    }
+
     /// Ids of the contacts released with the last frame; at most the last 1,024.
     pub fn released(&self) -> &[u32] {
         &self.released

@@ -107,6 +107,12 @@ impl Client {
         Ok(asks)
     }
 
+    /// True while a table of the surface is on its way to the board: it knows no links for poses yet.
+    pub fn is_storing_table(&self) -> bool {
+        let held = self.held.iter().any(|(_, sets)| sets.as_ref().is_some_and(Sets::is_piece));
+        held || self.life.wanted.awaits_piece()
+    }
+
     /// Bytes to be sent to the board, including requests held back.
     pub fn queued(&self) -> Vec<u8> {
         let held = self.held.iter().flat_map(|(frame, _)| frame);

@@ -18,4 +18,10 @@ impl Client {
     pub fn host_time(&self, board: Micros) -> Option<HostTime> {
         self.syncs.clock.host_time(board)
     }
+
+    /// Converts a host time, us, to board time; none until the board has answered, or if the host's time is
+    /// not set.
+    pub fn board_time_at(&self, host_us: u64) -> Option<Micros> {
+        self.syncs.clock.board_time(host_us)
+    }
 }

@@ -92,7 +92,12 @@ impl Wanted {
 
     /// True if another request may be sent: what follows a piece of a table waits for its answer.
     pub fn takes_more(&self) -> bool {
-        self.asked.len() < WINDOW && !self.asked.iter().any(|(key, ..)| *key == Key::Table)
+        self.asked.len() < WINDOW && !self.awaits_piece()
+    }
+
+    /// True if a piece of a table is not answered yet.
+    pub fn awaits_piece(&self) -> bool {
+        self.asked.iter().any(|(key, ..)| *key == Key::Table)
     }
 
     /// True if a board with this `Hello` may still have its settings.

@@ -66,7 +66,7 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             let ages = report.ages.iter().map(age).collect();
             JsonLine::Forms(FormsLine { frame: report.frame, time_us: report.time.0, ages })
         }
-        Event::Pressing(report) => JsonLine::Pressing(pressing::line(report)),
+        Event::Pressing(report) => JsonLine::Pressing(pressing::line(client, report)),
         Event::Folds(report) => JsonLine::Folds(FoldsLine {
             frame: report.frame,
             time_us: report.time.0,

@@ -11,8 +11,8 @@ use taxel_core::garment::{Layout, Place};
 use taxel_core::surface::{Landed, Micrometres, ONE, UnitVector, Wrench};
 use taxel_core::wire::PressingReport;
 
-/// The message of a report.
-pub fn line(report: &PressingReport) -> PressingLine<'_> {
+/// The message of a report that the client has just taken.
+pub fn line<'a>(client: &Client, report: &'a PressingReport) -> PressingLine<'a> {
     let name =
         |link: u8| report.links.iter().find(|wrench| wrench.link == link).map_or("", |w| w.name.as_str());
     let contact = |landed: &Landed| LandedLine {
@@ -25,6 +25,8 @@ pub fn line(report: &PressingReport) -> PressingLine<'_> {
         frame: report.frame,
         time_us: report.time.0,
         posed_us: report.posed.map(|time| time.0),
+        pose_age_us: report.posed.map(|time| report.time.0.wrapping_sub(time.0) as i64),
+        pose_error_m: client.pose_error(report.frame).filter(|_| report.posed.is_some()),
         contacts: report.contacts.iter().map(contact).collect(),
         links: report.links.iter().map(wrench).collect(),
     }
@@ -56,6 +58,8 @@ pub fn computed<'a>(
         frame,
         time_us: time.0,
         posed_us: None,
+        pose_age_us: None,
+        pose_error_m: None,
         contacts: client.contacts().iter().filter_map(contact).collect(),
         links: links
             .map(|wrench| WrenchLine {

@@ -6,6 +6,7 @@
 //! | `/tactile/PANEL/image` | sensor_msgs/Image, mono16 | pressure, counts |
 //! | `/tactile/PANEL/points` | sensor_msgs/PointCloud2 | x, y, z in m on the panel, pressure in counts; if the pitch is known |
 //! | `/tactile/PANEL/wrench` | geometry_msgs/WrenchStamped | sum of the normal forces, N; if counts per newton are known |
+//! | `/tactile/links/LINK/wrench` | geometry_msgs/WrenchStamped | of a board with a body: force, N, and moment on a link; without counts per newton `wrench_counts`, in counts |
 //! | `/tf_static` | tf2_msgs/TFMessage | the frame of each panel on its link; panels of one link side by side |
 //! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second |
 //!
@@ -16,9 +17,12 @@ use crate::client::{Client, Event, ImageNews};
 use crate::error::Result;
 use crate::recording::{Format, Store, Writer};
 use crate::ros2::messages::{self, BoardState};
-use crate::ros2::{schemas, topic_part};
-use std::collections::BTreeMap;
+use crate::ros2::topics::{LINK_COUNTS, LINK_WRENCH};
+use crate::ros2::{pressing, schemas, topic_part};
+use std::collections::{BTreeMap, BTreeSet};
+use taxel_core::format::Name;
 use taxel_core::garment::Area;
+use taxel_core::wire::PressingReport;
 
 /// A file with ROS 2 messages only: readers of ROS bags refuse files with other messages. A channel is
 /// created with its first message.
@@ -29,6 +33,8 @@ pub struct Ros2<S: Store> {
     ids: BTreeMap<String, u16>,
     /// Panels whose frames have been written.
     areas: Vec<Area>,
+    /// Links that something has pressed on.
+    links: BTreeSet<Name>,
 }
 
 /// A message for a topic.
@@ -42,7 +48,12 @@ struct Sent {
 impl<S: Store> Ros2<S> {
     /// Creates a file.
     pub fn create(store: S) -> Result<Ros2<S>> {
-        Ok(Ros2 { writer: Writer::create(store, "ros2")?, ids: BTreeMap::new(), areas: Vec::new() })
+        Ok(Ros2 {
+            writer: Writer::create(store, "ros2")?,
+            ids: BTreeMap::new(),
+            areas: Vec::new(),
+            links: BTreeSet::new(),
+        })
     }
 
     /// Frames of the panels, unless written already.
@@ -57,6 +68,22 @@ impl<S: Store> Ros2<S> {
         vec![Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }]
     }
 
+    /// Force and moment on each link that something has pressed on.
+    fn pressing(&mut self, report: &PressingReport, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
+        self.links.extend(report.links.iter().map(|wrench| wrench.name.clone()));
+        let of = if scale.is_some() { LINK_WRENCH } else { LINK_COUNTS };
+        let sent = |link: &Name| {
+            let presses = report.links.iter().find(|wrench| wrench.name == *link);
+            Sent {
+                topic: format!("/{}", of.name.replace("LINK", &topic_part(link))),
+                schema: "geometry_msgs/msg/WrenchStamped",
+                text: schemas::WRENCH,
+                data: pressing::wrench(stamp.host_us, link, presses, scale),
+            }
+        };
+        self.links.iter().map(sent).collect()
+    }
+
     /// Writes the messages for an event.
     pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
         let all = match event {
@@ -65,6 +92,7 @@ impl<S: Store> Ros2<S> {
                 all.extend(frame(client, stamp, scale));
                 all
             }
+            Event::Pressing(report) => self.pressing(report, stamp, scale),
             Event::Health(health) => {
                 let board = client.worn().map_or("", |worn| worn.firmware.as_str());
                 let data = messages::diagnostics(

@@ -1,14 +1,17 @@
 //! One file of a recording: its channels, and the messages written to them.
 
 use super::bag::Ros2;
-use super::message::{self, JointLine, PostureLine};
+use super::message::{self, JointLine, JointsLine, LinkPoseLine, PosesLine, PostureLine};
 use super::provenance::{self, Origin};
 use super::stamps::Stamp;
 use super::topics::{self, Topics};
 use crate::client::{Client, Event, Worn};
 use crate::error::Result;
 use crate::recording::{HELLO, Store, Writer};
+use crate::session::JointPositions;
 use taxel_core::fold::Posture;
+use taxel_core::format::Name;
+use taxel_core::surface::Pose;
 
 /// A file of a recording.
 #[derive(Debug)]
@@ -53,12 +56,7 @@ impl<S: Store> RecordingFile<S> {
     }
 
     /// Writes a posture sent to the board; `names` are the scene's joints.
-    pub fn posture(
-        &mut self,
-        stamp: Stamp,
-        posture: &Posture,
-        names: &[taxel_core::format::Name],
-    ) -> Result<()> {
+    pub fn posture(&mut self, stamp: Stamp, posture: &Posture, names: &[Name]) -> Result<()> {
         let joint = |told: &taxel_core::fold::JointAngle| {
             let name = names.get(usize::from(told.joint)).map_or("", |name| name.as_str());
             JointLine { joint: name, degrees: f64::from(told.centidegrees) / 100.0 }
@@ -66,6 +64,24 @@ impl<S: Store> RecordingFile<S> {
         let joints = posture.joints.iter().map(joint).collect();
         let line = PostureLine { time_us: stamp.board_us, joints };
         self.json("posture", stamp, &message::with_times(line, stamp)?)
+    }
+
+    /// Writes positions of joints; the stamp is that of their reading.
+    pub fn joints(&mut self, stamp: Stamp, joints: &JointPositions) -> Result<()> {
+        let positions = joints.positions.iter().map(|(name, at)| (name.as_str(), *at)).collect();
+        let line = JointsLine { time_us: joints.time.0, positions };
+        self.json("joints", stamp, &message::with_times(line, stamp)?)
+    }
+
+    /// Writes poses sent to the board.
+    pub fn poses(&mut self, stamp: Stamp, poses: &[(Name, Pose)]) -> Result<()> {
+        let links = poses.iter().map(|(name, pose)| LinkPoseLine {
+            link: name.as_str(),
+            at_m: pose.at.map(|um| f64::from(um) * 1e-6),
+            turn: pose.turn.map(|part| f64::from(part) / f64::from(1 << 30)),
+        });
+        let line = PosesLine { time_us: stamp.board_us, links: links.collect() };
+        self.json("poses", stamp, &message::with_times(line, stamp)?)
     }
 
     /// Writes an event as JSON and, if requested, as ROS 2 messages.

@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::json::schema::TypeIs;
 use crate::json::{self, HostTimed, HostTimes};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Encodes an event as JSON with its times.
 pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<u8>> {
@@ -96,6 +97,42 @@ pub struct JointLine<'a> {
     pub joint: &'a str,
     /// Angle, degrees.
     pub degrees: f64,
+}
+
+/// Positions of a robot's joints, as they came to the host.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("joints")))]
+#[serde(tag = "type", rename = "joints")]
+pub struct JointsLine<'a> {
+    /// When they were read, us of the board.
+    pub time_us: u64,
+    /// Position by joint, rad or m.
+    pub positions: BTreeMap<&'a str, f64>,
+}
+
+/// Poses of the robot's links, sent to the board.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("poses")))]
+#[serde(tag = "type", rename = "poses")]
+pub struct PosesLine<'a> {
+    /// The board's time, us.
+    pub time_us: u64,
+    /// The links.
+    pub links: Vec<LinkPoseLine<'a>>,
+}
+
+/// Pose of a link in the base.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LinkPoseLine<'a> {
+    /// Name of the link.
+    pub link: &'a str,
+    /// Its origin, m.
+    pub at_m: [f64; 3],
+    /// Its rotation, a quaternion x, y, z, w.
+    pub turn: [f64; 4],
 }
 
 /// Panels of the last image.

@@ -7,8 +7,8 @@
 //! |---|---|---|
 //! | `/taxel/wire` | `taxel-wire` | each frame of the wire as it came: COBS of postcard and CRC-32, then 0x00 |
 //! | `/taxel/requests` | `taxel-wire` | what the host asked, the same way |
-//! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log` | `json` | the lines of `taxel live --json`, with a schema |
-//! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
+//! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log`, `pressing`, `joints`, `poses` | `json` | the lines of `taxel live --json`, with a schema |
+//! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tactile/links/LINK/wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |
 //!
 //! Attachments: `hello.taxel-wire` (the frame of the board's `Hello`), `garment.toml`, `scene.json`,
 //! `geometry.json` and, if given to the recorder and in use by the board, `calibration.toml`. Metadata

@@ -13,12 +13,17 @@ use crate::client::{Client, Event, Worn, request_name};
 use crate::error::{Context, Error, Result, SourceError};
 use crate::files::output::{Begun, Force, Output};
 use crate::recording;
-use crate::session::Show;
+use crate::session::{JointPositions, Show};
 use crate::tell::progress::{self, Unit};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use taxel_core::format::Name;
+use taxel_core::surface::{LINKS, Pose};
 use taxel_core::wire::{self, Request};
+
+/// What `SetPoses` holds.
+type SentPoses = heapless::Vec<(Name, Pose), LINKS>;
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
@@ -164,8 +169,8 @@ impl Recorder {
         file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
-    /// Continues in another file when due. It begins with a key frame, so that the file stands alone: with the
-    /// one next to the requested time.
+    /// Continues in another file when due. It begins with a key frame, so that the file stands alone: with
+    /// the one next to the requested time.
     fn rotate(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Event::Frame { alone: true, .. } = event else { return Ok(()) };
         let Some(file) = &self.file else { return Ok(()) };
@@ -275,11 +280,25 @@ impl<E: From<Error>> Show<E> for Recorder {
         for frame in bytes.split(|byte| *byte == 0) {
             let mut frame = frame.to_vec();
             let request = wire::open(&mut frame).and_then(wire::decode::<Request<'_>>);
-            if let (Ok(Request::Posture(posture)), true) = (request, done.is_ok()) {
-                let names = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
-                done = file.posture(stamp, &posture, names);
-            }
+            done = done.and_then(|()| match request {
+                Ok(Request::Posture(posture)) => {
+                    let names = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+                    file.posture(stamp, &posture, names)
+                }
+                Ok(Request::SetPoses(poses)) => match wire::decode::<SentPoses>(poses) {
+                    Ok(poses) => file.poses(stamp, &poses),
+                    // A program's own bytes, which the board refuses.
+                    Err(_) => Ok(()),
+                },
+                _ => Ok(()),
+            });
         }
+        Ok(self.guard(done)?)
+    }
+
+    fn joints(&mut self, client: &Client, joints: &JointPositions) -> Result<(), E> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let done = file.joints(self.stamps.of_time(client, joints.time.0), joints);
         Ok(self.guard(done)?)
     }
 

@@ -11,7 +11,7 @@ macro_rules! schema {
 pub type JsonTopic = (&'static str, &'static str);
 
 /// All JSON topics.
-pub const JSON: [JsonTopic; 14] = [
+pub const JSON: [JsonTopic; 17] = [
     schema!("hello"),
     schema!("frames"),
     schema!("contacts"),
@@ -26,17 +26,20 @@ pub const JSON: [JsonTopic; 14] = [
     schema!("self_test"),
     schema!("posture"),
     schema!("log"),
+    schema!("pressing"),
+    schema!("joints"),
+    schema!("poses"),
 ];
 
 /// The schemas as the structs give them, in the order of [`JSON`]: as programs for recordings want them, and
 /// as they are.
 #[cfg(feature = "schema")]
-pub fn derived() -> [[serde_json::Value; 2]; 14] {
-    use super::message::{FrameMessage, PostureLine};
+pub fn derived() -> [[serde_json::Value; 2]; 17] {
+    use super::message::{FrameMessage, JointsLine, PosesLine, PostureLine};
     use crate::json::HostTimed;
     use crate::json::lines::{
         BudgetLine, ContactsLine, GestureLine, HealthLine, HealthMapLine, HelloLine, IntentLine, LogLine,
-        ReactionLine, SelfTestLine, SymbolsLine, TemperatureLine,
+        PressingLine, ReactionLine, SelfTestLine, SymbolsLine, TemperatureLine,
     };
     use crate::json::schema::{of, plain};
     use schemars::JsonSchema;
@@ -67,5 +70,8 @@ pub fn derived() -> [[serde_json::Value; 2]; 14] {
         timed::<SelfTestLine<'static>>(),
         timed::<PostureLine<'static>>(),
         timed::<LogLine<'static>>(),
+        timed::<PressingLine<'static>>(),
+        timed::<JointsLine<'static>>(),
+        timed::<PosesLine<'static>>(),
     ]
 }

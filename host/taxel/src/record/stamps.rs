@@ -58,6 +58,26 @@ impl Stamps {
         self.at(client, self.last)
     }
 
+    /// Stamp of a time of the board, us, which may be before that of the last message.
+    pub fn of_time(&self, client: &Client, board_us: u64) -> Stamp {
+        if let Some(time) = client.host_time(Micros(board_us)) {
+            return Stamp { board_us, host_us: time.us, uncertainty_us: Some(time.uncertainty_us) };
+        }
+        let (board, host) = self.heard.unwrap_or((board_us, self.time.now_us()));
+        let host_us = host.saturating_add(board_us).saturating_sub(board);
+        Stamp { board_us, host_us, uncertainty_us: None }
+    }
+
+    /// The board's time of a stamp, us: the inverse of [`Stamps::of_time`]. None before the first message,
+    /// and for stamps from before the board's start.
+    pub fn board_time(&self, client: &Client, host_us: u64) -> Option<Micros> {
+        let by_clock = client.board_time_at(host_us).filter(|time| time.0 > 0);
+        by_clock.or_else(|| {
+            let (board, host) = self.heard?;
+            board.checked_add(host_us)?.checked_sub(host).map(Micros)
+        })
+    }
+
     fn at(&mut self, client: &Client, board_us: u64) -> Stamp {
         if let Some(time) = client.host_time(Micros(board_us)) {
             return Stamp { board_us, host_us: time.us, uncertainty_us: Some(time.uncertainty_us) };

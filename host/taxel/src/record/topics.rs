@@ -55,6 +55,7 @@ pub fn of(event: &Event) -> Option<&'static str> {
         Event::Temperature(_) => "temperature",
         Event::Gesture(_) => "gestures",
         Event::SelfTest(_) => "self_test",
+        Event::Pressing(_) => "pressing",
         Event::Log { .. } => "log",
         _ => return None,
     })

@@ -8,8 +8,6 @@ use taxel_core::wire::Health;
 
 /// `PointField.FLOAT32`
 const FLOAT32: u8 = 7;
-/// Bytes per point: x, y, z, pressure.
-const POINT: u32 = 16;
 /// Space between the panels of a link, m.
 const GAP: f64 = 0.02;
 /// Parent frame of panels without a link.
@@ -59,12 +57,26 @@ pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
         let (row, column) = ((index / columns) as f32, (index % columns) as f32);
         [column * x_um / UM, row * y_um / UM, 0.0, f32::from(*value)]
     };
-    let data: Vec<u8> = values.iter().enumerate().flat_map(point).flat_map(f32::to_le_bytes).collect();
-    let mut cdr = head(host_us, &frame(area)).u32(area.rows.into()).u32(area.columns.into()).u32(4);
-    for (name, offset) in [("x", 0), ("y", 4), ("z", 8), ("pressure", 12)] {
-        cdr = cdr.text(name).u32(offset).u8(FLOAT32).u32(1);
+    let points: Vec<[f32; 4]> = values.iter().enumerate().map(point).collect();
+    cloud((host_us, &frame(area)), area, ["x", "y", "z", "pressure"], &points)
+}
+
+/// `sensor_msgs/msg/PointCloud2` of a panel at a time, us, in a frame: a point for each taxel, whose numbers
+/// have these names.
+pub(super) fn cloud<const N: usize>(
+    (us, frame): (u64, &str),
+    area: &Area,
+    fields: [&str; N],
+    points: &[[f32; N]],
+) -> Vec<u8> {
+    let data: Vec<u8> = points.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+    let is_dense = points.iter().flatten().all(|number| number.is_finite());
+    let mut cdr = head(us, frame).u32(area.rows.into()).u32(area.columns.into()).u32(N as u32);
+    for (name, number) in fields.into_iter().zip(0u32..) {
+        cdr = cdr.text(name).u32(4 * number).u8(FLOAT32).u32(1);
     }
-    cdr.u8(0).u32(POINT).u32(POINT * u32::from(area.columns)).data(&data).u8(1).finish()
+    let size = 4 * N as u32;
+    cdr.u8(0).u32(size).u32(size * u32::from(area.columns)).data(&data).u8(is_dense.into()).finish()
 }
 
 /// `geometry_msgs/msg/WrenchStamped`: a force along z, N. Pressure pushes into the panel, against its normal.

@@ -7,6 +7,7 @@
 //! | `names.rs` | names as parts of topics |
 //! | `messages.rs` | what a board reports, as standard messages |
 //! | `own.rs` | what a board reports, as messages of the package `taxel_msgs` |
+//! | `pressing.rs` | what presses on the robot, by link |
 //! | `parameters.rs` | names of the node's parameters |
 //! | `topics.rs` | topics and services of the node, with their types and qualities of service |
 //! | `schemas.rs` | definitions of the standard messages |
@@ -16,6 +17,7 @@ pub mod messages;
 mod names;
 pub mod own;
 pub mod parameters;
+pub mod pressing;
 pub mod schemas;
 pub mod topics;
 

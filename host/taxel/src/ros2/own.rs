@@ -3,6 +3,7 @@
 
 use super::cdr::Cdr;
 use super::names::frame;
+use crate::body::{DVec3, Surface, TaxelPlace};
 use crate::client::Client;
 use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
@@ -22,21 +23,42 @@ fn head(us: u64) -> Cdr {
     Cdr::default().time(us).text("")
 }
 
-/// `taxel_msgs/msg/Contacts`: the present contacts of a client, and the `released` ones; with counts per
-/// newton also their forces.
+/// `taxel_msgs/msg/Contacts`: the present contacts of a client, and the `released` ones; with a body also
+/// their places on links, with counts per newton also their forces.
 pub fn contacts(
     us: u64,
     client: &Client,
     list_of: (u32, u16),
     released: &[Placed],
-    per_newton: Option<f32>,
+    (surface, per_newton): (Option<&Surface>, Option<f32>),
 ) -> Vec<u8> {
     let (frame, dropped) = list_of;
-    let each = |cdr: Cdr, placed: &Placed| contact(cdr, us, client, placed, per_newton);
+    let each = |cdr: Cdr, placed: &Placed| {
+        let (at, force) = (&placed.contact, newtons(placed, per_newton));
+        let on = surface.zip(client.layout()).and_then(|(surface, layout)| {
+            let place = surface.at(layout, at.panel, at.x.to_f64(), at.y.to_f64())?;
+            Some((surface.links().get(place.link)?.as_str(), place))
+        });
+        on_link(contact(cdr, us, client, placed, per_newton), on, force)
+    };
     head(us).u32(frame).list(client.contacts(), each).list(released, each).u16(dropped).finish()
 }
 
-/// `taxel_msgs/msg/Contact`
+/// Normal force of a contact; NaN if it is not known.
+fn newtons(placed: &Placed, per_newton: Option<f32>) -> f64 {
+    per_newton.map_or(f64::NAN, |counts| f64::from(placed.contact.total) / f64::from(counts))
+}
+
+/// The last fields of `taxel_msgs/msg/Contact`: the place on a link.
+fn on_link(cdr: Cdr, on: Option<(&str, TaxelPlace)>, force: f64) -> Cdr {
+    let unknown = DVec3::splat(f64::NAN);
+    let (link, at, normal) = on.map_or(("", unknown, unknown), |(link, on)| (link, on.at, on.normal));
+    // A component of 0 has no sign.
+    let pushes = (normal * -force).to_array().map(|part| part + 0.0);
+    cdr.text(link).f64s(at.to_array()).f64s(normal.to_array()).f64s(pushes)
+}
+
+/// `taxel_msgs/msg/Contact`, but for its place on a link.
 fn contact(cdr: Cdr, us: u64, client: &Client, placed: &Placed, per_newton: Option<f32>) -> Cdr {
     let Placed { contact, shape, region } = placed;
     let area = client.layout().and_then(|layout| layout.areas().get(usize::from(contact.panel)));
@@ -45,7 +67,7 @@ fn contact(cdr: Cdr, us: u64, client: &Client, placed: &Placed, per_newton: Opti
     let position = pitch.map_or([f64::NAN, f64::NAN, 0.0], |[x_um, y_um]| {
         [x * (f64::from(x_um) * UM), y * (f64::from(y_um) * UM), 0.0]
     });
-    let force = per_newton.map_or(f64::NAN, |counts| f64::from(contact.total) / f64::from(counts));
+    let force = newtons(placed, per_newton);
     let name = |name: fn(&Area) -> &Name| area.map_or("", |area| name(area).as_str());
     cdr.time(us)
         .text(&area.map_or_else(String::new, frame))

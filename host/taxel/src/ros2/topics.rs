@@ -15,8 +15,8 @@ pub struct RosQos {
 /// A topic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RosTopic {
-    /// Its name; `PANEL` and `CONCEPT` stand for one topic each. A name that does not begin with `/` lies in the
-    /// node's namespace, behind the node's name if it begins with `~/`.
+    /// Its name; `PANEL`, `LINK` and `CONCEPT` stand for one topic each. A name that does not begin with `/`
+    /// lies in the node's namespace, behind the node's name if it begins with `~/`.
     pub name: &'static str,
     /// Package and name of its type.
     pub message: (&'static str, &'static str),
@@ -55,6 +55,14 @@ pub const IMAGE: RosTopic = topic("tactile/PANEL/image", "sensor_msgs", "Image",
 pub const POINTS: RosTopic = topic("tactile/PANEL/points", "sensor_msgs", "PointCloud2", NEWEST);
 /// Force on a panel.
 pub const WRENCH: RosTopic = topic("tactile/PANEL/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
+/// What presses on the robot, with a body.
+pub const PRESSING: RosTopic = topic("~/pressing", "taxel_msgs", "Pressing", EVERY);
+/// Force and moment on a link, with a body and a calibration.
+pub const LINK_WRENCH: RosTopic =
+    topic("tactile/links/LINK/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
+/// The same in counts, with a body and without a calibration.
+pub const LINK_COUNTS: RosTopic =
+    topic("tactile/links/LINK/wrench_counts", "geometry_msgs", "WrenchStamped", NEWEST);
 /// Frames of the panels.
 pub const FRAMES: RosTopic = topic("/tf_static", "tf2_msgs", "TFMessage", STATE);
 /// State of the board.
@@ -63,7 +71,7 @@ pub const DIAGNOSTICS: RosTopic = topic("/diagnostics", "diagnostic_msgs", "Diag
 pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
 
 /// What the node publishes.
-pub const PUBLISHED: [RosTopic; 13] = [
+pub const PUBLISHED: [RosTopic; 16] = [
     CONTACTS,
     SYMBOLS,
     REACTIONS,
@@ -74,6 +82,9 @@ pub const PUBLISHED: [RosTopic; 13] = [
     IMAGE,
     POINTS,
     WRENCH,
+    PRESSING,
+    LINK_WRENCH,
+    LINK_COUNTS,
     FRAMES,
     DIAGNOSTICS,
     CLOCK,

@@ -20,13 +20,22 @@
 //! | `outgoing.rs` | requests on their way to a board that may not read |
 //! | `absence.rs` | a lost source, until it is back |
 //! | `setting.rs` | garments, scenes and models of the user, queued as requests |
+//! | `joint_time.rs` | when positions of joints were read |
+//! | `posing.rs` | [`Posing`]: a robot's posture, told to the board |
+//! | `joint_states.rs` | positions of joints as lines |
 //! | `show.rs` | [`Show`]: who is handed the stream |
 
 mod absence;
+mod joint_states;
+mod joint_time;
 mod outgoing;
+mod posing;
 pub mod setting;
 mod show;
 
+pub use joint_states::JointStates;
+pub use joint_time::JointTime;
+pub use posing::{JointPositions, POSES, POSES_HZ, Posing};
 pub use show::Show;
 
 use crate::client::clock::SteadyTime;
@@ -68,6 +77,7 @@ pub struct Session {
     gap: Option<Instant>,
     returns: Returns,
     notes: VecDeque<Event>,
+    posing: Option<Posing>,
 }
 
 /// What to do about a lost source.
@@ -129,7 +139,31 @@ impl Session {
             gap: None,
             returns,
             notes: VecDeque::new(),
+            posing: None,
         }
+    }
+
+    /// Tells the board its robot's posture from now on.
+    pub fn pose_by(&mut self, posing: Posing) {
+        self.posing = Some(posing);
+    }
+
+    /// Who tells the board its robot's posture, and the client.
+    pub fn posing(&mut self) -> Option<(&Client, &mut Posing)> {
+        self.posing.as_mut().map(|posing| (&self.client, posing))
+    }
+
+    /// Takes positions of joints, rad or m, for the board's poses. Error if nobody tells it its posture
+    /// ([`Session::pose_by`]), or as of [`Posing::take`].
+    pub fn take_joints<'a>(
+        &mut self,
+        at: JointTime,
+        positions: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<()> {
+        let Some(posing) = &mut self.posing else {
+            fail!(UsageError::Argument, "no robot was named whose joints these are");
+        };
+        posing.take(&self.client, at, positions)
     }
 
     /// Current state: image, contacts, intention, health.
@@ -192,6 +226,9 @@ impl Session {
         self.restored()?;
         self.ask_again();
         self.tell_time();
+        if let Some(posing) = &mut self.posing {
+            posing.turn(&mut self.client)?;
+        }
         let requests = self.client.take_requests();
         sent(&self.client, &requests)?;
         self.outgoing.add(&requests);
@@ -222,6 +259,9 @@ impl Session {
         while let Some(byte) = self.buffer.get(self.taken) {
             self.taken += 1;
             if let Some(event) = self.client.push(*byte) {
+                if let Some(posing) = &mut self.posing {
+                    posing.event(&mut self.client, &event);
+                }
                 return Some(event);
             }
         }
@@ -239,8 +279,14 @@ impl Session {
     }
 
     fn tell_time(&mut self) {
+        let host_us = self.time.now_us();
         if self.source.real_time {
-            self.client.tell_time(self.time.now_us());
+            self.client.tell_time(host_us);
+        }
+        if let Some(posing) = &mut self.posing {
+            // The clock of a simulation is what it said last.
+            let board = self.client.board_time_at(host_us).or(self.client.board_time());
+            posing.tell_time(board, host_us);
         }
     }
 

@@ -1,5 +1,6 @@
 //! Receivers of a session's stream.
 
+use super::posing::{JointPositions, Posing};
 use crate::client::{Client, Event};
 use crate::error::{Error, Result};
 
@@ -19,6 +20,17 @@ pub trait Show<E = Error> {
 
     /// Called before these bytes are sent to the board.
     fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<(), E> {
+        Ok(())
+    }
+
+    /// Called before poses of a robot are sent: hands over positions of joints that come with the receiver's
+    /// own messages.
+    fn pose(&mut self, _client: &Client, _posing: &mut Posing) -> Result<(), E> {
+        Ok(())
+    }
+
+    /// Handles positions of joints that were taken, wherever they came from.
+    fn joints(&mut self, _client: &Client, _joints: &JointPositions) -> Result<(), E> {
         Ok(())
     }
 

@@ -5,6 +5,7 @@ use crate::ros2::{DOMAINS, RosNode, RosParameters, RosPlace, RosShow};
 use crate::watch::{self, BoardArgs, LiveArgs, seconds, stop};
 use anyhow::Result;
 use clap::Args;
+use taxel::body;
 use taxel::source::SourceOptions;
 
 /// Arguments of `taxel ros2`.
@@ -60,10 +61,11 @@ pub fn run(args: Ros2Args) -> Result<()> {
     let place = args.place()?;
     place.check()?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
+    let body = args.board.body.as_deref().map(body::read).transpose()?;
     let (source, _) = args.board.open(options)?;
     let parameters = RosParameters { source: source.label.clone(), image_hz: args.image_hz };
     let at = format!("{} as node {} in domain {}", source.label, place.absolute(&place.name), place.domain);
-    let mut show = RosShow::open(RosNode::open(place, &parameters)?, &source, args.clock)?;
+    let mut show = RosShow::open(RosNode::open(place, &parameters)?, &source, args.clock, body)?;
     // The node leaves the network before the program ends.
     stop::catch()?;
     println!("{at} (Ctrl-C ends)");

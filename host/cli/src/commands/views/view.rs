@@ -2,7 +2,7 @@
 
 use crate::fault::Fault;
 use crate::on_robot::Wearer;
-use crate::view::{PageHub, Player, Tape, Viewer, browser, joints, serve};
+use crate::view::{PageHub, Player, Tape, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, ensure};
 use std::net::{Ipv4Addr, TcpListener};
@@ -16,9 +16,6 @@ use taxel::source::{SourceOptions, SourceSpec, Speed};
 /// Default port, unless it is taken: T, A, X, L on a telephone keypad.
 const PORT: u16 = 8295;
 
-/// `--joints` that come on the standard input.
-const LINES: &str = "-";
-
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ViewArgs {
@@ -28,11 +25,8 @@ pub struct ViewArgs {
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
-    /// The robot that wears the body: a URDF file or `reference`
-    #[arg(long, value_name = "URDF", requires = "body")]
-    pub robot: Option<String>,
-    /// Positions of joints, deg, rad or m: elbow=30deg,wrist=-0.5rad; the others rest. `-`: lines of them on the
-    /// standard input, each as soon as it comes
+    /// Positions of joints in which the robot is shown, until others are told, deg, rad or m:
+    /// elbow=30deg,wrist=-0.5rad; the others rest
     #[arg(long, value_name = "JOINTS", requires = "robot")]
     pub joints: Option<String>,
     /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
@@ -62,8 +56,8 @@ impl ViewArgs {
 
     /// The robot that wears the garment; none without a body.
     fn wearer(&self) -> Result<Option<Wearer>> {
-        let joints = self.joints.as_deref().filter(|joints| *joints != LINES).unwrap_or_default();
-        let read = |body: &String| Wearer::read(body, self.robot.as_deref(), joints);
+        let joints = self.joints.as_deref().unwrap_or_default();
+        let read = |body: &String| Wearer::read(body, self.board.robot.as_deref(), joints);
         self.board.body.as_ref().map(read).transpose()
     }
 }
@@ -80,21 +74,13 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let hub = Arc::new(PageHub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
-    if let Some(wearer) = wearer {
-        let robot = wearer.robot().cloned();
-        hub.wear(wearer);
-        if let Some(robot) = robot.filter(|_| args.joints.as_deref() == Some(LINES)) {
-            let hub = hub.clone();
-            thread::Builder::new().name("joints".into()).spawn(move || {
-                joints::follow(&robot, std::io::stdin().lock(), &hub);
-            })?;
-        }
-    }
+    wearer.into_iter().for_each(|wearer| hub.wear(wearer));
     announce(&source.label, listener, &hub, args.open)?;
     let mut viewer = Viewer::new(&source, hub);
     // Where a board does not listen, the host alone knows the body.
-    let body = args.board.body.filter(|_| source.listens);
-    let board = BoardArgs { body, ..args.board };
+    let BoardArgs { body, robot, .. } = args.board.clone();
+    let (body, robot) = (body.filter(|_| source.listens), robot.filter(|_| source.listens));
+    let board = BoardArgs { body, robot, ..args.board };
     watch::watch(&LiveArgs { body_may_fail: true, ..LiveArgs::on(board) }, source, &mut viewer)?;
     println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
@@ -105,10 +91,14 @@ pub fn run(args: ViewArgs) -> Result<()> {
 /// Shows a recording.
 fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
     // The host places the taxels of a recording: its board is not asked.
-    BoardArgs { body: None, ..args.board.clone() }.check_recorded(&file.display().to_string())?;
+    BoardArgs { body: None, robot: None, ..args.board.clone() }
+        .check_recorded(&file.display().to_string())?;
     ensure!(
-        args.joints.as_deref() != Some(LINES),
-        Fault::usage(format!("--joints -: {} is a recording, whose robot does not move now", file.display()))
+        args.board.joint_states.is_none(),
+        Fault::usage(format!(
+            "--joint-states: {} is a recording, whose robot does not move now",
+            file.display()
+        ))
     );
     let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(PageHub::default());

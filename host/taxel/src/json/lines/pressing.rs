@@ -16,6 +16,12 @@ pub struct PressingLine<'a> {
     pub time_us: u64,
     /// Time at which the board received the poses in force, us of the board; null without poses.
     pub posed_us: Option<u64>,
+    /// Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses.
+    pub pose_age_us: Option<i64>,
+    /// The most by which a place in the frame of the poses is off, m, because joints have moved since the
+    /// poses, or are not known exactly: by what the host that tells the poses knows of the joints. Null if it
+    /// does not know.
+    pub pose_error_m: Option<f64>,
     /// The contacts that have a place.
     pub contacts: Vec<LandedLine<'a>>,
     /// The links that something presses on.

@@ -27,7 +27,9 @@ impl Definitions {
         }
         all.add("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id");
         all.add("builtin_interfaces/Time", "int32 sec\nuint32 nanosec");
-        all.add("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z");
+        for name in ["geometry_msgs/Point", "geometry_msgs/Vector3"] {
+            all.add(name, "float64 x\nfloat64 y\nfloat64 z");
+        }
         all
     }
 

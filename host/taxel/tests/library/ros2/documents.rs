@@ -67,7 +67,7 @@ fn our_messages_are_those_of_the_package() {
     let ours =
         PUBLISHED.into_iter().map(|topic| topic.message).filter(|(package, _)| *package == "taxel_msgs");
     let ours: BTreeSet<&str> = ours.map(|(_, message)| message).collect();
-    assert_eq!(Vec::from_iter(ours), ["Contacts", "Health", "Intent", "Reaction", "Symbols"]);
+    assert_eq!(Vec::from_iter(ours), ["Contacts", "Health", "Intent", "Pressing", "Reaction", "Symbols"]);
     assert!(ours_are_known(&all));
     for (_, (package_of, kind)) in SERVICES {
         assert!(package_of != "taxel_msgs" || package().join(format!("srv/{kind}.srv")).is_file());
@@ -75,9 +75,9 @@ fn our_messages_are_those_of_the_package() {
 }
 
 fn ours_are_known(all: &Definitions) -> bool {
-    ["Contact", "Contacts", "Health", "Intent", "Reaction", "Region", "Symbol", "Symbols"]
-        .iter()
-        .all(|name| all.names().any(|known| known == *name))
+    let parts = ["Contact", "Landed", "LinkWrench", "Region", "Symbol"];
+    let whole = ["Contacts", "Health", "Intent", "Pressing", "Reaction", "Symbols"];
+    parts.iter().chain(&whole).all(|name| all.names().any(|known| known == *name))
 }
 
 #[test]

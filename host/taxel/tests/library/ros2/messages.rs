@@ -74,6 +74,8 @@ fn same_contact(read: &Value, line: &Value) {
     assert_eq!(read["contact"], json!(phase != "released"));
     let frame = format!("tactile/{}", line["panel_name"].as_str().unwrap().replace(' ', "_"));
     assert_eq!(read["header"], json!({ "stamp": stamp(), "frame_id": frame }));
+    // No body is named.
+    assert_eq!([&read["body_link"], &read["link_normal"]["x"]], [&json!(""), &Value::Null]);
 }
 
 /// Fails unless an event's message says what its JSON says; returns the name of its type.
@@ -81,7 +83,7 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
     let line = message(client, event);
     match event {
         Event::Contacts { frame, dropped, released, .. } => {
-            let bytes = own::contacts(US, client, (*frame, *dropped), released, Some(SCALE));
+            let bytes = own::contacts(US, client, (*frame, *dropped), released, (None, Some(SCALE)));
             let read = all.read("Contacts", &bytes);
             for list in ["contacts", "released"] {
                 let (read, line) = (read[list].as_array().unwrap(), line[list].as_array().unwrap());

@@ -3,3 +3,4 @@
 mod definitions;
 mod documents;
 mod messages;
+mod pressing;

@@ -3,5 +3,6 @@
 
 mod links;
 mod lost;
+mod posing;
 mod restored;
 mod rig;

@@ -1,0 +1,84 @@
+//! What presses on the robot's links.
+
+use super::node::RosNode;
+use anyhow::Result;
+use std::sync::Arc;
+use taxel::body::{ReadBody, Surface};
+use taxel::client::Client;
+use taxel::ros2::topics::{LINK_COUNTS, LINK_WRENCH, PRESSING, RosTopic};
+use taxel::ros2::{pressing, topic_part};
+use taxel_core::garment::Garment;
+use taxel_core::wire::PressingReport;
+
+/// The links that wear the garment.
+#[derive(Debug)]
+pub struct Links {
+    body: Option<ReadBody>,
+    /// Counts per newton, if known.
+    per_newton: Option<f32>,
+    /// The body on this garment.
+    worn: Option<(Garment, Arc<Surface>)>,
+}
+
+impl Links {
+    /// Those of a body, if there is one.
+    pub fn new(body: Option<ReadBody>, per_newton: Option<f32>) -> Links {
+        Links { body, per_newton, worn: None }
+    }
+
+    /// The places of the taxels; none without a body, or before the board's garment is known.
+    pub fn surface(&self) -> Option<&Arc<Surface>> {
+        self.worn.as_ref().map(|(_, surface)| surface)
+    }
+
+    /// Forces of links: in newtons if a calibration is known.
+    fn topic(&self) -> RosTopic {
+        if self.per_newton.is_some() { LINK_WRENCH } else { LINK_COUNTS }
+    }
+
+    /// Places the body on the garment that the board wears, and offers the topics of its links, if it is
+    /// another garment than before.
+    pub fn offer(&mut self, node: &mut RosNode, client: &Client) -> Result<()> {
+        let (Some(body), Some(board)) = (&self.body, client.worn()) else { return Ok(()) };
+        if self.worn.as_ref().is_some_and(|(garment, _)| *garment == board.garment) {
+            return Ok(());
+        }
+        let surface = Arc::new(body.surface(&board.garment, &board.layout)?);
+        let topic = self.topic();
+        let gone = self.surface().into_iter().flat_map(|before| before.links());
+        let gone: Vec<String> = gone
+            .filter(|link| !surface.links().contains(link))
+            .map(|link| node.name(&topic, &topic_part(link)))
+            .collect();
+        node.withdraw(|name| gone.iter().any(|gone| gone == name));
+        node.offer(&PRESSING, "")?;
+        for link in surface.links() {
+            node.offer(&topic, &topic_part(link))?;
+        }
+        self.worn = Some((board.garment.clone(), surface));
+        Ok(())
+    }
+
+    /// Publishes a report of the board. `base` is the frame of the robot's base, or empty.
+    pub fn report(
+        &self,
+        node: &mut RosNode,
+        client: &Client,
+        report: &PressingReport,
+        us: u64,
+        base: &str,
+    ) -> Result<()> {
+        // The board may have a body that nobody has named here.
+        let Some(surface) = self.surface() else { return Ok(()) };
+        node.publish(&PRESSING, "", pressing::pressing(us, client, report, base, self.per_newton))?;
+        let topic = self.topic();
+        for link in surface.links() {
+            let part = topic_part(link);
+            if node.wants(&topic, &part) {
+                let presses = report.links.iter().find(|wrench| wrench.name.as_str() == link);
+                node.publish(&topic, &part, pressing::wrench(us, link, presses, self.per_newton))?;
+            }
+        }
+        Ok(())
+    }
+}

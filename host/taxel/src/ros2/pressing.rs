@@ -1,0 +1,102 @@
+//! What presses on the robot, by link: a message of the package `taxel_msgs`, forces and points as standard
+//! messages.
+
+use super::cdr::Cdr;
+use super::messages::cloud;
+use crate::body::{Surface, TaxelPlace};
+use crate::client::Client;
+use taxel_core::format::Micros;
+use taxel_core::garment::Area;
+use taxel_core::surface::{InBase, Landed, Micrometres, ONE, UnitVector, Wrench};
+use taxel_core::wire::PressingReport;
+
+/// Fields of a point.
+const FIELDS: [&str; 7] = ["x", "y", "z", "normal_x", "normal_y", "normal_z", "pressure"];
+
+/// `taxel_msgs/msg/Pressing`: `base` is the frame of the robot's base, if there is a robot. Forces are
+/// newtons with counts per newton, else counts.
+pub fn pressing(
+    us: u64,
+    client: &Client,
+    report: &PressingReport,
+    base: &str,
+    per_newton: Option<f32>,
+) -> Vec<u8> {
+    let scale = scale(per_newton);
+    let age = |posed: Micros| report.time.0.wrapping_sub(posed.0) as i64 as f64 * 1e-6;
+    let error = client.pose_error(report.frame).filter(|_| report.posed.is_some());
+    let name =
+        |link: u8| report.links.iter().find(|one| one.link == link).map_or("", |one| one.name.as_str());
+    Cdr::default()
+        .time(us)
+        .text(base)
+        .u32(report.frame)
+        .u8(per_newton.is_some().into())
+        .f64(report.posed.map_or(f64::NAN, age))
+        .f64(error.unwrap_or(f64::NAN))
+        .list(&report.contacts, |cdr, contact| landed(cdr, contact, name(contact.spot.link), scale))
+        .list(&report.links, |cdr, link| link_wrench(cdr, link, scale))
+        .finish()
+}
+
+/// Counts of the unit of forces: of a newton, or of a count.
+fn scale(per_newton: Option<f32>) -> f64 {
+    per_newton.map_or(1.0, f64::from)
+}
+
+/// `taxel_msgs/msg/Landed`
+fn landed(cdr: Cdr, contact: &Landed, link: &str, scale: f64) -> Cdr {
+    let cdr = cdr.u32(contact.id).text(link);
+    let cdr = push(cdr, contact.spot.at, contact.spot.normal, contact.force, scale);
+    match contact.base {
+        Some(InBase { at, normal, force }) => push(cdr, at, normal, force, scale),
+        None => cdr.f64s([f64::NAN; 9]),
+    }
+}
+
+/// A place, a direction and a force.
+fn push(cdr: Cdr, at: Micrometres, normal: UnitVector, force: [i32; 3], scale: f64) -> Cdr {
+    let normal = normal.map(|part| f64::from(part) / f64::from(ONE));
+    cdr.f64s(metres(at)).f64s(normal).f64s(force.map(|part| f64::from(part) / scale))
+}
+
+/// `taxel_msgs/msg/LinkWrench`
+fn link_wrench(cdr: Cdr, wrench: &Wrench, scale: f64) -> Cdr {
+    let [force, moment] = vectors(wrench, scale);
+    let cdr = cdr.text(&wrench.name).f64s(force).f64s(moment);
+    cdr.f64(f64::from(wrench.pressed) / scale).f64s(metres(wrench.center))
+}
+
+/// Force and moment.
+fn vectors(wrench: &Wrench, scale: f64) -> [[f64; 3]; 2] {
+    [wrench.force.map(|part| f64::from(part) / scale), wrench.moment.map(|part| part as f64 / 1000.0 / scale)]
+}
+
+fn metres(at: Micrometres) -> [f64; 3] {
+    at.map(|um| f64::from(um) / 1e6)
+}
+
+/// `geometry_msgs/msg/WrenchStamped` of a link, about its origin; zero if nothing presses on it. Newtons and
+/// newton metres with counts per newton, else counts and counts times metres.
+pub fn wrench(us: u64, link: &str, wrench: Option<&Wrench>, per_newton: Option<f32>) -> Vec<u8> {
+    let parts = wrench.map_or([[0.0; 3]; 2], |wrench| vectors(wrench, scale(per_newton)));
+    Cdr::default().time(us).text(link).f64s(parts.concat()).finish()
+}
+
+/// `sensor_msgs/msg/PointCloud2` of a panel in the frame of the link that it lies on: place and normal of
+/// each taxel, and its pressure, counts. NaN for a taxel without a place. None if none has one.
+pub fn points(us: u64, area: &Area, surface: &Surface, values: &[u16]) -> Option<Vec<u8>> {
+    let places = surface.places().get(usize::from(area.base)..)?;
+    let link = places.iter().take(values.len()).flatten().next()?.link;
+    let link = surface.links().get(link)?;
+    let point = |(value, place): (&u16, &Option<TaxelPlace>)| {
+        let parts = place.map_or([f64::NAN; 6], |place| {
+            let ([x, y, z], [nx, ny, nz]) = (place.at.to_array(), place.normal.to_array());
+            [x, y, z, nx, ny, nz]
+        });
+        let [x, y, z, nx, ny, nz] = parts.map(|part| part as f32);
+        [x, y, z, nx, ny, nz, f32::from(*value)]
+    };
+    let points: Vec<[f32; 7]> = values.iter().zip(places).map(point).collect();
+    Some(cloud((us, link), area, FIELDS, &points))
+}

@@ -1,0 +1,166 @@
+//! What presses on the robot, as messages: what the board's JSON says, by the definitions.
+
+use super::definitions::Definitions;
+use serde_json::{Value, json};
+use taxel::body::{self, Surface};
+use taxel::client::{Client, Event};
+use taxel::json::message;
+use taxel::ros2::{messages, own, pressing, schemas};
+use taxel::session::{Session, setting};
+use taxel::source::{self, SourceOptions};
+use taxel_core::wire::{PressingReport, Request};
+
+const US: u64 = 1_700_000_000_000_123;
+const SCALE: f32 = 1000.0;
+
+/// Fails unless a point or vector has these parts.
+fn same(read: &Value, want: &Value, scale: f64) {
+    for (axis, part) in ["x", "y", "z"].into_iter().zip(want.as_array().unwrap()) {
+        let (own, told) = (read[axis].as_f64().unwrap(), part.as_f64().unwrap() / scale);
+        assert!((own - told).abs() <= 1e-9 * told.abs().max(1e-3), "{read} is not {want} / {scale}");
+    }
+}
+
+/// Fails unless a report's message and its links' forces say what its line says.
+fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_newton: Option<f32>) {
+    let scale = f64::from(per_newton.unwrap_or(1.0));
+    let line = message(client, &Event::Pressing(Box::new(report.clone())));
+    let read = all.read("Pressing", &pressing::pressing(US, client, report, "base_link", per_newton));
+    assert_eq!([&read["header"]["frame_id"], &read["frame"]], [&json!("base_link"), &line["frame"]]);
+    assert_eq!(read["newtons"], json!(per_newton.is_some()));
+    let age = line["pose_age_us"].as_i64().map(|us| us as f64 * 1e-6);
+    assert_eq!((read["pose_age"].as_f64(), &read["pose_error"]), (age, &line["pose_error_m"]));
+    let [contacts, links] = ["contacts", "links"].map(|key| {
+        let (own, told) = (read[key].as_array().unwrap(), line[key].as_array().unwrap());
+        assert_eq!(own.len(), told.len());
+        own.iter().cloned().zip(told.iter().cloned()).collect::<Vec<_>>()
+    });
+    for (read, line) in contacts {
+        assert_eq!([&read["id"], &read["link"]], [&line["id"], &line["link"]]);
+        same(&read["position"], &line["at_m"], 1.0);
+        same(&read["normal"], &line["normal"], 1.0);
+        same(&read["force"], &line["force"], scale);
+        if line["base"].is_null() {
+            assert_eq!([&read["base_position"]["x"], &read["base_force"]["z"]], [&Value::Null; 2]);
+        } else {
+            same(&read["base_position"], &line["base"]["at_m"], 1.0);
+            same(&read["base_normal"], &line["base"]["normal"], 1.0);
+            same(&read["base_force"], &line["base"]["force"], scale);
+        }
+    }
+    for ((read, line), wrench) in links.iter().zip(&report.links) {
+        assert_eq!(read["link"], line["link"]);
+        same(&read["center"], &line["center_m"], 1.0);
+        assert_eq!(read["pressed"], json!(line["pressed"].as_f64().unwrap() / scale));
+        let told = pressing::wrench(US, &wrench.name, Some(wrench), per_newton);
+        let told = Definitions::of_text("W", schemas::WRENCH).read("W", &told);
+        assert_eq!(told["header"]["frame_id"], line["link"]);
+        for (own, other) in
+            [(&read["force"], &read["moment"]), (&told["wrench"]["force"], &told["wrench"]["torque"])]
+        {
+            same(own, &line["force"], scale);
+            same(other, &line["moment"], scale);
+        }
+    }
+}
+
+/// Fails unless the contacts of a list lie where the board says that they do.
+fn same_contacts(all: &Definitions, session: &Session, surface: &Surface, report: &PressingReport) -> usize {
+    let client = session.client();
+    let read = all.read("Contacts", &own::contacts(US, client, (0, 0), &[], (Some(surface), Some(SCALE))));
+    let mut seen = 0;
+    for contact in read["contacts"].as_array().unwrap() {
+        let Some(landed) = report.contacts.iter().find(|landed| contact["id"] == json!(landed.id)) else {
+            continue;
+        };
+        assert_eq!(contact["body_link"], json!(surface.links()[usize::from(landed.spot.link)]));
+        for (index, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let part = |field: &str| contact[field][axis].as_f64().unwrap();
+            let normal = part("link_normal");
+            assert!((part("link_position") - f64::from(landed.spot.at[index]) * 1e-6).abs() < 1e-4);
+            assert!((normal - f64::from(landed.spot.normal[index]) / 16_384.0).abs() < 1e-3);
+            assert!((part("link_force") + normal * contact["force"].as_f64().unwrap()).abs() < 1e-9);
+        }
+        seen += 1;
+    }
+    seen
+}
+
+/// Fails unless the points of each panel are the places of its taxels.
+fn same_points(client: &Client, surface: &Surface) {
+    let Some((_, image)) = client.image() else { return };
+    for area in client.layout().unwrap().areas() {
+        let start = usize::from(area.base);
+        let values = &image[start..start + usize::from(area.rows) * usize::from(area.columns)];
+        let told = pressing::points(US, area, surface, values).unwrap();
+        let read = Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &told);
+        let link = surface.places()[start].unwrap().link;
+        assert_eq!(read["header"]["frame_id"], json!(surface.links()[link]));
+        assert_eq!([&read["point_step"], &read["is_dense"]], [&json!(28), &json!(true)]);
+        let bytes: Vec<u8> =
+            read["data"].as_array().unwrap().iter().map(|byte| byte.as_u64().unwrap() as u8).collect();
+        let numbers: Vec<f32> =
+            bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
+        assert_eq!(numbers.len(), 7 * values.len());
+        for ((point, value), place) in numbers.chunks(7).zip(values).zip(&surface.places()[start..]) {
+            let place = place.unwrap();
+            let want = [place.at.to_array(), place.normal.to_array()].concat();
+            assert!(point.iter().zip(&want).all(|(own, want)| *own == *want as f32));
+            assert_eq!(point[6], f32::from(*value));
+        }
+    }
+}
+
+#[test]
+fn places_and_forces_on_links_are_those_of_the_board() {
+    let all = Definitions::of_package();
+    let options = SourceOptions { body: Some("reference".into()), ..SourceOptions::default() };
+    let mut session = Session::over(source::open(&"sim:five".parse().unwrap(), &options).unwrap()).unwrap();
+    session.request(&Request::SetPressing(u16::MAX)).unwrap();
+    let (mut surface, mut reports, mut contacts, mut posed, mut clouds) = (None, 0, 0, 0, 0);
+    while let Some(event) = session.wait().unwrap() {
+        match &event {
+            Event::Hello => {
+                let worn = session.client().worn().unwrap();
+                let read = body::read("reference").unwrap();
+                surface = Some(read.surface(&worn.garment, &worn.layout).unwrap());
+            }
+            Event::Pressing(report) => {
+                if reports == 20 {
+                    let turn = [0.0, 0.0, 0.6, 0.8];
+                    let told = [("torso", [0.0, 0.1, 1.0], turn), ("left_upper_arm", [0.1, 0.0, 0.0], turn)];
+                    setting::set_poses(session.parts().0, told).unwrap();
+                }
+                for per_newton in [None, Some(SCALE)] {
+                    same_report(&all, session.client(), report, per_newton);
+                }
+                contacts += same_contacts(&all, &session, surface.as_ref().unwrap(), report);
+                posed += report.contacts.iter().filter(|landed| landed.base.is_some()).count();
+                reports += 1;
+            }
+            Event::Frame { alone: true, .. } => {
+                same_points(session.client(), surface.as_ref().unwrap());
+                clouds += 1;
+            }
+            _ => {}
+        }
+    }
+    println!("{reports} reports, {contacts} contacts, {posed} of them in the base, {clouds} clouds");
+    assert!(reports > 100 && contacts > 300 && posed > 100 && clouds > 1);
+}
+
+#[test]
+fn a_link_without_a_touch_has_no_force_and_a_panel_without_a_place_no_points() {
+    let read = pressing::wrench(US, "torso", None, None);
+    let read = Definitions::of_text("W", schemas::WRENCH).read("W", &read);
+    assert_eq!(read["wrench"]["force"], json!({ "x": 0.0, "y": 0.0, "z": 0.0 }));
+    let garment = taxel_core::garment::Garment::reference();
+    let layout = taxel_core::garment::Layout::build(&garment, 2048, 4095).unwrap();
+    let mut body = body::read("reference").unwrap().body;
+    body.patches.truncate(1);
+    let surface = Surface::build(&body, &garment, &layout).unwrap();
+    let values = [0; 512];
+    let points = layout.areas().iter().map(|area| pressing::points(US, area, &surface, &values).is_some());
+    assert_eq!(points.collect::<Vec<_>>(), [true, false, false, false]);
+    assert!(!messages::points(US, &layout.areas()[1], &values).is_empty());
+}
