@@ -25,9 +25,40 @@ pub struct Patch {
     /// Angle by which the panel is turned about its middle, clockwise as seen from outside, degrees.
     #[serde(default)]
     pub turn: f64,
+    /// How the panel is worn otherwise than `on` and `turn` say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worn: Option<WornShift>,
     /// How the cloth moves over the skin with joints of the robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub slides: Vec<Slide>,
+}
+
+/// How a panel is worn beside its place: turned about its middle, then shifted over the surface. The lists and
+/// grids of measured points move as one rigid piece, in the plane that touches them at their middle.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WornShift {
+    /// Shift to the right, as seen from outside, m.
+    #[serde(default)]
+    pub right: f64,
+    /// Shift in the direction that the surface calls down, m; of measured points, that of their rows.
+    #[serde(default)]
+    pub down: f64,
+    /// Turn about the panel's middle, clockwise as seen from outside, degrees.
+    #[serde(default)]
+    pub turn: f64,
+}
+
+impl WornShift {
+    /// The turn in radians, counted from right to down.
+    pub(super) fn radians(&self) -> f64 {
+        self.turn.to_radians()
+    }
+
+    /// The shift, m: to the right and down.
+    pub(super) fn shift(&self) -> glam::DVec2 {
+        glam::DVec2::new(self.right, self.down)
+    }
 }
 
 /// A way of a panel over the skin with a joint: with the joint at 0, the panel lies as its patch says. Metres

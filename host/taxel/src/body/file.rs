@@ -1,6 +1,7 @@
 //! Body files.
 
 use super::config::Body;
+use super::fit::{BodyFit, KnownTouch, PatchFit, fit, written};
 use super::form::Form;
 use super::listed::{Listed, listed};
 use super::on_robot::RobotSurface;
@@ -46,6 +47,17 @@ impl ReadBody {
     pub fn on_robot(&self, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
         let worn = RobotSurface::build_with(&self.body, garment, layout, robot, &self.listed);
         worn.map_err(|error| self.error(error))
+    }
+
+    /// Finds how the panels are worn, from touches whose place on the robot is known, with its joints at 0. Errors
+    /// name the panel, the link or the touch, or file, line and key.
+    pub fn fit(&self, garment: &Garment, layout: &Layout, touches: &[KnownTouch]) -> Result<BodyFit> {
+        fit(&self.body, garment, layout, &self.listed, touches).map_err(|error| self.error(error))
+    }
+
+    /// The text of the file with `worn` of these panels; comments stay.
+    pub fn worn(&self, panels: &[PatchFit]) -> Result<String> {
+        Ok(written(&self.name, &self.text, panels)?)
     }
 
     fn error(&self, error: SettingError) -> Error {

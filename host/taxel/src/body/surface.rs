@@ -1,31 +1,15 @@
 //! The place of every taxel.
 
-use super::config::{Body, Patch};
+use super::config::{Body, Patch, WornShift};
 use super::form::{Form, Laid, PanelSpot, Spot};
 use super::listed::Listed;
 use super::pose::Pose;
+use super::rigid::Rigid;
+use super::taxel_place::TaxelPlace;
 use crate::error::{Result, SettingError};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 use taxel_core::garment::{Area, Garment, Layout, Place};
-
-/// Place of a taxel on the robot.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TaxelPlace {
-    /// Index into [`Surface::links`].
-    pub link: usize,
-    /// Its centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
-    pub at: DVec3,
-    /// Direction away from the robot there, of length 1.
-    pub normal: DVec3,
-}
-
-impl TaxelPlace {
-    /// The place in another frame, by the pose of its own frame in it.
-    pub fn seen_from(&self, pose: &Pose) -> TaxelPlace {
-        TaxelPlace { link: self.link, at: pose.point(self.at), normal: pose.direction(self.normal) }
-    }
-}
 
 /// The places of a garment's taxels.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +68,12 @@ impl Surface {
             if !patch.slides.is_empty() && matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) {
                 return Err(wrong("slides", "must be left out: the points say where the panel lies"));
             }
+            let worn = patch.worn.unwrap_or_default();
+            for (key, number) in [("right", worn.right), ("down", worn.down), ("turn", worn.turn)] {
+                if !number.is_finite() {
+                    return Err(wrong(&format!("worn.{key}"), "must be a number"));
+                }
+            }
             let shift = shifts.get(index).copied().unwrap_or_default();
             let link = surface.link(patch.link.as_deref().unwrap_or(&area.link));
             match Laid::new(&patch.on).map_err(|(key, what)| wrong(&format!("on.{key}"), what))? {
@@ -94,6 +84,11 @@ impl Surface {
                     let rows = listed.iter().find(|(of, _)| *of == index).map_or(&[][..], |(_, rows)| rows);
                     surface.take(layout, (panel as u8, area), rows, link, &wrong)?;
                 }
+            }
+            if matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) && worn != WornShift::default() {
+                let what = "needs taxels on one side of the robot: these have no plane that touches them";
+                let rigid = Rigid::of(&surface.panel(area)).ok_or_else(|| wrong("worn", what))?;
+                surface.shift(area, &rigid, &worn);
             }
         }
         Ok(surface)
@@ -121,12 +116,15 @@ impl Surface {
         }
         let last = DVec2::new(f64::from(area.columns - 1), f64::from(area.rows - 1));
         let turn = DVec2::from_angle(patch.turn.to_radians());
+        let worn = patch.worn.unwrap_or_default();
+        let (worn_turn, shift) = (DVec2::from_angle(worn.radians()), worn.shift() + shift);
         for (row, column) in every(area) {
             let at = DVec2::new(f64::from(column), f64::from(row));
             let from_middle = turn.rotate((at - last / 2.0) * pitch);
+            let moved = worn_turn.rotate(from_middle) + shift;
             let share = at / last.max(DVec2::ONE);
             let Some(taxel) = layout.taxel(Place { panel, row, column }) else { continue };
-            let spot = laid.spot(&PanelSpot { from_middle, shift, share });
+            let spot = laid.spot(&PanelSpot { from_middle, moved, share });
             let Some(Spot { at, normal }) =
                 spot.filter(|spot| spot.at.is_finite() && spot.normal.is_finite())
             else {
@@ -157,6 +155,26 @@ impl Surface {
             }
         }
         Ok(())
+    }
+
+    /// Places of a panel's taxels, row by row.
+    pub(super) fn panel(&self, area: &Area) -> Vec<Vec<Option<TaxelPlace>>> {
+        let first = usize::from(area.base);
+        let columns = usize::from(area.columns);
+        let row = |row: usize| {
+            let place = |column: usize| self.places.get(first + row * columns + column).copied().flatten();
+            (0..columns).map(place).collect()
+        };
+        (0..usize::from(area.rows)).map(row).collect()
+    }
+
+    /// Moves a panel as one rigid piece.
+    fn shift(&mut self, area: &Area, rigid: &Rigid, worn: &WornShift) {
+        let first = usize::from(area.base);
+        let count = usize::from(area.rows) * usize::from(area.columns);
+        for place in self.places.iter_mut().skip(first).take(count).flatten() {
+            *place = rigid.moved(place, worn);
+        }
     }
 
     /// Names of the links that taxels lie on.

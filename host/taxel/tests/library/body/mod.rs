@@ -1,5 +1,6 @@
 //! The garment on the robot.
 
+mod fit;
 mod mesh;
 mod posture;
 mod rig;
