@@ -4,16 +4,17 @@ use super::WornArgs;
 use super::asking::Asking;
 use super::told_fit;
 use crate::fault::Fault;
-use crate::watch::{BoardArgs, LiveArgs, Overwrite, watch};
+use crate::watch::{BoardArgs, LiveArgs, Overwrite, stop, watch};
 use anyhow::{Context, Result, bail, ensure};
 use clap::{ArgGroup, Args};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use taxel::body::fit::{KnownTouch, Mark, known_touches, marks, picked};
-use taxel::body::{self, Form, ReadBody};
+use taxel::body::{self, Fit, Form, ReadBody, Surface};
 use taxel::files::output::Output;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel::tell::verbose;
-use taxel_core::garment::{Garment, Layout};
+use taxel_core::garment::Layout;
 
 /// A body, its garment, and touches.
 #[derive(Debug, Clone, Args)]
@@ -57,7 +58,10 @@ pub fn run(args: &FitArgs) -> Result<()> {
     let (garment, layout) = args.worn.garment()?;
     let touches = match &args.touches {
         Some(file) => known_touches(&file.display().to_string(), &text(file)?)?,
-        None => asked(args, marked(args, &read, &garment, &layout)?, &layout)?,
+        None => {
+            let surface = read.surface(&garment, &layout)?;
+            asked(args, marked(args, &surface, &layout)?, &surface, &layout)?
+        }
     };
     let fit = read.fit(&garment, &layout, &touches)?;
     let said = if args.json { told_fit::json(&fit) } else { told_fit::table(&fit, &touches) };
@@ -76,7 +80,9 @@ fn beside(args: &FitArgs, read: &ReadBody) -> Result<()> {
         Form::Taxels(file) if Path::new(file).is_relative() => Some(file),
         _ => None,
     });
-    let folder = |path: &Path| path.parent().filter(|path| *path != Path::new("")).unwrap_or(Path::new(".")).canonicalize();
+    let folder = |path: &Path| {
+        path.parent().filter(|path| *path != Path::new("")).unwrap_or(Path::new(".")).canonicalize()
+    };
     let Some(file) = listed.filter(|_| args.output.as_os_str() != "-") else { return Ok(()) };
     if folder(&args.output).ok() != folder(Path::new(&args.worn.body)).ok() {
         let (output, body) = (args.output.display(), &args.worn.body);
@@ -91,10 +97,9 @@ fn text(file: &Path) -> Result<String> {
 }
 
 /// The marks to be touched, each on a link that wears a panel.
-fn marked(args: &FitArgs, read: &ReadBody, garment: &Garment, layout: &Layout) -> Result<Vec<Mark>> {
-    let surface = read.surface(garment, layout)?;
+fn marked(args: &FitArgs, surface: &Surface, layout: &Layout) -> Result<Vec<Mark>> {
     let Some(file) = &args.marks else {
-        return Ok(picked(&surface, layout, usize::from(args.pick.unwrap_or_default())));
+        return Ok(picked(surface, layout, usize::from(args.pick.unwrap_or_default())));
     };
     let name = file.display().to_string();
     let marks = marks(&name, &text(file)?)?;
@@ -112,17 +117,20 @@ fn marked(args: &FitArgs, read: &ReadBody, garment: &Garment, layout: &Layout) -
 }
 
 /// Shows the marks one after the other, and takes the touch of each from the board.
-fn asked(args: &FitArgs, marks: Vec<Mark>, layout: &Layout) -> Result<Vec<KnownTouch>> {
-    let garment = Some(args.worn.garment.clone()).filter(|_| args.source.takes_garment());
+fn asked(args: &FitArgs, marks: Vec<Mark>, surface: &Surface, layout: &Layout) -> Result<Vec<KnownTouch>> {
+    // A simulated board wears it; a real one has its own.
+    let is_simulated = matches!(args.source, SourceSpec::Sim(_) | SourceSpec::Emulator(_));
+    let garment = Some(args.worn.garment.clone()).filter(|_| is_simulated);
     let board = BoardArgs { garment, ..BoardArgs::of(args.source.clone()) };
     let (source, _) = board.open(SourceOptions::default())?;
-    let count = marks.len();
-    let mut asking = Asking::new(marks, layout.clone(), args.json);
-    let live = LiveArgs::of(board);
-    watch(&live, source, &mut asking)?;
-    let touches = asking.touches();
-    if touches.len() < count {
-        eprintln!("{} of {count} marks were touched", touches.len());
-    }
-    Ok(touches)
+    stop::catch()?;
+    let mut asking = Asking::new(marks, links(surface, layout));
+    watch(&LiveArgs::on(board), source, &mut asking)?;
+    asking.touches()
+}
+
+/// Link of each panel that has a place, by the panel's name.
+fn links(surface: &Surface, layout: &Layout) -> HashMap<String, String> {
+    let link = |fit: Fit| (fit.panel, surface.links()[fit.link].clone());
+    surface.fits(layout).into_iter().map(link).collect()
 }

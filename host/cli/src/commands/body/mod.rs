@@ -1,14 +1,18 @@
 //! `taxel body`: where the garment's taxels lie on the robot.
 
+mod asking;
 mod check;
 mod drape;
+mod fit;
 mod posed;
 mod show;
+mod told_fit;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
 use drape::DrapeArgs;
+use fit::FitArgs;
 use posed::PosedArgs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -108,6 +112,12 @@ enum BodyTask {
         after_help = "Example:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt"
     )]
     Drape(DrapeArgs),
+    /// Find how each panel is worn, by touches whose place on the robot is known, and write the body file that says so
+    #[command(
+        after_help = "Examples:\n  taxel body fit reference --marks marks.txt -o worn.toml\n  taxel body fit reference --pick 5 -o \
+                      worn.toml\n  taxel body fit body.toml --touches touches.csv -o worn.toml"
+    )]
+    Fit(FitArgs),
 }
 
 /// Runs the command.
@@ -125,6 +135,7 @@ pub fn run(args: &BodyArgs) -> Result<()> {
             Ok(())
         }
         BodyTask::Drape(args) => drape::run(args),
+        BodyTask::Fit(args) => fit::run(args),
         BodyTask::Show(written) => written.write(show::picture),
         BodyTask::Places(written) => written.write(|_, surface, _| body::text(surface)),
     }

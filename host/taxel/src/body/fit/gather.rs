@@ -35,10 +35,9 @@ impl TouchGatherer {
     /// Takes the contacts of a frame. Returns a touch that has ended before.
     pub fn frame(&mut self, time: Micros, contacts: &[Placed]) -> Option<FeltTouch> {
         let strongest = contacts.iter().map(|placed| &placed.contact).max_by_key(|contact| contact.total);
-        let ended = match (strongest, self.last) {
-            (None, Some(last)) if time.0.saturating_sub(last.0) >= PAUSE_US => self.ended(),
-            _ => None,
-        };
+        // Some streams have no frames without contacts.
+        let is_over = self.last.is_some_and(|last| time.0.saturating_sub(last.0) >= PAUSE_US);
+        let ended = if is_over { self.ended() } else { None };
         if let Some(contact) = strongest {
             self.last = Some(time);
             if self.frames.len() < MOST {
