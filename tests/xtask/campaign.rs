@@ -31,7 +31,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 22] = [
+const RUNS: [(&str, Run, &str); 23] = [
     (
         "emulator-usb",
         Run::Image("usb"),

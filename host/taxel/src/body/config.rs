@@ -1,6 +1,7 @@
 //! The body as its author writes it.
 
 use super::form::Form;
+use super::solid::Solid;
 use serde::{Deserialize, Serialize};
 
 /// Where the panels of a garment lie.
@@ -9,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct Body {
     /// One patch for each panel that lies on the robot; others have no place.
     pub patches: Vec<Patch>,
+    /// Named parts of the surface.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<BodyRegion>,
 }
 
 /// A panel on a link.
@@ -74,4 +78,16 @@ pub struct Slide {
     /// Way in the direction that the surface calls down: `down` or `axis`.
     #[serde(default)]
     pub down: f64,
+}
+
+/// A named part of the surface: the taxels of a link whose centres lie in a solid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyRegion {
+    /// Its name: left forearm, outer.
+    pub name: String,
+    /// Link of the robot.
+    pub link: String,
+    /// The solid, in the link's frame.
+    pub within: Solid,
 }

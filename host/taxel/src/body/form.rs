@@ -85,7 +85,7 @@ pub(super) struct Spot {
 pub(super) type Unfit = (&'static str, &'static str);
 
 /// Directions of a patch: right, down, outwards.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axes {
     pub right: DVec3,
     pub down: DVec3,

@@ -4,6 +4,7 @@ use super::config::{Body, Patch, WornShift};
 use super::form::{Form, Laid, PanelSpot, Spot};
 use super::listed::Listed;
 use super::pose::Pose;
+use super::regions::resolve;
 use super::rigid::Rigid;
 use super::taxel_place::TaxelPlace;
 use crate::error::{Result, SettingError};
@@ -16,6 +17,8 @@ use taxel_core::garment::{Area, Garment, Layout, Place};
 pub struct Surface {
     links: Vec<String>,
     places: Vec<Option<TaxelPlace>>,
+    /// Names of the regions.
+    regions: Vec<String>,
 }
 
 /// How well a panel lies.
@@ -47,7 +50,11 @@ impl Surface {
         listed: &[(usize, Vec<Listed>)],
         shifts: &[DVec2],
     ) -> Result<Surface, SettingError> {
-        let mut surface = Surface { links: Vec::new(), places: vec![None; layout.taxels()] };
+        let mut surface = Surface {
+            links: Vec::new(),
+            places: vec![None; layout.taxels()],
+            regions: body.regions.iter().map(|region| region.name.clone()).collect(),
+        };
         for (index, patch) in body.patches.iter().enumerate() {
             let wrong = |key: &str, what: &str| wrong(index, key, what);
             let Some((panel, area)) =
@@ -91,6 +98,8 @@ impl Surface {
                 surface.shift(area, &rigid, &worn);
             }
         }
+        // Cloth that slides may leave a region.
+        resolve(body, &surface.links, &mut surface.places, shifts.is_empty())?;
         Ok(surface)
     }
 
@@ -131,7 +140,7 @@ impl Surface {
                 let what = format!("does not hold the whole panel: row {row}, column {column} has no place");
                 return Err(wrong("on", &what));
             };
-            self.places[taxel] = Some(TaxelPlace { link, at, normal });
+            self.places[taxel] = Some(TaxelPlace { link, at, normal, region: None });
         }
         Ok(())
     }
@@ -151,7 +160,7 @@ impl Surface {
         }
         for ((row, column), listed) in every(area).zip(listed) {
             if let (Some(taxel), Some((at, normal))) = (layout.taxel(Place { panel, row, column }), listed) {
-                self.places[taxel] = Some(TaxelPlace { link, at: *at, normal: *normal });
+                self.places[taxel] = Some(TaxelPlace { link, at: *at, normal: *normal, region: None });
             }
         }
         Ok(())
@@ -182,13 +191,30 @@ impl Surface {
         &self.links
     }
 
+    /// Names of the body's regions, in the order of its file.
+    pub fn regions(&self) -> &[String] {
+        &self.regions
+    }
+
+    /// Name of the region in which a taxel or a contact lies, if one does.
+    pub fn region(&self, place: &TaxelPlace) -> Option<&str> {
+        self.regions.get(place.region?).map(String::as_str)
+    }
+
+    /// Taxels of a region, rising, by the index of its name.
+    pub fn of_region(&self, region: usize) -> Vec<usize> {
+        let places = self.places.iter().enumerate();
+        let is_in = |place: &Option<TaxelPlace>| place.is_some_and(|place| place.region == Some(region));
+        places.filter(|(_, place)| is_in(place)).map(|(taxel, _)| taxel).collect()
+    }
+
     /// Place of each taxel, by number; none for a panel without a patch, and for absent taxels.
     pub fn places(&self) -> &[Option<TaxelPlace>] {
         &self.places
     }
 
     /// Place of a point between taxels, as a contact's centroid: `(x, y)` in taxels of a panel. Linear
-    /// between the four taxels around it. None where one of these has no place.
+    /// between the four taxels around it; the region is that of the nearest. None where one of these has no place.
     pub fn at(&self, layout: &Layout, panel: u8, x: f64, y: f64) -> Option<TaxelPlace> {
         let area = layout.areas().get(usize::from(panel))?;
         let within = |at: f64, count: u16| {
@@ -204,13 +230,15 @@ impl Surface {
             (next(row, area.rows), column, (1.0 - x) * y),
             (next(row, area.rows), next(column, area.columns), x * y),
         ];
-        let (mut at, mut normal, mut link) = (DVec3::ZERO, DVec3::ZERO, None);
+        let (mut at, mut normal, mut nearest) = (DVec3::ZERO, DVec3::ZERO, None);
         for (row, column, share) in corners.into_iter().filter(|(.., share)| *share > 0.0) {
             let place = self.places[layout.taxel(Place { panel, row, column })?]?;
             (at, normal) = (at + place.at * share, normal + place.normal * share);
-            link = Some(place.link);
+            if nearest.is_none_or(|(_, most)| share > most) {
+                nearest = Some((place, share));
+            }
         }
-        Some(TaxelPlace { link: link?, at, normal: normal.try_normalize()? })
+        Some(TaxelPlace { at, normal: normal.try_normalize()?, ..nearest?.0 })
     }
 
     /// The surface in a frame in which its links have these poses.
@@ -219,7 +247,7 @@ impl Surface {
             let place = (*place)?;
             Some(poses.get(place.link).map_or(place, |pose| place.seen_from(pose)))
         };
-        Surface { links: self.links.clone(), places: self.places.iter().map(place).collect() }
+        Surface { places: self.places.iter().map(place).collect(), ..self.clone() }
     }
 
     /// How each panel lies.

@@ -12,11 +12,13 @@ pub struct TaxelPlace {
     pub at: DVec3,
     /// Direction away from the robot there, of length 1.
     pub normal: DVec3,
+    /// Index into [`Surface::regions`](super::Surface::regions); none where no region of the body is.
+    pub region: Option<usize>,
 }
 
 impl TaxelPlace {
     /// The place in another frame, by the pose of its own frame in it.
     pub fn seen_from(&self, pose: &Pose) -> TaxelPlace {
-        TaxelPlace { link: self.link, at: pose.point(self.at), normal: pose.direction(self.normal) }
+        TaxelPlace { at: pose.point(self.at), normal: pose.direction(self.normal), ..*self }
     }
 }

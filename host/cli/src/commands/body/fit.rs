@@ -1,8 +1,8 @@
 //! How the garment is worn, found by touches whose place on the robot is known.
 
-use super::WornArgs;
-use super::asking::Asking;
+use super::mark_dialogue::MarkDialogue;
 use super::told_fit;
+use super::worn::WornArgs;
 use crate::fault::Fault;
 use crate::watch::{BoardArgs, LiveArgs, Overwrite, stop, watch};
 use anyhow::{Context, Result, bail, ensure};
@@ -124,9 +124,9 @@ fn asked(args: &FitArgs, marks: Vec<Mark>, surface: &Surface, layout: &Layout) -
     let board = BoardArgs { garment, ..BoardArgs::of(args.source.clone()) };
     let (source, _) = board.open(SourceOptions::default())?;
     stop::catch()?;
-    let mut asking = Asking::new(marks, links(surface, layout));
-    watch(&LiveArgs::on(board), source, &mut asking)?;
-    asking.touches()
+    let mut dialogue = MarkDialogue::new(marks, links(surface, layout));
+    watch(&LiveArgs::on(board), source, &mut dialogue)?;
+    dialogue.touches()
 }
 
 /// Link of each panel that has a place, by the panel's name.

@@ -1,12 +1,13 @@
 //! `taxel body`: where the garment's taxels lie on the robot.
 
-mod asking;
 mod check;
 mod drape;
 mod fit;
+mod mark_dialogue;
 mod posed;
 mod show;
 mod told_fit;
+mod worn;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
@@ -17,35 +18,15 @@ use posed::PosedArgs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel::body::{self, Surface, robot};
-use taxel::files::garments;
 use taxel::files::output::Output;
-use taxel_core::capacity::TAXELS;
-use taxel_core::garment::{Garment, Layout};
+use taxel_core::garment::Layout;
+use worn::WornArgs;
 
 /// Arguments of `taxel body`.
 #[derive(Debug, Clone, Args)]
 pub struct BodyArgs {
     #[command(subcommand)]
     what: BodyTask,
-}
-
-/// A body and its garment.
-#[derive(Debug, Clone, Args)]
-pub struct WornArgs {
-    /// The body: a TOML file or `reference`
-    body: String,
-    /// The garment that it wears: a TOML file or a preset
-    #[arg(long, value_name = "G", default_value = "reference")]
-    garment: String,
-}
-
-impl WornArgs {
-    /// Reads the garment.
-    fn garment(&self) -> Result<(Garment, Layout)> {
-        let garment = garments::read(&self.garment)?;
-        let layout = Layout::build(&garment.garment, TAXELS, u16::MAX).map_err(|e| garment.error(&e))?;
-        Ok((garment.garment, layout))
-    }
 }
 
 /// A body, its garment, and a file to write.
@@ -131,7 +112,8 @@ pub fn run(args: &BodyArgs) -> Result<()> {
                 Some(robot) => read.on_robot(&garment, &layout, robot.clone())?.surface().clone(),
                 None => read.surface(&garment, &layout)?,
             };
-            print!("{}", check::told(&layout, &surface, robot.as_deref(), *json)?);
+            read.check_overlap(&surface, &layout)?;
+            print!("{}", check::told(&layout, &surface, robot.as_deref(), *json));
             Ok(())
         }
         BodyTask::Drape(args) => drape::run(args),

@@ -3,6 +3,7 @@
 mod fit;
 mod mesh;
 mod posture;
+mod regions;
 mod rig;
 mod robot;
 mod surface;

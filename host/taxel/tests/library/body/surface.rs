@@ -123,7 +123,10 @@ fn what_does_not_fit_is_told_with_its_key() {
         "on.plane = { at = [0, 0, 0], normal = [0, 0, 1], down = [0, 1, 0] }\n\n[[patches]]\npanel = \"mat\"\non.plane = { at = [0, 0, 0], normal = [0, 0, 1], down = [0, 1, 0] }",
     );
     assert_eq!(twice, "`patches[1].panel` lies somewhere else already");
-    let body = Body { patches: vec![toml::from_str("panel = \"chest\"\non.taxels = \"x\"").unwrap()] };
+    let body = Body {
+        patches: vec![toml::from_str("panel = \"chest\"\non.taxels = \"x\"").unwrap()],
+        ..Body::default()
+    };
     let garment = Garment::mat();
     let other = Surface::build(&body, &garment, &layout(&garment)).unwrap_err().to_string();
     assert_eq!(other, "`patches[0].panel` must be a panel of the garment: mat");

@@ -127,7 +127,7 @@ fn a_link_that_the_robot_lacks_is_told_with_file_line_and_key() {
 fn sliding(slides: [&str; 4]) -> Result<RobotSurface, taxel::Error> {
     let mut body = body::read("reference").unwrap().body;
     for (patch, slides) in body.patches.iter_mut().zip(slides) {
-        let Body { patches } =
+        let Body { patches, .. } =
             toml::from_str(&format!("[[patches]]\npanel = \"x\"\nslides = [{slides}]\non.taxels = \"none\""))
                 .unwrap();
         patch.slides = patches.into_iter().next().unwrap().slides;

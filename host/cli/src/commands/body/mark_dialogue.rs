@@ -7,7 +7,7 @@ use taxel::client::{Client, Event};
 use taxel::session::Show;
 
 /// Asks for the marks and takes what the board feels. A touch of a panel on another link does not count.
-pub struct Asking {
+pub struct MarkDialogue {
     marks: Vec<Mark>,
     /// Link of each panel that has a place, by the panel's name.
     links: HashMap<String, String>,
@@ -15,12 +15,12 @@ pub struct Asking {
     touches: Vec<KnownTouch>,
 }
 
-impl Asking {
+impl MarkDialogue {
     /// Asks for the first of these marks.
-    pub fn new(marks: Vec<Mark>, links: HashMap<String, String>) -> Asking {
-        let asking = Asking { marks, links, gatherer: TouchGatherer::default(), touches: Vec::new() };
-        asking.ask();
-        asking
+    pub fn new(marks: Vec<Mark>, links: HashMap<String, String>) -> MarkDialogue {
+        let dialogue = MarkDialogue { marks, links, gatherer: TouchGatherer::default(), touches: Vec::new() };
+        dialogue.ask();
+        dialogue
     }
 
     /// The touches of the marks, in their order; of the first marks, if it was stopped. Error if none was touched.
@@ -56,7 +56,7 @@ impl Asking {
     }
 }
 
-impl Show<anyhow::Error> for Asking {
+impl Show<anyhow::Error> for MarkDialogue {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         if let Event::Frame { time, .. } | Event::Contacts { time, .. } = event {
             if let Some(touch) = self.gatherer.frame(*time, client.contacts()) {
