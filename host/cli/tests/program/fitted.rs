@@ -86,7 +86,7 @@ fn a_garment_is_fitted_by_marks_that_a_simulation_touches() {
     assert!(patches[1].get("worn").is_none() && patches[3].get("worn").is_none());
     // So worn, the chest lies on the back's edge.
     let told = said(&run(&["body", "check", &worn]));
-    assert!(told.contains("worn.toml, line 12, `patches[1].panel`: back lies on the panel chest"), "{told}");
+    assert!(told.contains("worn.toml, line 11, `patches[1].panel`: back lies on the panel chest"), "{told}");
     // Never over what it reads, and not over another file unasked.
     for (output, force) in [(&marks, true), (&script, true), (&worn, false)] {
         let before = std::fs::read(output).unwrap();

@@ -90,7 +90,8 @@ enum BodyTask {
     Places(WrittenArgs),
     /// Lay a panel over a link's mesh as cloth, and write the list of its taxels
     #[command(
-        after_help = "Example:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt"
+        after_help = "Examples:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt\n  taxel body \
+                      drape --robot robot.urdf --link torso --panel chest --at 0.06,0,0.2 -o chest.txt"
     )]
     Drape(DrapeArgs),
     /// Find how each panel is worn, by touches whose place on the robot is known, and write the body file that says so

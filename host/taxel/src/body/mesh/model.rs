@@ -68,6 +68,13 @@ impl Mesh {
         Mesh { points, triangles }
     }
 
+    /// Several meshes as one.
+    pub(super) fn joined(parts: &[Mesh]) -> Mesh {
+        let of =
+            |part: &Mesh| part.triangles.iter().map(|triangle| part.corners(*triangle)).collect::<Vec<_>>();
+        Mesh::of(parts.iter().flat_map(of))
+    }
+
     /// The triangles that come within a distance of a point, m.
     pub(super) fn around(&self, at: DVec3, distance: f64) -> Mesh {
         let is_near =

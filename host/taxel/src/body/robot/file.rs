@@ -5,6 +5,7 @@ use super::tree::tree;
 use super::urdf::{document, parts};
 use crate::error::{Context, FileError, Result, RobotError, UsageError};
 use crate::tell::{verbose, words};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Names and texts of the presets.
@@ -22,8 +23,13 @@ pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
 
 /// Reads the robot of a preset (`reference`), or a URDF file.
 pub fn read(name_or_path: &str) -> Result<Robot> {
-    if let Some((name, text)) = PRESETS.iter().find(|(preset, _)| *preset == name_or_path) {
-        return Ok(parse(name, text)?);
+    Ok(parse(name_or_path, &text(name_or_path)?)?)
+}
+
+/// The text of a preset, or of a URDF file.
+pub(in crate::body) fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
+    if let Some((_, text)) = PRESETS.iter().find(|(preset, _)| *preset == name_or_path) {
+        return Ok(Cow::Borrowed(text));
     }
     let path = Path::new(name_or_path);
     if path.extension().is_none() && !path.is_file() {
@@ -34,5 +40,5 @@ pub fn read(name_or_path: &str) -> Result<Robot> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| FileError::read(path, error))
         .with_context(|| format!("cannot read {}", path.display()))?;
-    Ok(parse(name_or_path, &text)?)
+    Ok(Cow::Owned(text))
 }

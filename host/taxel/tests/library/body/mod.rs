@@ -1,6 +1,7 @@
 //! The garment on the robot.
 
 mod fit;
+mod link;
 mod mesh;
 mod posture;
 mod regions;
