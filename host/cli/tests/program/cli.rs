@@ -324,6 +324,15 @@ fn a_body_is_checked_and_every_taxel_placed() {
     // What a command reads it never overwrites: not a list that the body names, either.
     let list = file("list.txt", "0 0 0.1 0 0 1\n".repeat(2048).as_bytes());
     let worn = file("list.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {list:?}\n").as_bytes());
+    let holed = "0 0 0 0 0 0\n".to_string() + &"0 0 0.1 0 0 1\n".repeat(2047);
+    let holed = file("holed.txt", holed.as_bytes());
+    let holed =
+        file("holed.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {holed:?}\n").as_bytes());
+    let table = answer(&["body", "check", &holed, "--garment", "mat-64x32"]);
+    assert!(
+        table.starts_with("mat  on base  2047 taxels, without a place: taxel 0, neighbours at"),
+        "{table}"
+    );
     let over = run(&["body", "places", &worn, "--garment", "mat-64x32", "-o", &list, "--force"]);
     assert!(!over.status.success() && std::fs::read(&list).unwrap().len() == 14 * 2048);
     let told = answer(&["live", "--source", "sim:pat", "--body", "reference", "--frames", "120", "--json"]);

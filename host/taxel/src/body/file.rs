@@ -101,7 +101,14 @@ pub fn read(name_or_path: &str) -> Result<ReadBody> {
     for (index, patch) in body.patches.iter().enumerate() {
         let Form::Taxels(file) = &patch.on else { continue };
         let file = path.parent().unwrap_or(Path::new("")).join(file);
-        rows.push((index, listed(&file.display().to_string(), &load(&file)?)?));
+        let text_of = load(&file).with_context(|| {
+            let key = format!("patches[{index}].on.taxels");
+            match toml_key::line_in(&text, &key) {
+                Some(line) => format!("{name}, line {line}, `{key}`"),
+                None => format!("{name}, `{key}`"),
+            }
+        });
+        rows.push((index, listed(&file.display().to_string(), &text_of?)?));
         lists.push(file);
     }
     Ok(ReadBody { name, text, body, listed: rows, lists })

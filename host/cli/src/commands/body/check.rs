@@ -32,9 +32,14 @@ pub fn told(layout: &Layout, surface: &Surface, robot: Option<&Robot>, is_json: 
                 let apart = fit.pitch.as_ref().map_or(String::new(), |pitch| {
                     format!(", neighbours at {:.3} to {:.3} of their pitch", pitch.start(), pitch.end())
                 });
-                let missing = usize::from(area.rows) * usize::from(area.columns) - fit.taxels;
-                let without =
-                    if missing > 0 { format!(", {missing} without a place") } else { String::new() };
+                let first = usize::from(area.base);
+                let of_panel = first..first + usize::from(area.rows) * usize::from(area.columns);
+                let missing: Vec<usize> =
+                    of_panel.filter(|taxel| surface.places()[*taxel].is_none()).collect();
+                let without = match missing.is_empty() {
+                    true => String::new(),
+                    false => format!(", without a place: taxel {}", ranges(&missing)),
+                };
                 let (panel, taxels) = (&fit.panel, fit.taxels);
                 writeln!(text, "{panel:name$}  on {:wide$}  {taxels:>4} taxels{without}{apart}", link(fit))
             }

@@ -151,7 +151,11 @@ impl Net<'_> {
         [from_row, from_column]: [usize; 2],
     ) -> Result<(), RobotError> {
         let [x, y] = self.pitch;
-        let off = || wrong(&format!("row {row}, column {column} has no place on the mesh"));
+        let off = || {
+            wrong(&format!(
+                "row {row}, column {column} has no place on the mesh: an edge, a hole or a fold is there"
+            ))
+        };
         let (Some(above), Some(beside), Some(between)) =
             (self.at(from_row, column), self.at(row, from_column), self.at(from_row, from_column))
         else {
@@ -185,7 +189,11 @@ impl Net<'_> {
             Some((self.at(row, column)?, down.cross(right).try_normalize()?))
         };
         let all = (0..rows).flat_map(|row| (0..self.columns).map(move |column| (row, column)));
-        let off = |(row, column)| wrong(&format!("row {row}, column {column} has no place on the mesh"));
+        let off = |(row, column)| {
+            wrong(&format!(
+                "row {row}, column {column} has no place on the mesh: an edge, a hole or a fold is there"
+            ))
+        };
         all.map(|taxel| place(taxel).ok_or_else(|| off(taxel))).collect()
     }
 }

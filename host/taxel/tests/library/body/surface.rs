@@ -268,6 +268,8 @@ fn errors_of_files_name_file_line_and_key() {
     file("bad.txt", "0 0 0.1 0 0\n");
     let bad = why(&file("d.toml", "[[patches]]\npanel = \"mat\"\non.taxels = \"bad.txt\"\n"));
     assert_eq!(bad, "/bad.txt, line 1: not six numbers: x y z nx ny nz: \"0 0 0.1 0 0\"");
+    let none = why(&file("e.toml", "# mine\n[[patches]]\npanel = \"mat\"\non.taxels = \"none.txt\"\n"));
+    assert!(none.starts_with("/e.toml, line 4, `patches[0].on.taxels`: cannot read /none.txt: "), "{none}");
     assert!(why("nothing").starts_with("there is no body \"nothing\""));
     std::fs::remove_dir_all(&folder).unwrap();
 }
