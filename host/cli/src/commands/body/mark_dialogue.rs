@@ -58,10 +58,10 @@ impl MarkDialogue {
 
 impl Show<anyhow::Error> for MarkDialogue {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
-        if let Event::Frame { time, .. } | Event::Contacts { time, .. } = event {
-            if let Some(touch) = self.gatherer.frame(*time, client.contacts()) {
-                self.take(client, touch);
-            }
+        if let Event::Frame { time, .. } | Event::Contacts { time, .. } = event
+            && let Some(touch) = self.gatherer.frame(*time, client.contacts())
+        {
+            self.take(client, touch);
         }
         Ok(())
     }
