@@ -439,10 +439,8 @@ fn a_panel_is_draped_over_a_mesh_and_worn() {
     );
     let unknown = said(&["body", "drape", &mesh, "--panel", "chst", "--at", "0,0,0", "-o", "-"]);
     assert!(unknown.contains("there is no panel \"chst\": did you mean \"chest\"?"), "{unknown}");
-    let named = format!(
-        "<robot>\n<link name=\"torso\">\n<visual><origin xyz=\"0.01 0 0\"/><geometry><mesh filename=\"package://worn/board.obj\" \
-         scale=\"0.001 0.001 0.001\"/></geometry></visual>\n</link>\n</robot>\n"
-    );
+    let named = "<robot>\n<link name=\"torso\">\n<visual><origin xyz=\"0.01 0 0\"/><geometry><mesh filename=\"package://worn/board.obj\" \
+         scale=\"0.001 0.001 0.001\"/></geometry></visual>\n</link>\n</robot>\n";
     let urdf = file("board.urdf", named.as_bytes());
     let folder = Path::new(&mesh).parent().unwrap().to_str().unwrap();
     let on = [
