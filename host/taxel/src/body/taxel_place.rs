@@ -6,7 +6,7 @@ use glam::DVec3;
 /// Place of a taxel on the robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaxelPlace {
-    /// Index into [`Surface::links`].
+    /// Index into [`Surface::links`](super::Surface::links).
     pub link: usize,
     /// Its centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
     pub at: DVec3,
