@@ -105,7 +105,9 @@ def known_touches(worn: Worn, truly: Places, seed: int, file: Path) -> int:
             felt = feeling.feel(newtons)
             # Beside the garment, nothing is felt.
             if felt is not None:
-                rows.append((*felt, touch.link, *map(float, touch.point)))
+                panel, column, row = felt
+                x, y, z = touch.point.tolist()
+                rows.append((panel, column, row, touch.link, x, y, z))
     with file.open("w", newline="") as opened:
         writer = csv.writer(opened)
         writer.writerow(("panel", "column", "row", "link", "x", "y", "z"))
