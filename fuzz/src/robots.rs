@@ -1,13 +1,13 @@
-//! A robot's description, the meshes of its links, marks on it and touches of it, as people and exporters write
-//! them.
+//! A robot's description, the meshes of its links, marks on it and touches of it, as people and exporters
+//! write them.
 
 use taxel::body::DVec3;
 use taxel::body::fit::{known_touches, marks};
 use taxel::body::mesh;
 use taxel::body::robot::{LinkShape, Robot, meshes, parse};
 
-/// Reads the bytes as a URDF, as meshes, as marks and as touches. A robot is a tree that has a pose in each posture, a mesh has a nearest
-/// point; an error names the file.
+/// Reads the bytes as a URDF, as meshes, as marks and as touches. A robot is a tree that has a pose in each
+/// posture, a mesh has a nearest point; an error names the file.
 pub fn run(data: &[u8]) {
     for file in ["any.stl", "any.obj"] {
         match mesh::parse(file, data) {

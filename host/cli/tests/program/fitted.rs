@@ -1,4 +1,5 @@
-//! `taxel body fit` from outside: marks that a simulated garment feels, touches of a file, and what is refused.
+//! `taxel body fit` from outside: marks that a simulated garment feels, touches of a file, and what is
+//! refused.
 
 use crate::start::taxel;
 use std::fmt::Write;
@@ -36,9 +37,10 @@ fn places() -> Vec<(String, [f64; 3])> {
     String::from_utf8(table).unwrap().lines().skip(1).map(line).collect()
 }
 
-/// Marks on the chest and the left arm are touched while the garment sits a taxel (12 mm) too far to the left and two
-/// (20 mm) too high on the chest, and as it should be on the arm. The fourth mark is missed: the back is touched, which
-/// lies on the torso, too, and the chest's next touch comes when a mark of the arm is asked for.
+/// Marks on the chest and the left arm are touched while the garment sits a taxel (12 mm) too far to the left
+/// and two (20 mm) too high on the chest, and as it should be on the arm. The fourth mark is missed: the back
+/// is touched, which lies on the torso, too, and the chest's next touch comes when a mark of the arm is asked
+/// for.
 #[test]
 fn a_garment_is_fitted_by_marks_that_a_simulation_touches() {
     let places = places();

@@ -37,8 +37,8 @@ pub struct Patch {
     pub slides: Vec<Slide>,
 }
 
-/// How a panel is worn beside its place: turned about its middle, then shifted over the surface. The lists and
-/// grids of measured points move as one rigid piece, in the plane that touches them at their middle.
+/// How a panel is worn beside its place: turned about its middle, then shifted over the surface. The lists
+/// and grids of measured points move as one rigid piece, in the plane that touches them at their middle.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WornShift {

@@ -49,8 +49,8 @@ impl ReadBody {
         worn.map_err(|error| self.error(error))
     }
 
-    /// Checks that no two panels lie on each other on a surface of this body. The error names file, line and the
-    /// patch of the second.
+    /// Checks that no two panels lie on each other on a surface of this body. The error names file, line and
+    /// the patch of the second.
     pub fn check_overlap(&self, surface: &Surface, layout: &Layout) -> Result<()> {
         let Some((one, other)) = surface.overlap(layout) else { return Ok(()) };
         let index = self.body.patches.iter().position(|patch| patch.panel == other).unwrap_or_default();
@@ -59,8 +59,8 @@ impl ReadBody {
         Err(self.error(SettingError::Key { key, text }))
     }
 
-    /// Finds how the panels are worn, from touches whose place on the robot is known, with its joints at 0. Errors
-    /// name the panel, the link or the touch, or file, line and key.
+    /// Finds how the panels are worn, from touches whose place on the robot is known, with its joints at 0.
+    /// Errors name the panel, the link or the touch, or file, line and key.
     pub fn fit(&self, garment: &Garment, layout: &Layout, touches: &[KnownTouch]) -> Result<BodyFit> {
         fit(&self.body, garment, layout, &self.listed, touches).map_err(|error| self.error(error))
     }

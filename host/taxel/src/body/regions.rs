@@ -6,8 +6,9 @@ use super::taxel_place::TaxelPlace;
 use crate::error::SettingError;
 use crate::tell::words;
 
-/// Resolves the regions of a body: writes to each place the region that holds it, the first of several. `is_checked`
-/// refuses regions without a taxel and taxels of two regions. Errors name the region by index and key.
+/// Resolves the regions of a body: writes to each place the region that holds it, the first of several.
+/// `is_checked` refuses regions without a taxel and taxels of two regions. Errors name the region by index
+/// and key.
 pub(super) fn resolve(
     body: &Body,
     links: &[String],

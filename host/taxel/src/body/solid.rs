@@ -38,8 +38,8 @@ pub struct Sector {
     pub along: [f64; 2],
     /// Direction from the axis at angle 0.
     pub facing: DVec3,
-    /// Least and greatest angle, degrees: as panels count their columns, to the right as seen from outside with the
-    /// axis pointing down.
+    /// Least and greatest angle, degrees: as panels count their columns, to the right as seen from outside
+    /// with the axis pointing down.
     #[serde(default = "all_around")]
     pub around: [f64; 2],
 }

@@ -214,7 +214,8 @@ impl Surface {
     }
 
     /// Place of a point between taxels, as a contact's centroid: `(x, y)` in taxels of a panel. Linear
-    /// between the four taxels around it; the region is that of the nearest. None where one of these has no place.
+    /// between the four taxels around it; the region is that of the nearest. None where one of these has no
+    /// place.
     pub fn at(&self, layout: &Layout, panel: u8, x: f64, y: f64) -> Option<TaxelPlace> {
         let area = layout.areas().get(usize::from(panel))?;
         let within = |at: f64, count: u16| {

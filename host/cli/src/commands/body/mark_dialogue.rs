@@ -23,7 +23,8 @@ impl MarkDialogue {
         dialogue
     }
 
-    /// The touches of the marks, in their order; of the first marks, if it was stopped. Error if none was touched.
+    /// The touches of the marks, in their order; of the first marks, if it was stopped. Error if none was
+    /// touched.
     pub fn touches(self) -> Result<Vec<KnownTouch>> {
         let (touched, all) = (self.touches.len(), self.marks.len());
         ensure!(touched > 0, "none of the {all} marks has been touched");

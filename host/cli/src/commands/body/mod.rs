@@ -94,7 +94,8 @@ enum BodyTask {
                       drape --robot robot.urdf --link torso --panel chest --at 0.06,0,0.2 -o chest.txt"
     )]
     Drape(DrapeArgs),
-    /// Find how each panel is worn, by touches whose place on the robot is known, and write the body file that says so
+    /// Find how each panel is worn, by touches whose place on the robot is known, and write the body file
+    /// that says so
     #[command(
         after_help = "Examples:\n  taxel body fit reference --marks marks.txt -o worn.toml\n  taxel body fit reference --pick 5 -o \
                       worn.toml\n  taxel body fit body.toml --touches touches.csv -o worn.toml"

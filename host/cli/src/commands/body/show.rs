@@ -39,8 +39,8 @@ struct Dot {
     place: TaxelPlace,
 }
 
-/// The picture: a row for each link, or one for all in the frame of one; a colour for each panel. The taxels of
-/// regions are ringed, with the region's name at their middle. Taxels that face away are not drawn.
+/// The picture: a row for each link, or one for all in the frame of one; a colour for each panel. The taxels
+/// of regions are ringed, with the region's name at their middle. Taxels that face away are not drawn.
 pub fn picture(layout: &Layout, surface: &Surface, frame: Option<&str>) -> String {
     let rows: Vec<(String, Option<usize>)> = match frame {
         Some(frame) => vec![(format!("in the frame of {frame}"), None)],

@@ -9,7 +9,8 @@ use crate::body::surface::Surface;
 use crate::error::SettingError;
 use taxel_core::garment::{Area, Garment, Layout};
 
-/// Height above the surface, m, beyond which a place is not on the panel: that of a hand on the far side of a link.
+/// Height above the surface, m, beyond which a place is not on the panel: that of a hand on the far side of a
+/// link.
 const ABOVE: f64 = 0.03;
 
 /// How the panels are worn.
@@ -32,8 +33,8 @@ pub struct PatchFit {
     pub worn: WornShift,
     /// Standard deviation of the shift of the panel's middle, m: to the right and down.
     pub shift_sd: [f64; 2],
-    /// Standard deviation of the turn, degrees. None if the touches are too near each other to tell the turn: it is
-    /// that of the body file then.
+    /// Standard deviation of the turn, degrees. None if the touches are too near each other to tell the turn:
+    /// it is that of the body file then.
     pub turn_sd: Option<f64>,
     /// Its touches.
     pub touches: Vec<FittedTouch>,
@@ -44,8 +45,9 @@ pub struct PatchFit {
 pub struct FittedTouch {
     /// Number among all touches, from 0.
     pub number: usize,
-    /// Way from where the taxels are now said to be to the touch, along the surface, m: to the right and down. None
-    /// if it was on another link, on the other side of this one, or beside the taxels that have a place.
+    /// Way from where the taxels are now said to be to the touch, along the surface, m: to the right and
+    /// down. None if it was on another link, on the other side of this one, or beside the taxels that have a
+    /// place.
     pub off: Option<[f64; 2]>,
     /// Height of the touch above the surface, m; 0 without `off`.
     pub height: f64,

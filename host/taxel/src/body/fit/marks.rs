@@ -14,8 +14,8 @@ pub struct Mark {
     pub at: DVec3,
 }
 
-/// Reads marks: `link x y z` a line, in metres, separated by blanks or commas. Empty lines and those that begin
-/// with `#` do not count. Errors name the line.
+/// Reads marks: `link x y z` a line, in metres, separated by blanks or commas. Empty lines and those that
+/// begin with `#` do not count. Errors name the line.
 pub fn marks(name: &str, text: &str) -> Result<Vec<Mark>, SettingError> {
     let mut marks = Vec::new();
     for (number, line) in text.lines().enumerate() {
@@ -42,8 +42,8 @@ pub fn marks(name: &str, text: &str) -> Result<Vec<Mark>, SettingError> {
     Ok(marks)
 }
 
-/// Marks at taxels of each panel that has a place, `count` for each, as far from each other as can be and two taxels
-/// from the panel's edge: there a finger is felt as a whole. A smaller panel gives fewer.
+/// Marks at taxels of each panel that has a place, `count` for each, as far from each other as can be and two
+/// taxels from the panel's edge: there a finger is felt as a whole. A smaller panel gives fewer.
 pub fn picked(surface: &Surface, layout: &Layout, count: usize) -> Vec<Mark> {
     let mut marks = Vec::new();
     for area in layout.areas() {

@@ -1,8 +1,9 @@
-//! How a garment is worn: the place of each panel on its link, found by touches whose place on the robot is known.
+//! How a garment is worn: the place of each panel on its link, found by touches whose place on the robot is
+//! known.
 //!
 //! Along its surface a panel has three ways to be elsewhere than its body file says: to the right, down, and
-//! turned. Touches come from marks on the robot, one after the other, or from the robot's own hand, whose place
-//! kinematics tells. A few may be wrong: the placing is the one on which most agree.
+//! turned. Touches come from marks on the robot, one after the other, or from the robot's own hand, whose
+//! place kinematics tells. A few may be wrong: the placing is the one on which most agree.
 //!
 //! | file | holds |
 //! |---|---|

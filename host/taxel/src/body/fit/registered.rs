@@ -12,7 +12,8 @@ const GATE: f64 = 3.0;
 const NEAR: f64 = 0.003;
 /// And never if they are farther, m: no finger is so far beside its mark.
 const FAR: f64 = 0.02;
-/// Medians below this are alike, m: the shorter shift counts then. Around a link, a whole turn leads to the same place.
+/// Medians below this are alike, m: the shorter shift counts then. Around a link, a whole turn leads to the
+/// same place.
 const ALIKE: f64 = 1e-4;
 /// Rounds of keeping and leaving out.
 const ROUNDS: usize = 30;
@@ -60,14 +61,16 @@ pub(super) struct Registered {
     pub missing: Vec<Option<DVec2>>,
     /// Pairs that count.
     pub kept: Vec<bool>,
-    /// Standard deviation of the shift along each axis, m, and of the turn, rad: none if the pairs do not say it.
+    /// Standard deviation of the shift along each axis, m, and of the turn, rad: none if the pairs do not say
+    /// it.
     pub shift_sd: DVec2,
     pub turn_sd: Option<f64>,
 }
 
-/// Finds the turn and the shift on which most pairs agree, whatever the others say: the guess of two pairs with the
-/// least median (P. J. Rousseeuw, 1984), then least squares over those near it. `turn` (rad) is taken where the
-/// pairs do not say it. None if fewer than [`LEAST`] pairs, or no more than half of them, agree.
+/// Finds the turn and the shift on which most pairs agree, whatever the others say: the guess of two pairs
+/// with the least median (P. J. Rousseeuw, 1984), then least squares over those near it. `turn` (rad) is
+/// taken where the pairs do not say it. None if fewer than [`LEAST`] pairs, or no more than half of them,
+/// agree.
 pub(super) fn registered(pairs: &[Pair], turn: f64) -> Option<Registered> {
     let price = |(motion, median): &(Motion2, f64)| median.max(ALIKE) + ALIKE * motion.shift.length();
     let (mut motion, median) = guesses(pairs, turn).min_by(|a, b| price(a).total_cmp(&price(b)))?;

@@ -4,7 +4,8 @@ use super::found::PatchFit;
 use crate::error::SettingError;
 use toml_edit::{DocumentMut, InlineTable, Item, Value};
 
-/// The text of a body file with `worn` of these panels, to 10 um and a hundredth of a degree. Its comments stay.
+/// The text of a body file with `worn` of these panels, to 10 um and a hundredth of a degree. Its comments
+/// stay.
 pub(in crate::body) fn written(name: &str, text: &str, panels: &[PatchFit]) -> Result<String, SettingError> {
     let malformed = |what: String| SettingError::Malformed(format!("{name}: {what}"));
     let mut document: DocumentMut =

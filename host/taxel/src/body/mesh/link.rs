@@ -20,9 +20,9 @@ pub struct OfLink {
     pub files: Vec<PathBuf>,
 }
 
-/// Reads the mesh of a link of a URDF file. Paths are relative to the URDF; `package://NAME/PATH` is looked for in the
-/// folder that `packages` has of this name, else in each folder above the URDF that is called NAME or holds one that
-/// is. Errors name file, line and link.
+/// Reads the mesh of a link of a URDF file. Paths are relative to the URDF; `package://NAME/PATH` is looked
+/// for in the folder that `packages` has of this name, else in each folder above the URDF that is called NAME
+/// or holds one that is. Errors name file, line and link.
 pub fn of_link(urdf: &str, link: &str, shape: LinkShape, packages: &[(String, PathBuf)]) -> Result<OfLink> {
     let named = meshes(urdf, &text(urdf)?, link, shape)?;
     let (mut parts, mut files) = (Vec::new(), Vec::new());

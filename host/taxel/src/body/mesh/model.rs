@@ -16,7 +16,8 @@ pub struct Mesh {
 pub struct Nearest {
     /// The point, m.
     pub at: DVec3,
-    /// Normal of its triangle, of length 1: outwards, if the corners run counter-clockwise as seen from outside.
+    /// Normal of its triangle, of length 1: outwards, if the corners run counter-clockwise as seen from
+    /// outside.
     pub normal: DVec3,
     /// Number of its triangle.
     pub triangle: usize,

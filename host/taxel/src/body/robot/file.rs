@@ -13,8 +13,8 @@ const PRESETS: [(&str, &str); 1] = [("reference", include_str!("../../../bodies/
 
 /// Reads the text of a URDF; `file` is what errors name, together with the line, and the link or the joint.
 ///
-/// Read are links, and joints that are fixed, revolute, continuous or prismatic, with origin, axis, limits and
-/// mimic. Masses, shapes, transmissions and extensions are passed over.
+/// Read are links, and joints that are fixed, revolute, continuous or prismatic, with origin, axis, limits
+/// and mimic. Masses, shapes, transmissions and extensions are passed over.
 pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
     let document = document(file, text)?;
     let (links, joints) = parts(file, &document)?;

@@ -47,8 +47,8 @@ impl LinkShape {
     }
 }
 
-/// The meshes of a link in the text of a URDF. Errors name file, line and link: a link that the file lacks, or one
-/// without a mesh.
+/// The meshes of a link in the text of a URDF. Errors name file, line and link: a link that the file lacks,
+/// or one without a mesh.
 pub fn meshes(file: &str, text: &str, link: &str, shape: LinkShape) -> Result<Vec<LinkMesh>, RobotError> {
     let document = document(file, text)?;
     let links = || document.root_element().children().filter(|node| node.has_tag_name("link"));

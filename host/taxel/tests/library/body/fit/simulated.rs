@@ -54,8 +54,8 @@ fn felt(case: &Case, presses: &[(usize, f64, f64)], seed: u64) -> Vec<Option<Fel
     all
 }
 
-/// A garment worn up to 20 mm and 5 degrees otherwise is found again from 100 touches that a board has felt, of
-/// which a twentieth were somewhere else and others fall beside the garment.
+/// A garment worn up to 20 mm and 5 degrees otherwise is found again from 100 touches that a board has felt,
+/// of which a twentieth were somewhere else and others fall beside the garment.
 #[test]
 fn a_garment_that_is_worn_otherwise_is_found_again_by_a_hundred_touches() {
     let runs = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 40 } else { 4 };
