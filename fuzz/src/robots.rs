@@ -1,11 +1,13 @@
-//! A robot's description and the meshes of its links, as people and exporters write them.
+//! A robot's description, the meshes of its links, marks on it and touches of it, as people and exporters
+//! write them.
 
 use taxel::body::DVec3;
+use taxel::body::fit::{known_touches, marks};
 use taxel::body::mesh;
-use taxel::body::robot::{Robot, parse};
+use taxel::body::robot::{LinkShape, Robot, meshes, parse};
 
-/// Reads the bytes as a URDF and as meshes. A robot is a tree that has a pose in each posture, a mesh has a nearest
-/// point; an error names the file.
+/// Reads the bytes as a URDF, as meshes, as marks and as touches. A robot is a tree that has a pose in each
+/// posture, a mesh has a nearest point; an error names the file.
 pub fn run(data: &[u8]) {
     for file in ["any.stl", "any.obj"] {
         match mesh::parse(file, data) {
@@ -13,9 +15,26 @@ pub fn run(data: &[u8]) {
             Err(error) => assert!(error.to_string().starts_with(file), "{error}"),
         }
     }
-    match parse("any.urdf", &String::from_utf8_lossy(data)) {
-        Ok(robot) => moves(&robot),
+    let text = String::from_utf8_lossy(data);
+    match parse("any.urdf", &text) {
+        Ok(robot) => {
+            moves(&robot);
+            for link in robot.links() {
+                match meshes("any.urdf", &text, &link.name, LinkShape::Visual) {
+                    Ok(meshes) => assert!(!meshes.is_empty()),
+                    Err(error) => assert!(error.to_string().starts_with("any.urdf"), "{error}"),
+                }
+            }
+        }
         Err(error) => assert!(error.to_string().starts_with("any.urdf"), "{error}"),
+    }
+    match known_touches("any.csv", &text) {
+        Ok(touches) => assert!(touches.iter().all(|touch| touch.at().is_finite())),
+        Err(error) => assert!(error.to_string().starts_with("any.csv"), "{error}"),
+    }
+    match marks("any.txt", &text) {
+        Ok(marks) => assert!(marks.iter().all(|mark| mark.at.is_finite())),
+        Err(error) => assert!(error.to_string().starts_with("any.txt"), "{error}"),
     }
 }
 

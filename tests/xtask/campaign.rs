@@ -31,7 +31,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 22] = [
+const RUNS: [(&str, Run, &str); 23] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -75,6 +75,11 @@ const RUNS: [(&str, Run, &str); 22] = [
         "drift",
         Run::Library("drift::chart"),
         "drift: palms on a mat and on a block that drift, kept or lost (simulated)",
+    ),
+    (
+        "fit",
+        Run::Library("body::fit::simulated"),
+        "a garment worn up to 20 mm and 5 degrees otherwise, found by 100 touches on six bodies, 40 times each (simulated)",
     ),
     ("hours", Run::Library("drift::hours"), "drift: ten hours of drift, breath and noise (simulated)"),
     (

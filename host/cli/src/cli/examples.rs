@@ -154,7 +154,8 @@ pub(super) const BODY: &str = "Examples:
   taxel body show reference -o body.svg
   taxel body places reference -o places.csv
   taxel body places reference --robot reference --joints left_elbow=30deg --frame base -o places.csv
-  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt";
+  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt
+  taxel body fit reference --marks marks.txt -o worn.toml";
 
 pub(super) const SCENES: &str = "Examples:
   taxel scenes

@@ -158,6 +158,7 @@ pub const CASES: &[Case] = &[
     case("body show", "body show reference -o body.svg", &[ends("body.svg", "</svg>\n")]),
     case("body places", "body places reference --robot reference -o places.csv", &[file("places.csv")]),
     case("body drape", "body drape board.obj --panel chest --at 0,0,0 -o chest.txt", &[file("chest.txt")]),
+    case("body fit", "body fit reference --touches known.csv -o worn.toml", &[file("worn.toml")]),
     case("setup", "setup --simulate 7 -o out.toml", &[file("out.toml")]),
     case("settle", "settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),
     Case { answers: MAP, ..case("fcm new", "fcm new -o map.toml", &[file("map.toml")]) },

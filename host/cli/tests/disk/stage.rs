@@ -16,6 +16,12 @@ pub const PRECIOUS: &str = "nobody may write this";
 /// A mesh on which a panel fits.
 const BOARD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\nf 1 2 3 4\n";
 
+/// Touches of the chest at places of the torso.
+const KNOWN: &str = "panel,column,row,link,x,y,z\n\
+                     chest,7.5,15.5,torso,0.0611,0,0.2\n\
+                     chest,7.5,5.5,torso,0.0611,0,0.32\n\
+                     chest,7.5,25.5,torso,0.0611,0,0.08\n";
+
 /// The inputs of all commands, and a folder for each run.
 pub struct Stage {
     root: PathBuf,
@@ -50,6 +56,7 @@ impl Stage {
         fs::write(folder.join("touches.csv"), TOUCHES).unwrap();
         fs::write(folder.join("box.toml"), BOX).unwrap();
         fs::write(folder.join("board.obj"), BOARD).unwrap();
+        fs::write(folder.join("known.csv"), KNOWN).unwrap();
         let weights = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes/weights.toml");
         fs::copy(weights, folder.join("weights.toml")).unwrap();
         run(&["shapes", "learn", "box", "--source", "sim:box.toml", "--touches", "2", "-o", "base.json"]);

@@ -324,6 +324,15 @@ fn a_body_is_checked_and_every_taxel_placed() {
     // What a command reads it never overwrites: not a list that the body names, either.
     let list = file("list.txt", "0 0 0.1 0 0 1\n".repeat(2048).as_bytes());
     let worn = file("list.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {list:?}\n").as_bytes());
+    let holed = "0 0 0 0 0 0\n".to_string() + &"0 0 0.1 0 0 1\n".repeat(2047);
+    let holed = file("holed.txt", holed.as_bytes());
+    let holed =
+        file("holed.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {holed:?}\n").as_bytes());
+    let table = answer(&["body", "check", &holed, "--garment", "mat-64x32"]);
+    assert!(
+        table.starts_with("mat  on base  2047 taxels, without a place: taxel 0, neighbours at"),
+        "{table}"
+    );
     let over = run(&["body", "places", &worn, "--garment", "mat-64x32", "-o", &list, "--force"]);
     assert!(!over.status.success() && std::fs::read(&list).unwrap().len() == 14 * 2048);
     let told = answer(&["live", "--source", "sim:pat", "--body", "reference", "--frames", "120", "--json"]);
@@ -332,6 +341,21 @@ fn a_body_is_checked_and_every_taxel_placed() {
     let other = run(&["body", "check", "reference", "--garment", "mat-64x32"]);
     let told = String::from_utf8(other.stderr).unwrap();
     let what = "reference, line 6, `patches[0].panel`: must be a panel of the garment: mat";
+    // Regions are listed, and marked in the picture.
+    let text = include_str!("../../../taxel/bodies/reference.toml").to_string()
+        + "[[regions]]\nname = \"heart & lung\"\nlink = \"torso\"\nwithin.box = { from = [0, 0, 0.2], to = [0.1, 0.012, 0.22] }\n";
+    let regions = file("regions.toml", text.as_bytes());
+    let table = answer(&["body", "check", &regions]);
+    assert!(table.ends_with("\nregion heart & lung, on torso: 2 taxels, 2.4 cm2: 232, 248\n"), "{table}");
+    let listed = json(&["body", "check", &regions, "--json"]);
+    assert_eq!(
+        (&listed[4]["region"], &listed[4]["taxels"]),
+        (&"heart & lung".into(), &serde_json::json!([232, 248]))
+    );
+    let picture = answer(&["body", "show", &regions, "-o", "-"]);
+    assert!(picture.contains(">heart &amp; lung</text>"));
+    // They face the front and, a little to its left, the left.
+    assert_eq!(picture.matches(" stroke=\"#000\"").count(), 4);
     assert!(!other.status.success() && told.contains(what), "{told}");
 }
 
@@ -415,6 +439,60 @@ fn a_panel_is_draped_over_a_mesh_and_worn() {
     );
     let unknown = said(&["body", "drape", &mesh, "--panel", "chst", "--at", "0,0,0", "-o", "-"]);
     assert!(unknown.contains("there is no panel \"chst\": did you mean \"chest\"?"), "{unknown}");
+    let named = "<robot>\n<link name=\"torso\">\n<visual><origin xyz=\"0.01 0 0\"/><geometry><mesh filename=\"package://worn/board.obj\" \
+         scale=\"0.001 0.001 0.001\"/></geometry></visual>\n</link>\n</robot>\n";
+    let urdf = file("board.urdf", named.as_bytes());
+    let folder = Path::new(&mesh).parent().unwrap().to_str().unwrap();
+    let on = [
+        "body",
+        "drape",
+        "--robot",
+        &urdf,
+        "--link",
+        "torso",
+        "--panel",
+        "chest",
+        "--at",
+        "0.06,0,0.25",
+        "-o",
+        "-",
+    ];
+    let package = ["--package", &format!("worn={folder}")];
+    let listed = answer(&[&on[..], &package].concat());
+    // As over the mesh itself, 1 cm farther to the front.
+    let first = |list: &str| list.lines().nth(1).unwrap().to_string();
+    let list = std::fs::read_to_string(&list).unwrap();
+    assert_eq!(first(&listed), first(&list).replace("0.050000", "0.060000"));
+    let lost = said(&on);
+    let what =
+        format!("{urdf}, line 3, link \"torso\": mesh package://worn/board.obj: no folder above the file");
+    assert!(lost.contains(&what), "{lost}");
+    for (args, what) in [
+        (&["body", "drape", "--robot", &urdf, "--panel", "chest", "--at", "0,0,0", "-o", "-"][..], "--link"),
+        (
+            &[
+                "body", "drape", &mesh, "--robot", &urdf, "--link", "torso", "--panel", "chest", "--at",
+                "0,0,0", "-o", "-",
+            ],
+            "cannot be used with",
+        ),
+        (&["body", "drape", "--panel", "chest", "--at", "0,0,0", "-o", "-"], "MESH"),
+        (
+            &["body", "drape", &mesh, "--scale", "0", "--panel", "chest", "--at", "0,0,0", "-o", "-"],
+            "--scale must be above 0",
+        ),
+    ] {
+        let done = run(args);
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert!(done.status.code() == Some(2) && told.contains(what), "{told}");
+    }
+    // Neither the robot nor its mesh is ever written.
+    for input in [&urdf, &mesh] {
+        let before = std::fs::read(input).unwrap();
+        let mut args = [&on[..], &package, &["--force"]].concat();
+        args[11] = input;
+        assert!(!run(&args).status.success() && std::fs::read(input).unwrap() == before);
+    }
     let bad = said(&["body", "drape", &mesh, "--panel", "chest", "--at", "0,0", "-o", "-"]);
     assert!(bad.contains("write three numbers: 0.06,0,0.2"), "{bad}");
 }

@@ -6,6 +6,7 @@ mod commands;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
 mod exports;
+mod fitted;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod hostile;

@@ -1,6 +1,7 @@
 //! The body as its author writes it.
 
 use super::form::Form;
+use super::solid::Solid;
 use serde::{Deserialize, Serialize};
 
 /// Where the panels of a garment lie.
@@ -9,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct Body {
     /// One patch for each panel that lies on the robot; others have no place.
     pub patches: Vec<Patch>,
+    /// Named parts of the surface.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<BodyRegion>,
 }
 
 /// A panel on a link.
@@ -25,9 +29,40 @@ pub struct Patch {
     /// Angle by which the panel is turned about its middle, clockwise as seen from outside, degrees.
     #[serde(default)]
     pub turn: f64,
+    /// How the panel is worn otherwise than `on` and `turn` say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worn: Option<WornShift>,
     /// How the cloth moves over the skin with joints of the robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub slides: Vec<Slide>,
+}
+
+/// How a panel is worn beside its place: turned about its middle, then shifted over the surface. The lists
+/// and grids of measured points move as one rigid piece, in the plane that touches them at their middle.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WornShift {
+    /// Shift to the right, as seen from outside, m.
+    #[serde(default)]
+    pub right: f64,
+    /// Shift in the direction that the surface calls down, m; of measured points, that of their rows.
+    #[serde(default)]
+    pub down: f64,
+    /// Turn about the panel's middle, clockwise as seen from outside, degrees.
+    #[serde(default)]
+    pub turn: f64,
+}
+
+impl WornShift {
+    /// The turn in radians, counted from right to down.
+    pub(super) fn radians(&self) -> f64 {
+        self.turn.to_radians()
+    }
+
+    /// The shift, m: to the right and down.
+    pub(super) fn shift(&self) -> glam::DVec2 {
+        glam::DVec2::new(self.right, self.down)
+    }
 }
 
 /// A way of a panel over the skin with a joint: with the joint at 0, the panel lies as its patch says. Metres
@@ -43,4 +78,16 @@ pub struct Slide {
     /// Way in the direction that the surface calls down: `down` or `axis`.
     #[serde(default)]
     pub down: f64,
+}
+
+/// A named part of the surface: the taxels of a link whose centres lie in a solid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyRegion {
+    /// Its name: left forearm, outer.
+    pub name: String,
+    /// Link of the robot.
+    pub link: String,
+    /// The solid, in the link's frame.
+    pub within: Solid,
 }

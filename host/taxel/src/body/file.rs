@@ -1,6 +1,7 @@
 //! Body files.
 
 use super::config::Body;
+use super::fit::{BodyFit, KnownTouch, PatchFit, fit, written};
 use super::form::Form;
 use super::listed::{Listed, listed};
 use super::on_robot::RobotSurface;
@@ -48,6 +49,27 @@ impl ReadBody {
         worn.map_err(|error| self.error(error))
     }
 
+    /// Checks that no two panels lie on each other on a surface of this body. The error names file, line and
+    /// the patch of the second.
+    pub fn check_overlap(&self, surface: &Surface, layout: &Layout) -> Result<()> {
+        let Some((one, other)) = surface.overlap(layout) else { return Ok(()) };
+        let index = self.body.patches.iter().position(|patch| patch.panel == other).unwrap_or_default();
+        let key = format!("patches[{index}].panel");
+        let text = format!("`{key}` {other} lies on the panel {one}");
+        Err(self.error(SettingError::Key { key, text }))
+    }
+
+    /// Finds how the panels are worn, from touches whose place on the robot is known, with its joints at 0.
+    /// Errors name the panel, the link or the touch, or file, line and key.
+    pub fn fit(&self, garment: &Garment, layout: &Layout, touches: &[KnownTouch]) -> Result<BodyFit> {
+        fit(&self.body, garment, layout, &self.listed, touches).map_err(|error| self.error(error))
+    }
+
+    /// The text of the file with `worn` of these panels; comments stay.
+    pub fn worn(&self, panels: &[PatchFit]) -> Result<String> {
+        Ok(written(&self.name, &self.text, panels)?)
+    }
+
     fn error(&self, error: SettingError) -> Error {
         let SettingError::Key { key, text } = error else { return error.into() };
         let what = text.strip_prefix(&format!("`{key}` ")).unwrap_or(&text);
@@ -79,7 +101,14 @@ pub fn read(name_or_path: &str) -> Result<ReadBody> {
     for (index, patch) in body.patches.iter().enumerate() {
         let Form::Taxels(file) = &patch.on else { continue };
         let file = path.parent().unwrap_or(Path::new("")).join(file);
-        rows.push((index, listed(&file.display().to_string(), &load(&file)?)?));
+        let text_of = load(&file).with_context(|| {
+            let key = format!("patches[{index}].on.taxels");
+            match toml_key::line_in(&text, &key) {
+                Some(line) => format!("{name}, line {line}, `{key}`"),
+                None => format!("{name}, `{key}`"),
+            }
+        });
+        rows.push((index, listed(&file.display().to_string(), &text_of?)?));
         lists.push(file);
     }
     Ok(ReadBody { name, text, body, listed: rows, lists })

@@ -85,11 +85,11 @@ pub(super) struct Spot {
 pub(super) type Unfit = (&'static str, &'static str);
 
 /// Directions of a patch: right, down, outwards.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axes {
-    right: DVec3,
-    down: DVec3,
-    out: DVec3,
+    pub right: DVec3,
+    pub down: DVec3,
+    pub out: DVec3,
 }
 
 impl Axes {
@@ -97,7 +97,7 @@ impl Axes {
     const LEAST: f64 = 0.5;
 
     /// Axes with `down` exactly, and `out` as nearly as it can be.
-    fn new(down: DVec3, out: DVec3) -> Option<Axes> {
+    pub fn new(down: DVec3, out: DVec3) -> Option<Axes> {
         let down = down.try_normalize()?;
         let out = out.try_normalize()?;
         let across = out - down * out.dot(down);
@@ -205,8 +205,8 @@ fn slope([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
 pub(super) struct PanelSpot {
     /// From its middle, m; x to the right, y down.
     pub from_middle: DVec2,
-    /// Way of the panel over the surface, m.
-    pub shift: DVec2,
+    /// Where it has come to by the way of the panel over the surface, m, as `from_middle`.
+    pub moved: DVec2,
     /// Share of the way from the first to the last taxel, along x and along y.
     pub share: DVec2,
 }
@@ -253,20 +253,19 @@ impl<'a> Laid<'a> {
     /// Where a point of the panel lies; none where the panel does not fit on the surface. A panel that goes
     /// once around still does when it is shifted.
     pub fn spot(&self, at: &PanelSpot) -> Option<Spot> {
-        let PanelSpot { from_middle, shift, share } = *at;
-        let shifted = from_middle + shift;
+        let PanelSpot { from_middle, moved, share } = *at;
         match self {
             Laid::Plane(plane, axes) => {
-                let at = plane.at + axes.right * shifted.x + axes.down * shifted.y;
+                let at = plane.at + axes.right * moved.x + axes.down * moved.y;
                 Some(Spot { at, normal: axes.out })
             }
             Laid::Cylinder(cylinder, axes) => {
                 let fits = from_middle.x.abs() <= PI * cylinder.radius;
-                fits.then(|| cylinder.spot(axes, shifted))
+                fits.then(|| cylinder.spot(axes, moved))
             }
             Laid::Cone(cone, axes) => {
                 let (_, around) = cone.slant(from_middle)?;
-                if around.abs() > PI { None } else { cone.spot(axes, shifted) }
+                if around.abs() > PI { None } else { cone.spot(axes, moved) }
             }
             Laid::Grid(grid) => grid.spot(share),
         }

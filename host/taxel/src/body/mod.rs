@@ -63,8 +63,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod chart;
 mod config;
 mod file;
+pub mod fit;
 mod form;
 mod listed;
 pub mod mesh;
@@ -72,21 +74,27 @@ mod on_robot;
 mod places;
 mod pose;
 pub mod posture;
+mod regions;
+mod rigid;
 pub mod robot;
 mod slides;
+mod solid;
 mod surface;
 mod table;
+mod taxel_place;
 mod wrench;
 
-pub use config::{Body, Patch, Slide};
+pub use config::{Body, BodyRegion, Patch, Slide, WornShift};
 pub use file::{ReadBody, read};
 pub use form::{Cone, Cylinder, Form, Grid, Plane};
 pub use listed::{Listed, listed};
 pub use on_robot::RobotSurface;
 pub use places::text;
 pub use pose::Pose;
-pub use surface::{Fit, Surface, TaxelPlace};
+pub use solid::{Sector, Solid, SolidBox};
+pub use surface::{Fit, Surface};
 pub use table::table;
+pub use taxel_place::TaxelPlace;
 pub use wrench::{Wrench, wrenches};
 
 /// A vector of three numbers.

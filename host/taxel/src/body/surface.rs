@@ -1,37 +1,24 @@
 //! The place of every taxel.
 
-use super::config::{Body, Patch};
+use super::config::{Body, Patch, WornShift};
 use super::form::{Form, Laid, PanelSpot, Spot};
 use super::listed::Listed;
 use super::pose::Pose;
+use super::regions::resolve;
+use super::rigid::Rigid;
+use super::taxel_place::TaxelPlace;
 use crate::error::{Result, SettingError};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 use taxel_core::garment::{Area, Garment, Layout, Place};
-
-/// Place of a taxel on the robot.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TaxelPlace {
-    /// Index into [`Surface::links`].
-    pub link: usize,
-    /// Its centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
-    pub at: DVec3,
-    /// Direction away from the robot there, of length 1.
-    pub normal: DVec3,
-}
-
-impl TaxelPlace {
-    /// The place in another frame, by the pose of its own frame in it.
-    pub fn seen_from(&self, pose: &Pose) -> TaxelPlace {
-        TaxelPlace { link: self.link, at: pose.point(self.at), normal: pose.direction(self.normal) }
-    }
-}
 
 /// The places of a garment's taxels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     links: Vec<String>,
     places: Vec<Option<TaxelPlace>>,
+    /// Names of the regions.
+    regions: Vec<String>,
 }
 
 /// How well a panel lies.
@@ -63,7 +50,11 @@ impl Surface {
         listed: &[(usize, Vec<Listed>)],
         shifts: &[DVec2],
     ) -> Result<Surface, SettingError> {
-        let mut surface = Surface { links: Vec::new(), places: vec![None; layout.taxels()] };
+        let mut surface = Surface {
+            links: Vec::new(),
+            places: vec![None; layout.taxels()],
+            regions: body.regions.iter().map(|region| region.name.clone()).collect(),
+        };
         for (index, patch) in body.patches.iter().enumerate() {
             let wrong = |key: &str, what: &str| wrong(index, key, what);
             let Some((panel, area)) =
@@ -84,6 +75,12 @@ impl Surface {
             if !patch.slides.is_empty() && matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) {
                 return Err(wrong("slides", "must be left out: the points say where the panel lies"));
             }
+            let worn = patch.worn.unwrap_or_default();
+            for (key, number) in [("right", worn.right), ("down", worn.down), ("turn", worn.turn)] {
+                if !number.is_finite() {
+                    return Err(wrong(&format!("worn.{key}"), "must be a number"));
+                }
+            }
             let shift = shifts.get(index).copied().unwrap_or_default();
             let link = surface.link(patch.link.as_deref().unwrap_or(&area.link));
             match Laid::new(&patch.on).map_err(|(key, what)| wrong(&format!("on.{key}"), what))? {
@@ -95,7 +92,14 @@ impl Surface {
                     surface.take(layout, (panel as u8, area), rows, link, &wrong)?;
                 }
             }
+            if matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) && worn != WornShift::default() {
+                let what = "needs taxels on one side of the robot: these have no plane that touches them";
+                let rigid = Rigid::of(&surface.panel(area)).ok_or_else(|| wrong("worn", what))?;
+                surface.shift(area, &rigid, &worn);
+            }
         }
+        // Cloth that slides may leave a region.
+        resolve(body, &surface.links, &mut surface.places, shifts.is_empty())?;
         Ok(surface)
     }
 
@@ -121,19 +125,22 @@ impl Surface {
         }
         let last = DVec2::new(f64::from(area.columns - 1), f64::from(area.rows - 1));
         let turn = DVec2::from_angle(patch.turn.to_radians());
+        let worn = patch.worn.unwrap_or_default();
+        let (worn_turn, shift) = (DVec2::from_angle(worn.radians()), worn.shift() + shift);
         for (row, column) in every(area) {
             let at = DVec2::new(f64::from(column), f64::from(row));
             let from_middle = turn.rotate((at - last / 2.0) * pitch);
+            let moved = worn_turn.rotate(from_middle) + shift;
             let share = at / last.max(DVec2::ONE);
             let Some(taxel) = layout.taxel(Place { panel, row, column }) else { continue };
-            let spot = laid.spot(&PanelSpot { from_middle, shift, share });
+            let spot = laid.spot(&PanelSpot { from_middle, moved, share });
             let Some(Spot { at, normal }) =
                 spot.filter(|spot| spot.at.is_finite() && spot.normal.is_finite())
             else {
                 let what = format!("does not hold the whole panel: row {row}, column {column} has no place");
                 return Err(wrong("on", &what));
             };
-            self.places[taxel] = Some(TaxelPlace { link, at, normal });
+            self.places[taxel] = Some(TaxelPlace { link, at, normal, region: None });
         }
         Ok(())
     }
@@ -153,15 +160,52 @@ impl Surface {
         }
         for ((row, column), listed) in every(area).zip(listed) {
             if let (Some(taxel), Some((at, normal))) = (layout.taxel(Place { panel, row, column }), listed) {
-                self.places[taxel] = Some(TaxelPlace { link, at: *at, normal: *normal });
+                self.places[taxel] = Some(TaxelPlace { link, at: *at, normal: *normal, region: None });
             }
         }
         Ok(())
     }
 
+    /// Places of a panel's taxels, row by row.
+    pub(super) fn panel(&self, area: &Area) -> Vec<Vec<Option<TaxelPlace>>> {
+        let first = usize::from(area.base);
+        let columns = usize::from(area.columns);
+        let row = |row: usize| {
+            let place = |column: usize| self.places.get(first + row * columns + column).copied().flatten();
+            (0..columns).map(place).collect()
+        };
+        (0..usize::from(area.rows)).map(row).collect()
+    }
+
+    /// Moves a panel as one rigid piece.
+    fn shift(&mut self, area: &Area, rigid: &Rigid, worn: &WornShift) {
+        let first = usize::from(area.base);
+        let count = usize::from(area.rows) * usize::from(area.columns);
+        for place in self.places.iter_mut().skip(first).take(count).flatten() {
+            *place = rigid.moved(place, worn);
+        }
+    }
+
     /// Names of the links that taxels lie on.
     pub fn links(&self) -> &[String] {
         &self.links
+    }
+
+    /// Names of the body's regions, in the order of its file.
+    pub fn regions(&self) -> &[String] {
+        &self.regions
+    }
+
+    /// Name of the region in which a taxel or a contact lies, if one does.
+    pub fn region(&self, place: &TaxelPlace) -> Option<&str> {
+        self.regions.get(place.region?).map(String::as_str)
+    }
+
+    /// Taxels of a region, rising, by the index of its name.
+    pub fn of_region(&self, region: usize) -> Vec<usize> {
+        let places = self.places.iter().enumerate();
+        let is_in = |place: &Option<TaxelPlace>| place.is_some_and(|place| place.region == Some(region));
+        places.filter(|(_, place)| is_in(place)).map(|(taxel, _)| taxel).collect()
     }
 
     /// Place of each taxel, by number; none for a panel without a patch, and for absent taxels.
@@ -170,7 +214,8 @@ impl Surface {
     }
 
     /// Place of a point between taxels, as a contact's centroid: `(x, y)` in taxels of a panel. Linear
-    /// between the four taxels around it. None where one of these has no place.
+    /// between the four taxels around it; the region is that of the nearest. None where one of these has no
+    /// place.
     pub fn at(&self, layout: &Layout, panel: u8, x: f64, y: f64) -> Option<TaxelPlace> {
         let area = layout.areas().get(usize::from(panel))?;
         let within = |at: f64, count: u16| {
@@ -186,13 +231,15 @@ impl Surface {
             (next(row, area.rows), column, (1.0 - x) * y),
             (next(row, area.rows), next(column, area.columns), x * y),
         ];
-        let (mut at, mut normal, mut link) = (DVec3::ZERO, DVec3::ZERO, None);
+        let (mut at, mut normal, mut nearest) = (DVec3::ZERO, DVec3::ZERO, None);
         for (row, column, share) in corners.into_iter().filter(|(.., share)| *share > 0.0) {
             let place = self.places[layout.taxel(Place { panel, row, column })?]?;
             (at, normal) = (at + place.at * share, normal + place.normal * share);
-            link = Some(place.link);
+            if nearest.is_none_or(|(_, most)| share > most) {
+                nearest = Some((place, share));
+            }
         }
-        Some(TaxelPlace { link: link?, at, normal: normal.try_normalize()? })
+        Some(TaxelPlace { at, normal: normal.try_normalize()?, ..nearest?.0 })
     }
 
     /// The surface in a frame in which its links have these poses.
@@ -201,7 +248,7 @@ impl Surface {
             let place = (*place)?;
             Some(poses.get(place.link).map_or(place, |pose| place.seen_from(pose)))
         };
-        Surface { links: self.links.clone(), places: self.places.iter().map(place).collect() }
+        Surface { places: self.places.iter().map(place).collect(), ..self.clone() }
     }
 
     /// How each panel lies.

@@ -1,6 +1,7 @@
 //! The surface as a board reads it: the table of `taxel_core::surface`.
 
-use super::surface::{Surface, TaxelPlace};
+use super::surface::Surface;
+use super::taxel_place::TaxelPlace;
 use crate::error::SettingError;
 use taxel_core::garment::Layout;
 use taxel_core::surface::{ONE, TaxelRecord, table_bytes, write_table};

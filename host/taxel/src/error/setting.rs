@@ -36,6 +36,9 @@ pub enum SettingError {
     /// A surface does not fit a board's table.
     #[error("{0}")]
     Surface(String),
+    /// How a panel is worn cannot be found from its touches.
+    #[error("{0}")]
+    Placing(String),
     /// Settings of gestures are invalid.
     #[error(transparent)]
     Gestures(#[from] GestureError),

@@ -2,11 +2,12 @@
 
 use crate::fault::Fault;
 use crate::watch::Overwrite;
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use taxel::body::mesh::{self, Drape};
+use taxel::body::mesh::{self, Drape, Mesh, OfLink};
+use taxel::body::robot::LinkShape;
 use taxel::body::{DVec3, Pose};
 use taxel::files::garments;
 use taxel::files::output::Output;
@@ -16,7 +17,20 @@ use taxel::tell::words;
 #[derive(Debug, Clone, Args)]
 pub struct DrapeArgs {
     /// The link's mesh: an STL or OBJ file, in the link's frame
-    mesh: PathBuf,
+    #[arg(required_unless_present = "robot", conflicts_with = "robot")]
+    mesh: Option<PathBuf>,
+    /// The robot whose link has the mesh: a URDF file, which says where the mesh is, its scale and its place
+    #[arg(long, value_name = "URDF", requires = "link")]
+    robot: Option<String>,
+    /// The link
+    #[arg(long, value_name = "NAME", requires = "robot")]
+    link: Option<String>,
+    /// Take the link's collision shape, not how it looks
+    #[arg(long, requires = "robot")]
+    collision: bool,
+    /// Where the files of package://NAME/ are [default: sought in the folders above the URDF]
+    #[arg(long, value_name = "NAME=DIR", value_parser = package, requires = "robot")]
+    package: Vec<(String, PathBuf)>,
     /// The panel
     #[arg(long, value_name = "NAME")]
     panel: String,
@@ -24,7 +38,7 @@ pub struct DrapeArgs {
     #[arg(long, value_name = "G", default_value = "reference")]
     garment: String,
     /// Metres of one unit of the mesh: 0.001 for millimetres
-    #[arg(long, value_name = "M", default_value_t = 1.0)]
+    #[arg(long, value_name = "M", default_value_t = 1.0, conflicts_with = "robot")]
     scale: f64,
     /// Where the middle of the panel lies, m: the nearest point of the mesh is taken
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
@@ -42,14 +56,14 @@ pub struct DrapeArgs {
 
 /// Lays the panel over the mesh, and writes `x y z nx ny nz` of each taxel.
 pub fn run(args: &DrapeArgs) -> Result<()> {
-    let inputs = [args.mesh.as_path(), Path::new(&args.garment)];
-    let output = Output::stream(&args.output, args.force, inputs)?;
+    let (mesh, file, files) = mesh(args)?;
+    let named = [Some(&args.garment), args.robot.as_ref()].into_iter().flatten().map(Path::new);
+    let output = Output::stream(&args.output, args.force, named.chain(files.iter().map(PathBuf::as_path)))?;
     let garment = garments::read(&args.garment)?.garment;
     let panel = garment.panels.iter().find(|panel| *panel.name == *args.panel).ok_or_else(|| {
         let known = garment.panels.iter().map(|panel| panel.name.as_str());
         Fault::usage(words::unknown("panel", &args.panel, known))
     })?;
-    let mesh = mesh::read(&args.mesh)?.placed(DVec3::splat(args.scale), &Pose::IDENTITY);
     let drape = Drape {
         rows: panel.rows.into(),
         columns: panel.columns.into(),
@@ -57,7 +71,6 @@ pub fn run(args: &DrapeArgs) -> Result<()> {
         at: args.at,
         down: args.down,
     };
-    let file = args.mesh.display();
     let taxels = drape.over(&mesh).map_err(|error| anyhow!("{file}, panel {}: {error}", args.panel))?;
     let mut text = format!("# {} over {file}: x y z nx ny nz\n", args.panel);
     for (at, normal) in taxels {
@@ -66,6 +79,27 @@ pub fn run(args: &DrapeArgs) -> Result<()> {
         let _ = writeln!(text, "{}", numbers.join(" "));
     }
     Ok(output.write(text.as_bytes())?)
+}
+
+/// The mesh, what it is called, and its files.
+fn mesh(args: &DrapeArgs) -> Result<(Mesh, String, Vec<PathBuf>)> {
+    if let (Some(robot), Some(link)) = (&args.robot, &args.link) {
+        let shape = if args.collision { LinkShape::Collision } else { LinkShape::Visual };
+        let OfLink { mesh, files } = mesh::of_link(robot, link, shape, &args.package)?;
+        return Ok((mesh, format!("{robot}, link {link}"), files));
+    }
+    ensure!(args.scale.is_finite() && args.scale > 0.0, Fault::usage("--scale must be above 0"));
+    let file = args.mesh.clone().unwrap_or_default();
+    let mesh = mesh::read(&file)?.placed(DVec3::splat(args.scale), &Pose::IDENTITY);
+    Ok((mesh, file.display().to_string(), vec![file]))
+}
+
+/// Reads the folder of a package.
+fn package(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() && !folder.is_empty() => Ok((name.into(), folder.into())),
+        _ => Err("write NAME=DIR".into()),
+    }
 }
 
 /// Reads three numbers with commas between them.

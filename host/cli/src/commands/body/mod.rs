@@ -2,48 +2,33 @@
 
 mod check;
 mod drape;
+mod fit;
 mod learn;
+mod mark_dialogue;
 mod posed;
 mod show;
+mod told_fit;
+mod worn;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
 use drape::DrapeArgs;
+use fit::FitArgs;
 use learn::BodyLearnArgs;
 use posed::PosedArgs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel::body::{self, Surface, robot};
-use taxel::files::garments;
 use taxel::files::output::Output;
-use taxel_core::capacity::TAXELS;
-use taxel_core::garment::{Garment, Layout};
+use taxel_core::garment::Layout;
+use worn::WornArgs;
 
 /// Arguments of `taxel body`.
 #[derive(Debug, Clone, Args)]
 pub struct BodyArgs {
     #[command(subcommand)]
     what: BodyTask,
-}
-
-/// A body and its garment.
-#[derive(Debug, Clone, Args)]
-pub struct WornArgs {
-    /// The body: a TOML file or `reference`
-    body: String,
-    /// The garment that it wears: a TOML file or a preset
-    #[arg(long, value_name = "G", default_value = "reference")]
-    garment: String,
-}
-
-impl WornArgs {
-    /// Reads the garment.
-    fn garment(&self) -> Result<(Garment, Layout)> {
-        let garment = garments::read(&self.garment)?;
-        let layout = Layout::build(&garment.garment, TAXELS, u16::MAX).map_err(|e| garment.error(&e))?;
-        Ok((garment.garment, layout))
-    }
 }
 
 /// A body, its garment, and a file to write.
@@ -107,7 +92,8 @@ enum BodyTask {
     Places(WrittenArgs),
     /// Lay a panel over a link's mesh as cloth, and write the list of its taxels
     #[command(
-        after_help = "Example:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt"
+        after_help = "Examples:\n  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt\n  taxel body \
+                      drape --robot robot.urdf --link torso --panel chest --at 0.06,0,0.2 -o chest.txt"
     )]
     Drape(DrapeArgs),
     /// Learn what the garment's folds press where joints bend, from recordings in which nothing touches it
@@ -115,6 +101,13 @@ enum BodyTask {
         after_help = "Example:\n  taxel body learn monday.mcap tuesday.mcap wednesday.mcap -o elbows.folds\n  taxel live --folds elbows.folds"
     )]
     Learn(BodyLearnArgs),
+    /// Find how each panel is worn, by touches whose place on the robot is known, and write the body file
+    /// that says so
+    #[command(
+        after_help = "Examples:\n  taxel body fit reference --marks marks.txt -o worn.toml\n  taxel body fit reference --pick 5 -o \
+                      worn.toml\n  taxel body fit body.toml --touches touches.csv -o worn.toml"
+    )]
+    Fit(FitArgs),
 }
 
 /// Runs the command.
@@ -128,11 +121,13 @@ pub fn run(args: &BodyArgs) -> Result<()> {
                 Some(robot) => read.on_robot(&garment, &layout, robot.clone())?.surface().clone(),
                 None => read.surface(&garment, &layout)?,
             };
-            print!("{}", check::told(&layout, &surface, robot.as_deref(), *json)?);
+            read.check_overlap(&surface, &layout)?;
+            print!("{}", check::told(&layout, &surface, robot.as_deref(), *json));
             Ok(())
         }
         BodyTask::Drape(args) => drape::run(args),
         BodyTask::Learn(args) => learn::run(args),
+        BodyTask::Fit(args) => fit::run(args),
         BodyTask::Show(written) => written.write(show::picture),
         BodyTask::Places(written) => written.write(|_, surface, _| body::text(surface)),
     }

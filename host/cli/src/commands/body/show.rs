@@ -24,6 +24,13 @@ const SIDES: [Side; 3] = [
 const SIDE: [f64; 2] = [300.0, 300.0];
 const TEXT: f64 = 24.0;
 
+/// Rings around the taxels of regions, in turn: neighbours differ.
+const RINGS: [&str; 3] = [
+    " stroke=\"#000\" stroke-width=\"0.8\"",
+    " stroke=\"#000\" stroke-width=\"0.8\" stroke-dasharray=\"2 1\"",
+    " stroke=\"#777\" stroke-width=\"0.8\"",
+];
+
 /// A taxel as it is drawn.
 struct Dot {
     panel: usize,
@@ -32,8 +39,8 @@ struct Dot {
     place: TaxelPlace,
 }
 
-/// The picture: a row for each link, or one for all in the frame of one; a colour for each panel. Taxels that
-/// face away are not drawn.
+/// The picture: a row for each link, or one for all in the frame of one; a colour for each panel. The taxels
+/// of regions are ringed, with the region's name at their middle. Taxels that face away are not drawn.
 pub fn picture(layout: &Layout, surface: &Surface, frame: Option<&str>) -> String {
     let rows: Vec<(String, Option<usize>)> = match frame {
         Some(frame) => vec![(format!("in the frame of {frame}"), None)],
@@ -58,6 +65,7 @@ pub fn picture(layout: &Layout, surface: &Surface, frame: Option<&str>) -> Strin
             let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\">{title}</text>", left + 8.0, top + 16.0);
             let origin = [left + SIDE[0] / 2.0, top + TEXT + SIDE[1] / 2.0];
             draw(&mut svg, &dots, side, (least + most) / 2.0, (origin, scale));
+            label(&mut svg, surface, &dots, side, (least + most) / 2.0, (origin, scale));
         }
     }
     svg + "</svg>\n"
@@ -78,14 +86,46 @@ fn draw(svg: &mut String, dots: &[Dot], side: &Side, middle: DVec3, (origin, sca
     let mut seen: Vec<&Dot> = dots.iter().filter(|dot| dot.place.normal.dot(side.toward) > 0.0).collect();
     seen.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
     for Dot { panel, radius, place } in seen {
-        let at = place.at - middle;
-        let [x, y] = [origin[0] + at.dot(side.right) * scale, origin[1] - at.dot(side.up) * scale];
+        let [x, y] = drawn(place.at - middle, side, (origin, scale));
+        let ring = place.region.map_or("", |region| RINGS[region % RINGS.len()]);
         let _ = writeln!(
             svg,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\" fill=\"{}\" fill-opacity=\"{:.2}\"/>",
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\" fill=\"{}\" fill-opacity=\"{:.2}\"{ring}/>",
             radius.max(1e-3) * scale,
             line("", *panel).0,
             0.3 + 0.7 * place.normal.dot(side.toward),
         );
     }
+}
+
+/// Writes the name of each region at the middle of its taxels that face this side.
+fn label(
+    svg: &mut String,
+    surface: &Surface,
+    dots: &[Dot],
+    side: &Side,
+    middle: DVec3,
+    (origin, scale): ([f64; 2], f64),
+) {
+    for (region, name) in surface.regions().iter().enumerate() {
+        let is_seen =
+            |dot: &&Dot| dot.place.region == Some(region) && dot.place.normal.dot(side.toward) > 0.0;
+        let seen: Vec<DVec3> = dots.iter().filter(is_seen).map(|dot| dot.place.at).collect();
+        if seen.is_empty() {
+            continue;
+        }
+        let at = seen.iter().sum::<DVec3>() / seen.len() as f64;
+        let [x, y] = drawn(at - middle, side, (origin, scale));
+        let _ = writeln!(
+            svg,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"middle\" paint-order=\"stroke\" stroke=\"#fff\" \
+             stroke-width=\"3\">{}</text>",
+            escaped(name)
+        );
+    }
+}
+
+/// Where a point is drawn that is so far from the middle, m.
+fn drawn(from_middle: DVec3, side: &Side, ([x, y], scale): ([f64; 2], f64)) -> [f64; 2] {
+    [x + from_middle.dot(side.right) * scale, y - from_middle.dot(side.up) * scale]
 }

@@ -14,8 +14,8 @@ const MISSED: f64 = 0.01;
 const ACROSS: f64 = 0.5;
 /// Least cosine of the angle by which a thread bends from one taxel to the next.
 const BEND: f64 = 0.5;
-/// Least length of a cell's diagonals as a share of those of a rectangle: cloth that shears by more than 49 degrees
-/// wrinkles.
+/// Least length of a cell's diagonals as a share of those of a rectangle: cloth that shears by more than 49
+/// degrees wrinkles.
 const DIAGONAL: f64 = 0.5;
 
 /// A panel and where it lies.
@@ -46,9 +46,9 @@ struct Thread {
 impl Drape {
     /// Places and normals of the taxels, row by row.
     ///
-    /// The middle row and the middle column go straight over the surface. Each other taxel lies a pitch from its
-    /// two neighbours towards the middle, as the crossings of woven threads do. Errors name the row and the column
-    /// of a taxel that finds no place.
+    /// The middle row and the middle column go straight over the surface. Each other taxel lies a pitch from
+    /// its two neighbours towards the middle, as the crossings of woven threads do. Errors name the row and
+    /// the column of a taxel that finds no place.
     pub fn over(&self, mesh: &Mesh) -> Result<Vec<Placed>, RobotError> {
         let Drape { rows, columns, pitch: [x, y], at, down } = *self;
         if rows < 2 || columns < 2 || !(x > 0.0 && y > 0.0 && x.is_finite() && y.is_finite()) {
@@ -88,8 +88,8 @@ impl Drape {
 }
 
 impl Thread {
-    /// Goes on straight for a length; backwards if it is negative. None where the surface ends: the nearest points
-    /// lie behind.
+    /// Goes on straight for a length; backwards if it is negative. None where the surface ends: the nearest
+    /// points lie behind.
     fn walked(self, mesh: &Mesh, length: f64) -> Option<Thread> {
         let (ahead, far) = (self.ahead * length.signum(), length.abs());
         let mut at = self.at + ahead * far;
@@ -143,15 +143,19 @@ impl Net<'_> {
         }
     }
 
-    /// Places a taxel at the crossing of two threads: below or above its neighbour in `from`'s row, beside the one
-    /// in `from`'s column.
+    /// Places a taxel at the crossing of two threads: below or above its neighbour in `from`'s row, beside
+    /// the one in `from`'s column.
     fn cross(
         &mut self,
         [row, column]: [usize; 2],
         [from_row, from_column]: [usize; 2],
     ) -> Result<(), RobotError> {
         let [x, y] = self.pitch;
-        let off = || wrong(&format!("row {row}, column {column} has no place on the mesh"));
+        let off = || {
+            wrong(&format!(
+                "row {row}, column {column} has no place on the mesh: an edge, a hole or a fold is there"
+            ))
+        };
         let (Some(above), Some(beside), Some(between)) =
             (self.at(from_row, column), self.at(row, from_column), self.at(from_row, from_column))
         else {
@@ -185,7 +189,11 @@ impl Net<'_> {
             Some((self.at(row, column)?, down.cross(right).try_normalize()?))
         };
         let all = (0..rows).flat_map(|row| (0..self.columns).map(move |column| (row, column)));
-        let off = |(row, column)| wrong(&format!("row {row}, column {column} has no place on the mesh"));
+        let off = |(row, column)| {
+            wrong(&format!(
+                "row {row}, column {column} has no place on the mesh: an edge, a hole or a fold is there"
+            ))
+        };
         all.map(|taxel| place(taxel).ok_or_else(|| off(taxel))).collect()
     }
 }

@@ -16,7 +16,8 @@ pub struct Mesh {
 pub struct Nearest {
     /// The point, m.
     pub at: DVec3,
-    /// Normal of its triangle, of length 1: outwards, if the corners run counter-clockwise as seen from outside.
+    /// Normal of its triangle, of length 1: outwards, if the corners run counter-clockwise as seen from
+    /// outside.
     pub normal: DVec3,
     /// Number of its triangle.
     pub triangle: usize,
@@ -66,6 +67,13 @@ impl Mesh {
             triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
         Mesh { points, triangles }
+    }
+
+    /// Several meshes as one.
+    pub(super) fn joined(parts: &[Mesh]) -> Mesh {
+        let of =
+            |part: &Mesh| part.triangles.iter().map(|triangle| part.corners(*triangle)).collect::<Vec<_>>();
+        Mesh::of(parts.iter().flat_map(of))
     }
 
     /// The triangles that come within a distance of a point, m.

@@ -1,5 +1,6 @@
 //! Elements of a URDF, whose errors name file, line, and the link or joint that they belong to.
 
+use crate::body::pose::Pose;
 use crate::error::RobotError;
 use glam::DVec3;
 use roxmltree::Node;
@@ -82,6 +83,14 @@ impl<'a> Element<'a> {
                 Err(self.wrong(format!("`{key}` of <{}> must be three numbers, not \"{text}\"", self.tag())))
             }
         }
+    }
+
+    /// The pose of its `origin`, if it has one.
+    pub fn origin(&self) -> Result<Pose, RobotError> {
+        let Some(origin) = self.child("origin")? else { return Ok(Pose::IDENTITY) };
+        origin.only(&["xyz", "rpy"])?;
+        let [xyz, rpy] = [origin.vector("xyz")?, origin.vector("rpy")?].map(Option::unwrap_or_default);
+        Ok(Pose::from_xyz_rpy(xyz, rpy))
     }
 
     /// Refuses attributes other than these: each changes what the element means.

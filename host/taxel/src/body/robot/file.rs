@@ -5,6 +5,7 @@ use super::tree::tree;
 use super::urdf::{document, parts};
 use crate::error::{Context, FileError, Result, RobotError, UsageError};
 use crate::tell::{verbose, words};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Names and texts of the presets.
@@ -12,8 +13,8 @@ const PRESETS: [(&str, &str); 1] = [("reference", include_str!("../../../bodies/
 
 /// Reads the text of a URDF; `file` is what errors name, together with the line, and the link or the joint.
 ///
-/// Read are links, and joints that are fixed, revolute, continuous or prismatic, with origin, axis, limits and
-/// mimic. Masses, shapes, transmissions and extensions are passed over.
+/// Read are links, and joints that are fixed, revolute, continuous or prismatic, with origin, axis, limits
+/// and mimic. Masses, shapes, transmissions and extensions are passed over.
 pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
     let document = document(file, text)?;
     let (links, joints) = parts(file, &document)?;
@@ -22,8 +23,13 @@ pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
 
 /// Reads the robot of a preset (`reference`), or a URDF file.
 pub fn read(name_or_path: &str) -> Result<Robot> {
-    if let Some((name, text)) = PRESETS.iter().find(|(preset, _)| *preset == name_or_path) {
-        return Ok(parse(name, text)?);
+    Ok(parse(name_or_path, &text(name_or_path)?)?)
+}
+
+/// The text of a preset, or of a URDF file.
+pub(in crate::body) fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
+    if let Some((_, text)) = PRESETS.iter().find(|(preset, _)| *preset == name_or_path) {
+        return Ok(Cow::Borrowed(text));
     }
     let path = Path::new(name_or_path);
     if path.extension().is_none() && !path.is_file() {
@@ -34,5 +40,5 @@ pub fn read(name_or_path: &str) -> Result<Robot> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| FileError::read(path, error))
         .with_context(|| format!("cannot read {}", path.display()))?;
-    Ok(parse(name_or_path, &text)?)
+    Ok(Cow::Owned(text))
 }

@@ -9,6 +9,7 @@
 //! | `kinematics.rs` | where the links are |
 //! | `reach.rs` | how far a point is off if the joints are |
 //! | `positions.rs` | positions of joints by name, limits |
+//! | `shapes.rs` | meshes that a link names |
 //! | `file.rs` | files and the preset |
 
 mod element;
@@ -17,9 +18,13 @@ mod kinematics;
 mod model;
 mod positions;
 mod reach;
+mod shapes;
 mod tree;
 mod urdf;
 
 pub use file::{parse, read};
 pub use kinematics::Poses;
 pub use model::{Drive, JointKind, Robot, RobotJoint, RobotLink};
+pub use shapes::{LinkMesh, LinkShape, meshes};
+
+pub(super) use file::text;

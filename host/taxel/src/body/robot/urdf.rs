@@ -93,14 +93,6 @@ pub(super) fn parts<'a>(
 
 fn joint<'a>(element: &Element<'a>, name: &'a str, line: usize) -> Result<UrdfJoint<'a>, RobotError> {
     let kind = kind(element)?;
-    let origin = match element.child("origin")? {
-        Some(origin) => {
-            origin.only(&["xyz", "rpy"])?;
-            let [xyz, rpy] = [origin.vector("xyz")?, origin.vector("rpy")?].map(Option::unwrap_or_default);
-            Pose::from_xyz_rpy(xyz, rpy)
-        }
-        None => Pose::IDENTITY,
-    };
     let limit = element.child("limit")?;
     let velocity = limit.map(|limit| limit.number("velocity")).transpose()?.flatten();
     let mimic = element.child("mimic")?.map(mimic).transpose()?;
@@ -110,7 +102,7 @@ fn joint<'a>(element: &Element<'a>, name: &'a str, line: usize) -> Result<UrdfJo
         kind,
         parent: element.one("parent")?.text("link")?,
         child: element.one("child")?.text("link")?,
-        origin,
+        origin: element.origin()?,
         axis: if kind == JointKind::Fixed { DVec3::X } else { axis(element)? },
         limits: limits(element, kind, limit)?,
         // 0 is what exporters write that do not know it.

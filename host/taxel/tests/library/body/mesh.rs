@@ -206,10 +206,10 @@ fn a_panel_larger_than_the_mesh_finds_no_place() {
     let at = DVec3::new(0.1, 0.0, 0.2);
     let drape = Drape { rows: 42, columns: 4, pitch: [0.01; 2], at, down: DVec3::NEG_Z };
     let error = drape.over(&cylinder()).unwrap_err().to_string();
-    assert!(error.ends_with("has no place on the mesh"), "{error}");
+    assert!(error.ends_with("has no place on the mesh: an edge, a hole or a fold is there"), "{error}");
     assert!(Drape { rows: 40, ..drape }.over(&cylinder()).is_ok());
     let edge = Drape { at: DVec3::X, rows: 4, ..drape }.over(&cylinder()).unwrap_err().to_string();
-    assert!(edge.ends_with("has no place on the mesh"), "{edge}");
+    assert!(edge.ends_with("has no place on the mesh: an edge, a hole or a fold is there"), "{edge}");
     let along = Drape { down: DVec3::X, rows: 4, ..drape }.over(&cylinder()).unwrap_err().to_string();
     assert_eq!(along, "`down` must be a direction across the surface");
     let none = Drape { pitch: [0.0; 2], ..drape }.over(&cylinder()).unwrap_err().to_string();

@@ -1,7 +1,10 @@
 //! The garment on the robot.
 
+mod fit;
+mod link;
 mod mesh;
 mod posture;
+mod regions;
 mod rig;
 mod robot;
 mod surface;

@@ -123,7 +123,10 @@ fn what_does_not_fit_is_told_with_its_key() {
         "on.plane = { at = [0, 0, 0], normal = [0, 0, 1], down = [0, 1, 0] }\n\n[[patches]]\npanel = \"mat\"\non.plane = { at = [0, 0, 0], normal = [0, 0, 1], down = [0, 1, 0] }",
     );
     assert_eq!(twice, "`patches[1].panel` lies somewhere else already");
-    let body = Body { patches: vec![toml::from_str("panel = \"chest\"\non.taxels = \"x\"").unwrap()] };
+    let body = Body {
+        patches: vec![toml::from_str("panel = \"chest\"\non.taxels = \"x\"").unwrap()],
+        ..Body::default()
+    };
     let garment = Garment::mat();
     let other = Surface::build(&body, &garment, &layout(&garment)).unwrap_err().to_string();
     assert_eq!(other, "`patches[0].panel` must be a panel of the garment: mat");
@@ -265,6 +268,8 @@ fn errors_of_files_name_file_line_and_key() {
     file("bad.txt", "0 0 0.1 0 0\n");
     let bad = why(&file("d.toml", "[[patches]]\npanel = \"mat\"\non.taxels = \"bad.txt\"\n"));
     assert_eq!(bad, "/bad.txt, line 1: not six numbers: x y z nx ny nz: \"0 0 0.1 0 0\"");
+    let none = why(&file("e.toml", "# mine\n[[patches]]\npanel = \"mat\"\non.taxels = \"none.txt\"\n"));
+    assert!(none.starts_with("/e.toml, line 4, `patches[0].on.taxels`: cannot read /none.txt: "), "{none}");
     assert!(why("nothing").starts_with("there is no body \"nothing\""));
     std::fs::remove_dir_all(&folder).unwrap();
 }

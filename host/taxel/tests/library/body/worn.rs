@@ -27,8 +27,8 @@ const POSTURES: [&str; 3] = [
     "right_shoulder_yaw=-60deg,right_shoulder_roll=100deg,waist=-50deg,left_elbow=90deg",
 ];
 
-/// The moment about the other frame's origin is that of the moved taxels, one by one; what a force does is the
-/// same in all frames.
+/// The moment about the other frame's origin is that of the moved taxels, one by one; what a force does is
+/// the same in all frames.
 #[test]
 fn a_wrench_is_that_of_the_moved_taxels() {
     let (robot, worn) = reference();
@@ -127,7 +127,7 @@ fn a_link_that_the_robot_lacks_is_told_with_file_line_and_key() {
 fn sliding(slides: [&str; 4]) -> Result<RobotSurface, taxel::Error> {
     let mut body = body::read("reference").unwrap().body;
     for (patch, slides) in body.patches.iter_mut().zip(slides) {
-        let Body { patches } =
+        let Body { patches, .. } =
             toml::from_str(&format!("[[patches]]\npanel = \"x\"\nslides = [{slides}]\non.taxels = \"none\""))
                 .unwrap();
         patch.slides = patches.into_iter().next().unwrap().slides;
@@ -136,8 +136,8 @@ fn sliding(slides: [&str; 4]) -> Result<RobotSurface, taxel::Error> {
     RobotSurface::build(&body, &garment, &layout(&garment), Arc::new(robot::read("reference").unwrap()))
 }
 
-/// On a cylinder, cloth that slides to the right turns about its axis, by the arc; on a cone it stays on the cone,
-/// and nothing stretches.
+/// On a cylinder, cloth that slides to the right turns about its axis, by the arc; on a cone it stays on the
+/// cone, and nothing stretches.
 #[test]
 fn cloth_slides_over_its_surface_with_the_joint() {
     let worn = sliding([
