@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde_json::json;
 use taxel::files::garments;
-use taxel::learn::folds::{FoldSettings, LearnedFold, Sweep, learn};
+use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFold, learn};
 use taxel_core::capacity::TAXELS;
 use taxel_core::garment::Layout;
 
@@ -48,7 +48,7 @@ pub fn learn_folds<'py>(
         let (Ok(angles), Ok(felt)) = (angles, felt) else {
             return Err(usage("the frames must lie one after the other"));
         };
-        let mut sweep = Sweep::new(joints.clone(), taxels);
+        let mut sweep = FoldSweep::new(joints.clone(), taxels);
         for (angles, felt) in angles.chunks(told).zip(felt.chunks(taxels.max(1))) {
             sweep.push(angles, felt).map_err(raised)?;
         }

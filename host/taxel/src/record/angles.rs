@@ -16,13 +16,13 @@ pub struct Angles {
 }
 
 #[derive(Deserialize)]
-struct Told {
+struct ToldAngles {
     time_us: u64,
-    joints: Vec<Joint>,
+    joints: Vec<ToldAngle>,
 }
 
 #[derive(Deserialize)]
-struct Joint {
+struct ToldAngle {
     joint: String,
     degrees: f32,
 }
@@ -33,7 +33,7 @@ impl Angles {
         let mut angles = Angles::default();
         let mut messages = Messages::of_topic(path, POSTURE)?;
         while let Some(message) = messages.next_message()? {
-            let told: Told = serde_json::from_slice(message.data).map_err(|error| {
+            let told: ToldAngles = serde_json::from_slice(message.data).map_err(|error| {
                 error!(LearnError::Data, "{}: a message of {POSTURE} is damaged: {error}", path.display())
             })?;
             let all = told.joints.into_iter().map(|it| (told.time_us, it.joint, it.degrees));

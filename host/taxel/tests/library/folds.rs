@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use taxel::client::{Event, ImageNews};
 use taxel::error::{ErrorKind, LearnError};
 use taxel::files::scripts;
-use taxel::learn::folds::{FoldSettings, LearnedFolds, Sweep, learn};
+use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFolds, learn};
 use taxel::session::setting;
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
 use taxel::stepped::Stepped;
@@ -40,7 +40,7 @@ fn bending(day: u64) -> Script {
 /// What a board says of a script.
 #[derive(Default)]
 struct Seen {
-    sweep: Sweep,
+    sweep: FoldSweep,
     contacts: Vec<(u64, u32, u32)>,
     leading: Vec<Leading>,
     told: Vec<FoldsReport>,
@@ -56,7 +56,7 @@ fn play(script: &Script, folds: Option<&LearnedFolds>) -> Seen {
     let mut board = Stepped::new(garment.clone(), Scene::shipped()).expect("they fit");
     let mut player = Player::new(script, &garment).expect("the script is checked");
     let mut codes = vec![0u16; board.taxels()];
-    let mut seen = Seen { sweep: Sweep::new(vec!["left_elbow".into()], codes.len()), ..Seen::default() };
+    let mut seen = Seen { sweep: FoldSweep::new(vec!["left_elbow".into()], codes.len()), ..Seen::default() };
     let frames = (script.duration_s * 1e6) as u64 / FRAME_PERIOD_US;
     let begin = beginning(script, folds);
     board.client().request(&Request::Tare { frames: script.tare_frames as u16 }).expect("it fits");
@@ -116,7 +116,7 @@ fn written(folds: &LearnedFolds) -> PathBuf {
 }
 
 fn learned() -> LearnedFolds {
-    let sweeps: Vec<Sweep> = (1..=6).map(|day| play(&bending(day), None).sweep).collect();
+    let sweeps: Vec<FoldSweep> = (1..=6).map(|day| play(&bending(day), None).sweep).collect();
     learn(&layout(&bending(1)), &sweeps, &FoldSettings::default()).expect("it folds")
 }
 
@@ -182,7 +182,7 @@ fn total_at(seen: &Seen, at_us: u64, begin: u64) -> u32 {
 #[test]
 fn what_cannot_be_learned_is_said() {
     let layout = layout(&bending(1));
-    let refused = |sweeps: &[Sweep], folds: &[&[&str]]| {
+    let refused = |sweeps: &[FoldSweep], folds: &[&[&str]]| {
         let folds = folds.iter().map(|fold| fold.iter().map(|it| it.to_string()).collect()).collect();
         let error = learn(&layout, sweeps, &FoldSettings { folds, ..FoldSettings::default() }).unwrap_err();
         assert!(matches!(error.kind(), ErrorKind::Learn(LearnError::Data(_) | LearnError::TooLarge(_))));
@@ -190,7 +190,7 @@ fn what_cannot_be_learned_is_said() {
     };
     assert_eq!(refused(&[], &[]), "there are no sweeps to learn from");
     let sweep = |frames: usize, taxels: usize, felt: u16| {
-        let mut sweep = Sweep::new(vec!["elbow".into()], taxels);
+        let mut sweep = FoldSweep::new(vec!["elbow".into()], taxels);
         for frame in 0..frames {
             let mut all = vec![0; taxels];
             all[7..7 + 600].fill(if frame > 50 { felt } else { 0 });
@@ -209,7 +209,7 @@ fn what_cannot_be_learned_is_said() {
     assert_eq!(refused(&[sweep(80, 2048, 90)], &[&three]), "a fold has one joint or two, not 3");
     let many = refused(&[sweep(80, 2048, 90)], &[]);
     assert!(many.ends_with("taxels fold or may, a board holds 512: state a smaller shift"), "{many}");
-    let mut other = Sweep::new(vec!["elbow".into()], 4);
+    let mut other = FoldSweep::new(vec!["elbow".into()], 4);
     let error = other.push(&[f32::NAN], &[0; 4]).unwrap_err().to_string();
     assert_eq!(error, "frame 0: angles must be -180 to 180 degrees");
     let error = other.push(&[0.0], &[0; 3]).unwrap_err().to_string();

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use taxel::client::{Event, ImageNews};
 use taxel::files::garments;
 use taxel::files::output::Output;
-use taxel::learn::folds::{FoldSettings, LearnedFold, Sweep, learn};
+use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFold, learn};
 use taxel::record::{Angles, Play};
 use taxel_core::capacity::TAXELS;
 use taxel_core::garment::Layout;
@@ -71,10 +71,10 @@ pub fn run(args: &BodyLearnArgs) -> Result<()> {
 }
 
 /// What the taxels felt in a recording, with the angles that the board knew then.
-fn sweep(path: &Path, taxels: usize) -> Result<Sweep> {
+fn sweep(path: &Path, taxels: usize) -> Result<FoldSweep> {
     let angles = Angles::read(path)?;
     let joints = angles.joints();
-    let mut sweep = Sweep::new(joints.clone(), taxels);
+    let mut sweep = FoldSweep::new(joints.clone(), taxels);
     let mut now: BTreeMap<&str, f32> = BTreeMap::new();
     let mut told = angles.all().peekable();
     let mut play = Play::open(path)?;
@@ -115,7 +115,7 @@ fn told(folds: &[LearnedFold]) -> String {
     text
 }
 
-fn counted(sweeps: &[Sweep]) -> String {
-    let frames: usize = sweeps.iter().map(Sweep::frames).sum();
+fn counted(sweeps: &[FoldSweep]) -> String {
+    let frames: usize = sweeps.iter().map(FoldSweep::frames).sum();
     format!("{frames} frames of {} {}", sweeps.len(), if sweeps.len() == 1 { "sweep" } else { "sweeps" })
 }

@@ -280,6 +280,10 @@ export type ImageHead = {
       time_us: number;
       /** Time at which the board received the poses in force, us of the board; null without poses. */
       posed_us: number | null;
+      /** Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses. */
+      pose_age_us: number | null;
+      /** The most by which a place in the frame of the poses is off, m, because joints have moved since the poses, or are not known exactly: by what the host that tells the poses knows of the joints. Null if it does not know. */
+      pose_error_m: number | null;
       /** The contacts that have a place. */
       contacts: {
         /** Id of the contact. */

@@ -1,6 +1,6 @@
 //! Where a fold's joints stood between its knots, frame by frame: as `taxel_core::fold` has it.
 
-use super::sweep::Sweep;
+use super::sweep::FoldSweep;
 use taxel_core::fold::{FoldRecord, NO_JOINT};
 
 /// Knots of a joint.
@@ -35,7 +35,7 @@ impl Axis {
 }
 
 /// A knot, and how much it counts.
-pub(super) type Weight = (usize, f32);
+pub(super) type KnotWeight = (usize, f32);
 
 /// The joints of a fold, and their knots.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ impl Knots {
     }
 
     /// The knots around each frame's posture, four at most; none if a joint did not take part in the sweep.
-    pub fn weights(&self, sweep: &Sweep) -> Option<Vec<[Weight; 4]>> {
+    pub fn weights(&self, sweep: &FoldSweep) -> Option<Vec<[KnotWeight; 4]>> {
         let mut all = vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; sweep.frames()];
         for (joint, axis) in self.joints.iter().zip(&self.axes) {
             let mut played: Option<f32> = None;
@@ -62,7 +62,7 @@ impl Knots {
                 played = Some(at);
                 let (knot, share) = axis.at(at);
                 let [first, second, ..] = *frame;
-                let of = |(outer, weight): Weight, more: usize, share: f32| {
+                let of = |(outer, weight): KnotWeight, more: usize, share: f32| {
                     (outer * axis.knots + (knot + more).min(axis.knots - 1), weight * share)
                 };
                 *frame = [

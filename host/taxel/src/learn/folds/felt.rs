@@ -1,14 +1,14 @@
 //! A taxel's mean and spread at the knots, and how much of what it felt they explain.
 
-use super::bend::Weight;
+use super::bend::KnotWeight;
 
-/// Weight of frames from which on a knot's mean counts.
+/// KnotWeight of frames from which on a knot's mean counts.
 const FEWEST: f32 = 3.0;
 /// Share of a day's frames at a knot that the spread covers.
 const COVERED: f32 = 0.998;
 
 /// A taxel's course on one day: its mean at each knot; NaN where no frame was near.
-pub(super) fn means(weights: &[[Weight; 4]], felt: impl Iterator<Item = u16>, knots: usize) -> Vec<f32> {
+pub(super) fn means(weights: &[[KnotWeight; 4]], felt: impl Iterator<Item = u16>, knots: usize) -> Vec<f32> {
     let (mut sums, mut all) = (vec![0.0; knots], vec![0.0; knots]);
     for (frame, felt) in weights.iter().zip(felt) {
         for (knot, weight) in frame.iter().filter(|(_, weight)| *weight > 0.0) {
@@ -22,7 +22,7 @@ pub(super) fn means(weights: &[[Weight; 4]], felt: impl Iterator<Item = u16>, kn
 }
 
 /// What is expected in a frame.
-pub(super) fn expected(means: &[f32], frame: &[Weight; 4]) -> f32 {
+pub(super) fn expected(means: &[f32], frame: &[KnotWeight; 4]) -> f32 {
     let there = frame.iter().filter(|(knot, weight)| *weight > 0.0 && means[*knot].is_finite());
     let (sum, all) =
         there.fold((0.0, 0.0), |(sum, all), (knot, weight)| (sum + weight * means[*knot], all + weight));
@@ -30,7 +30,11 @@ pub(super) fn expected(means: &[f32], frame: &[Weight; 4]) -> f32 {
 }
 
 /// Sum of the squares of what the means leave unexplained.
-pub(super) fn unexplained(weights: &[[Weight; 4]], felt: impl Iterator<Item = u16>, means: &[f32]) -> f64 {
+pub(super) fn unexplained(
+    weights: &[[KnotWeight; 4]],
+    felt: impl Iterator<Item = u16>,
+    means: &[f32],
+) -> f64 {
     weights
         .iter()
         .zip(felt)
@@ -39,7 +43,11 @@ pub(super) fn unexplained(weights: &[[Weight; 4]], felt: impl Iterator<Item = u1
 }
 
 /// Distances from the day's own mean at each knot that nearly all its frames keep.
-pub(super) fn spreads(weights: &[[Weight; 4]], felt: impl Iterator<Item = u16>, means: &[f32]) -> Vec<f32> {
+pub(super) fn spreads(
+    weights: &[[KnotWeight; 4]],
+    felt: impl Iterator<Item = u16>,
+    means: &[f32],
+) -> Vec<f32> {
     let mut off: Vec<Vec<f32>> = vec![Vec::new(); means.len()];
     for (frame, felt) in weights.iter().zip(felt) {
         let distance = (f32::from(felt) - expected(means, frame)).abs();

@@ -1,9 +1,9 @@
 //! Which taxels fold with which joints, and the table.
 
-use super::bend::{Axis, Knots, Weight};
+use super::bend::{Axis, KnotWeight, Knots};
 use super::felt::{means, spreads, unexplained};
 use super::near::near;
-use super::sweep::Sweep;
+use super::sweep::FoldSweep;
 use crate::error::{LearnError, Result};
 use taxel_core::fold::{
     CELLS, FOLDED, FOLDS, FoldCell, FoldTable, FoldTableParts, KNOTS, fold_table_bytes, write_fold_table,
@@ -69,7 +69,7 @@ pub struct LearnedFolds {
 }
 
 /// What a taxel feels at the knots of its fold.
-struct Course {
+struct TaxelCourse {
     taxel: usize,
     mean: Vec<f32>,
     /// The most that it felt on any day.
@@ -82,14 +82,14 @@ struct Course {
 struct Fold {
     knots: Knots,
     /// Weights of each sweep's frames; none for a sweep without its joints.
-    weights: Vec<Option<Vec<[Weight; 4]>>>,
+    weights: Vec<Option<Vec<[KnotWeight; 4]>>>,
     pressed: Vec<usize>,
     residual: f64,
 }
 
 /// Learns from sweeps, each of one day. Errors if they do not fit each other, nothing folds, or more than a
 /// board holds.
-pub fn learn(layout: &Layout, sweeps: &[Sweep], settings: &FoldSettings) -> Result<LearnedFolds> {
+pub fn learn(layout: &Layout, sweeps: &[FoldSweep], settings: &FoldSettings) -> Result<LearnedFolds> {
     let taxels = layout.taxels();
     require!(!sweeps.is_empty(), LearnError::Data, "there are no sweeps to learn from");
     for (number, sweep) in (1..).zip(sweeps) {
@@ -131,17 +131,17 @@ pub fn learn(layout: &Layout, sweeps: &[Sweep], settings: &FoldSettings) -> Resu
         all.push(its);
     }
     fit_to_board(&mut folds, &all, sweeps, settings.step_deg)?;
-    let courses: Vec<Vec<Course>> =
+    let courses: Vec<Vec<TaxelCourse>> =
         folds.iter().zip(&all).map(|(fold, its)| courses(layout, sweeps, fold, its, settings)).collect();
     write(layout, sweeps, &folds, &courses)
 }
 
 /// The joints of each fold.
-fn groups(sweeps: &[Sweep], settings: &FoldSettings) -> Result<Vec<Vec<String>>> {
+fn groups(sweeps: &[FoldSweep], settings: &FoldSettings) -> Result<Vec<Vec<String>>> {
     let known = |joint: &String| sweeps.iter().any(|sweep| sweep.joints().contains(joint));
     let mut groups = settings.folds.clone();
     if groups.is_empty() {
-        for joint in sweeps.iter().flat_map(Sweep::joints) {
+        for joint in sweeps.iter().flat_map(FoldSweep::joints) {
             if !groups.iter().any(|group| group[0] == *joint) {
                 groups.push(vec![joint.clone()]);
             }
@@ -162,14 +162,14 @@ fn groups(sweeps: &[Sweep], settings: &FoldSettings) -> Result<Vec<Vec<String>>>
     Ok(groups)
 }
 
-fn is_pressed(sweeps: &[Sweep], taxel: usize) -> bool {
-    let all: usize = sweeps.iter().map(Sweep::frames).sum();
+fn is_pressed(sweeps: &[FoldSweep], taxel: usize) -> bool {
+    let all: usize = sweeps.iter().map(FoldSweep::frames).sum();
     let felt: usize = sweeps.iter().map(|sweep| sweep.felt(taxel).filter(|felt| *felt > 0).count()).sum();
     felt as f64 > PRESSED * all as f64
 }
 
 /// A fold of these joints, whose knots are `step` degrees apart.
-fn fold(sweeps: &[Sweep], joints: &[String], step: f32, play: f32) -> Result<Fold> {
+fn fold(sweeps: &[FoldSweep], joints: &[String], step: f32, play: f32) -> Result<Fold> {
     let axes = joints
         .iter()
         .map(|joint| Axis::over(sweeps.iter().filter_map(|sweep| sweep.angles(joint)).flatten(), step, play));
@@ -180,15 +180,18 @@ fn fold(sweeps: &[Sweep], joints: &[String], step: f32, play: f32) -> Result<Fol
 
 impl Fold {
     /// Each sweep that has its joints, with the weights of its frames.
-    fn swept<'a>(&'a self, sweeps: &'a [Sweep]) -> impl Iterator<Item = (&'a Sweep, &'a [[Weight; 4]])> {
+    fn swept<'a>(
+        &'a self,
+        sweeps: &'a [FoldSweep],
+    ) -> impl Iterator<Item = (&'a FoldSweep, &'a [[KnotWeight; 4]])> {
         sweeps.iter().zip(&self.weights).filter_map(|(sweep, weights)| Some((sweep, weights.as_deref()?)))
     }
 
     /// Sum of squares of what it leaves unexplained of a taxel, with each day's own means; all of it on days
     /// on which the joints did not take part.
-    fn unexplained(&self, sweeps: &[Sweep], taxel: usize) -> f64 {
-        let squares = |sweep: &Sweep| sweep.felt(taxel).map(|felt| f64::from(felt).powi(2)).sum::<f64>();
-        let of = |(sweep, weights): (&Sweep, &Option<Vec<[Weight; 4]>>)| match weights {
+    fn unexplained(&self, sweeps: &[FoldSweep], taxel: usize) -> f64 {
+        let squares = |sweep: &FoldSweep| sweep.felt(taxel).map(|felt| f64::from(felt).powi(2)).sum::<f64>();
+        let of = |(sweep, weights): (&FoldSweep, &Option<Vec<[KnotWeight; 4]>>)| match weights {
             Some(weights) => {
                 let means = means(weights, sweep.felt(taxel), self.knots.count());
                 unexplained(weights, sweep.felt(taxel), &means)
@@ -199,7 +202,7 @@ impl Fold {
     }
 
     /// Chooses the play that explains the most, for each joint in turn.
-    fn find_play(&mut self, sweeps: &[Sweep], step: f32) -> Result<()> {
+    fn find_play(&mut self, sweeps: &[FoldSweep], step: f32) -> Result<()> {
         for axis in 0..self.knots.axes.len() {
             let mut best = (f64::MAX, 0.0);
             for play in PLAYS {
@@ -221,7 +224,7 @@ impl Fold {
 }
 
 /// Widens the steps until the board has room.
-fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[Sweep], step: f32) -> Result<()> {
+fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[FoldSweep], step: f32) -> Result<()> {
     let taxels: usize = all.iter().map(Vec::len).sum();
     require!(
         taxels <= FOLDED,
@@ -250,13 +253,13 @@ fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[Sweep], step: 
 /// What each taxel of a fold feels.
 fn courses(
     layout: &Layout,
-    sweeps: &[Sweep],
+    sweeps: &[FoldSweep],
     fold: &Fold,
     its: &[usize],
     settings: &FoldSettings,
-) -> Vec<Course> {
+) -> Vec<TaxelCourse> {
     let knots = fold.knots.count();
-    let mut courses: Vec<Course> = its
+    let mut courses: Vec<TaxelCourse> = its
         .iter()
         .map(|taxel| {
             let daily: Vec<Vec<f32>> = fold
@@ -277,7 +280,7 @@ fn courses(
             let most = (0..knots).map(|knot| {
                 daily.iter().map(|means| means[knot]).filter(|mean| mean.is_finite()).fold(0.0f32, f32::max)
             });
-            Course { taxel: *taxel, most: most.collect(), days: days.collect(), mean, spread }
+            TaxelCourse { taxel: *taxel, most: most.collect(), days: days.collect(), mean, spread }
         })
         .collect();
     // A shift brings what the neighbours feel, at an angle or beside it.
@@ -287,7 +290,8 @@ fn courses(
         .iter()
         .map(|course| {
             let near = near(layout, course.taxel, settings.shift_mm);
-            let near: Vec<&Course> = courses.iter().filter(|other| near.contains(&other.taxel)).collect();
+            let near: Vec<&TaxelCourse> =
+                courses.iter().filter(|other| near.contains(&other.taxel)).collect();
             let strongest = |knot: &usize| near.iter().map(|other| other.most[*knot]).fold(0.0f32, f32::max);
             let strongest: Vec<f32> = (0..knots).map(|knot| strongest(&knot)).collect();
             let of = |beside: &Vec<usize>| beside.iter().map(|knot| strongest[*knot]).fold(0.0f32, f32::max);
@@ -318,7 +322,12 @@ fn middle(daily: &[Vec<f32>], knot: usize) -> f32 {
 }
 
 /// The table of the courses.
-fn write(layout: &Layout, sweeps: &[Sweep], folds: &[Fold], courses: &[Vec<Course>]) -> Result<LearnedFolds> {
+fn write(
+    layout: &Layout,
+    sweeps: &[FoldSweep],
+    folds: &[Fold],
+    courses: &[Vec<TaxelCourse>],
+) -> Result<LearnedFolds> {
     let all = || courses.iter().flatten();
     let largest = all().flat_map(|course| course.mean.iter().chain(&course.spread).chain(&course.days));
     let unit = (largest.fold(0.0f32, |most, next| most.max(*next)) / 255.0).ceil().max(1.0);
@@ -355,7 +364,7 @@ fn write(layout: &Layout, sweeps: &[Sweep], folds: &[Fold], courses: &[Vec<Cours
 }
 
 /// What is told of a fold.
-fn told(sweeps: &[Sweep], fold: &Fold, its: &[Course]) -> LearnedFold {
+fn told(sweeps: &[FoldSweep], fold: &Fold, its: &[TaxelCourse]) -> LearnedFold {
     let knots = fold.knots.count();
     let felt: f64 = fold.pressed.iter().map(|taxel| variation(sweeps, *taxel)).sum();
     LearnedFold {
@@ -371,7 +380,7 @@ fn told(sweeps: &[Sweep], fold: &Fold, its: &[Course]) -> LearnedFold {
 }
 
 /// Sum of the squares of a taxel's deviations from its mean.
-fn variation(sweeps: &[Sweep], taxel: usize) -> f64 {
+fn variation(sweeps: &[FoldSweep], taxel: usize) -> f64 {
     let felt = || sweeps.iter().flat_map(|sweep| sweep.felt(taxel)).map(f64::from);
     let count = felt().count().max(1) as f64;
     let (sum, squares) = felt().fold((0.0, 0.0), |(sum, squares), felt| (sum + felt, squares + felt * felt));

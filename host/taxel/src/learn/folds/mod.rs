@@ -20,4 +20,4 @@ mod near;
 mod sweep;
 
 pub use learner::{FoldSettings, LearnedFold, LearnedFolds, learn};
-pub use sweep::Sweep;
+pub use sweep::FoldSweep;

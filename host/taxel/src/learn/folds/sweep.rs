@@ -4,17 +4,17 @@ use crate::error::{LearnError, Result};
 
 /// What every taxel felt, frame by frame, while joints moved and nothing touched the garment.
 #[derive(Debug, Clone, Default)]
-pub struct Sweep {
+pub struct FoldSweep {
     joints: Vec<String>,
     angles: Vec<f32>,
     /// By taxel, then by frame, which is how it is read.
     felt: Vec<Vec<u16>>,
 }
 
-impl Sweep {
+impl FoldSweep {
     /// No frame yet, of these joints and so many taxels.
-    pub fn new(joints: Vec<String>, taxels: usize) -> Sweep {
-        Sweep { joints, angles: Vec::new(), felt: vec![Vec::new(); taxels] }
+    pub fn new(joints: Vec<String>, taxels: usize) -> FoldSweep {
+        FoldSweep { joints, angles: Vec::new(), felt: vec![Vec::new(); taxels] }
     }
 
     /// Adds a frame: the joints' angles (degrees) as the board knew them, and the pressure of every taxel
