@@ -13,7 +13,7 @@ use core::task::{Context, Poll, Waker};
 use reader::Reader;
 
 /// True if this build has a use for tables.
-const TABLES: bool = TableKind::Surface.is_used() || TableKind::Folds.is_used();
+const TABLES: bool = !TableKind::USED.is_empty();
 /// Error of a platform without a place for tables.
 const NO_ROOM: &str = "this board has no room for such a table";
 

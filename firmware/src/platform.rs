@@ -136,7 +136,7 @@ impl BoardPlatform {
                 }
             }
         }
-        for kind in [TableKind::Surface, TableKind::Folds].into_iter().filter(|kind| kind.is_used()) {
+        for kind in TableKind::USED.iter().copied() {
             if uses_stored {
                 let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
                 let table = flash.tables(kind).and_then(|mut tables| tables.in_force()).ok().flatten();
@@ -201,8 +201,10 @@ impl Platform for BoardPlatform {
             self.boots.charge(piece.saves);
         }
         let flash = FedFlash { flash: &mut self.flash, watchdog: &mut self.watchdog };
-        let table =
-            flash.tables(piece.kind).and_then(|mut tables| tables.store(piece)).map_err(StoreError::sentence)?;
+        let table = flash
+            .tables(piece.kind)
+            .and_then(|mut tables| tables.store(piece))
+            .map_err(StoreError::sentence)?;
         let is_whole = piece.offset as usize + piece.bytes.len() == piece.length as usize;
         Ok(is_whole.then(|| in_place(table)))
     }

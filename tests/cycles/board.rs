@@ -21,6 +21,7 @@ pub struct Answer {
 /// Commands of firmware/src/bin/bench.rs.
 const RECEIVE: u32 = 1;
 const SCAN: u32 = 2;
+const FOLD: u32 = 3;
 const KERNELS: u32 = 16;
 
 /// Runs the image that TAXEL_BENCH_ELF names.
@@ -50,6 +51,7 @@ fn bytes(step: &Step) -> Vec<u8> {
     let (command, content): (u32, Vec<u8>) = match step {
         Step::Receive(bytes) => (RECEIVE, bytes.clone()),
         Step::Scan(codes) => (SCAN, halves(codes)),
+        Step::Fold(on) => (FOLD, vec![1; usize::from(*on) * 2]),
         Step::Kernel(kernel, codes) => {
             let number = Kernel::all().position(|k| k == *kernel).expect("one of all");
             (KERNELS + number as u32, halves(&codes[..]))

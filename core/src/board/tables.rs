@@ -19,6 +19,14 @@ pub enum TableKind {
 }
 
 impl TableKind {
+    /// The kinds that this build has a use for.
+    pub const USED: &[TableKind] = match (cfg!(feature = "surface"), cfg!(feature = "folds")) {
+        (true, true) => &[TableKind::Surface, TableKind::Folds],
+        (true, false) => &[TableKind::Surface],
+        (false, true) => &[TableKind::Folds],
+        (false, false) => &[],
+    };
+
     /// Length of the longest table: that of a garment of [`capacity::TAXELS`] taxels.
     pub const fn bytes(self) -> usize {
         match self {
@@ -26,18 +34,10 @@ impl TableKind {
             TableKind::Folds => fold_table_bytes(FOLDS, FOLDED, CELLS),
         }
     }
-
-    /// True if this build has a use for it.
-    pub const fn is_used(self) -> bool {
-        match self {
-            TableKind::Surface => cfg!(feature = "surface"),
-            TableKind::Folds => cfg!(feature = "folds"),
-        }
-    }
 }
 
 /// True if this build has a use for any table.
-pub(super) const TABLES: bool = TableKind::Surface.is_used() || TableKind::Folds.is_used();
+pub(super) const TABLES: bool = !TableKind::USED.is_empty();
 
 /// A piece of a table, to be stored.
 #[derive(Debug, Clone, Copy)]
@@ -87,7 +87,7 @@ impl Uploads {
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Gives the board a table that its flash holds, after its garment and scene.
     pub fn recall_table(&mut self, kind: TableKind, table: Option<&'static [u8]>) {
-        if kind.is_used() {
+        if TableKind::USED.contains(&kind) {
             self.wear(kind, table);
         }
     }

@@ -39,6 +39,8 @@ const STARTING: u32 = u32::MAX;
 const RECEIVE: u32 = 1;
 /// `content` holds the codes of a scan.
 const SCAN: u32 = 2;
+/// Puts the table of folds in force, or none if the length is 0.
+const FOLD: u32 = 3;
 /// First of the numbers of kernels; `content` holds their input.
 const KERNELS: u32 = 16;
 
@@ -76,6 +78,10 @@ fn main() -> ! {
     loop {
         let said = match mailbox.command.load(Relaxed) {
             RECEIVE => receive(chain, mailbox),
+            FOLD => {
+                chain.fold(mailbox.length.load(Relaxed) > 0);
+                Said::default()
+            }
             SCAN => chain.scanned(scanned(codes, mailbox), &mut StageMarks, |_| ()),
             command => match command.checked_sub(KERNELS).and_then(|n| Kernel::all().nth(n as usize)) {
                 Some(kernel) => {

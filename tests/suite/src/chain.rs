@@ -1,5 +1,6 @@
 //! The whole chain: a board that gets codes, and whose messages are read at once.
 
+use crate::folds::FOLDS;
 use crate::surface::TABLE;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use taxel_core::acquire::{Scan, ScanReport};
@@ -53,6 +54,11 @@ impl Chain {
         self.board.set_garment(Garment::reference())?;
         self.board.recall_table(TableKind::Surface, Some(&TABLE.0));
         self.board.set_scene(Scene::shipped())
+    }
+
+    /// Puts the table of folds in force, or none.
+    pub fn fold(&mut self, on: bool) {
+        self.board.recall_table(TableKind::Folds, on.then_some(&FOLDS.0[..]));
     }
 
     fn now(&self) -> Micros {

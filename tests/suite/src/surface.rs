@@ -19,7 +19,8 @@ pub struct Aligned(pub [u8; BYTES]);
 /// In flash, as on a board.
 pub static TABLE: Aligned = Aligned(bytes());
 
-const fn put(mut bytes: [u8; BYTES], at: usize, from: &[u8]) -> [u8; BYTES] {
+/// `bytes` with others from a position on.
+pub(crate) const fn put<const N: usize>(mut bytes: [u8; N], at: usize, from: &[u8]) -> [u8; N] {
     let mut index = 0;
     while index < from.len() {
         bytes[at + index] = from[index];
@@ -28,11 +29,8 @@ const fn put(mut bytes: [u8; BYTES], at: usize, from: &[u8]) -> [u8; BYTES] {
     bytes
 }
 
-#[allow(long_running_const_eval)] // a CRC of 41 KB
-const fn bytes() -> [u8; BYTES] {
-    let mut bytes = put([0; BYTES], 0, b"TXSF");
-    let [low, high] = (TAXELS as u16).to_le_bytes();
-    bytes = put(bytes, 8, &[1, 1, low, high]);
+/// Sum of the reference garment's layout.
+pub(crate) const fn layout_sum() -> [u8; 4] {
     // Rows and columns of the four panels; there is room for eight.
     let mut sizes = [0; 32];
     let mut panel = 0;
@@ -40,8 +38,16 @@ const fn bytes() -> [u8; BYTES] {
         (sizes[4 * panel], sizes[4 * panel + 2]) = ((ROWS / 4) as u8, COLUMNS as u8);
         panel += 1;
     }
+    Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(&sizes).to_le_bytes()
+}
+
+#[allow(long_running_const_eval)] // a CRC of 41 KB
+const fn bytes() -> [u8; BYTES] {
+    let mut bytes = put([0; BYTES], 0, b"TXSF");
+    let [low, high] = (TAXELS as u16).to_le_bytes();
+    bytes = put(bytes, 8, &[1, 1, low, high]);
     let crc = Crc::<u32>::new(&CRC_32_ISO_HDLC);
-    bytes = put(bytes, 12, &crc.checksum(&sizes).to_le_bytes());
+    bytes = put(bytes, 12, &layout_sum());
     bytes = put(bytes, 16, b"torso");
     let mut taxel = 0;
     while taxel < TAXELS {

@@ -177,7 +177,7 @@ impl Playing {
         *board = self.board()?;
         let found = Store::new(&mut *flash, 0..SimFlash::BYTES).and_then(|mut store| store.load(board));
         let found = found.map_err(Error::other)?;
-        for kind in [TableKind::Surface, TableKind::Folds] {
+        for kind in TableKind::USED.iter().copied() {
             let table = tables(flash, kind).and_then(|mut tables| tables.in_force());
             if let Some(table) = table.map_err(Error::other)? {
                 board.recall_table(kind, Some(lasting(bytes_of(flash, table))));

@@ -10,6 +10,7 @@ use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
 use taxel_core::acquire::Depth;
 use taxel_core::condition::Filter;
+use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::Code;
 use taxel_core::garment::Garment;
 use taxel_core::gesture::GestureConfig;
@@ -36,6 +37,8 @@ pub enum Step {
     Receive(Vec<u8>),
     /// A finished scan with these codes.
     Scan(Vec<Code>),
+    /// A table of folds is in force from now on, or none.
+    Fold(bool),
     /// A kernel to run on these codes.
     Kernel(Kernel, Box<[Code; TAXELS]>),
 }
@@ -71,6 +74,8 @@ pub enum Variant {
     Taught,
     /// With a report of what presses on the robot for each frame.
     Pressing,
+    /// With the left arm bending, all of which folds.
+    Folds,
     /// One panel of 64 x 32 taxels.
     Columns32,
     /// One panel of 64 x 27 taxels.
@@ -90,6 +95,7 @@ impl Variant {
             Variant::Gestures => "gestures",
             Variant::Taught => "taught",
             Variant::Pressing => "pressing",
+            Variant::Folds => "folds",
             Variant::Columns32 => "32 columns",
             Variant::Columns27 => "27 columns",
             Variant::Block => "4 x 16",
@@ -176,6 +182,9 @@ impl Case {
             (TouchPattern::One, Variant::Pressing),
             (TouchPattern::Five, Variant::Pressing),
             (TouchPattern::Texture, Variant::Pressing),
+            (TouchPattern::Empty, Variant::Folds),
+            (TouchPattern::Five, Variant::Folds),
+            (TouchPattern::Texture, Variant::Folds),
             (TouchPattern::Texture, Variant::Off),
             (TouchPattern::Texture, Variant::Median),
         ]);
@@ -248,10 +257,17 @@ impl Case {
         .map(ask)
         .collect::<Result<Vec<Step>>>()?;
         steps.extend(self.variant.taught()?);
+        steps.push(Step::Fold(self.variant == Variant::Folds));
         let (rest, touch) = self.frames.split_at(TARE.into());
         steps.extend(rest.iter().cloned().map(Step::Scan));
         steps.push(ask(&Request::Start)?);
-        steps.extend(touch.iter().cloned().map(Step::Scan));
+        for (number, codes) in (0..).zip(touch) {
+            if self.variant == Variant::Folds && number % 4 == 0 {
+                let angle = JointAngle { joint: 0, centidegrees: 30 * number };
+                steps.push(ask(&Request::Posture(Posture { joints: [angle].into_iter().collect() }))?);
+            }
+            steps.push(Step::Scan(codes.clone()));
+        }
         Ok(steps)
     }
 }

@@ -67,6 +67,10 @@ impl Twin {
         told.said = match step {
             Step::Receive(bytes) => bytes.iter().fold(told.said, |_, byte| self.chain.receive(&[*byte])),
             Step::Scan(codes) => self.chain.scanned(codes, &mut watch, |bytes| sent.extend_from_slice(bytes)),
+            Step::Fold(on) => {
+                self.chain.fold(*on);
+                Said::default()
+            }
             Step::Kernel(kernel, codes) => {
                 Said { bytes: 0, digest: kernel.run(&mut self.bench, codes, &mut watch) }
             }
