@@ -28,14 +28,14 @@ impl Folds {
 
     /// Notes a frame to tell of.
     pub fn note(&mut self, frame: u32, time: Micros) {
-        if cfg!(feature = "folds") && self.fits && (self.rate.due(time) || self.due.is_some()) {
+        if self.fits && (self.rate.due(time) || self.due.is_some()) {
             self.due = Some((frame, time));
         }
     }
 
     /// True if a report is due.
     pub fn is_due(&self) -> bool {
-        cfg!(feature = "folds") && self.due.is_some()
+        self.due.is_some()
     }
 
     /// Report that is due, with the doubts of the present contacts.
@@ -68,9 +68,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// Garment or scene have changed.
     pub(super) fn refit_folds(&mut self) {
-        if !cfg!(feature = "folds") {
-            return;
-        }
         let table = self.folds.table.and_then(|table| FoldTable::check(table, &self.setup.layout).ok());
         (self.folds.fits, self.folds.rate) = (table.is_some(), Pace::new(RATE_HZ));
         self.state.condition.folds_mut().wear(table, &self.setup.scene.joints);

@@ -6,6 +6,7 @@ mod alarms;
 mod budget;
 mod examining;
 mod exchange;
+#[cfg(feature = "folds")]
 mod folds;
 mod info;
 mod missed_scans;
@@ -46,6 +47,7 @@ use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
 use alarms::Senses;
 use budget::{Doing, Ledger};
+#[cfg(feature = "folds")]
 use folds::Folds;
 use heapless::{Deque, String, Vec};
 use outbox::{About, Outbox};
@@ -160,6 +162,7 @@ pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RU
     /// Calibration from which the gains come.
     certificate: Option<Certificate>,
     surface: Surface,
+    #[cfg(feature = "folds")]
     folds: Folds,
     uploads: Uploads,
 }
@@ -210,6 +213,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             monitor: const { Monitor::new() },
             certificate: None,
             surface: const { Surface::new() },
+            #[cfg(feature = "folds")]
             folds: const { Folds::new() },
             uploads: const { Uploads::new() },
         }
@@ -260,6 +264,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// The scene has changed: resets what its stages have found.
     fn scene_changed(&mut self) {
         self.state.forget();
+        #[cfg(feature = "folds")]
         self.refit_folds();
         self.monitor.again();
         self.scans = Pace::new(self.setup.scan_rate());
@@ -274,6 +279,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if !self.begun {
             self.begun = true;
             self.reset();
+            #[cfg(feature = "folds")]
             self.refit_folds();
         }
     }
@@ -371,6 +377,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
         self.outbox.enqueue(self.frame, time, &percept, late, &mut self.health);
         self.surface.note(self.frame, time, touched);
+        #[cfg(feature = "folds")]
         self.folds.note(self.frame, time);
         if self.taring && percept.tare == Tare::Done {
             (self.taring, self.tared) = (false, true);
@@ -399,6 +406,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             health,
             state,
             surface,
+            #[cfg(feature = "folds")]
             folds,
             ..
         } = self;
@@ -420,9 +428,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let pressing = surface.is_due().then_some(|| {
             surface.report(|table, poses| state.pressing(table, poses, &setup.layout, image.values))
         });
+        #[cfg(feature = "folds")]
         let folding = folds
             .is_due()
             .then_some(|| folds.report(state.condition.folds(), || state.doubts(&setup.layout)));
+        #[cfg(not(feature = "folds"))]
+        let folding = None::<fn() -> Option<crate::wire::FoldsReport>>;
         outbox.prepare(now, about, &image, (pressing, folding), health, probe);
         if !outbox.has_rest() {
             ledger.rest();

@@ -103,8 +103,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Request::Posture(posture) => self
                 .state
                 .condition
-                .folds_mut()
-                .posture
+                .posture_mut()
                 .accept(&posture, &self.setup.scene.joints, now)
                 .map_err(Refusal::of),
             Request::KeyFrame => {

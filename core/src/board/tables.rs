@@ -96,7 +96,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     fn wear(&mut self, kind: TableKind, table: Option<&'static [u8]>) {
         match kind {
             TableKind::Surface => self.surface.wear(table, &self.setup.layout),
+            #[cfg(feature = "folds")]
             TableKind::Folds => self.wear_folds(table),
+            #[cfg(not(feature = "folds"))]
+            TableKind::Folds => {}
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::config::ConditionConfig;
 use super::state::ConditionState;
-use crate::baseline::feedback::Feedback;
+use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
 use crate::baseline::progress::Tare;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::dispatch::calibrate;
@@ -12,10 +12,12 @@ use crate::filter::kinds::Filter;
 use crate::filter::points::Points;
 use crate::fold::FoldState;
 use crate::format::Invalid;
-use crate::garment::Layout;
+use crate::garment::{Layout, Rect};
 use crate::image::images::Images;
 use crate::image::slices::areas_of;
 use crate::image::view::Image;
+use core::ops::Range;
+use heapless::Vec;
 
 /// Turns codes into pressure; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -62,8 +64,9 @@ impl Condition {
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
                 let floor = self.config.floor;
+                let touched = Touched::of(layout, feedback);
                 folds.renew(sampled.now, renewed, |taxel, [begins, goes_on]| {
-                    let level = if touched(layout, feedback, taxel, 1) { goes_on } else { begins };
+                    let level = if touched.has(taxel, 1) { goes_on } else { begins };
                     calibration.set_level(taxel, floor, level, falling);
                 });
             }
@@ -107,33 +110,57 @@ impl Condition {
         if let Some(before) = before {
             images.clear_left(layout, &before);
         }
-        // A held taxel is beyond all that its fold may press.
-        folds.each(|taxel, expected| {
-            if let Some((value, code)) = images.calibrated.get_mut(taxel).zip(codes.get(taxel))
-                && *value > 0
-            {
-                *value = calibration.pressure(taxel, *code, falling).saturating_sub(expected);
-            }
-        });
+        if images.active != 0 {
+            // A held taxel is beyond all that its fold may press.
+            folds.each(|taxel, expected| {
+                if let Some((value, code)) = images.calibrated.get_mut(taxel).zip(codes.get(taxel))
+                    && *value > 0
+                {
+                    *value = calibration.pressure(taxel, *code, falling).saturating_sub(expected);
+                }
+            });
+        }
         for (_, area) in areas_of(layout, images.active) {
             filter.apply(images, points, area);
         }
     }
 }
 
-/// True if a taxel lies within so many taxels of a contact.
-fn touched<const CONTACTS: usize>(
-    layout: &Layout,
-    feedback: &Feedback<CONTACTS>,
-    taxel: usize,
-    beside: u16,
-) -> bool {
-    let mut pressed = feedback.home.iter().chain(&feedback.beyond).peekable();
-    if pressed.peek().is_none() {
-        return false;
+/// Most rectangles of contacts.
+const RECTS: usize = 32 + CARRIED;
+
+/// Where contacts lie, to be asked of many taxels.
+struct Touched<'a> {
+    layout: &'a Layout,
+    /// Each contact's rectangle, and the numbers of the taxels of its rows and of those beside them.
+    rects: Vec<(Rect, Range<u16>), RECTS>,
+}
+
+impl<'a> Touched<'a> {
+    #[inline(never)] // once in a frame, with much stack
+    fn of<const CONTACTS: usize>(layout: &'a Layout, feedback: &Feedback<CONTACTS>) -> Self {
+        let mut rects = Vec::new();
+        for Pressed { rect, .. } in feedback.home.iter().chain(&feedback.beyond) {
+            let Some(area) = layout.areas().get(usize::from(rect.panel)) else { continue };
+            let start = |row: u16| area.base.saturating_add(row.saturating_mul(area.columns));
+            let end = rect.bottom.saturating_add(BESIDE + 1).min(area.rows);
+            // There are as many places as contacts and parts of them.
+            let _ = rects.push((*rect, start(rect.top.saturating_sub(BESIDE))..start(end)));
+        }
+        Touched { layout, rects }
     }
-    let place = layout.place(taxel);
-    place.is_some_and(|place| pressed.any(|it| it.rect.holds(place.panel, place.row, place.column, beside)))
+
+    /// True if a taxel lies within so many taxels of a contact, at most [`BESIDE`].
+    fn has(&self, taxel: usize, beside: u16) -> bool {
+        // To find a taxel's row takes a division.
+        let rows = |(_, taxels): &&(Rect, Range<u16>)| {
+            taxel >= usize::from(taxels.start) && taxel < usize::from(taxels.end)
+        };
+        self.rects.iter().filter(rows).any(|(rect, _)| {
+            let place = self.layout.place(taxel);
+            place.is_some_and(|place| rect.holds(place.panel, place.row, place.column, beside))
+        })
+    }
 }
 
 /// Taxels beside a contact that may belong to it.
@@ -148,9 +175,10 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     sampled: &Sampled<'_>,
     feedback: &Feedback<CONTACTS>,
 ) {
+    let touched = Touched::of(layout, feedback);
     folds.learn(|taxel| {
         let is_read = layout.place(taxel).is_some_and(|place| sampled.panels >> place.panel & 1 == 1);
-        let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched(layout, feedback, taxel, BESIDE);
+        let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel, BESIDE);
         let code = sampled.codes.get(taxel).filter(|_| is_read && is_quiet)?;
         Some(calibration.pressure(taxel, *code, sampled.falling))
     });

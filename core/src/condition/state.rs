@@ -59,6 +59,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     }
 
     /// What the folds press, to put a table in force.
+    #[cfg(feature = "folds")]
     pub(crate) fn folds_mut(&mut self) -> &mut FoldState {
         &mut self.folds
     }

@@ -6,8 +6,11 @@ use super::record::{FoldCell, FoldRecord};
 use super::table::FoldTable;
 use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
 use crate::capacity::TAXELS;
-use crate::format::{Micros, Name};
+use crate::format::Micros;
+#[cfg(feature = "folds")]
+use crate::format::Name;
 use core::ops::Range;
+use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 /// Time in which every taxel that folds is renewed, us.
@@ -88,6 +91,7 @@ impl FoldState {
     }
 
     /// Puts a table in force, or none; `joints` are the scene's. Corrections are forgotten.
+    #[cfg(feature = "folds")]
     pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
         self.table = table;
         self.joints = [None; KNOWN];
@@ -140,8 +144,8 @@ impl FoldState {
     pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, [u16; 2])) {
         let Some(table) = self.table() else { return };
         let all = table.taxels().len() as u16;
-        let since = self.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US));
-        let share = (u64::from(all) * since).div_ceil(TURN_US) as u16;
+        let since = self.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US)) as u32;
+        let share = (u32::from(all) * since).div_ceil(TURN_US as u32) as u16;
         let count = if whole { all } else { share.clamp(1, all.max(1)) };
         let start = if self.turn.end >= all { 0 } else { self.turn.end };
         self.turn = start..start.saturating_add(count).min(all);
@@ -156,9 +160,14 @@ impl FoldState {
             let angles = if self.is_posed { fold.joints.map(angle) } else { [None; 2] };
             let Some(bend) = self.bends.get_mut(index) else { break };
             bend.turn(fold, angles);
-            let bend = *bend;
+            let (bend, cells) = (*bend, fold.cells());
+            let corners = self.corners(&bend, &at);
             for slot in at.slots(fold, &self.turn) {
-                let [expected, doubt] = self.expectation(&table, fold, &bend, &at, slot);
+                let first = at.cell + (slot - at.slot) * cells;
+                let [expected, doubt] = match bend.is_known {
+                    true => self.expectation(table.cells(), &corners, first),
+                    false => [0, self.most(&table, first, cells)],
+                };
                 let (Some(to), Some(doubts)) = (self.expected.get_mut(slot), self.doubt.get_mut(slot)) else {
                     break;
                 };
@@ -177,39 +186,31 @@ impl FoldState {
         }
     }
 
-    /// Expectation and doubt of a taxel, in units.
+    /// What the knots around a posture have in common for all taxels of the fold.
+    fn corners(&self, bend: &Bend, at: &FoldStart) -> Vec<Around, 4> {
+        let there = bend.corners.iter().filter(|corner| corner.weight > 0);
+        there
+            .map(|corner| {
+                let passes = self.passes.get(at.knot + usize::from(corner.knot)).copied().unwrap_or(0);
+                let left = SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE);
+                Around { knot: corner.knot.into(), weight: corner.weight.into(), left: left.into() }
+            })
+            .collect()
+    }
+
+    /// Expectation and doubt of the taxel whose cells begin at `first`, in units.
     #[inline(always)]
-    fn expectation(
-        &self,
-        table: &FoldTable<'_>,
-        fold: &FoldRecord,
-        bend: &Bend,
-        at: &FoldStart,
-        slot: usize,
-    ) -> [u8; 2] {
-        let first = at.cell + (slot - at.slot) * fold.cells();
-        if !bend.is_known {
-            return [0, self.most(table, first, fold.cells())];
+    fn expectation(&self, cells: &[FoldCell], corners: &[Around], first: usize) -> [u8; 2] {
+        let (mut mean, mut doubt) = (i32::from(WHOLE) / 2, u32::from(WHOLE) * u32::from(WHOLE) / 2);
+        for Around { knot, weight, left } in corners {
+            let cell = first + knot;
+            let (Some(felt), Some(correction)) = (cells.get(cell), self.corrections.get(cell)) else { break };
+            let is_known = self.known.get(cell / 32).is_some_and(|word| word >> (cell % 32) & 1 == 1);
+            let left = if is_known { *left } else { u32::from(WHOLE) };
+            mean += *weight as i32 * (i32::from(felt.mean) + i32::from(*correction));
+            doubt += weight * (u32::from(felt.spread) * u32::from(WHOLE) + u32::from(felt.days) * left);
         }
-        let (mut mean, mut spread, mut days) = (0i32, 0u32, 0u32);
-        for corner in bend.corners {
-            if corner.weight == 0 {
-                continue;
-            }
-            let cell = first + usize::from(corner.knot);
-            let (Some(felt), Some(correction)) = (table.cells().get(cell), self.corrections.get(cell)) else {
-                break;
-            };
-            let weight = u32::from(corner.weight);
-            let passes = passes_of(&self.known, &self.passes, at.knot + usize::from(corner.knot), cell);
-            mean += weight as i32 * (i32::from(felt.mean) + i32::from(*correction));
-            spread += weight * u32::from(felt.spread);
-            days += weight * share(felt.days, passes);
-        }
-        let round = u32::from(WHOLE) / 2;
-        let doubt = (spread + days + round) / u32::from(WHOLE);
-        let mean = (mean + round as i32) / i32::from(WHOLE);
-        [mean.clamp(0, 255) as u8, doubt.min(255) as u8]
+        [(mean >> 8).clamp(0, 255) as u8, (doubt >> 16).min(255) as u8]
     }
 
     /// The most that a taxel feels at any posture.
@@ -311,11 +312,17 @@ fn passes_of(known: &[u32], passes: &[u8], knot: usize, cell: usize) -> u8 {
     if is_known { passes.get(knot).copied().unwrap_or(0) } else { 0 }
 }
 
-/// What is left of `days` after so many comparisons, whose mean is nearer to the day's own: `days / (1 + n)`.
-fn share(days: u8, passes: u8) -> u32 {
-    const SHARES: [u16; MOST_PASSES as usize + 1] = [256, 128, 86, 64, 52, 43, 37, 32];
-    let share = SHARES.get(usize::from(passes)).copied().unwrap_or(256);
-    (u32::from(days) * u32::from(share)).div_ceil(256)
+/// What is left of the doubt of days after so many comparisons, whose mean is nearer to the day's own:
+/// `1 / (1 + n)`, of [`WHOLE`].
+const SHARES: [u16; MOST_PASSES as usize + 1] = [256, 128, 86, 64, 52, 43, 37, 32];
+
+/// A knot beside the present posture.
+struct Around {
+    knot: usize,
+    /// How much it counts, of [`WHOLE`].
+    weight: u32,
+    /// What is left of the doubt of days there, of [`WHOLE`].
+    left: u32,
 }
 
 /// Change of a correction that is off by `off`: so that it becomes the mean of the comparisons, as long as

@@ -4,6 +4,7 @@ use super::compose::Pipeline;
 use crate::body::Placed;
 use crate::condition::{ConditionState, Image};
 use crate::contact::ContactState;
+#[cfg(feature = "folds")]
 use crate::fold::Doubt;
 use crate::format::{Code, Micros};
 use crate::garment::Layout;
@@ -15,6 +16,7 @@ use crate::shape::Taught;
 use crate::surface::{Pressing, SurfaceState, Table};
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
+#[cfg(feature = "folds")]
 use heapless::Vec;
 
 /// Most contacts tracked at a time.
@@ -133,6 +135,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     }
 
     /// By how much the totals of the contacts of the last frame may be off for the folds beneath them.
+    #[cfg(feature = "folds")]
     #[inline(never)]
     pub(crate) fn doubts(&self, layout: &Layout) -> Vec<Doubt, CONTACTS> {
         let folds = self.condition.folds();

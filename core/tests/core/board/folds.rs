@@ -1,6 +1,7 @@
 //! The garment folds at an elbow, and presses on itself: the board expects it, and feels what is more.
 
 use super::{BoardAndHost, TAXELS};
+use crate::random::Noise;
 use taxel_core::board::TableKind;
 use taxel_core::fold::{
     FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, Posture, fold_table_bytes,
@@ -260,4 +261,43 @@ fn a_table_that_is_wrong_is_refused_by_name() {
     let damaged = [&good[..300], &[1], &good[301..]].concat();
     assert_eq!(bench.send_table(TableKind::Folds, &damaged).last(), Some(&undamaged));
     assert!(bench.send_table(TableKind::Folds, &good).iter().all(Option::is_none));
+}
+
+#[test]
+fn any_bytes_are_a_table_or_none_and_nothing_panics() {
+    let mut noise = Noise(5);
+    let (good, layout) = (elbow(20, 60), layout());
+    let mut worn = 0;
+    for _ in 0..4_000 {
+        let mut table = good.clone();
+        for _ in 0..1 + noise.below(4) {
+            // Mostly where the structure is.
+            let end = if noise.below(3) > 0 { 324 } else { table.len() as u64 };
+            table[noise.below(end) as usize] = noise.below(256) as u8;
+        }
+        if noise.below(8) == 0 {
+            table.truncate(noise.below(good.len() as u64) as usize);
+        }
+        if let Some(rest) = table.get(8..) {
+            let crc = taxel_core::format::crc32(rest);
+            table[4..8].copy_from_slice(&crc.to_le_bytes());
+        }
+        if FoldTable::check(&table, &layout).is_err() {
+            continue;
+        }
+        worn += 1;
+        if worn % 20 > 0 {
+            continue;
+        }
+        let mut bench = BoardAndHost::new(Scene::shipped());
+        bench.board.recall_table(TableKind::Folds, Some(Box::leak(table.into_boxed_slice())));
+        bench.ask(&Request::Start);
+        bench.ask(&Request::Tare { frames: 4 });
+        for _ in 0..60 {
+            let angle = JointAngle { joint: 0, centidegrees: noise.range(-180e2, 180e2) as i16 };
+            bench.ask(&Request::Posture(Posture { joints: [angle].into_iter().collect() }));
+            bench.feel(noise.range(0.0, 3900.0), &[]);
+        }
+    }
+    assert!(worn > 200, "{worn}");
 }
