@@ -66,7 +66,8 @@ struct Upload {
 
 /// The next table.
 pub(super) struct Uploads {
-    upload: Option<Upload>,
+    /// The table being received; a build without tables has no room for one.
+    upload: [Option<Upload>; TABLES as usize],
     #[cfg(any(feature = "surface", feature = "folds"))]
     piece: Vec<u8, TABLE_PIECE>,
     #[cfg(not(any(feature = "surface", feature = "folds")))]
@@ -75,12 +76,20 @@ pub(super) struct Uploads {
 
 impl Uploads {
     pub const fn new() -> Uploads {
-        Uploads { upload: None, piece: Vec::new() }
+        Uploads { upload: [None; TABLES as usize], piece: Vec::new() }
     }
 
     /// What the table being received, or received last, holds.
     pub fn kind(&self) -> TableKind {
-        self.upload.map_or(TableKind::Surface, |upload| upload.kind)
+        self.upload().map_or(TableKind::Surface, |upload| upload.kind)
+    }
+
+    fn upload(&self) -> Option<Upload> {
+        self.upload.first().copied().flatten()
+    }
+
+    fn set(&mut self, upload: Option<Upload>) {
+        self.upload.fill(upload);
     }
 }
 
@@ -127,9 +136,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             if self.is_busy() {
                 return Err(Refusal::of("something touches the garment"));
             }
-            self.uploads.upload = Some(Upload { kind, length, stored: 0, whole: None });
+            self.uploads.set(Some(Upload { kind, length, stored: 0, whole: None }));
         }
-        let upload = self.uploads.upload.filter(|it| it.kind == kind);
+        let upload = self.uploads.upload().filter(|it| it.kind == kind);
         let Some(upload) = upload.filter(|it| it.length == length && it.stored == offset) else {
             let next = upload.map_or(0, |upload| upload.stored);
             return Err(format_args!("the next piece is the one from byte {next} on").into());
@@ -149,7 +158,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// The piece to be stored.
     pub fn piece_to_store(&self) -> PieceToStore<'_> {
-        let Uploads { upload, piece } = &self.uploads;
+        let (upload, piece) = (self.uploads.upload(), &self.uploads.piece);
         let (length, offset) = upload.map_or((0, 0), |upload| (upload.length, upload.stored));
         let saves = self.saving.left_after();
         PieceToStore { kind: self.uploads.kind(), length, offset, bytes: piece, saves }
@@ -160,12 +169,13 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     pub(super) fn table_stored(&mut self, now: Micros, result: Result<Option<&'static [u8]>, &'static str>) {
         self.table_worked(now);
         let kind = self.uploads.kind();
-        let Some(upload) = self.uploads.upload.as_mut() else { return };
+        let Some(mut upload) = self.uploads.upload() else { return };
         if upload.stored == 0 {
             self.saving.charge(now);
         }
         upload.stored += self.uploads.piece.len() as u32;
         upload.whole = result.ok().flatten();
+        self.uploads.set(Some(upload));
         let checked = result.map_err(Refusal::of).and_then(|whole| {
             whole.map(|whole| self.check_table(kind, whole).map_err(Refusal::of)).transpose()
         });
@@ -175,7 +185,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Ok(Some(())) if self.works.push_back(Work::KeepTable(kind)).is_ok() => {}
             Ok(None) => self.outbox.answer(number, None),
             refused => {
-                self.uploads.upload = None;
+                self.uploads.set(None);
                 let why = refused.err().unwrap_or_else(|| Refusal::of(FULL));
                 self.outbox.answer(number, Some(why));
             }
@@ -186,7 +196,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     #[inline(never)]
     pub(super) fn table_kept(&mut self, now: Micros, kind: TableKind, result: Result<(), &'static str>) {
         self.table_worked(now);
-        let upload = self.uploads.upload.take();
+        let upload = self.uploads.upload();
+        self.uploads.set(None);
         if result.is_ok() {
             self.wear(kind, upload.and_then(|upload| upload.whole));
         }

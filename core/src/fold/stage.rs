@@ -15,6 +15,8 @@ use serde::{Deserialize, Serialize};
 
 /// Time in which every taxel that folds is renewed, us.
 const TURN_US: u64 = 20_000;
+/// 1 if this build has a use for tables, else 0.
+const USED: usize = if cfg!(feature = "folds") { 1 } else { 0 };
 /// Words of a bit for each taxel.
 const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0 };
 /// Words of a bit for each cell.
@@ -49,7 +51,8 @@ pub struct Doubt {
 pub struct FoldState {
     /// Angles of the joints.
     pub posture: PostureState,
-    table: Option<FoldTable<'static>>,
+    /// The table in force, if there is one, and what turns: without the feature there is no room for them.
+    worn: [Worn; USED],
     /// Number in the scene of each joint of the table.
     joints: [Option<u8>; KNOWN],
     bends: [Bend; FOLDS],
@@ -64,10 +67,21 @@ pub struct FoldState {
     doubt: [u8; FOLDED],
     /// A bit for each taxel of which something is expected, or that is in doubt.
     held: [u32; WORDS],
-    /// The taxels renewed in the last frame, as numbers in the table's list; the next one follows.
-    turn: Range<u16>,
+}
+
+/// A table in force, and whose turn it is.
+#[derive(Debug, Clone, Copy)]
+struct Worn {
+    table: Option<FoldTable<'static>>,
+    /// The taxels renewed in the last frame, as numbers in the table's list: from the first to before the
+    /// second, which follows.
+    turn: [u16; 2],
     renewed: Option<Micros>,
     is_posed: bool,
+}
+
+impl Worn {
+    const NOTHING: Worn = Worn { table: None, turn: [0; 2], renewed: None, is_posed: false };
 }
 
 impl FoldState {
@@ -75,7 +89,7 @@ impl FoldState {
     pub const fn new() -> FoldState {
         FoldState {
             posture: PostureState::new(),
-            table: None,
+            worn: [Worn::NOTHING; USED],
             joints: [None; KNOWN],
             bends: [Bend::NONE; FOLDS],
             corrections: [0; CELLS],
@@ -84,16 +98,13 @@ impl FoldState {
             expected: [0; FOLDED],
             doubt: [0; FOLDED],
             held: [0; WORDS],
-            turn: 0..0,
-            renewed: None,
-            is_posed: false,
         }
     }
 
     /// Puts a table in force, or none; `joints` are the scene's. Corrections are forgotten.
     #[cfg(feature = "folds")]
     pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
-        self.table = table;
+        self.worn.fill(Worn { table, ..Worn::NOTHING });
         self.joints = [None; KNOWN];
         for (joint, to) in (0..).zip(&mut self.joints) {
             let called = table.and_then(|table| table.joint(joint));
@@ -115,17 +126,17 @@ impl FoldState {
         self.bends.fill(Bend::NONE);
         self.expected.fill(0);
         self.doubt.fill(0);
-        (self.turn, self.renewed) = (0..0, None);
+        self.worn.iter_mut().for_each(|worn| *worn = Worn { table: worn.table, ..Worn::NOTHING });
     }
 
     /// The table in force.
     pub fn table(&self) -> Option<FoldTable<'static>> {
-        if cfg!(feature = "folds") { self.table } else { None }
+        self.worn.first()?.table
     }
 
     /// True if the folds are known at the present posture: contacts then mean something while joints move.
     pub fn is_followed(&self) -> bool {
-        self.table().is_some() && self.is_posed
+        self.worn.first().is_some_and(|worn| worn.table.is_some() && worn.is_posed)
     }
 
     /// True if something is expected of a taxel, or it is in doubt: its baseline does not follow its code.
@@ -142,27 +153,29 @@ impl FoldState {
     /// which a touch begins there, and that beyond which one that is there goes on, counts.
     #[inline(never)]
     pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, [u16; 2])) {
-        let Some(table) = self.table() else { return };
+        let Some(worn) = self.worn.first_mut() else { return };
+        let Some(table) = worn.table else { return };
         let all = table.taxels().len() as u16;
-        let since = self.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US)) as u32;
+        let since = worn.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US)) as u32;
         let share = (u32::from(all) * since).div_ceil(TURN_US as u32) as u16;
         let count = if whole { all } else { share.clamp(1, all.max(1)) };
-        let start = if self.turn.end >= all { 0 } else { self.turn.end };
-        self.turn = start..start.saturating_add(count).min(all);
-        self.renewed = Some(now);
-        self.is_posed = self.posture.is_fresh(now);
+        let [_, end] = worn.turn;
+        let start = if end >= all { 0 } else { end };
+        let turn = [start, start.saturating_add(count).min(all)];
+        let is_posed = self.posture.is_fresh(now);
+        *worn = Worn { table: Some(table), turn, renewed: Some(now), is_posed };
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
                 let joint = self.joints.get(usize::from(joint)).copied().flatten()?;
                 self.posture.angle(joint.into())
             };
-            let angles = if self.is_posed { fold.joints.map(angle) } else { [None; 2] };
+            let angles = if is_posed { fold.joints.map(angle) } else { [None; 2] };
             let Some(bend) = self.bends.get_mut(index) else { break };
             bend.turn(fold, angles);
             let (bend, cells) = (*bend, fold.cells());
             let corners = self.corners(&bend, &at);
-            for slot in at.slots(fold, &self.turn) {
+            for slot in at.slots(fold, turn) {
                 let first = at.cell + (slot - at.slot) * cells;
                 let [expected, doubt] = match bend.is_known {
                     true => self.expectation(table.cells(), &corners, first),
@@ -239,14 +252,14 @@ impl FoldState {
     /// `felt` gives the pressure of a taxel without the expectation, counts, or none if it may be touched.
     #[inline(never)]
     pub(crate) fn learn(&mut self, felt: impl Fn(usize) -> Option<u16>) {
-        let Some(table) = self.table() else { return };
+        let Some(Worn { table: Some(table), turn, .. }) = self.worn.first().copied() else { return };
         let unit = u32::from(table.unit()).max(1);
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let Some(bend) = self.bends.get_mut(index) else { break };
             let knot = usize::from(bend.knot.unwrap_or(0));
             if bend.is_known && bend.left > 0 {
-                for slot in at.slots(fold, &self.turn).take(bend.left.into()) {
+                for slot in at.slots(fold, turn).take(bend.left.into()) {
                     bend.left -= 1;
                     let (Some(taxel), Some(expected)) = (table.taxels().get(slot), self.expected.get(slot))
                     else {
@@ -312,6 +325,12 @@ fn passes_of(known: &[u32], passes: &[u8], knot: usize, cell: usize) -> u8 {
     if is_known { passes.get(knot).copied().unwrap_or(0) } else { 0 }
 }
 
+impl Default for FoldState {
+    fn default() -> Self {
+        FoldState::new()
+    }
+}
+
 /// What is left of the doubt of days after so many comparisons, whose mean is nearer to the day's own:
 /// `1 / (1 + n)`, of [`WHOLE`].
 const SHARES: [u16; MOST_PASSES as usize + 1] = [256, 128, 86, 64, 52, 43, 37, 32];
@@ -344,9 +363,9 @@ impl FoldStart {
     const FIRST: FoldStart = FoldStart { slot: 0, cell: 0, knot: 0 };
 
     /// The fold's taxels within a range of the table's list.
-    fn slots(&self, fold: &FoldRecord, range: &Range<u16>) -> Range<usize> {
-        let end = self.slot + usize::from(fold.taxels);
-        usize::from(range.start).max(self.slot)..usize::from(range.end).min(end)
+    fn slots(&self, fold: &FoldRecord, [first, end]: [u16; 2]) -> Range<usize> {
+        let last = self.slot + usize::from(fold.taxels);
+        usize::from(first).max(self.slot)..usize::from(end).min(last)
     }
 
     /// The place of the fold after this one.
