@@ -87,6 +87,7 @@ pub mod run;
 // Of a build that leaves nothing out.
 #[cfg(all(
     any(test, target_arch = "arm"),
+    feature = "folds",
     feature = "gallery",
     feature = "gesture",
     feature = "intent",
