@@ -173,9 +173,7 @@ fn is_pressed(sweeps: &[Sweep], taxel: usize) -> bool {
 
 /// A fold of these joints, whose knots are `step` degrees apart.
 fn fold(sweeps: &[Sweep], joints: &[String], step: f32, play: f32) -> Result<Fold> {
-    let axes = joints
-        .iter()
-        .map(|joint| Axis::over(sweeps.iter().filter_map(|sweep| sweep.angles(joint)).flatten(), step, play));
+    let axes = joints.iter().map(|joint| Axis::over(sweeps, joint, step, play));
     let knots = Knots { joints: joints.to_vec(), axes: axes.collect() };
     let weights = sweeps.iter().map(|sweep| knots.weights(sweep)).collect();
     Ok(Fold { knots, weights, pressed: Vec::new(), residual: 0.0 })
@@ -215,7 +213,7 @@ impl Fold {
                     best = (left, play);
                 }
             }
-            self.knots.axes[axis].play = best.1;
+            self.knots.axes[axis] = Axis::over(sweeps, &self.knots.joints[axis], step, best.1);
             self.residual = best.0;
         }
         self.weights = sweeps.iter().map(|sweep| self.knots.weights(sweep)).collect();
@@ -241,9 +239,8 @@ fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[Sweep], step: 
         }
         step *= 1.1;
         for fold in &mut *folds {
-            let axes = fold.knots.joints.iter().zip(&fold.knots.axes).map(|(joint, axis)| {
-                Axis::over(sweeps.iter().filter_map(|sweep| sweep.angles(joint)).flatten(), step, axis.play)
-            });
+            let its = fold.knots.joints.iter().zip(&fold.knots.axes);
+            let axes = its.map(|(joint, axis)| Axis::over(sweeps, joint, step, axis.play));
             fold.knots.axes = axes.collect();
             fold.weights = sweeps.iter().map(|sweep| fold.knots.weights(sweep)).collect();
         }
