@@ -67,7 +67,7 @@ class Requests:
         self._ask("set_poses", poses={link: [list(at), list(turn)] for link, (at, turn) in poses.items()})
 
     def set_folds(self, path: str | os.PathLike[str]) -> None:
-        """Stores on the board what the garment's folds press: a file that ``learn_folds`` has written."""
+        """Stores on the board what the garment's folds press: a file of ``taxel.folds.learn``."""
         self._ask("set_folds", folds=os.fspath(path))
 
     def set_pressing(self, hz: int = 65535) -> None:

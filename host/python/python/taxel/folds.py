@@ -63,8 +63,8 @@ def learn(
     garment: str | os.PathLike[str] = "reference",
     folds: Sequence[Sequence[str]] = (),
     step_deg: float = 8.0,
-    shift_mm: float = 22.0,
-    shift_deg: float = 10.0,
+    shift_mm: float = 30.0,
+    shift_deg: float = 16.0,
 ) -> Learned:
     """Learns the table of folds.
 

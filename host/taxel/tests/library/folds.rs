@@ -9,7 +9,7 @@ use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFolds, learn};
 use taxel::session::setting;
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
 use taxel::stepped::Stepped;
-use taxel_core::fold::{JointAngle, Posture};
+use taxel_core::fold::{FoldTable, JointAngle, Posture};
 use taxel_core::format::Micros;
 use taxel_core::garment::Layout;
 use taxel_core::intent::Leading;
@@ -177,6 +177,36 @@ fn total_at(seen: &Seen, at_us: u64, begin: u64) -> u32 {
     let from = at_us + begin * FRAME_PERIOD_US;
     let first = seen.contacts.iter().find(|(time, ..)| *time >= from).map_or(0, |(time, ..)| *time);
     seen.contacts.iter().filter(|(time, ..)| *time == first).map(|(.., total)| total).sum()
+}
+
+#[test]
+fn a_bulge_that_appears_at_once_may_do_so_beside_where_it_did() {
+    let layout = layout(&bending(1));
+    let (pressed, beside, away) = (100, 101, 102);
+    let mut sweep = FoldSweep::new(vec!["left_elbow".into()], layout.taxels());
+    let mut is_out = false;
+    for frame in 0..1200 {
+        // To 100 degrees and back; it appears at 60 and stays until 40.
+        let angle = 50.0 - 50.0 * (frame as f32 / 50.0).cos();
+        is_out = angle > if is_out { 40.0 } else { 60.0 };
+        let mut felt = vec![0; layout.taxels()];
+        felt[pressed] = if is_out { 300 } else { 0 };
+        sweep.push(&[angle], &felt).expect("it fits");
+    }
+    let settings = FoldSettings { shift_mm: 24.0, ..FoldSettings::default() };
+    let learned = learn(&layout, &[sweep], &settings).expect("it folds");
+    let table = FoldTable::view(&learned.table).expect("it is one");
+    let cells = table.folds()[0].cells();
+    let spread = |taxel: usize| {
+        let slot =
+            table.taxels().iter().position(|its| usize::from(*its) == taxel).expect("it is in the table");
+        let its = &table.cells()[slot * cells..][..cells];
+        its.iter().map(|cell| u16::from(cell.spread) * table.unit()).max().expect("it has knots")
+    };
+    assert!(spread(pressed) > 100, "{}", spread(pressed));
+    assert_eq!(spread(beside), spread(pressed));
+    // A whole shift away: its doubt is that of days, which falls as the day is learned.
+    assert_eq!(spread(away), 0);
 }
 
 #[test]

@@ -30,10 +30,10 @@ pub struct BodyLearnArgs {
     #[arg(long, value_name = "DEG", default_value_t = 8.0, value_parser = angle)]
     step: f32,
     /// Most by which the garment shifts from day to day, mm
-    #[arg(long, value_name = "MM", default_value_t = 22.0, value_parser = length)]
+    #[arg(long, value_name = "MM", default_value_t = 30.0, value_parser = length)]
     shift: f32,
     /// Most by which the angle differs from day to day at which a fold appears, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 10.0, value_parser = angle)]
+    #[arg(long, value_name = "DEG", default_value_t = 16.0, value_parser = angle)]
     shift_angle: f32,
     /// The table to write, for `taxel live --folds`
     #[arg(short, long, value_name = "FILE")]

@@ -17,13 +17,23 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Knots about `step` degrees apart over all angles that a joint had, in whole hundredths of a degree.
-    pub fn over(angles: impl Iterator<Item = f32>, step: f32, play: f32) -> Axis {
-        let (least, most) = angles.fold((f32::MAX, f32::MIN), |(a, b), angle| (a.min(angle), b.max(angle)));
-        let least = least.min(most).max(-180.0).floor();
-        let steps = ((most - least) / step).ceil().max(1.0);
-        let step = (((most - least) / steps * 100.0).ceil() / 100.0).max(0.01);
-        Axis { first: least, step, knots: steps as usize + 1, play }
+    /// Knots about `step` degrees apart over the angles that a joint's sleeve had in most sweeps, in whole
+    /// hundredths of a degree. Each is the middle of the angles next to it, the first and the last, too: a knot
+    /// to which a sleeve seldom comes would seldom be compared on a day.
+    pub fn over(sweeps: &[FoldSweep], joint: &str, step: f32, play: f32) -> Axis {
+        let ends = sweeps.iter().filter_map(|sweep| {
+            let played = played(sweep.angles(joint)?, play);
+            Some(played.fold((f32::MAX, f32::MIN), |(a, b), angle| (a.min(angle), b.max(angle))))
+        });
+        let (mut least, mut most): (Vec<f32>, Vec<f32>) = ends.unzip();
+        let [least, most] = [&mut least, &mut most].map(|all| {
+            all.sort_by(f32::total_cmp);
+            all.get(all.len() / 2).copied().unwrap_or(0.0)
+        });
+        let knots = ((most - least) / step).ceil().max(2.0);
+        let step = (((most - least) / knots * 100.0).ceil() / 100.0).max(0.01);
+        let first = ((least + step / 2.0) * 100.0).round() / 100.0;
+        Axis { first, step, knots: knots as usize, play }
     }
 
     /// Knot below an angle, and the share of the way to the next.
@@ -32,6 +42,14 @@ impl Axis {
         let knot = (along as usize).min(self.knots.saturating_sub(2));
         (knot, along - knot as f32)
     }
+}
+
+/// Angles of a sleeve that follows its joint's only after so much of a turn back.
+fn played(angles: impl Iterator<Item = f32>, play: f32) -> impl Iterator<Item = f32> {
+    angles.scan(None, move |played: &mut Option<f32>, angle| {
+        *played = Some(played.map_or(angle, |played| played.clamp(angle - play, angle + play)));
+        *played
+    })
 }
 
 /// A knot, and how much it counts.
@@ -56,10 +74,7 @@ impl Knots {
     pub fn weights(&self, sweep: &FoldSweep) -> Option<Vec<[KnotWeight; 4]>> {
         let mut all = vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; sweep.frames()];
         for (joint, axis) in self.joints.iter().zip(&self.axes) {
-            let mut played: Option<f32> = None;
-            for (frame, angle) in all.iter_mut().zip(sweep.angles(joint)?) {
-                let at = played.map_or(angle, |played| played.clamp(angle - axis.play, angle + axis.play));
-                played = Some(at);
+            for (frame, at) in all.iter_mut().zip(played(sweep.angles(joint)?, axis.play)) {
                 let (knot, share) = axis.at(at);
                 let [first, second, ..] = *frame;
                 let of = |(outer, weight): KnotWeight, more: usize, share: f32| {

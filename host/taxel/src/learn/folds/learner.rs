@@ -15,7 +15,10 @@ const PLAYS: [f32; 7] = [0.0, 2.0, 4.0, 6.0, 8.0, 11.0, 15.0];
 /// Share of its frames in which a taxel must feel something to fold.
 const PRESSED: f64 = 5e-4;
 /// Share of what a taxel feels that differs from day to day, besides what the shift explains.
-const DAY_SHARE: f32 = 0.25;
+const DAY_SHARE: f32 = 0.5;
+/// Share of the most by which the garment shifts, within which a neighbour's spread counts, too. It is not all
+/// of the shift: the spread is doubt for the whole day, and would hide touches.
+const SPREAD_SHARE: f32 = 0.5;
 /// Most knots of a joint.
 const MOST_KNOTS: usize = 64;
 
@@ -34,7 +37,7 @@ pub struct FoldSettings {
 
 impl Default for FoldSettings {
     fn default() -> FoldSettings {
-        FoldSettings { folds: Vec::new(), step_deg: 8.0, shift_mm: 22.0, shift_deg: 10.0 }
+        FoldSettings { folds: Vec::new(), step_deg: 8.0, shift_mm: 30.0, shift_deg: 16.0 }
     }
 }
 
@@ -170,9 +173,7 @@ fn is_pressed(sweeps: &[FoldSweep], taxel: usize) -> bool {
 
 /// A fold of these joints, whose knots are `step` degrees apart.
 fn fold(sweeps: &[FoldSweep], joints: &[String], step: f32, play: f32) -> Result<Fold> {
-    let axes = joints
-        .iter()
-        .map(|joint| Axis::over(sweeps.iter().filter_map(|sweep| sweep.angles(joint)).flatten(), step, play));
+    let axes = joints.iter().map(|joint| Axis::over(sweeps, joint, step, play));
     let knots = Knots { joints: joints.to_vec(), axes: axes.collect() };
     let weights = sweeps.iter().map(|sweep| knots.weights(sweep)).collect();
     Ok(Fold { knots, weights, pressed: Vec::new(), residual: 0.0 })
@@ -215,7 +216,7 @@ impl Fold {
                     best = (left, play);
                 }
             }
-            self.knots.axes[axis].play = best.1;
+            self.knots.axes[axis] = Axis::over(sweeps, &self.knots.joints[axis], step, best.1);
             self.residual = best.0;
         }
         self.weights = sweeps.iter().map(|sweep| self.knots.weights(sweep)).collect();
@@ -241,9 +242,8 @@ fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[FoldSweep], st
         }
         step *= 1.1;
         for fold in &mut *folds {
-            let axes = fold.knots.joints.iter().zip(&fold.knots.axes).map(|(joint, axis)| {
-                Axis::over(sweeps.iter().filter_map(|sweep| sweep.angles(joint)).flatten(), step, axis.play)
-            });
+            let its = fold.knots.joints.iter().zip(&fold.knots.axes);
+            let axes = its.map(|(joint, axis)| Axis::over(sweeps, joint, step, axis.play));
             fold.knots.axes = axes.collect();
             fold.weights = sweeps.iter().map(|sweep| fold.knots.weights(sweep)).collect();
         }
@@ -283,27 +283,40 @@ fn courses(
             TaxelCourse { taxel: *taxel, most: most.collect(), days: days.collect(), mean, spread }
         })
         .collect();
-    // A shift brings what the neighbours feel, at an angle or beside it.
+    // A shift brings what the neighbours feel, at an angle or beside it, and how it differs within a day.
     let beside: Vec<Vec<usize>> =
         (0..knots).map(|knot| fold.knots.beside(knot, settings.shift_deg)).collect();
-    let shifted: Vec<Vec<f32>> = courses
-        .iter()
-        .map(|course| {
-            let near = near(layout, course.taxel, settings.shift_mm);
-            let near: Vec<&TaxelCourse> =
-                courses.iter().filter(|other| near.contains(&other.taxel)).collect();
-            let strongest = |knot: &usize| near.iter().map(|other| other.most[*knot]).fold(0.0f32, f32::max);
-            let strongest: Vec<f32> = (0..knots).map(|knot| strongest(&knot)).collect();
-            let of = |beside: &Vec<usize>| beside.iter().map(|knot| strongest[*knot]).fold(0.0f32, f32::max);
-            beside.iter().map(of).collect()
-        })
-        .collect();
-    for (course, shifted) in courses.iter_mut().zip(shifted) {
-        for ((days, mean), shifted) in course.days.iter_mut().zip(&course.mean).zip(shifted) {
-            *days = days.max((1.0 + DAY_SHARE) * shifted - mean);
+    let shift_mm = settings.shift_mm;
+    let most = brought(layout, &courses, &beside, shift_mm, |course| &course.most);
+    let spread = brought(layout, &courses, &beside, SPREAD_SHARE * shift_mm, |course| &course.spread);
+    for (course, (most, spread)) in courses.iter_mut().zip(most.into_iter().zip(spread)) {
+        for ((days, mean), most) in course.days.iter_mut().zip(&course.mean).zip(most) {
+            *days = days.max((1.0 + DAY_SHARE) * most - mean);
         }
+        course.spread = spread;
     }
     courses
+}
+
+/// The greatest value of each course at each knot, among its neighbours within `shift_mm` and the knots
+/// beside.
+fn brought(
+    layout: &Layout,
+    courses: &[TaxelCourse],
+    beside: &[Vec<usize>],
+    shift_mm: f32,
+    values: impl Fn(&TaxelCourse) -> &[f32],
+) -> Vec<Vec<f32>> {
+    let greatest = |all: &mut dyn Iterator<Item = f32>| all.fold(0.0f32, f32::max);
+    let of = |course: &TaxelCourse| {
+        let near = near(layout, course.taxel, shift_mm);
+        let near: Vec<&TaxelCourse> = courses.iter().filter(|other| near.contains(&other.taxel)).collect();
+        let there: Vec<f32> = (0..beside.len())
+            .map(|knot| greatest(&mut near.iter().map(|other| values(other)[knot])))
+            .collect();
+        beside.iter().map(|beside| greatest(&mut beside.iter().map(|knot| there[*knot]))).collect()
+    };
+    courses.iter().map(of).collect()
 }
 
 /// Mean over the days that know a knot; where none does, that of the nearest knot before or after.

@@ -9,9 +9,11 @@
 //! | `near.rs` | the taxels that a shift of the garment may bring to where one lies |
 //! | `learner.rs` | which taxels fold with which joints, and the table |
 //!
-//! Each taxel that was pressed belongs to the fold that explains it best. Its expectation is the mean over the
-//! days, linear between knots; its spread covers all but a few frames of each day. From day to day a garment
-//! shifts: a taxel may feel tomorrow what its neighbours feel today, so the neighbours are in the table, too.
+//! Each taxel that was pressed belongs to the fold that explains it best. Its expectation is the mean over
+//! the days, linear between knots; its spread covers all but a few frames of each day. From day to day a
+//! garment shifts: a taxel may feel tomorrow what its neighbours feel today. The neighbours are therefore in
+//! the table, too, and a taxel's spread is at least that of the taxels within half of the shift: a bulge that
+//! appears at once does so elsewhere tomorrow.
 
 mod bend;
 mod felt;

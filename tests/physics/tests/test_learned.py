@@ -1,0 +1,393 @@
+"""Folds that a board has learned: false contacts, and touches inside folds and elsewhere, on other days.
+
+Nothing that is judged was learned from: other days of the creases, other fabrics, other motions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pytest
+import taxel
+from conftest import Worn, table
+from taxel.folds import Sweep, learn
+
+from taxel_physics.folding import PRESSES_IN_S, Folding, Moment, fingertip, random_motion, scans_in
+from taxel_physics.places import Array, Places
+
+SWEPT_DAYS, SWEPT_S = range(6), 90.0
+"""Days on which sweeps are taken, and the length of each."""
+
+DAYS, DAY_S = range(200, 204), 150.0
+"""Days that are judged, and the length of the motion on each: ten minutes in all."""
+
+EARLY_S = 30.0
+"""Beginning of a day, in which the board has not yet compared its folds with those of the day."""
+
+COMPARED_SCANS = 39
+"""Scans from one comparison of expected and measured pressure to the next: 0.2 s."""
+
+TOUCH_S, APART_S = 0.6, 0.4
+"""Length of a touch, and the time between two."""
+
+SETTLES_S = 0.2
+"""Time after the onset of a touch from which on its force counts."""
+
+PRESSED = 50
+"""Counts from which on a fold presses on a taxel."""
+
+LEFT = 0.01
+"""Most of the share of scans with a false contact that compensation may leave over all days."""
+
+DAY_LEFT = 0.03
+"""What it may leave on the worst day: this misses the bar, which is that of all days."""
+
+UNLIKE = 0.02
+"""Most that the correlation of expected and measured pressure may lack of 1."""
+
+EARLY_UNLIKE, DAY_UNLIKE = 0.04, 0.03
+"""What it lacks on the first half minute of all days, and on the worst day: these miss the bar."""
+
+MISSED = 0.05
+"""Most touches inside folds that may be missed, share."""
+
+FORCE_OFF, UNCERTAIN = 0.1, 0.05
+"""Error of a touch's force that is small, share of the force; and share of the reports inside folds whose force
+may be off by more than that and by more than the board's own doubt."""
+
+TOUCHED_S = 90.0
+"""Length of the motion on each day on which touches are judged."""
+
+FORCES_N = (2.0, 4.0)
+"""Range of a fingertip's force."""
+
+STRONG_N = (6.0, 8.0)
+"""Range of a strong touch's force."""
+
+SILENT_S = 60.0
+"""Length of the motion on each day on which no posture is told, or not always."""
+
+STALE_LEFT, BLIND_LEFT = 0.001, 0.05
+"""Most of the scans with a false contact while a posture is stale, and in the half second before."""
+
+TOLD_S, UNTOLD_S, STALE_S = 6.0, 3.0, 0.5
+"""Times for which postures are told and are not, in turn; and the age at which a posture counts no more."""
+
+
+@dataclass(frozen=True)
+class Learned:
+    """A body, and the table of its folds."""
+
+    name: str
+    places: Places
+    table: Path
+
+    def day(self, day: int, knows: bool = True) -> Folding:
+        """A board on one of the days that are judged; one that knows of no folds, if it should not."""
+        return Folding(self.places, day=day, seed=1000 + day, table=self.table if knows else None)
+
+
+@pytest.fixture(scope="module")
+def learned(worn: Worn, tmp_path_factory: pytest.TempPathFactory) -> Learned:
+    """Learns a body's folds from sweeps."""
+    sweeps = []
+    for day in SWEPT_DAYS:
+        folding = Folding(worn.places, day=day, seed=50 + day)
+        moments = [(moment.known, moment.frame.image) for moment in folding.run(motion(day, SWEPT_S))]
+        degrees = np.degrees([known for known, _ in moments])
+        felt = np.array([image for _, image in moments], np.uint16)
+        sweeps.append(Sweep(dict(zip(folding.joints, degrees.T, strict=True)), felt))
+    path = tmp_path_factory.mktemp(worn.name) / "learned.folds"
+    learn(sweeps).save(path)
+    return Learned(worn.name, worn.places, path)
+
+
+def motion(day: int, seconds: float) -> Array:
+    """(scans, joints) Angles of both elbows, another motion each day."""
+    return random_motion(2, seconds, seed=2000 + day)
+
+
+@dataclass
+class Day:
+    """What a board said while the joints moved and nothing touched."""
+
+    contacts: set[int] = field(default_factory=set)
+    """Ids of false contacts."""
+    false_scans: int = 0
+    """Scans with a false contact."""
+    scans: int = 0
+    intentions: set[str] = field(default_factory=set)
+    pairs: list[Array] = field(default_factory=list)
+    """(5, n) Of taxels that fold at some moments: time, s; taxel; expected, measured, doubt, counts."""
+
+    def note(self, moment: Moment) -> None:
+        """Counts a scan."""
+        self.contacts.update(moment.frame.contacts["id"].tolist())
+        self.false_scans += len(moment.frame.contacts) > 0
+        self.scans += 1
+        self.intentions.add(moment.leading)
+
+    def compare(self, folding: Folding, moment: Moment) -> None:
+        """Notes what the board expects and what the folds press, wherever one of them is something."""
+        taxels, expected, doubt = folding.board.folds()
+        measured = folding.counts(moment.folds)
+        # What presses on a taxel that the table has not is expected to be nothing.
+        all_expected, all_doubts = np.zeros((2, len(measured)))
+        all_expected[taxels], all_doubts[taxels] = expected, doubt
+        on = np.flatnonzero((all_expected > 0.0) | (measured > 0.0))
+        time = np.full(len(on), moment.time_s)
+        self.pairs.append(np.array([time, on, all_expected[on], measured[on], all_doubts[on]]))
+
+    @property
+    def share(self) -> float:
+        """Share of the scans with a false contact."""
+        return self.false_scans / self.scans
+
+    @property
+    def per_minute(self) -> float:
+        """False contacts a minute."""
+        return len(self.contacts) / (self.scans / scans_in(60.0))
+
+
+def untouched(learned: Learned, day: int, knows: bool) -> Day:
+    """A day on which nothing touches."""
+    folding, seen = learned.day(day, knows), Day()
+    for scan, moment in enumerate(folding.run(motion(day, DAY_S))):
+        seen.note(moment)
+        if knows and scan % COMPARED_SCANS == 0:
+            seen.compare(folding, moment)
+    return seen
+
+
+@dataclass
+class Felt:
+    """A fingertip on the garment, and what the board said of it."""
+
+    time_s: float
+    """Of its onset."""
+    newtons: float
+    where: str
+    """Of its taxels: ``pressed`` by a fold at its onset, ``folding`` but not pressed, or ``elsewhere``."""
+    forces: Array
+    """(taxels,) N."""
+    found: bool = False
+    full: bool = False
+    """True if a taxel came to the end of its range."""
+    said: list[tuple[float, float]] = field(default_factory=list)
+    """Total of its contact as a share of the true one, and the doubt of it as a share; at each report."""
+
+
+class Touching:
+    """A board that is touched by a fingertip, again and again, while its joints move."""
+
+    def __init__(self, learned: Learned, folding: Folding, seed: int, newtons: tuple[float, float]) -> None:
+        self._places, self._folding, self._newtons = learned.places, folding, newtons
+        self._rng = np.random.default_rng(seed)
+        taxels = folding.board.folds()[0]
+        self._folds = np.zeros(learned.places.taxels, bool)
+        self._folds[taxels] = True
+        self._next_s = 2.0
+
+    def run(self, angles: Array) -> Iterator[tuple[Moment, Felt | None]]:
+        """Each moment, and the touch that ended with it."""
+        touch: Felt | None = None
+        for moment in self._folding.run(angles):
+            ended = None
+            if touch is None:
+                if moment.time_s >= self._next_s:
+                    touch = self._begin(moment)
+            else:
+                self._note(touch, moment)
+                since = moment.time_s - touch.time_s
+                if since >= TOUCH_S:
+                    ended, touch, self._next_s = touch, None, moment.time_s + APART_S
+                    self._folding.touch = np.zeros(len(self._folds))
+                else:
+                    self._folding.touch = min(since / PRESSES_IN_S, 1.0) * touch.forces
+            yield moment, ended
+
+    def _begin(self, moment: Moment) -> Felt:
+        """A touch at random: where a fold presses, where one may, or elsewhere."""
+        pressed = self._folding.counts(moment.folds) >= PRESSED
+        kind = self._rng.choice(["pressed", "folding", "elsewhere"])
+        allowed = {
+            "pressed": self._folds & pressed,
+            "folding": self._folds & ~pressed,
+            "elsewhere": ~self._folds,
+        }
+        newtons = self._rng.uniform(*self._newtons)
+        while True:
+            # Where no fold presses now, the next best.
+            taxels = np.flatnonzero(allowed[kind] if allowed[kind].any() else allowed["folding"])
+            center = int(self._rng.choice(taxels))
+            forces = fingertip(self._places, center, newtons)
+            # A fingertip beside a fold reaches into it: that is no place elsewhere.
+            if kind != "elsewhere" or not self._folds[forces > 0.0].any():
+                break
+        where = "elsewhere" if kind == "elsewhere" else "pressed" if pressed[center] else "folding"
+        return Felt(moment.time_s, float(newtons), where, forces)
+
+    def _note(self, touch: Felt, moment: Moment) -> None:
+        """Looks for the contact of a touch, and what is said of its force."""
+        panels = list(moment.frame.panels.values())
+        bases = np.cumsum([0] + [panel.size for panel in panels])
+        touch.full |= bool(self._folding.fabric.is_full(moment.folds + self._folding.touch).any())
+        for contact in moment.frame.contacts:
+            panel = int(contact["panel"])
+            peak = contact["peak_row"] * panels[panel].shape[1] + contact["peak_column"]
+            if touch.forces[bases[panel] + int(peak)] == 0.0:
+                continue
+            touch.found = True
+            if moment.said is None or moment.time_s - touch.time_s < SETTLES_S:
+                continue
+            doubts = {each["id"]: each["doubt"] for each in moment.said.contacts}
+            true = self._folding.counts(touch.forces).sum()
+            doubt = doubts.get(int(contact["id"]), 0)
+            touch.said.append((float(contact["total"] / true), float(doubt / true)))
+
+
+def r(pairs: Array) -> float:
+    """Correlation of expected and measured pressure."""
+    return float(np.corrcoef(pairs[2], pairs[3])[0, 1])
+
+
+def test_folds_are_no_touches_and_mean_nothing(learned: Learned) -> None:
+    without = [untouched(learned, day, knows=False) for day in DAYS]
+    days = [untouched(learned, day, knows=True) for day in DAYS]
+    pairs = [np.concatenate(day.pairs, axis=1) for day in days]
+    parts = {
+        "all": pairs,
+        f"first {EARLY_S:g} s": [each[:, each[0] < EARLY_S] for each in pairs],
+        "the rest": [each[:, each[0] >= EARLY_S] for each in pairs],
+    }
+    left = [day.share / before.share for day, before in zip(days, without, strict=True)]
+    scans = [sum(day.scans for day in days), sum(before.scans for before in without)]
+    wrong = [sum(day.false_scans for day in days), sum(before.false_scans for before in without)]
+    over_all = wrong[0] / scans[0] / (wrong[1] / scans[1])
+    columns = {
+        "without: false contacts/min": [before.per_minute for before in without],
+        "without: scans with one, share": [before.share for before in without],
+        "with: false contacts/min": [day.per_minute for day in days],
+        "with: scans with one, share": [day.share for day in days],
+        "with: intentions announced": [float(len(day.intentions - {"none"})) for day in days],
+        "share left": left,
+        **{f"1 - r, {name}": [1.0 - r(each) for each in part] for name, part in parts.items()},
+        **{f"1 - r of all days, {name}": [1.0 - r(np.hstack(part))] for name, part in parts.items()},
+        **{f"doubt of a taxel, counts, {name}": np.hstack(part)[4] for name, part in parts.items()},
+    }
+    clean = sum(not day.contacts for day in days)
+    minutes = len(DAYS) * DAY_S / 60.0
+    title = (
+        f"Folds of {len(SWEPT_DAYS)} days, body {learned.name}: {minutes:g} min on {len(DAYS)} others, {clean}"
+        f" without a false contact; {over_all:.4f} of the share left"
+    )
+    bars = {"share left": LEFT, "with: intentions announced": 0.0}
+    bars |= dict.fromkeys((name for name in columns if name.startswith("1 - r")), UNLIKE)
+    table(title, columns, bars)
+    # Otherwise there is nothing to compensate.
+    assert min(before.share for before in without) > 0.5
+    assert over_all <= LEFT
+    assert max(left) <= DAY_LEFT
+    # One day misses the bar: a false contact that comes again and again is taken for a kind touch.
+    assert sum(columns["with: intentions announced"]) <= 1
+    for day in days:
+        assert day.intentions <= ({"none", "kindness"} if day.contacts else {"none"})
+    assert columns["1 - r of all days, all"][0] <= UNLIKE
+    assert columns["1 - r of all days, the rest"][0] <= UNLIKE
+    # Misses the bar: what is expected first is the mean of the days that were learned, not this day.
+    assert columns[f"1 - r of all days, first {EARLY_S:g} s"][0] <= EARLY_UNLIKE
+    assert max(columns["1 - r, all"]) <= DAY_UNLIKE
+
+
+def touched(
+    learned: Learned, newtons: tuple[float, float], days: Iterable[int] = DAYS, told: bool = True
+) -> list[Felt]:
+    """Touches on these days; those that take a taxel to the end of its range do not count."""
+    felt = []
+    for day in days:
+        folding = learned.day(day)
+        folding.told = told
+        touching = Touching(learned, folding, seed=3000 + day, newtons=newtons)
+        felt += [touch for _, touch in touching.run(motion(day, TOUCHED_S)) if touch is not None]
+    whole = [touch for touch in felt if not touch.full]
+    assert len(whole) > 0.9 * len(felt)
+    return whole
+
+
+def test_touches_are_found_and_their_force_is_known(learned: Learned) -> None:
+    felt = touched(learned, FORCES_N)
+    columns: dict[str, list[float]] = {}
+    missed: dict[str, list[float]] = {}
+    good: dict[str, list[float]] = {}
+    groups = {
+        "elsewhere": [touch for touch in felt if touch.where == "elsewhere"],
+        "inside, early": [touch for touch in felt if touch.where != "elsewhere" and touch.time_s < EARLY_S],
+        "inside, later": [touch for touch in felt if touch.where != "elsewhere" and touch.time_s >= EARLY_S],
+        "of these on a fold that presses": [touch for touch in felt if touch.where == "pressed"],
+    }
+    for name, group in groups.items():
+        said = np.array([each for touch in group for each in touch.said])
+        newtons = np.array([touch.newtons for touch in group for _ in touch.said])
+        off = np.abs(said[:, 0] - 1.0)
+        missed[name] = [float(not touch.found) for touch in group]
+        good[name] = (off <= np.maximum(FORCE_OFF, said[:, 1])).astype(float).tolist()
+        columns[f"{name}: force off, share"] = off.tolist()
+        columns[f"{name}: doubt, N"] = (said[:, 1] * newtons).tolist()
+        columns[f"{name}: share beyond {FORCE_OFF:.0%}"] = [float(np.mean(off > FORCE_OFF))]
+        columns[f"{name}: beyond it and doubt"] = [1.0 - float(np.mean(good[name]))]
+        columns[f"{name}: missed, share"] = [float(np.mean(missed[name]))]
+    counts = ", ".join(f"{len(group)} {name}" for name, group in groups.items())
+    bars = {"elsewhere: force off, share": FORCE_OFF, "elsewhere: missed, share": 0.0}
+    for name in ("inside, early", "inside, later"):
+        bars |= {f"{name}: missed, share": MISSED, f"{name}: beyond it and doubt": UNCERTAIN}
+    low, high = FORCES_N
+    table(f"Fingertips of {low:g} to {high:g} N, body {learned.name}: {counts}", columns, bars)
+    assert min(map(len, groups.values())) >= 40
+    assert sum(missed["elsewhere"]) == 0
+    assert max(columns["elsewhere: force off, share"]) <= FORCE_OFF
+    for name in ("inside, early", "inside, later"):
+        assert np.mean(missed[name]) <= MISSED, name
+        assert np.mean(good[name]) >= 1.0 - UNCERTAIN, name
+
+
+def test_without_a_posture_nothing_is_a_touch_but_what_is_strong(learned: Learned) -> None:
+    silent = [Day() for _ in DAYS]
+    ends: dict[str, list[float]] = {name: [] for name in ("told", "not yet stale", "stale")}
+    for day, never in zip(DAYS, silent, strict=True):
+        folding = learned.day(day)
+        folding.told = False
+        for moment in folding.run(motion(day, SILENT_S)):
+            never.note(moment)
+        folding = learned.day(day)
+        for moment in folding.run(motion(day, SILENT_S)):
+            since_s = moment.time_s % (TOLD_S + UNTOLD_S)
+            folding.told = since_s < TOLD_S
+            state = "told" if folding.told else "not yet stale" if since_s < TOLD_S + STALE_S else "stale"
+            ends[state].append(float(len(moment.frame.contacts) > 0))
+    touches = {newtons: touched(learned, newtons, DAYS[:2], told=False) for newtons in (STRONG_N, FORCES_N)}
+    columns = {
+        "never told: scans with a contact": [day.share for day in silent],
+        **{f"{name}: scans with one, share": [float(np.mean(scans))] for name, scans in ends.items()},
+    }
+    for (low, high), felt in touches.items():
+        for where in ("pressed", "folding", "elsewhere"):
+            found = [touch.found for touch in felt if touch.where == where]
+            columns[f"{low:g}-{high:g} N, {where}: missed"] = [1.0 - float(np.mean(found))]
+    bars = {"never told: scans with a contact": 0.0, "stale: scans with one, share": STALE_LEFT}
+    bars |= {f"{STRONG_N[0]:g}-{STRONG_N[1]:g} N, {where}: missed": MISSED for where in ("pressed", "folding")}
+    title = f"Without a posture, body {learned.name}"
+    table(f"{title}; or one that ends and is stale after {STALE_S:g} s", columns, bars)
+    assert max(columns["never told: scans with a contact"]) == 0.0
+    for never in silent:
+        assert never.intentions == {"none"}
+    assert np.mean(ends["stale"]) <= STALE_LEFT
+    # Until a posture is stale the board cannot know that the joints have gone on.
+    assert np.mean(ends["not yet stale"]) <= BLIND_LEFT
+    for touch in touches[STRONG_N]:
+        assert touch.found or touch.where != "elsewhere"
+    inside = [touch.found for touch in touches[STRONG_N] if touch.where != "elsewhere"]
+    assert np.mean(inside) >= 1.0 - MISSED
+    assert all(touch.found for touch in touches[FORCES_N] if touch.where == "elsewhere")
