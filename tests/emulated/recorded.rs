@@ -51,7 +51,7 @@ fn recorded_people() {
     // It hears nothing before it has started.
     board.receive();
     let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Reaction", "Gesture", "Confidence"];
-    let counts = same(&mut board, None, &requests, &codes, &kinds);
+    let counts = same(&mut board, &[], &requests, &codes, &kinds);
     board.end();
     assert!(
         ["Contacts", "Symbols", "Intent", "Frame", "Gesture"].iter().all(|kind| counts.contains_key(kind))

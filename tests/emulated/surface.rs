@@ -1,5 +1,5 @@
-//! The surface on the emulated board: its table is sent in pieces and kept in flash, over a restart, and what
-//! presses on the robot is what the same core says on this machine. `cargo xtask test --only
+//! Tables on the emulated board: they are sent in pieces and kept in flash, over a restart; what presses on the
+//! robot, and what is felt where the garment folds, is what the same core says on this machine. `cargo xtask test --only
 //! emulator-surface`.
 
 use crate::board::Emulated;
@@ -8,10 +8,12 @@ use std::path::Path;
 use taxel::body::{self, Pose, Surface};
 use taxel::files::scripts::load;
 use taxel::sim::{frame_codes, scale_rate};
+use taxel_core::board::TableKind;
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
+use taxel_suite::folds::FOLDS;
 
 /// More than the codes of a garment at rest, with their noise.
 const REST: u16 = 130;
@@ -39,39 +41,66 @@ fn poses(surface: &Surface) -> Vec<u8> {
     postcard::to_allocvec(&poses).unwrap()
 }
 
-#[test]
-fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart() {
-    let flash = Path::new(env!("CARGO_TARGET_TMPDIR")).join("surface.bin");
+/// A board that is sent these tables, stores them, and starts again with these codes to come.
+fn storing(flash: &str, tables: &[(TableKind, &'static [u8])], codes: &[u16]) -> Emulated {
+    let flash = Path::new(env!("CARGO_TARGET_TMPDIR")).join(flash);
     let _ = std::fs::remove_file(&flash);
     let dwell = DWELL.to_string();
     let options = ["--dwell", &dwell, "--flash", flash.to_str().unwrap()];
-    let garment = Garment::reference();
-    // Five contacts, a frame in each 50 ms.
-    let script = scale_rate(&load("five").unwrap(), 1.0);
-    let frames = frame_codes(&script, &garment, 1_000_000 / u64::from(RATE_HZ), FRAMES).unwrap();
-    // Without a tare what rests is to read as no pressure.
-    let codes: Vec<u16> = frames.into_iter().map(|code| code.saturating_sub(REST)).collect();
-    let (table, surface) = table();
-    let (scene, poses) = (postcard::to_allocvec(&scene()).unwrap(), poses(&surface));
-
-    let mut board = Emulated::start(&garment, &codes, 0, &options);
+    let mut board = Emulated::start(&Garment::reference(), codes, 0, &options);
     board.receive();
-    for (index, bytes) in table.chunks(TABLE_PIECE).enumerate() {
-        let piece = TablePiece { length: table.len() as u32, offset: (index * TABLE_PIECE) as u32, bytes };
-        board.obey(&Request::SetSurface(&postcard::to_allocvec(&piece).unwrap()));
+    for (kind, table) in tables {
+        for (index, bytes) in table.chunks(TABLE_PIECE).enumerate() {
+            let (length, offset) = (table.len() as u32, (index * TABLE_PIECE) as u32);
+            let piece = postcard::to_allocvec(&TablePiece { length, offset, bytes }).unwrap();
+            board.obey(&match kind {
+                TableKind::Surface => Request::SetSurface(&piece),
+                TableKind::Folds => Request::SetFolds(&piece),
+            });
+        }
     }
     board.end();
-
-    let mut board = Emulated::start(&garment, &codes, 0, &options);
+    let mut board = Emulated::start(&Garment::reference(), codes, 0, &options);
     board.receive();
+    board
+}
+
+/// Codes of five contacts, a frame in each 50 ms. Without a tare what rests is to read as no pressure.
+fn five() -> Vec<u16> {
+    let script = scale_rate(&load("five").unwrap(), 1.0);
+    let frames = frame_codes(&script, &Garment::reference(), 1_000_000 / u64::from(RATE_HZ), FRAMES).unwrap();
+    frames.into_iter().map(|code| code.saturating_sub(REST)).collect()
+}
+
+#[test]
+fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart() {
+    let codes = five();
+    let (table, surface) = table();
+    let (scene, poses) = (postcard::to_allocvec(&scene()).unwrap(), poses(&surface));
+    let tables = [(TableKind::Surface, table)];
+    let mut board = storing("surface.bin", &tables, &codes);
     let requests = [
         Request::SetScene(&scene),
         Request::SetPoses(&poses),
         Request::SetPressing(u16::MAX),
         Request::Start,
     ];
-    let kinds = same(&mut board, Some(table), &requests, &codes, &["Frame", "Contacts", "Pressing"]);
+    let kinds = same(&mut board, &tables, &requests, &codes, &["Frame", "Contacts", "Pressing"]);
     board.end();
     println!("{kinds:?}");
     assert!(kinds["Pressing"] as usize > FRAMES / 2, "{kinds:?}");
+}
+
+/// Nobody tells the posture: the left arm may fold in any way, and only what is stronger is felt there.
+#[test]
+fn what_folds_is_the_same_on_the_board_and_lasts_over_a_restart() {
+    let codes = five();
+    let scene = postcard::to_allocvec(&scene()).unwrap();
+    let tables = [(TableKind::Folds, &FOLDS.0[..])];
+    let mut board = storing("folds.bin", &tables, &codes);
+    let requests = [Request::SetScene(&scene), Request::Start];
+    let kinds = same(&mut board, &tables, &requests, &codes, &["Frame", "Contacts"]);
+    board.end();
+    println!("{kinds:?}");
+    assert!(kinds["Contacts"] as usize > FRAMES / 2, "{kinds:?}");
 }

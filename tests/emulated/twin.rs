@@ -86,11 +86,11 @@ struct Twin {
 }
 
 impl Twin {
-    fn new(table: Option<&'static [u8]>) -> Twin {
+    fn new(tables: &[(TableKind, &'static [u8])]) -> Twin {
         let info =
             BoardInfo { firmware: "", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: 92_160 };
         let mut board = Shipped::new(info, Garment::reference(), Scene::shipped()).unwrap();
-        board.recall_table(TableKind::Surface, table);
+        tables.iter().for_each(|(kind, table)| board.recall_table(*kind, Some(table)));
         Twin { board: Box::new(board), receiver: Receiver::new(), reports: Reports::new() }
     }
 
@@ -117,12 +117,12 @@ impl Twin {
     }
 }
 
-/// Shows these frames, [`DWELL`] scans each, to a board that has this table of the surface, and to
-/// its twin, both after these requests. The reports of these kinds must be the same in
+/// Shows these frames, [`DWELL`] scans each, to a board that has these tables, and to its twin, both after
+/// these requests. The reports of these kinds must be the same in
 /// all frames; returns their numbers by kind.
 pub fn same(
     board: &mut Emulated,
-    table: Option<&'static [u8]>,
+    tables: &[(TableKind, &'static [u8])],
     requests: &[Request<'_>],
     codes: &[u16],
     kinds: &[&str],
@@ -140,7 +140,7 @@ pub fn same(
     assert_eq!(stats["check"]["wrong"], 0);
 
     // Before the requests the twin is shown the scans that the board did before it streamed.
-    let mut twin = Twin::new(table);
+    let mut twin = Twin::new(tables);
     let first = *times.keys().next().unwrap();
     (1..first).for_each(|_| twin.scan(&[Code(0); TAXELS], Micros(0)));
     requests.iter().for_each(|request| twin.ask(request));

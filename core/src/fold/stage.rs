@@ -201,14 +201,18 @@ impl FoldState {
 
     /// What the knots around a posture have in common for all taxels of the fold.
     fn corners(&self, bend: &Bend, at: &FoldStart) -> Vec<Around, 4> {
-        let there = bend.corners.iter().filter(|corner| corner.weight > 0);
-        there
-            .map(|corner| {
-                let passes = self.passes.get(at.knot + usize::from(corner.knot)).copied().unwrap_or(0);
-                let left = SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE);
-                Around { knot: corner.knot.into(), weight: corner.weight.into(), left: left.into() }
-            })
-            .collect()
+        let mut around = Vec::new();
+        for corner in bend.corners.iter().filter(|corner| corner.weight > 0) {
+            let passes = self.passes.get(at.knot + usize::from(corner.knot)).copied().unwrap_or(0);
+            let left = SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE);
+            // There are as many places as corners.
+            let _ = around.push(Around {
+                knot: corner.knot.into(),
+                weight: corner.weight.into(),
+                left: left.into(),
+            });
+        }
+        around
     }
 
     /// Expectation and doubt of the taxel whose cells begin at `first`, in units.

@@ -149,8 +149,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
                 }
             }
         }
-        let doubted = self.present().iter().zip(sums).filter(|(_, doubt)| *doubt > 0);
-        doubted.map(|(placed, doubt)| Doubt { id: placed.contact.id, doubt }).collect()
+        let mut doubts = Vec::new();
+        for (placed, doubt) in self.present().iter().zip(sums).filter(|(_, doubt)| *doubt > 0) {
+            // There are as many places as contacts.
+            let _ = doubts.push(Doubt { id: placed.contact.id, doubt });
+        }
+        doubts
     }
 
     /// Which contacts of the last frame may be drift.
