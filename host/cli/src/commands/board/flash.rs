@@ -19,7 +19,7 @@ const HAS_FAMILY: u32 = 0x2000;
 /// Payload of a block, bytes.
 const PAGE: u32 = 256;
 /// Flash range of the program. The board's settings are behind it and survive a new firmware.
-const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 160) * 1024;
+const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 216) * 1024;
 /// File that identifies the boot loader's drive, and a word in it.
 const TELLS: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
 
@@ -197,7 +197,7 @@ mod tests {
             image[BLOCK + at..][..4].copy_from_slice(&number.to_le_bytes());
             check(&image).unwrap_err().to_string()
         };
-        for address in [0x101d_8000, 0x1000_0000 - 256, 0x2000_0000, 0, u32::MAX, 0x1100_0000] {
+        for address in [0x101c_a000, 0x1000_0000 - 256, 0x2000_0000, 0, u32::MAX, 0x1100_0000] {
             let outside = format!("block 1 of it is for address {address:#x}, outside of the program");
             assert!(why(12, address).starts_with(&outside), "{address:#x}");
         }
@@ -217,10 +217,10 @@ mod tests {
     fn the_program_ends_where_the_memory_map_says() {
         let map = include_str!("../../../../../memory.x");
         assert!(
-            map.contains("ORIGIN = 0x10000000") && map.contains("LENGTH = 2048K - 0x100 - 160K"),
+            map.contains("ORIGIN = 0x10000000") && map.contains("LENGTH = 2048K - 0x100 - 216K"),
             "{map}"
         );
-        assert_eq!(PROGRAM.end, 0x1000_0100 + 2048 * 1024 - 0x100 - 160 * 1024);
+        assert_eq!(PROGRAM.end, 0x1000_0100 + 2048 * 1024 - 0x100 - 216 * 1024);
     }
 
     #[test]

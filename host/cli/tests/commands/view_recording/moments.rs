@@ -192,7 +192,7 @@ fn a_recording_is_shown_on_a_robot() {
         why.contains("mat.toml, line 2") && why.contains("must be a panel of the garment: chest"),
         "{why}"
     );
-    let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "-"]);
+    let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joint-states", "-"]);
     assert!(status == Some(2) && why.contains("is a recording, whose robot does not move now"), "{why}");
     let (status, why) = failed(&["--body", "reference", "--robot", "reference", "--joints", "waits=3deg"]);
     assert!(status == Some(2) && why.contains("there is no joint \"waits\""), "{why}");
