@@ -19,8 +19,8 @@ const BOARD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\nf 1 2 3 4\n";
 /// Touches of the chest at places of the torso.
 const KNOWN: &str = "panel,column,row,link,x,y,z\n\
                      chest,7.5,15.5,torso,0.0611,0,0.2\n\
-                     chest,7.5,5.5,torso,0.0611,0,0.32\n\
-                     chest,7.5,25.5,torso,0.0611,0,0.08\n";
+                     chest,7.5,5.5,torso,0.0611,0,0.3\n\
+                     chest,7.5,25.5,torso,0.0611,0,0.1\n";
 
 /// The inputs of all commands, and a folder for each run.
 pub struct Stage {
