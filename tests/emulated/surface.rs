@@ -13,6 +13,7 @@ use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Name, name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
+use taxel_suite::folds::FOLDS;
 
 /// More than the codes of a garment at rest, with their noise.
 const REST: u16 = 130;
@@ -88,4 +89,18 @@ fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart()
     board.end();
     println!("{kinds:?}");
     assert!(kinds["Pressing"] as usize > FRAMES / 2, "{kinds:?}");
+}
+
+/// Nobody tells the posture: the left arm may fold in any way, and only what is stronger is felt there.
+#[test]
+fn what_folds_is_the_same_on_the_board_and_lasts_over_a_restart() {
+    let codes = five();
+    let scene = postcard::to_allocvec(&scene()).unwrap();
+    let tables = [(TableKind::Folds, &FOLDS.0[..])];
+    let mut board = storing("folds.bin", &tables, &codes);
+    let requests = [Request::SetScene(&scene), Request::Start];
+    let kinds = same(&mut board, &tables, &requests, &codes, &["Frame", "Contacts"]);
+    board.end();
+    println!("{kinds:?}");
+    assert!(kinds["Contacts"] as usize > FRAMES / 2, "{kinds:?}");
 }

@@ -16,7 +16,7 @@ import { BoardError, Machine, WatchdogReset } from './machine.mjs';
 import { PowerCut } from './rom.mjs';
 import { USB_IRQ } from './usb.mjs';
 
-const SETTINGS_START = 0x1d8000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
+const SETTINGS_START = 0x1ca000, SETTINGS_END = 0x200000; // as in firmware/src/store.rs
 const BATCH_NANOS = 500_000; // how often the world outside is looked at
 
 const parent = process.ppid; // a harness that outlives its test would run for ever
