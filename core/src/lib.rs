@@ -9,8 +9,8 @@
 //! (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`unsure`] (contacts that may be
 //! drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reactions), [`scene`] (settings of
 //! all stages), [`pipeline`] (composition of the stages), [`boot`] (causes of restarts), [`wire`] (messages,
-//! frames), [`board`] (the device as a function of its inputs) and [`mod@run`] (the loop around it). [`format`](mod@format) is the table of number formats,
-//! [`capacity`] the sizes of the board that ships.
+//! frames), [`board`] (the device as a function of its inputs) and [`mod@run`] (the loop around it).
+//! [`format`](mod@format) is the table of number formats, [`capacity`] the sizes of the board that ships.
 //!
 //! Two stages compose folders, private to the crate: `image`, `calibrate`, `baseline` and
 //! `filter` make up [`condition`]; `segment`, `measure` and `track` make up [`contact`].

@@ -3,7 +3,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | input | [`Posture`] messages; a [`FoldTable`] of the taxels that fold, which stays where it is (in flash) |
+//! | input | [`Posture`] messages; a [`FoldTable`] of the taxels that fold, in place (in flash) |
 //! | output | expected pressure and doubt of each of these taxels, counts, see [`FoldState`] |
 //! | saturation | an expectation ends at 255 of the table's units, a correction at 127 |
 //! | latency | 20 ms: all taxels that fold are renewed in turn in this time |
@@ -17,8 +17,9 @@
 //!
 //! A taxel is touched if it feels more than it is expected to, by more than the doubt and the scene's floor;
 //! beside a contact, by more than the floor. Its pressure is then what it feels less what it is expected to
-//! feel: a touch stronger than the doubt is never hidden, and is felt as a whole. The doubt is what the learner saw the taxel differ by on one day, and, until corrections are
-//! made, what it may differ by from day to day.
+//! feel: a touch stronger than the doubt is never hidden, and is felt as a whole. The doubt is what the
+//! learner saw the taxel differ by on one day, and, until corrections are made, what it may differ by from
+//! day to day.
 //!
 //! Corrections: whenever a joint comes to another knot, the taxels that nothing touches are compared once
 //! with what is expected there. A taxel that is held against something at one posture therefore teaches

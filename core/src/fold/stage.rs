@@ -52,7 +52,7 @@ pub struct FoldState {
     /// Angles of the joints.
     pub posture: PostureState,
     /// The table in force, if there is one, and what turns: without the feature there is no room for them.
-    worn: [Worn; USED],
+    in_force: [InForce; USED],
     /// Number in the scene of each joint of the table.
     joints: [Option<u8>; KNOWN],
     bends: [Bend; FOLDS],
@@ -71,7 +71,7 @@ pub struct FoldState {
 
 /// A table in force, and whose turn it is.
 #[derive(Debug, Clone, Copy)]
-struct Worn {
+struct InForce {
     table: Option<FoldTable<'static>>,
     /// The taxels renewed in the last frame, as numbers in the table's list: from the first to before the
     /// second, which follows.
@@ -80,8 +80,8 @@ struct Worn {
     is_posed: bool,
 }
 
-impl Worn {
-    const NOTHING: Worn = Worn { table: None, turn: [0; 2], renewed: None, is_posed: false };
+impl InForce {
+    const NOTHING: InForce = InForce { table: None, turn: [0; 2], renewed: None, is_posed: false };
 }
 
 impl FoldState {
@@ -89,7 +89,7 @@ impl FoldState {
     pub const fn new() -> FoldState {
         FoldState {
             posture: PostureState::new(),
-            worn: [Worn::NOTHING; USED],
+            in_force: [InForce::NOTHING; USED],
             joints: [None; KNOWN],
             bends: [Bend::NONE; FOLDS],
             corrections: [0; CELLS],
@@ -104,7 +104,7 @@ impl FoldState {
     /// Puts a table in force, or none; `joints` are the scene's. Corrections are forgotten.
     #[cfg(feature = "folds")]
     pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
-        self.worn.fill(Worn { table, ..Worn::NOTHING });
+        self.in_force.fill(InForce { table, ..InForce::NOTHING });
         self.joints = [None; KNOWN];
         for (joint, to) in (0..).zip(&mut self.joints) {
             let called = table.and_then(|table| table.joint(joint));
@@ -126,17 +126,17 @@ impl FoldState {
         self.bends.fill(Bend::NONE);
         self.expected.fill(0);
         self.doubt.fill(0);
-        self.worn.iter_mut().for_each(|worn| *worn = Worn { table: worn.table, ..Worn::NOTHING });
+        self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
     }
 
     /// The table in force.
     pub fn table(&self) -> Option<FoldTable<'static>> {
-        self.worn.first()?.table
+        self.in_force.first()?.table
     }
 
     /// True if the folds are known at the present posture: contacts then mean something while joints move.
     pub fn is_followed(&self) -> bool {
-        self.worn.first().is_some_and(|worn| worn.table.is_some() && worn.is_posed)
+        self.in_force.first().is_some_and(|worn| worn.table.is_some() && worn.is_posed)
     }
 
     /// True if something is expected of a taxel, or it is in doubt: its baseline does not follow its code.
@@ -153,7 +153,7 @@ impl FoldState {
     /// which a touch begins there, and that beyond which one that is there goes on, counts.
     #[inline(never)]
     pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, [u16; 2])) {
-        let Some(worn) = self.worn.first_mut() else { return };
+        let Some(worn) = self.in_force.first_mut() else { return };
         let Some(table) = worn.table else { return };
         let all = table.taxels().len() as u16;
         let since = worn.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US)) as u32;
@@ -163,7 +163,7 @@ impl FoldState {
         let start = if end >= all { 0 } else { end };
         let turn = [start, start.saturating_add(count).min(all)];
         let is_posed = self.posture.is_fresh(now);
-        *worn = Worn { table: Some(table), turn, renewed: Some(now), is_posed };
+        *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
@@ -256,7 +256,7 @@ impl FoldState {
     /// `felt` gives the pressure of a taxel without the expectation, counts, or none if it may be touched.
     #[inline(never)]
     pub(crate) fn learn(&mut self, felt: impl Fn(usize) -> Option<u16>) {
-        let Some(Worn { table: Some(table), turn, .. }) = self.worn.first().copied() else { return };
+        let Some(InForce { table: Some(table), turn, .. }) = self.in_force.first().copied() else { return };
         let unit = u32::from(table.unit()).max(1);
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
