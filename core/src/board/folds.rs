@@ -70,6 +70,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     pub(super) fn refit_folds(&mut self) {
         let table = self.folds.table.and_then(|table| FoldTable::check(table, &self.setup.layout).ok());
         (self.folds.fits, self.folds.rate) = (table.is_some(), Pace::new(RATE_HZ));
-        self.state.condition.folds_mut().wear(table, &self.setup.scene.joints);
+        self.state.condition.wear(table, &self.setup.scene.joints);
     }
 }

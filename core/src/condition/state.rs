@@ -4,8 +4,12 @@ use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::filter::points::Points;
+#[cfg(feature = "folds")]
+use crate::fold::FoldTable;
 use crate::fold::{FoldState, PostureState};
 use crate::format::Code;
+#[cfg(feature = "folds")]
+use crate::format::Name;
 use crate::garment::Layout;
 use crate::image::images::Images;
 
@@ -58,10 +62,12 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         &mut self.folds.posture
     }
 
-    /// What the folds press, to put a table in force.
+    /// Puts a table of folds in force, or none; `joints` are the scene's.
     #[cfg(feature = "folds")]
-    pub(crate) fn folds_mut(&mut self) -> &mut FoldState {
-        &mut self.folds
+    pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
+        self.folds.wear(table, joints);
+        // The limits are those of the table before.
+        self.calibration.limits_for = None;
     }
 
     /// Sets the gain of a taxel, Q4.12 (4096 is 1.0); 0 silences it, like a dead taxel. Returns `false` if

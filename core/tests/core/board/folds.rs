@@ -301,3 +301,15 @@ fn any_bytes_are_a_table_or_none_and_nothing_panics() {
     }
     assert!(worn > 200, "{worn}");
 }
+
+#[test]
+fn without_its_table_a_taxel_feels_as_before() {
+    let mut bench = wearing(&elbow(12, 0));
+    bench.bend(90.0);
+    (0..40).for_each(|_| drop(bench.feel(800.0, &[])));
+    bench.board.recall_table(TableKind::Folds, None);
+    let touch = [(21, 200.0), (22, 200.0), (37, 200.0), (38, 200.0)];
+    let felt = (0..10).map(|_| bench.feel(0.0, &touch).0).collect::<Vec<_>>();
+    let [(_, total)] = felt.last().unwrap()[..] else { panic!("{felt:?}") };
+    assert!((790..=810).contains(&total), "{total}");
+}
