@@ -2,8 +2,8 @@
 //!
 //! [`tare`] takes the mean of some frames as the baseline and counts its [`progress`]. [`drift`] then moves
 //! the rows in [`turn`], at the [`rates`] that hold for any garment, by what the [`consensus`] of each
-//! panel's witnesses says. [`feedback`] names the contacts under which a baseline stands still. [`tracking`]
-//! is the state of all this.
+//! panel's witnesses says. [`feedback`] names the contacts under which a baseline stands still, [`touched`]
+//! the taxels beside them. [`tracking`] is the state of all this.
 
 pub(crate) mod consensus;
 pub(crate) mod drift;
@@ -11,5 +11,6 @@ pub(crate) mod feedback;
 pub(crate) mod progress;
 pub(crate) mod rates;
 pub(crate) mod tare;
+pub(crate) mod touched;
 pub(crate) mod tracking;
 pub(crate) mod turn;

@@ -83,11 +83,22 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
         *rest = if falling { rest.saturating_add(codes) } else { rest.saturating_sub(codes) };
     }
 
-    /// Sets the limit of a taxel that is inactive with less than `floor` counts beyond `level`.
-    pub fn set_level(&mut self, taxel: usize, floor: u16, level: u16, falling: bool) {
-        let code = self.inactive_code(taxel, level.saturating_add(floor), falling);
-        if let Some(limit) = self.limit.get_mut(taxel) {
-            *limit = code;
+    /// Sets the limits of taxels on which so many counts press that are no touch; other numbers than those of
+    /// taxels are left out.
+    #[inline(never)] // own registers
+    pub fn set_levels(&mut self, taxels: &[u16; 4], levels: &[u16; 4], terms: LimitTerms) {
+        let of_unity = u32::from(terms.margin_of_unity());
+        for (taxel, level) in taxels.iter().zip(levels) {
+            let taxel = usize::from(*taxel);
+            let calibration =
+                self.baseline.get(taxel).zip(self.gain.get(taxel)).zip(self.limit.get_mut(taxel));
+            let Some(((rest, gain), limit)) = calibration else { continue };
+            let margin = match *gain {
+                // The same, without a division.
+                UNITY => (of_unity + u32::from(*level)).min(0xFFFF) as u16,
+                gain => terms.beyond(*level).margin(gain),
+            };
+            *limit = terms.limit(*rest, margin);
         }
     }
 

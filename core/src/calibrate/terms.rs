@@ -22,6 +22,11 @@ impl LimitTerms {
         LimitTerms { floor, direction: if falling { Direction::Falling } else { Direction::Rising } }
     }
 
+    /// The same beyond a level, counts.
+    pub fn beyond(&self, level: u16) -> LimitTerms {
+        LimitTerms { floor: self.floor.saturating_add(level), ..*self }
+    }
+
     fn is_falling(&self) -> bool {
         self.direction == Direction::Falling
     }

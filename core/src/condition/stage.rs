@@ -2,8 +2,9 @@
 
 use super::config::ConditionConfig;
 use super::state::ConditionState;
-use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
+use crate::baseline::feedback::Feedback;
 use crate::baseline::progress::Tare;
+use crate::baseline::touched::Touched;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::dispatch::calibrate;
 use crate::calibrate::sampled::Sampled;
@@ -12,12 +13,10 @@ use crate::filter::kinds::Filter;
 use crate::filter::points::Points;
 use crate::fold::FoldState;
 use crate::format::Invalid;
-use crate::garment::{Layout, Rect};
+use crate::garment::Layout;
 use crate::image::images::Images;
 use crate::image::slices::areas_of;
 use crate::image::view::Image;
-use core::ops::Range;
-use heapless::Vec;
 
 /// Turns codes into pressure; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -56,23 +55,23 @@ impl Condition {
             points.forget();
             if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
                 // The garment at rest is not bent.
-                folds.renew(sampled.now, true, |_, _| ());
+                folds.renew(sampled.now, true, |_, _, _| ());
                 folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
             }
         } else {
             let terms = LimitTerms::new(self.config.floor, falling);
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
-                let floor = self.config.floor;
-                let touched = Touched::of(layout, feedback);
-                folds.renew(sampled.now, renewed, |taxel, [begins, goes_on]| {
-                    let level = if touched.has(taxel, 1) { goes_on } else { begins };
-                    calibration.set_level(taxel, floor, level, falling);
+                let touched = Touched::of(layout, feedback, 1);
+                folds.renew(sampled.now, renewed, |taxels, begins, goes_on| {
+                    let levels =
+                        if touched.is_empty() { begins } else { touched.choose(taxels, begins, goes_on) };
+                    calibration.set_levels(taxels, &levels, terms);
                 });
             }
             self.perceive(calibration, images, points, folds, layout, sampled);
             if self.config.track_baseline {
-                if folds.table().is_some() && tracking.progress.tared {
+                if folds.compares() && tracking.progress.tared {
                     learn(folds, calibration, images, layout, sampled, feedback);
                 }
                 tracking.follow_drift((calibration, images), layout, sampled, feedback, (folds, terms));
@@ -126,43 +125,6 @@ impl Condition {
     }
 }
 
-/// Most rectangles of contacts.
-const RECTS: usize = 32 + CARRIED;
-
-/// Where contacts lie, to be asked of many taxels.
-struct Touched<'a> {
-    layout: &'a Layout,
-    /// Each contact's rectangle, and the numbers of the taxels of its rows and of those beside them.
-    rects: Vec<(Rect, Range<u16>), RECTS>,
-}
-
-impl<'a> Touched<'a> {
-    #[inline(never)] // once in a frame, with much stack
-    fn of<const CONTACTS: usize>(layout: &'a Layout, feedback: &Feedback<CONTACTS>) -> Self {
-        let mut rects = Vec::new();
-        for Pressed { rect, .. } in feedback.home.iter().chain(&feedback.beyond) {
-            let Some(area) = layout.areas().get(usize::from(rect.panel)) else { continue };
-            let start = |row: u16| area.base.saturating_add(row.saturating_mul(area.columns));
-            let end = rect.bottom.saturating_add(BESIDE + 1).min(area.rows);
-            // There are as many places as contacts and parts of them.
-            let _ = rects.push((*rect, start(rect.top.saturating_sub(BESIDE))..start(end)));
-        }
-        Touched { layout, rects }
-    }
-
-    /// True if a taxel lies within so many taxels of a contact, at most [`BESIDE`].
-    fn has(&self, taxel: usize, beside: u16) -> bool {
-        // To find a taxel's row takes a division.
-        let rows = |(_, taxels): &&(Rect, Range<u16>)| {
-            taxel >= usize::from(taxels.start) && taxel < usize::from(taxels.end)
-        };
-        self.rects.iter().filter(rows).any(|(rect, _)| {
-            let place = self.layout.place(taxel);
-            place.is_some_and(|place| rect.holds(place.panel, place.row, place.column, beside))
-        })
-    }
-}
-
 /// Taxels beside a contact that may belong to it.
 const BESIDE: u16 = 3;
 
@@ -175,10 +137,10 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     sampled: &Sampled<'_>,
     feedback: &Feedback<CONTACTS>,
 ) {
-    let touched = Touched::of(layout, feedback);
+    let touched = Touched::of(layout, feedback, BESIDE);
     folds.learn(|taxel| {
         let is_read = layout.place(taxel).is_some_and(|place| sampled.panels >> place.panel & 1 == 1);
-        let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel, BESIDE);
+        let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
         let code = sampled.codes.get(taxel).filter(|_| is_read && is_quiet)?;
         Some(calibration.pressure(taxel, *code, sampled.falling))
     });

@@ -1,14 +1,12 @@
 //! Where the joints of a fold stand between its knots.
 
+use super::lanes::WHOLE;
 use super::record::{FoldRecord, NO_JOINT};
-
-/// Sum of the weights of [`Bend::corners`].
-pub(super) const WHOLE: u16 = 256;
 
 /// Share of the way to the next knot within which a posture counts as at a knot.
 const NEAR: u16 = WHOLE / 4;
 
-/// A knot beside the present posture, and how much it counts.
+/// A knot beside the present posture, and how much it counts, of [`WHOLE`].
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Corner {
     pub knot: u16,
@@ -26,7 +24,7 @@ pub(super) struct Bend {
     pub is_known: bool,
     /// The knot that the posture was at last.
     pub knot: Option<u16>,
-    /// Taxels that are yet to be compared there.
+    /// What is yet to be compared there, each four taxels.
     pub left: u16,
     /// Taxels that were compared there.
     pub compared: u16,
@@ -85,7 +83,7 @@ impl Bend {
         if !is_at_knot {
             self.left = 0;
         } else if self.knot != Some(self.nearest()) {
-            (self.knot, self.left, self.compared) = (Some(self.nearest()), fold.taxels, 0);
+            (self.knot, self.left, self.compared) = (Some(self.nearest()), fold.quads() as u16, 0);
         }
     }
 }
@@ -133,12 +131,12 @@ mod tests {
             assert_eq!(there.iter().map(|corner| corner.weight).sum::<u16>(), WHOLE);
             // The mean of the knots' places is the posture, within the table.
             let mean = |of: &dyn Fn(u16) -> f64| -> f64 {
-                there.iter().map(|corner| of(corner.knot) * f64::from(corner.weight) / 256.0).sum()
+                there.iter().map(|corner| of(corner.knot) * f64::from(corner.weight) / f64::from(WHOLE)).sum()
             };
             let down = mean(&|knot| f64::from(knot / 4) * 1000.0 - 1000.0);
             let right = mean(&|knot| f64::from(knot % 4) * 500.0);
-            assert!((down - f64::from(a.clamp(-1000, 1000))).abs() <= 8.0, "{a}: {down}");
-            assert!((right - f64::from(b.clamp(0, 1500))).abs() <= 4.0, "{b}: {right}");
+            assert!((down - f64::from(a.clamp(-1000, 1000))).abs() <= 16.0, "{a}: {down}");
+            assert!((right - f64::from(b.clamp(0, 1500))).abs() <= 8.0, "{b}: {right}");
         }
     }
 
@@ -150,7 +148,10 @@ mod tests {
         let mut bend = Bend::NONE;
         let mut knot = |angle: i16| {
             bend.turn(&fold, [Some(angle), None]);
-            bend.corners.iter().map(|c| f64::from(c.knot) * f64::from(c.weight) / 256.0).sum::<f64>()
+            bend.corners
+                .iter()
+                .map(|c| f64::from(c.knot) * f64::from(c.weight) / f64::from(WHOLE))
+                .sum::<f64>()
         };
         let near = |a: f64, b: f64| assert!((a - b).abs() < 0.01, "{a} {b}");
         near(knot(5000), 5.0);

@@ -7,7 +7,7 @@
 //! | output | expected pressure and doubt of each of these taxels, counts, see [`FoldState`] |
 //! | saturation | an expectation ends at 255 of the table's units, a correction at 127 |
 //! | latency | 20 ms: all taxels that fold are renewed in turn in this time |
-//! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 11,216 bytes |
+//! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 10,192 bytes |
 //! | M0+ cycles | row `folds` of `docs/bench/cycles.txt` |
 //!
 //! The table has a *fold* for each joint, or pair of joints, that folds the garment: its taxels, and for each
@@ -30,17 +30,20 @@
 //! only beyond the most that they feel at any posture. The report of what is expected says so.
 
 mod bend;
+mod lanes;
 mod posture;
 mod record;
 mod stage;
 mod table;
 
 pub use posture::{JOINTS, JointAngle, Posture, PostureState, STALE_US};
-pub use record::{FoldCell, FoldRecord, NO_JOINT};
+pub use record::{FoldCell, FoldRecord, NO_JOINT, NO_TAXEL};
 pub use stage::{Doubt, Expected, FoldState};
-pub use table::{FoldTable, FoldTableParts, fold_table_bytes, write_fold_table};
+pub use table::{
+    FoldTable, FoldTableParts, MOST_UNIT, fold_table_bytes, fold_table_length, write_fold_table,
+};
 
-/// Most taxels that fold. None without the feature `folds`.
+/// Most taxels that fold, each fold's filled up to a multiple of four. None without the feature `folds`.
 pub const FOLDED: usize = if cfg!(feature = "folds") { 512 } else { 0 };
 /// Most cells of a table: taxels times knots.
 pub const CELLS: usize = if cfg!(feature = "folds") { 8192 } else { 0 };

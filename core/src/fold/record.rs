@@ -5,6 +5,9 @@ use bytemuck::{Pod, Zeroable};
 /// Number of a joint that stands for none.
 pub const NO_JOINT: u8 = u8::MAX;
 
+/// Number that fills the list of a fold's taxels up to a multiple of four.
+pub const NO_TAXEL: u16 = u16::MAX;
+
 /// A fold, as it lies in flash: 20 bytes, little-endian. Of a fold of one joint the second element of each
 /// pair is [`NO_JOINT`], 1 knot, and otherwise 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
@@ -29,8 +32,7 @@ pub struct FoldRecord {
 }
 
 /// What a taxel feels at a knot, in units of the table.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
-#[repr(C)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct FoldCell {
     /// Expected pressure.
     pub mean: u8,
@@ -44,6 +46,11 @@ impl FoldRecord {
     /// Cells of each taxel.
     pub const fn cells(&self) -> usize {
         self.knots[0] as usize * self.knots[1] as usize
+    }
+
+    /// Number of words that hold a byte of each taxel, four to a word.
+    pub const fn quads(&self) -> usize {
+        (self.taxels as usize).div_ceil(4)
     }
 
     /// Condition that the entry breaks, if any: for a table of `joints` joints.

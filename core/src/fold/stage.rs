@@ -1,16 +1,16 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
-use super::bend::{Bend, WHOLE};
+use super::bend::Bend;
+use super::lanes::{Sums, WHOLE, ZERO, byte, set_byte, whole_bytes, zeros};
 use super::posture::PostureState;
-use super::record::{FoldCell, FoldRecord};
-use super::table::FoldTable;
+use super::record::FoldRecord;
+use super::table::{FoldStart, FoldTable};
 use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
 use crate::capacity::TAXELS;
 use crate::format::Micros;
 #[cfg(feature = "folds")]
 use crate::format::Name;
 use core::ops::Range;
-use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 /// Time in which every taxel that folds is renewed, us.
@@ -19,10 +19,10 @@ const TURN_US: u64 = 20_000;
 const USED: usize = if cfg!(feature = "folds") { 1 } else { 0 };
 /// Words of a bit for each taxel.
 const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0 };
-/// Words of a bit for each cell.
-const KNOWN_WORDS: usize = CELLS / 32;
 /// Joints of a table.
 const KNOWN: usize = if cfg!(feature = "folds") { JOINTS } else { 0 };
+/// Quads that are renewed at once.
+const AT_ONCE: usize = 8;
 /// Most days' worth of comparisons at a knot that count: a correction then moves by an eighth.
 const MOST_PASSES: u8 = 7;
 
@@ -56,15 +56,13 @@ pub struct FoldState {
     /// Number in the scene of each joint of the table.
     joints: [Option<u8>; KNOWN],
     bends: [Bend; FOLDS],
-    /// Corrections of the cells' means, in units of the table.
-    corrections: [i8; CELLS],
-    /// A bit for each cell that was compared: one that was touched whenever its joint came there was not.
-    known: [u32; KNOWN_WORDS],
+    /// Corrections of the cells' means, in units of the table and [`ZERO`] more, as the rows of the table lie.
+    /// 0 for a cell that was not compared yet: one that was touched whenever its joint came there.
+    corrections: [u32; CELLS / 4],
     /// Comparisons so far at each knot, at most [`MOST_PASSES`].
     passes: [u8; KNOTS],
-    /// Expectations and doubts, in units of the table.
-    expected: [u8; FOLDED],
-    doubt: [u8; FOLDED],
+    /// Expectations and doubts of four taxels each, in units of the table.
+    felt: [[u32; 2]; FOLDED / 4],
     /// A bit for each taxel of which something is expected, or that is in doubt.
     held: [u32; WORDS],
 }
@@ -73,7 +71,7 @@ pub struct FoldState {
 #[derive(Debug, Clone, Copy)]
 struct InForce {
     table: Option<FoldTable<'static>>,
-    /// The taxels renewed in the last frame, as numbers in the table's list: from the first to before the
+    /// What was renewed in the last frame, each four taxels of the table's list: from the first to before the
     /// second, which follows.
     turn: [u16; 2],
     renewed: Option<Micros>,
@@ -92,11 +90,9 @@ impl FoldState {
             in_force: [InForce::NOTHING; USED],
             joints: [None; KNOWN],
             bends: [Bend::NONE; FOLDS],
-            corrections: [0; CELLS],
-            known: [0; KNOWN_WORDS],
+            corrections: [0; CELLS / 4],
             passes: [0; KNOTS],
-            expected: [0; FOLDED],
-            doubt: [0; FOLDED],
+            felt: [[0; 2]; FOLDED / 4],
             held: [0; WORDS],
         }
     }
@@ -121,11 +117,9 @@ impl FoldState {
             return;
         }
         self.corrections.fill(0);
-        self.known.fill(0);
         self.passes.fill(0);
         self.bends.fill(Bend::NONE);
-        self.expected.fill(0);
-        self.doubt.fill(0);
+        self.felt.fill([0; 2]);
         self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
     }
 
@@ -149,10 +143,15 @@ impl FoldState {
         self.table().is_some() && taxels.into_iter().any(|taxel| self.holds(taxel))
     }
 
-    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over each with the level beyond
-    /// which a touch begins there, and that beyond which one that is there goes on, counts.
+    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over four at a time, with the
+    /// levels beyond which a touch begins there, and those beyond which one that is there goes on, counts.
     #[inline(never)]
-    pub(crate) fn renew(&mut self, now: Micros, whole: bool, mut set: impl FnMut(usize, [u16; 2])) {
+    pub(crate) fn renew(
+        &mut self,
+        now: Micros,
+        whole: bool,
+        mut set: impl FnMut(&[u16; 4], [u16; 4], [u16; 4]),
+    ) {
         let Some(worn) = self.in_force.first_mut() else { return };
         let Some(table) = worn.table else { return };
         let all = table.taxels().len() as u16;
@@ -164,6 +163,7 @@ impl FoldState {
         let turn = [start, start.saturating_add(count).min(all)];
         let is_posed = self.posture.is_fresh(now);
         *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
+        let unit = u32::from(table.unit());
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
@@ -173,83 +173,78 @@ impl FoldState {
             let angles = if is_posed { fold.joints.map(angle) } else { [None; 2] };
             let Some(bend) = self.bends.get_mut(index) else { break };
             bend.turn(fold, angles);
-            let (bend, cells) = (*bend, fold.cells());
-            let corners = self.corners(&bend, &at);
-            for slot in at.slots(fold, turn) {
-                let first = at.cell + (slot - at.slot) * cells;
-                let [expected, doubt] = match bend.is_known {
-                    true => self.expectation(table.cells(), &corners, first),
-                    false => [0, self.most(&table, first, cells)],
-                };
-                let (Some(to), Some(doubts)) = (self.expected.get_mut(slot), self.doubt.get_mut(slot)) else {
-                    break;
-                };
-                (*to, *doubts) = (expected, doubt);
-                let Some(taxel) = table.taxels().get(slot).copied().map(usize::from) else { break };
-                let level = (u16::from(expected) + u16::from(doubt)).saturating_mul(table.unit());
-                if let Some(word) = self.held.get_mut(taxel / 32) {
-                    let bit = 1 << (taxel % 32);
-                    if level > 0 { *word |= bit } else { *word &= !bit }
+            let bend = *bend;
+            let corners = self.corners(&table, fold, &bend, &at);
+            let mut quads = within(&at, fold, turn);
+            while !quads.is_empty() {
+                let some = quads.start..quads.end.min(quads.start + AT_ONCE);
+                quads.start = some.end;
+                let own = some.start - at.quad..some.end - at.quad;
+                let mut felt = [[0; 2]; AT_ONCE];
+                if bend.is_known {
+                    corners.felt(&self.corrections, own, &mut felt);
+                } else {
+                    let most = table.most(fold, &at).and_then(|most| most.get(own)).unwrap_or(&[]);
+                    felt.iter_mut().zip(most).for_each(|([_, doubt], most)| *doubt = *most);
                 }
-                let expected =
-                    if bend.is_known { u16::from(expected).saturating_mul(table.unit()) } else { level };
-                set(taxel, [level, expected]);
+                let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
+                let before = self.felt.get_mut(some).unwrap_or_default();
+                for ((before, felt), taxels) in before.iter_mut().zip(&felt).zip(taxels) {
+                    let [was, is] = [*before, *felt].map(|[expected, doubt]| zeros(expected | doubt));
+                    *before = *felt;
+                    if was != is {
+                        hold(&mut self.held, taxels, is);
+                    }
+                    let [expected, doubt] = *felt;
+                    // What is unknown is no lower for a touch that is there.
+                    let goes_on = if bend.is_known { expected } else { doubt };
+                    set(taxels, levels(expected, doubt, unit), levels(goes_on, 0, unit));
+                }
             }
             at = at.after(fold);
         }
     }
 
-    /// What the knots around a posture have in common for all taxels of the fold.
-    fn corners(&self, bend: &Bend, at: &FoldStart) -> Vec<Around, 4> {
-        let mut around = Vec::new();
-        for corner in bend.corners.iter().filter(|corner| corner.weight > 0) {
-            let passes = self.passes.get(at.knot + usize::from(corner.knot)).copied().unwrap_or(0);
-            let left = SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE);
-            // There are as many places as corners.
-            let _ = around.push(Around {
-                knot: corner.knot.into(),
-                weight: corner.weight.into(),
-                left: left.into(),
-            });
+    /// The knots around a posture.
+    fn corners<'a>(
+        &self,
+        table: &FoldTable<'a>,
+        fold: &FoldRecord,
+        bend: &Bend,
+        start: &FoldStart,
+    ) -> Corners<'a> {
+        let at = |knot: u16, weight: u16| {
+            let knot = usize::from(knot);
+            let cells = table.knot(fold, start, knot).unwrap_or(&[]);
+            Around { cells, corrections: start.correction + knot * fold.quads(), weight: weight.into() }
+        };
+        let passes = self.passes.get(start.knot + usize::from(bend.nearest())).copied().unwrap_or(0);
+        Corners {
+            around: bend.corners.map(|corner| at(corner.knot, corner.weight)),
+            nearest: at(bend.nearest(), SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE)),
         }
-        around
-    }
-
-    /// Expectation and doubt of the taxel whose cells begin at `first`, in units.
-    #[inline(always)]
-    fn expectation(&self, cells: &[FoldCell], corners: &[Around], first: usize) -> [u8; 2] {
-        let (mut mean, mut doubt) = (i32::from(WHOLE) / 2, u32::from(WHOLE) * u32::from(WHOLE) / 2);
-        for Around { knot, weight, left } in corners {
-            let cell = first + knot;
-            let (Some(felt), Some(correction)) = (cells.get(cell), self.corrections.get(cell)) else { break };
-            let is_known = self.known.get(cell / 32).is_some_and(|word| word >> (cell % 32) & 1 == 1);
-            let left = if is_known { *left } else { u32::from(WHOLE) };
-            mean += *weight as i32 * (i32::from(felt.mean) + i32::from(*correction));
-            doubt += weight * (u32::from(felt.spread) * u32::from(WHOLE) + u32::from(felt.days) * left);
-        }
-        [(mean >> 8).clamp(0, 255) as u8, (doubt >> 16).min(255) as u8]
-    }
-
-    /// The most that a taxel feels at any posture.
-    #[inline(never)]
-    fn most(&self, table: &FoldTable<'_>, first: usize, cells: usize) -> u8 {
-        let felt = table.cells().get(first..first + cells).unwrap_or(&[]);
-        let corrections = self.corrections.get(first..first + cells).unwrap_or(&[]);
-        let most = felt.iter().zip(corrections).map(|(FoldCell { mean, spread, days }, correction)| {
-            let mean = (i32::from(*mean) + i32::from(*correction)).max(0);
-            mean + i32::from(*spread) + i32::from(*days)
-        });
-        most.max().unwrap_or(0).min(255) as u8
     }
 
     /// Hands over each taxel of which something is expected or in doubt, with its expectation, counts.
     pub(crate) fn each(&self, mut take: impl FnMut(usize, u16)) {
         let Some(table) = self.table() else { return };
-        for ((taxel, expected), doubt) in table.taxels().iter().zip(&self.expected).zip(&self.doubt) {
-            if *expected | *doubt != 0 {
-                take(usize::from(*taxel), u16::from(*expected).saturating_mul(table.unit()));
+        for (taxels, [expected, doubt]) in table.taxels().iter().zip(&self.felt) {
+            let (mut any, mut expected) = (expected | doubt, *expected);
+            if any == 0 {
+                continue;
+            }
+            for taxel in taxels {
+                if any & 0xFF != 0 {
+                    take(usize::from(*taxel), (expected as u8 as u16).saturating_mul(table.unit()));
+                }
+                (any, expected) = (any >> 8, expected >> 8);
             }
         }
+    }
+
+    /// True if taxels are to be compared with what is expected of them.
+    pub(crate) fn compares(&self) -> bool {
+        self.bends.iter().any(|bend| bend.is_known && bend.left > 0)
     }
 
     /// Compares the taxels whose turn it was and whose joint has come to another knot with what they feel:
@@ -262,31 +257,30 @@ impl FoldState {
         for (index, fold) in table.folds().iter().enumerate() {
             let Some(bend) = self.bends.get_mut(index) else { break };
             let knot = usize::from(bend.knot.unwrap_or(0));
+            let Some(passes) = self.passes.get_mut(at.knot + knot) else { break };
             if bend.is_known && bend.left > 0 {
-                for slot in at.slots(fold, turn).take(bend.left.into()) {
+                for quad in within(&at, fold, turn).take(bend.left.into()) {
                     bend.left -= 1;
-                    let (Some(taxel), Some(expected)) = (table.taxels().get(slot), self.expected.get(slot))
+                    let correction = at.correction + knot * fold.quads() + quad - at.quad;
+                    let (Some(taxels), Some([expected, _]), Some(corrections)) =
+                        (table.taxels().get(quad), self.felt.get(quad), self.corrections.get_mut(correction))
                     else {
                         break;
                     };
-                    let Some(felt) = felt(usize::from(*taxel)) else { continue };
-                    let off = ((u32::from(felt) + unit / 2) / unit) as i32 - i32::from(*expected);
-                    let cell = at.cell + (slot - at.slot) * fold.cells() + knot;
-                    let passes = passes_of(&self.known, &self.passes, at.knot + knot, cell);
-                    if let Some((correction, known)) =
-                        self.corrections.get_mut(cell).zip(self.known.get_mut(cell / 32))
-                    {
-                        let now = i32::from(*correction) + nearer(off, passes);
-                        *correction = now.clamp(-127, 127) as i8;
-                        *known |= 1 << (cell % 32);
+                    for (lane, taxel) in taxels.iter().enumerate() {
+                        let Some(felt) = felt(usize::from(*taxel)) else { continue };
+                        let off =
+                            ((u32::from(felt) + unit / 2) / unit) as i32 - i32::from(byte(*expected, lane));
+                        let (was, passes) = match byte(*corrections, lane) {
+                            0 => (ZERO as i32, 0),
+                            known => (known.into(), *passes),
+                        };
+                        set_byte(corrections, lane, (was + nearer(off, passes)).clamp(1, 255) as u8);
+                        bend.compared += 1;
                     }
-                    bend.compared += 1;
                 }
                 // A comparison in which most taxels may have been touched is none.
-                if bend.left == 0
-                    && bend.compared > fold.taxels / 2
-                    && let Some(passes) = self.passes.get_mut(at.knot + knot)
-                {
+                if bend.left == 0 && bend.compared > fold.taxels / 2 {
                     *passes = (*passes + 1).min(MOST_PASSES);
                 }
             }
@@ -297,36 +291,32 @@ impl FoldState {
     /// Expectation of a taxel and its doubt, counts; none if it does not fold.
     pub fn of(&self, taxel: u16) -> Option<[u16; 2]> {
         let table = self.table()?;
-        let mut first = 0;
+        let mut start = FoldStart::FIRST;
         let slot = table.folds().iter().find_map(|fold| {
-            let its = table.taxels().get(first..first + usize::from(fold.taxels))?;
-            let slot = its.binary_search(&taxel).ok().map(|at| first + at);
-            first += its.len();
-            slot
+            let here = start;
+            start = start.after(fold);
+            Some(4 * here.quad + table.place(fold, &here, taxel)?)
         })?;
-        let counts = |units: Option<&u8>| u16::from(units.copied().unwrap_or(0)).saturating_mul(table.unit());
-        Some([counts(self.expected.get(slot)), counts(self.doubt.get(slot))])
+        let felt = self.felt.get(slot / 4)?;
+        Some(felt.map(|bytes| u16::from(byte(bytes, slot % 4)).saturating_mul(table.unit())))
     }
 
     /// Sums over the taxels that `counts` takes.
     pub fn expected(&self, counts: impl Fn(usize) -> bool) -> Expected {
         let mut sum = Expected::default();
         let Some(table) = self.table() else { return sum };
-        for ((taxel, expected), doubt) in table.taxels().iter().zip(&self.expected).zip(&self.doubt) {
-            if *expected | *doubt != 0 && counts(usize::from(*taxel)) {
-                sum.taxels += 1;
-                sum.total += u32::from(*expected) * u32::from(table.unit());
-                sum.doubt += u32::from(*doubt) * u32::from(table.unit());
+        for (taxels, [expected, doubt]) in table.taxels().iter().zip(&self.felt) {
+            for (lane, taxel) in taxels.iter().enumerate() {
+                let [expected, doubt] = [*expected, *doubt].map(|bytes| byte(bytes, lane));
+                if expected | doubt != 0 && counts(usize::from(*taxel)) {
+                    sum.taxels += 1;
+                    sum.total += u32::from(expected) * u32::from(table.unit());
+                    sum.doubt += u32::from(doubt) * u32::from(table.unit());
+                }
             }
         }
         sum
     }
-}
-
-/// Comparisons so far of a cell at its knot.
-fn passes_of(known: &[u32], passes: &[u8], knot: usize, cell: usize) -> u8 {
-    let is_known = known.get(cell / 32).is_some_and(|word| word >> (cell % 32) & 1 == 1);
-    if is_known { passes.get(knot).copied().unwrap_or(0) } else { 0 }
 }
 
 impl Default for FoldState {
@@ -337,15 +327,83 @@ impl Default for FoldState {
 
 /// What is left of the doubt of days after so many comparisons, whose mean is nearer to the day's own:
 /// `1 / (1 + n)`, of [`WHOLE`].
-const SHARES: [u16; MOST_PASSES as usize + 1] = [256, 128, 86, 64, 52, 43, 37, 32];
+const SHARES: [u16; MOST_PASSES as usize + 1] = [128, 64, 43, 32, 26, 22, 19, 16];
 
 /// A knot beside the present posture.
-struct Around {
-    knot: usize,
+struct Around<'a> {
+    /// Means, spreads and days of four taxels each.
+    cells: &'a [[u32; 3]],
+    /// Word of the corrections of its first four taxels.
+    corrections: usize,
     /// How much it counts, of [`WHOLE`].
     weight: u32,
-    /// What is left of the doubt of days there, of [`WHOLE`].
-    left: u32,
+}
+
+/// The knots around the present posture.
+struct Corners<'a> {
+    around: [Around<'a>; 4],
+    /// The nearest of them. Its weight is what is left of the doubt of days.
+    nearest: Around<'a>,
+}
+
+impl<'a> Around<'a> {
+    /// Cells and corrections of some quads of the fold.
+    fn of<'b>(&self, corrections: &'b [u32], quads: &Range<usize>) -> (&'a [[u32; 3]], &'b [u32]) {
+        let own = self.corrections + quads.start..self.corrections + quads.end;
+        (self.cells.get(quads.clone()).unwrap_or(&[]), corrections.get(own).unwrap_or(&[]))
+    }
+}
+
+impl Corners<'_> {
+    /// Expectations and doubts of some quads of a fold, units.
+    #[inline(never)] // own registers
+    fn felt(&self, corrections: &[u32], quads: Range<usize>, felt: &mut [[u32; 2]; AT_ONCE]) {
+        let mut means = [Sums::NONE; AT_ONCE];
+        for corner in self.around.iter().filter(|corner| corner.weight > 0) {
+            add_means(&mut means, corner.of(corrections, &quads), corner.weight);
+        }
+        let (cells, corrections) = self.nearest.of(corrections, &quads);
+        let nearest = cells.iter().zip(corrections);
+        for ((felt, means), ([_, spread, days], correction)) in felt.iter_mut().zip(means).zip(nearest) {
+            // The doubt of days is whole where nothing was compared.
+            let whole = days & whole_bytes(zeros(*correction));
+            let mut doubt = Sums::ALMOST;
+            doubt.add_both([*spread, whole], WHOLE.into());
+            doubt.add(days ^ whole, self.nearest.weight);
+            *felt = [means.bytes(ZERO), doubt.bytes(0)];
+        }
+    }
+}
+
+/// Adds a knot's part to the expectations of quads.
+#[inline(never)] // own registers
+fn add_means(means: &mut [Sums], (cells, corrections): (&[[u32; 3]], &[u32]), weight: u32) {
+    for ((sums, [mean, ..]), correction) in means.iter_mut().zip(cells).zip(corrections) {
+        // 128 stands for a correction of 0.
+        sums.add_both([*mean, correction | zeros(*correction)], weight);
+    }
+}
+
+/// Levels of four taxels, counts. A unit of at most 128 keeps them within 16 bits.
+#[inline(always)]
+fn levels(expected: u32, doubt: u32, unit: u32) -> [u16; 4] {
+    [0, 8, 16, 24].map(|lane| (((expected >> lane & 0xFF) + (doubt >> lane & 0xFF)) * unit) as u16)
+}
+
+/// The fold's quads within a range of the table's.
+fn within(start: &FoldStart, fold: &FoldRecord, [first, end]: [u16; 2]) -> Range<usize> {
+    let own = start.quads(fold);
+    own.start.max(first.into())..own.end.min(end.into())
+}
+
+/// Notes of which of four taxels nothing is expected or in doubt, by the highest bits of `nothing`.
+#[inline(never)] // seldom
+fn hold(held: &mut [u32], taxels: &[u16; 4], nothing: u32) {
+    for (lane, taxel) in taxels.iter().enumerate() {
+        let Some(word) = held.get_mut(usize::from(taxel / 32)) else { continue };
+        let bit = 1 << (taxel % 32);
+        if byte(nothing, lane) == 0 { *word |= bit } else { *word &= !bit }
+    }
 }
 
 /// Change of a correction that is off by `off`: so that it becomes the mean of the comparisons, as long as
@@ -353,32 +411,4 @@ struct Around {
 fn nearer(off: i32, passes: u8) -> i32 {
     let passes = 1 + i32::from(passes);
     (2 * off + if off < 0 { -passes } else { passes }).checked_div(2 * passes).unwrap_or(0)
-}
-
-/// Where the entries of a fold begin.
-#[derive(Clone, Copy)]
-struct FoldStart {
-    slot: usize,
-    cell: usize,
-    knot: usize,
-}
-
-impl FoldStart {
-    const FIRST: FoldStart = FoldStart { slot: 0, cell: 0, knot: 0 };
-
-    /// The fold's taxels within a range of the table's list.
-    fn slots(&self, fold: &FoldRecord, [first, end]: [u16; 2]) -> Range<usize> {
-        let last = self.slot + usize::from(fold.taxels);
-        usize::from(first).max(self.slot)..usize::from(end).min(last)
-    }
-
-    /// The place of the fold after this one.
-    fn after(&self, fold: &FoldRecord) -> FoldStart {
-        let taxels = usize::from(fold.taxels);
-        FoldStart {
-            slot: self.slot + taxels,
-            cell: self.cell + taxels * fold.cells(),
-            knot: self.knot + fold.cells(),
-        }
-    }
 }

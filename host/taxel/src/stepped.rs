@@ -83,7 +83,7 @@ impl Stepped {
         let folds = self.board.state().condition.folds();
         let taxels = folds.table().map_or(&[][..], |table| table.taxels());
         let told = |taxel: &u16| folds.of(*taxel).map(|[expected, doubt]| [*taxel, expected, doubt]);
-        taxels.iter().filter_map(told).collect()
+        taxels.as_flattened().iter().filter_map(told).collect()
     }
 
     /// The client, for requests; they reach the board with the next step.

@@ -4,8 +4,8 @@ use super::{BoardAndHost, TAXELS};
 use crate::random::Noise;
 use taxel_core::board::TableKind;
 use taxel_core::fold::{
-    FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, Posture, fold_table_bytes,
-    write_fold_table,
+    FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, NO_TAXEL, Posture,
+    fold_table_length, write_fold_table,
 };
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::scene::Scene;
@@ -42,7 +42,7 @@ fn elbow(spread: u8, days: u8) -> Vec<u8> {
         cells: &cells,
         unit: UNIT,
     };
-    let mut bytes = vec![0; fold_table_bytes(1, FOLDED.len(), cells.len())];
+    let mut bytes = vec![0; fold_table_length(&[fold])];
     write_fold_table(&parts, &layout(), &mut bytes).unwrap();
     bytes
 }
@@ -235,11 +235,11 @@ fn a_table_that_is_wrong_is_refused_by_name() {
     };
     let first = 280;
     let taxels = first + 20;
-    assert_eq!(refusal(&|table| table[8] = 2), "folds must be a table of folds, version 1");
-    assert_eq!(refusal(&|table| table.truncate(400)), "folds must be a table of folds, version 1");
+    assert_eq!(refusal(&|table| table[8] = 1), "folds must be a table of folds, version 2");
+    assert_eq!(refusal(&|table| table.truncate(400)), "folds must be a table of folds, version 2");
     assert_eq!(refusal(&|table| table[20] ^= 1), "folds must be made for this garment");
     assert_eq!(refusal(&|table| table[24] = 0), "folds must name its joints");
-    assert_eq!(refusal(&|table| table[16] = 0), "folds must have a unit of at least 1 count");
+    assert_eq!(refusal(&|table| table[16] = 0), "folds must have a unit of 1 to 128 counts");
     assert_eq!(refusal(&|table| table[first] = 1), "folds must name one or two joints of the table");
     assert_eq!(refusal(&|table| table[first + 1] = 0), "folds must name one or two joints of the table");
     assert_eq!(refusal(&|table| table[first + 3] = 2), "folds must leave out what belongs to a second joint");
@@ -256,11 +256,75 @@ fn a_table_that_is_wrong_is_refused_by_name() {
         refusal(&|table| table[first + 2] = 3),
         "folds must have as many taxels and cells as its folds, and at most 256 knots"
     );
+    let most = good.len() - 12;
+    assert_eq!(refusal(&|table| table[most] += 1), "folds must state the most that each taxel may feel");
     let mut bench = wearing(&[]);
     let undamaged = Some("folds must arrive undamaged".to_string());
     let damaged = [&good[..300], &[1], &good[301..]].concat();
     assert_eq!(bench.send_table(TableKind::Folds, &damaged).last(), Some(&undamaged));
     assert!(bench.send_table(TableKind::Folds, &good).iter().all(Option::is_none));
+}
+
+#[test]
+fn a_table_holds_what_was_written() {
+    let mut noise = Noise(7);
+    let single = FoldRecord {
+        joints: [1, NO_JOINT],
+        knots: [5, 1],
+        first: [-9000, 0],
+        step: [4500, 0],
+        play: [300, 0],
+        taxels: 5,
+        zero: 0,
+    };
+    let pair = FoldRecord {
+        joints: [0, 1],
+        knots: [3, 2],
+        first: [0; 2],
+        step: [10; 2],
+        play: [0; 2],
+        taxels: 3,
+        ..single
+    };
+    let (taxels, folds) = ([3, 9, 10, 41, 63, 0, 4, 62], [single, pair]);
+    let felt: Vec<FoldCell> = (0..5 * 5 + 3 * 6)
+        .map(|_| {
+            let [mean, spread, days] = [100, 50, 200].map(|most| noise.below(most) as u8);
+            FoldCell { mean, spread, days }
+        })
+        .collect();
+    let parts = FoldTableParts {
+        joints: &["left_elbow", "left_shoulder"],
+        folds: &folds,
+        taxels: &taxels,
+        cells: &felt,
+        unit: UNIT,
+    };
+    let mut bytes = vec![0; fold_table_length(&folds)];
+    write_fold_table(&parts, &layout(), &mut bytes).unwrap();
+    let table = FoldTable::check(&bytes, &layout()).unwrap();
+    assert_eq!(table.taxels(), [[3, 9, 10, 41], [63, NO_TAXEL, NO_TAXEL, NO_TAXEL], [0, 4, 62, NO_TAXEL]]);
+    let mut cells = felt.iter();
+    for (at, taxel) in taxels.into_iter().enumerate() {
+        let knots = if at < 5 { 5 } else { 6 };
+        for knot in 0..knots {
+            assert_eq!(table.cell(taxel, knot).as_ref(), cells.next(), "{taxel} {knot}");
+        }
+        assert_eq!(table.cell(taxel, knots), None);
+    }
+    assert_eq!((table.cell(5, 0), table.cell(NO_TAXEL, 0)), (None, None));
+    // Of another number of taxels than the folds say.
+    let fewer = FoldTableParts { taxels: &taxels[1..], ..parts };
+    assert!(write_fold_table(&fewer, &layout(), &mut bytes).is_err());
+    let at = 280 + 2 * 20 + 2 * 5;
+    let crc = |bytes: &mut [u8]| taxel_core::format::crc32(&bytes[8..]).to_le_bytes();
+    bytes[at..at + 2].copy_from_slice(&7u16.to_le_bytes());
+    let sum = crc(&mut bytes);
+    bytes[4..8].copy_from_slice(&sum);
+    assert_eq!(
+        FoldTable::check(&bytes, &layout()).unwrap_err().must,
+        "must fill the list of a fold's taxels up to a multiple of four with 65535"
+    );
 }
 
 #[test]

@@ -198,10 +198,8 @@ fn a_bulge_that_appears_at_once_may_do_so_beside_where_it_did() {
     let table = FoldTable::view(&learned.table).expect("it is one");
     let cells = table.folds()[0].cells();
     let spread = |taxel: usize| {
-        let slot =
-            table.taxels().iter().position(|its| usize::from(*its) == taxel).expect("it is in the table");
-        let its = &table.cells()[slot * cells..][..cells];
-        its.iter().map(|cell| u16::from(cell.spread) * table.unit()).max().expect("it has knots")
+        let its = (0..cells).map(|knot| table.cell(taxel as u16, knot).expect("it is in the table"));
+        its.map(|cell| u16::from(cell.spread) * table.unit()).max().expect("it has knots")
     };
     assert!(spread(pressed) > 100, "{}", spread(pressed));
     assert_eq!(spread(beside), spread(pressed));

@@ -6,7 +6,8 @@ use super::near::near;
 use super::sweep::FoldSweep;
 use crate::error::{LearnError, Result};
 use taxel_core::fold::{
-    CELLS, FOLDED, FOLDS, FoldCell, FoldTable, FoldTableParts, KNOTS, fold_table_bytes, write_fold_table,
+    CELLS, FOLDED, FOLDS, FoldCell, FoldTable, FoldTableParts, KNOTS, MOST_UNIT, fold_table_length,
+    write_fold_table,
 };
 use taxel_core::garment::Layout;
 
@@ -226,7 +227,8 @@ impl Fold {
 
 /// Widens the steps until the board has room.
 fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[FoldSweep], step: f32) -> Result<()> {
-    let taxels: usize = all.iter().map(Vec::len).sum();
+    let filled = |its: &Vec<usize>| its.len().next_multiple_of(4);
+    let taxels: usize = all.iter().map(filled).sum();
     require!(
         taxels <= FOLDED,
         LearnError::TooLarge,
@@ -234,7 +236,7 @@ fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[FoldSweep], st
     );
     let mut step = step;
     loop {
-        let cells: usize = folds.iter().zip(all).map(|(fold, its)| fold.knots.count() * its.len()).sum();
+        let cells: usize = folds.iter().zip(all).map(|(fold, its)| fold.knots.count() * filled(its)).sum();
         let knots: usize = folds.iter().map(|fold| fold.knots.count()).sum();
         let widest = folds.iter().flat_map(|fold| &fold.knots.axes).map(|axis| axis.knots).max().unwrap_or(0);
         if cells <= CELLS && knots <= KNOTS && widest <= MOST_KNOTS {
@@ -344,6 +346,13 @@ fn write(
     let all = || courses.iter().flatten();
     let largest = all().flat_map(|course| course.mean.iter().chain(&course.spread).chain(&course.days));
     let unit = (largest.fold(0.0f32, |most, next| most.max(*next)) / 255.0).ceil().max(1.0);
+    require!(
+        unit <= f32::from(MOST_UNIT),
+        LearnError::TooLarge,
+        "a fold presses with up to {:.0} counts, a board holds {}: record with codes of 12 bits",
+        unit * 255.0,
+        255 * u32::from(MOST_UNIT)
+    );
     let mut joints: Vec<&str> = Vec::new();
     for joint in folds.iter().flat_map(|fold| &fold.knots.joints) {
         if !joints.contains(&joint.as_str()) {
@@ -362,7 +371,7 @@ fn write(
     };
     let cells: Vec<FoldCell> =
         all().flat_map(|it| it.mean.iter().zip(it.spread.iter().zip(&it.days)).map(cell)).collect();
-    let mut table = vec![0; fold_table_bytes(records.len(), taxels.len(), cells.len())];
+    let mut table = vec![0; fold_table_length(&records)];
     let parts = FoldTableParts {
         joints: &joints,
         folds: &records,

@@ -1,0 +1,99 @@
+//! Where contacts lie, to be asked of many taxels.
+
+use super::feedback::{Feedback, Pressed};
+use crate::capacity::TAXELS;
+use crate::garment::Layout;
+
+/// Words of a bit for each taxel.
+const WORDS: usize = TAXELS.div_ceil(32);
+
+/// A bit for each taxel within some taxels of a contact.
+pub(crate) struct Touched {
+    taxels: [u32; WORDS],
+    is_empty: bool,
+}
+
+impl Touched {
+    /// Taxels within `beside` taxels of the contacts' rectangles, in the same panel.
+    #[inline(never)] // once in a frame, with much stack
+    pub fn of<const CONTACTS: usize>(layout: &Layout, feedback: &Feedback<CONTACTS>, beside: u16) -> Touched {
+        let is_empty = feedback.home.is_empty();
+        let mut touched = Touched { taxels: [0; WORDS], is_empty };
+        for Pressed { rect, .. } in feedback.home.iter().chain(&feedback.beyond) {
+            let Some(area) = layout.areas().get(usize::from(rect.panel)) else { continue };
+            let [left, top] = [rect.left, rect.top].map(|first| first.saturating_sub(beside));
+            let right = rect.right.saturating_add(beside + 1).min(area.columns);
+            let bottom = rect.bottom.saturating_add(beside + 1).min(area.rows);
+            for row in top..bottom {
+                let first = usize::from(area.base) + usize::from(row) * usize::from(area.columns);
+                touched.mark(first + usize::from(left), first + usize::from(right));
+            }
+        }
+        touched
+    }
+
+    /// Marks the taxels from `first` to before `end`.
+    fn mark(&mut self, first: usize, end: usize) {
+        let (first_word, last_word) = (first / 32, end.saturating_sub(1) / 32);
+        for at in first_word..=last_word {
+            let mut bits = u32::MAX;
+            if at == first_word {
+                bits <<= first % 32;
+            }
+            if at == last_word {
+                bits &= u32::MAX >> (31 - end.saturating_sub(1) % 32);
+            }
+            if let Some(word) = self.taxels.get_mut(at) {
+                *word |= bits;
+            }
+        }
+    }
+
+    /// True if there are no contacts.
+    pub fn is_empty(&self) -> bool {
+        self.is_empty
+    }
+
+    /// For each of four taxels the second value if it is one of them, else the first.
+    #[inline(never)] // own registers
+    pub fn choose(&self, taxels: &[u16; 4], mut values: [u16; 4], touched: [u16; 4]) -> [u16; 4] {
+        for ((taxel, value), touched) in taxels.iter().zip(&mut values).zip(touched) {
+            if self.has((*taxel).into()) {
+                *value = touched;
+            }
+        }
+        values
+    }
+
+    /// True if a taxel is one of them.
+    #[inline(always)]
+    pub fn has(&self, taxel: usize) -> bool {
+        self.taxels.get(taxel / 32).is_some_and(|word| word >> (taxel % 32) & 1 == 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::garment::{Garment, Rect};
+
+    #[test]
+    fn the_same_taxels_as_each_rectangle_holds() {
+        for garment in [Garment::reference(), Garment::mat(), Garment::block()] {
+            let layout = Layout::build(&garment, TAXELS, u16::MAX).unwrap();
+            for (top, bottom, left, right, beside) in
+                [(0, 0, 0, 0, 1), (2, 3, 4, 15, 1), (1, 3, 7, 9, 3), (3, 3, 15, 15, 3), (0, 3, 0, 15, 1)]
+            {
+                let rect = Rect { panel: layout.areas().len() as u8 - 1, top, bottom, left, right };
+                let mut feedback = Feedback::<4>::new();
+                feedback.home.push(Pressed { rect, peak: 1 }).unwrap();
+                let touched = Touched::of(&layout, &feedback, beside);
+                for taxel in 0..layout.taxels() {
+                    let place = layout.place(taxel).unwrap();
+                    let want = rect.holds(place.panel, place.row, place.column, beside);
+                    assert_eq!(touched.has(taxel), want, "{rect:?} {beside} {place:?}");
+                }
+            }
+        }
+    }
+}

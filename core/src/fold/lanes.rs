@@ -1,0 +1,134 @@
+//! The bytes of four taxels in a word: all four are computed with at once.
+//!
+//! Sums of bytes take two words, of 16 bits for each of the even and of the odd bytes.
+
+/// Bytes 0 and 2.
+const EVEN: u32 = 0x00FF_00FF;
+/// 1 for each sum of a word.
+const ONE: u32 = 0x0001_0001;
+/// Most of the weights that a sum may have together: two bytes with all of it fill 16 bits.
+pub(super) const WHOLE: u16 = 128;
+/// log2 of [`WHOLE`].
+const SHIFT: u32 = 7;
+
+/// What a byte of a correction is more than the correction: 0 stands for none yet.
+pub(super) const ZERO: u32 = 128;
+
+/// Weighted sums of the bytes of words.
+#[derive(Clone, Copy)]
+pub(super) struct Sums {
+    even: u32,
+    odd: u32,
+}
+
+impl Sums {
+    /// Nothing yet: half of a unit, so that [`Sums::bytes`] rounds.
+    pub const NONE: Sums = Sums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
+
+    /// Nothing yet: almost a unit, so that [`Sums::bytes`] rounds up.
+    pub const ALMOST: Sums = Sums { even: ONE * (WHOLE as u32 - 1), odd: ONE * (WHOLE as u32 - 1) };
+
+    /// Adds `weight` of each byte.
+    #[inline(always)]
+    pub fn add(&mut self, bytes: u32, weight: u32) {
+        self.even = self.even.wrapping_add((bytes & EVEN).wrapping_mul(weight));
+        self.odd = self.odd.wrapping_add((bytes >> 8 & EVEN).wrapping_mul(weight));
+    }
+
+    /// Adds `weight` of the sum of each two bytes.
+    #[inline(always)]
+    pub fn add_both(&mut self, [a, b]: [u32; 2], weight: u32) {
+        self.even = self.even.wrapping_add((a & EVEN).wrapping_add(b & EVEN).wrapping_mul(weight));
+        self.odd = self.odd.wrapping_add((a >> 8 & EVEN).wrapping_add(b >> 8 & EVEN).wrapping_mul(weight));
+    }
+
+    /// Each sum divided by [`WHOLE`], less `less` (at most 128), within 0 and 255.
+    #[inline(always)]
+    pub fn bytes(self, less: u32) -> u32 {
+        let within = |sums: u32| {
+            let sums = sums >> SHIFT & (ONE * 0x1FF);
+            // The highest bit of a sum stays as long as the sum is not less.
+            let rest = (sums | ONE << 15).wrapping_sub(ONE * less);
+            let rest = rest & (rest >> 15 & ONE).wrapping_mul(0x7FFF);
+            (rest | (rest >> 8 & ONE).wrapping_mul(0xFF)) & EVEN
+        };
+        within(self.even) | within(self.odd) << 8
+    }
+}
+
+/// The highest bit of each byte that is 0.
+#[inline(always)]
+pub(super) fn zeros(bytes: u32) -> u32 {
+    let low = 0x7F7F_7F7F;
+    !((bytes & low).wrapping_add(low) | bytes | low)
+}
+
+/// All bits of each byte whose highest bit is set in `flags`, which has no other bits.
+#[inline(always)]
+pub(super) fn whole_bytes(flags: u32) -> u32 {
+    (flags >> 7).wrapping_mul(0xFF)
+}
+
+/// Byte number `lane`, 0 ..= 3.
+pub(super) fn byte(bytes: u32, lane: usize) -> u8 {
+    bytes.to_le_bytes().get(lane).copied().unwrap_or(0)
+}
+
+/// Replaces byte number `lane`, 0 ..= 3.
+pub(super) fn set_byte(bytes: &mut u32, lane: usize, to: u8) {
+    let mut all = bytes.to_le_bytes();
+    if let Some(byte) = all.get_mut(lane) {
+        *byte = to;
+    }
+    *bytes = u32::from_le_bytes(all);
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn four_lanes_are_four_bytes(
+            a in any::<[u8; 4]>(), b in any::<[u8; 4]>(), c in any::<[u8; 4]>(), d in any::<[u8; 4]>(),
+            weight in 0u32..=128, less in 0u32..=128,
+        ) {
+            let mut sums = Sums::NONE;
+            let [wa, wb, wc, wd] = [a, b, c, d].map(u32::from_le_bytes);
+            sums.add_both([wa, wb], weight);
+            sums.add_both([wc, wd], 128 - weight);
+            let both = |a: u8, b: u8| u32::from(a) + u32::from(b);
+            let want = core::array::from_fn(|i| {
+                let sum = (both(a[i], b[i]) * weight + both(c[i], d[i]) * (128 - weight) + 64) / 128;
+                sum.saturating_sub(less).min(255) as u8
+            });
+            prop_assert_eq!(sums.bytes(less).to_le_bytes(), want);
+            let mut sums = Sums::NONE;
+            sums.add(wa, weight);
+            let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);
+            prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);
+            let mut sums = Sums::ALMOST;
+            sums.add(wa, weight);
+            let want = a.map(|a| (u32::from(a) * weight).div_ceil(128) as u8);
+            prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);
+        }
+
+        #[test]
+        fn zeros_are_found_by_byte(bytes in prop::array::uniform4(prop_oneof![Just(0u8), Just(1), any::<u8>()])) {
+            let found = zeros(u32::from_le_bytes(bytes));
+            prop_assert_eq!(found.to_le_bytes(), bytes.map(|byte| if byte == 0 { 0x80 } else { 0 }));
+            let whole = whole_bytes(found).to_le_bytes();
+            prop_assert_eq!(whole, bytes.map(|byte| if byte == 0 { 0xFF } else { 0 }));
+        }
+
+        #[test]
+        fn a_byte_is_replaced(bytes in any::<u32>(), lane in 0usize..4, to in any::<u8>()) {
+            let mut changed = bytes;
+            set_byte(&mut changed, lane, to);
+            prop_assert_eq!(byte(changed, lane), to);
+            prop_assert!((0..4).all(|other| other == lane || byte(changed, other) == byte(bytes, other)));
+        }
+    }
+}
