@@ -23,7 +23,7 @@ fn stamp() -> Value {
 }
 
 /// Fields of `Contact.msg` that are keys of a contact's JSON.
-const SAME: [&str; 29] = [
+const SAME: [&str; 33] = [
     "id",
     "panel",
     "panel_name",
@@ -35,6 +35,10 @@ const SAME: [&str; 29] = [
     "peak_column",
     "area",
     "perimeter",
+    "top",
+    "bottom",
+    "left",
+    "right",
     "edge",
     "x",
     "y",
