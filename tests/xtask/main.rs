@@ -15,6 +15,7 @@ mod install;
 #[cfg(test)]
 mod layers;
 mod locks;
+mod lerobot;
 mod mutants;
 mod names;
 mod no_panic;
