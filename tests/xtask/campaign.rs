@@ -1,6 +1,6 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
-use crate::{browser, paths, physics, python, ros2, targets, ways};
+use crate::{browser, lerobot, paths, physics, python, ros2, targets, ways, wheels};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -20,8 +20,12 @@ enum Run {
     Python(&'static str),
     /// The Python package with each CPython.
     Wheels,
+    /// The Python package for another machine, and as its source.
+    OtherWheels,
     /// The ROS 2 node with each distribution.
     Ros2,
+    /// The plug-in in LeRobot itself.
+    Lerobot,
     /// MuJoCo's judgement of places and forces.
     Physics,
     /// Tests of files on a failing disk.
@@ -31,7 +35,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 23] = [
+const RUNS: [(&str, Run, &str); 25] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -99,6 +103,16 @@ const RUNS: [(&str, Run, &str); 23] = [
         "Python: the wheel with each CPython, a million frames of five contacts, from pip install to the first frame",
     ),
     (
+        "python-others",
+        Run::OtherWheels,
+        "Python: the wheel for aarch64, imported on this machine, and the source distribution, installed by pip",
+    ),
+    (
+        "lerobot",
+        Run::Lerobot,
+        "LeRobot itself: a minute of simulated touch beside a camera, every scan once (simulated)",
+    ),
+    (
         "ros2",
         Run::Ros2,
         "ROS 2: the node with rclpy of each distribution: 10,000 lists of five contacts, slow and killed ends",
@@ -161,6 +175,8 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Python(names) => targets::read_by_python(&[names], log, &longer)?,
         Run::Wheels => python::campaign(log, &longer)?,
         Run::Ros2 => ros2::campaign(log, &longer)?,
+        Run::OtherWheels => wheels::campaign(log)?,
+        Run::Lerobot => lerobot::campaign(log, &longer)?,
         Run::Physics => physics::campaign(log, &longer)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),

@@ -122,6 +122,13 @@ pub fn python_in(interpreter: &str, folder: &Path, wanted: &Path) -> Result<Path
     Ok(python)
 }
 
+/// Creates an environment of an interpreter that did not exist before.
+pub fn new_python(interpreter: &str, folder: &Path, log: &Path) -> Result<PathBuf, String> {
+    let _ = std::fs::remove_dir_all(folder);
+    process::run_into(Command::new(interpreter).args(["-m", "venv"]).arg(folder), log)?;
+    Ok(folder.join("bin/python"))
+}
+
 /// Installs a program from crates.io in this version, in a folder of its own.
 pub fn cargo_tool(name: &str, version: &str) -> Result<PathBuf, String> {
     cargo_tool_of(name, version, &[])

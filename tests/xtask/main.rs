@@ -1,5 +1,6 @@
 //! `cargo xtask`: tasks beyond cargo's. It has no dependencies, so that it builds in a second.
 
+mod aarch64;
 mod browser;
 mod campaign;
 mod checks;
@@ -14,6 +15,7 @@ mod fuzz;
 mod install;
 #[cfg(test)]
 mod layers;
+mod lerobot;
 mod locks;
 mod mutants;
 mod names;
@@ -31,6 +33,7 @@ mod supply;
 mod targets;
 mod uf2;
 mod ways;
+mod wheels;
 
 use std::process::ExitCode;
 

@@ -1,5 +1,6 @@
 //! Runs other programs.
 
+use std::ffi::OsString;
 use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -34,4 +35,11 @@ pub fn output(command: &mut Command) -> Option<String> {
 /// True if a program can be started.
 pub fn exists(program: &str) -> bool {
     output(Command::new(program).arg("--version")).is_some()
+}
+
+/// The search path with an environment's programs first.
+pub fn path_with(folder: &Path) -> Result<OsString, String> {
+    let before = std::env::var_os("PATH").unwrap_or_default();
+    let folders = std::iter::once(folder.join("bin")).chain(std::env::split_paths(&before));
+    std::env::join_paths(folders).map_err(|error| format!("PATH: {error}"))
 }

@@ -1,7 +1,7 @@
 //! `cargo xtask python`: the Python package as a wheel, tested in an environment of its own.
 
 use crate::targets::{End, shown};
-use crate::{install, paths, process};
+use crate::{install, paths, process, wheels};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -39,32 +39,34 @@ pub fn run(args: &[String]) -> Result<(), String> {
         _ => return Err(crate::USAGE.into()),
     };
     let log = paths::log("wheel")?;
-    let lines =
-        tested("python3", build, &log, &[])?.map_err(|why| format!("{why}, see {}", log.display()))?;
+    let lines = tested("python3", |own| built(own, build, &log), &log, &[])?
+        .map_err(|why| format!("{why}, see {}", log.display()))?;
     lines.iter().for_each(|line| println!("{line}"));
     Ok(())
 }
 
 /// The check: the wheel with the `python3` that is there.
 pub fn check(log: &Path) -> End {
-    shown(tested("python3", Build::Dev, log, &[])?)
+    shown(tested("python3", |own| built(own, Build::Dev, log), log, &[])?)
 }
 
 /// The campaign: the wheel that is given away, with each CPython that is there, installed from nothing.
 pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     let found: Vec<String> = VERSIONS.filter_map(interpreter).collect();
-    if found.is_empty() {
-        return Err("there is no python3.10 or later".into());
-    }
+    let newest = found.last().ok_or("there is no python3.10 or later")?;
+    let wheel = match wheels::here(newest, log)? {
+        Ok(wheel) => wheel,
+        Err(why) => return Ok(Err(why)),
+    };
     let variables = [variables, &[("TAXEL_FRAMES", FRAMES)]].concat();
-    let mut lines = Vec::new();
+    let mut lines = vec![wheels::shown(&wheel)];
     for python in &found {
-        match tested(python, Build::Release, log, &variables)? {
+        match tested(python, |_| Ok(wheel.clone()), log, &variables)? {
             Ok(said) => lines.extend(said),
             Err(why) => return Ok(Err(format!("{python}: {why}"))),
         }
         // What else the machine does only adds to the time: the quickest counts.
-        let tries = (0..TRIES).map(|_| from_nothing(python, log));
+        let tries = (0..TRIES).map(|_| from_nothing(python, &wheel, log));
         let quickest = tries.reduce(|a, b| match (a, b) {
             (Ok(a), Ok(b)) => Ok(a.min(b)),
             (Ok(quick), Err(_)) | (Err(_), Ok(quick)) => Ok(quick),
@@ -82,6 +84,11 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     let missing = VERSIONS.filter(|minor| interpreter(*minor).is_none()).map(|minor| format!("3.{minor}"));
     lines.extend(missing.map(|version| format!("CPython {version}: not run: it is not here")));
     Ok(Ok(lines))
+}
+
+/// The newest CPython that is there.
+pub fn newest() -> Option<String> {
+    VERSIONS.rev().find_map(interpreter)
 }
 
 /// Name or path of the CPython of this version: on the PATH, or one that pyenv has installed.
@@ -105,21 +112,27 @@ fn version(python: &str) -> Option<[u32; 2]> {
     Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
 }
 
-/// Builds the wheel, installs it beside the pinned tools, and runs the tests and mypy. Returns what they
-/// measured.
-fn tested(python: &str, build: Build, log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
+/// Makes a wheel by an environment with the pinned tools, installs it beside them, and runs the tests and mypy. Returns
+/// what they measured.
+fn tested(
+    python: &str,
+    wheel: impl FnOnce(&Path) -> Result<PathBuf, String>,
+    log: &Path,
+    variables: &[(&str, &str)],
+) -> End<Vec<String>> {
     let [major, minor] = install::python3(python).map(|()| version(python).unwrap_or_default())?;
     if (major, minor) < (3, *VERSIONS.start()) {
         return Err(format!("{python} is {major}.{minor}, and the package is for 3.10 and later"));
     }
     let own = environment(python, minor)?;
-    Ok(steps(&own, build, log, variables).map(|lines| {
+    let lines = wheel(&own).and_then(|wheel| steps(&own, &wheel, log, variables));
+    Ok(lines.map(|lines| {
         let head = format!("CPython 3.{minor}:");
         lines.into_iter().map(|line| format!("{head} {line}")).collect()
     }))
 }
 
-/// Builds the wheel that is given away.
+/// Builds the wheel as it is given away, for this machine alone.
 pub fn wheel(python: &str, log: &Path) -> End<PathBuf> {
     let [_, minor] = install::python3(python).map(|()| version(python).unwrap_or_default())?;
     Ok(built(&environment(python, minor)?, Build::Release, log))
@@ -131,11 +144,11 @@ fn environment(python: &str, minor: u32) -> Result<PathBuf, String> {
     install::python_in(python, &folder, &package().join("tests/requirements.txt"))
 }
 
-fn steps(python: &Path, build: Build, log: &Path, variables: &[(&str, &str)]) -> Result<Vec<String>, String> {
-    let wheel = built(python, build, log)?;
+fn steps(python: &Path, wheel: &Path, log: &Path, variables: &[(&str, &str)]) -> Result<Vec<String>, String> {
     let mut install = Command::new(python);
-    install.args(["-m", "pip", "install", "--quiet", "--no-deps", "--force-reinstall"]).arg(&wheel);
+    install.args(["-m", "pip", "install", "--quiet", "--no-deps", "--force-reinstall"]).arg(wheel);
     process::run_into(&mut install, log)?;
+    let before = std::fs::read_to_string(log).unwrap_or_default().len();
     let mut pytest = Command::new(python);
     pytest.args(["-m", "pytest", "-p", "no:cacheprovider", "-rP"]);
     pytest.args(TESTS.map(|folder| package().join(folder)));
@@ -150,9 +163,10 @@ fn steps(python: &Path, build: Build, log: &Path, variables: &[(&str, &str)]) ->
         process::run_into(&mut mypy, log)?;
     }
     let said = std::fs::read_to_string(log).unwrap_or_default();
-    let measured = said.lines().filter(|line| line.contains("resident memory") || line.contains("of a core"));
+    let said = said.get(before..).unwrap_or_default().lines();
+    let measured = said.filter(|line| line.contains("resident memory") || line.contains("of a core"));
     let mut lines: Vec<String> = measured.map(String::from).collect();
-    let bytes = std::fs::metadata(&wheel).map_or(0, |data| data.len());
+    let bytes = std::fs::metadata(wheel).map_or(0, |data| data.len());
     lines.push(format!("wheel of {:.1} MB", bytes as f64 / 1e6));
     Ok(lines)
 }
@@ -174,25 +188,26 @@ fn built(python: &Path, build: Build, log: &Path) -> Result<PathBuf, String> {
 }
 
 /// Seconds from the wheel to the first frame in an environment that did not exist before.
-fn from_nothing(python: &str, log: &Path) -> Result<f64, String> {
-    let folder = paths::target().join("xtask/wheel-new");
-    let _ = std::fs::remove_dir_all(&folder);
-    process::run_into(Command::new(python).args(["-m", "venv"]).arg(&folder), log)?;
-    let own = folder.join("bin/python");
-    let wheel = std::fs::read_dir(paths::target().join("wheels")).ok().and_then(|mut files| files.next());
-    let wheel = wheel.and_then(Result::ok).ok_or("there is no wheel")?.path();
+fn from_nothing(python: &str, wheel: &Path, log: &Path) -> Result<f64, String> {
+    let own = install::new_python(python, &paths::target().join("xtask/wheel-new"), log)?;
     let began = Instant::now();
-    process::run_into(Command::new(&own).args(["-m", "pip", "install", "--quiet"]).arg(&wheel), log)?;
-    let first = process::output(Command::new(&own).args(["-c", FIRST]).current_dir(&folder));
+    process::run_into(Command::new(&own).args(["-m", "pip", "install", "--quiet"]).arg(wheel), log)?;
+    let first = first_image(&mut Command::new(&own));
     let seconds = began.elapsed().as_secs_f64();
-    match first.as_deref() {
-        Some("2048") if seconds <= FIRST_FRAME_S => Ok(seconds),
-        Some("2048") => Err(format!("from pip install to the first frame {seconds:.1} s")),
-        _ => Err("there was no first frame".into()),
+    match first {
+        Ok(()) if seconds <= FIRST_FRAME_S => Ok(seconds),
+        Ok(()) => Err(format!("from pip install to the first frame {seconds:.1} s")),
+        Err(why) => Err(why),
     }
 }
 
+/// Waits for the first image by an interpreter that has the package.
+pub fn first_image(python: &mut Command) -> Result<(), String> {
+    let said = process::output(python.args(["-c", FIRST]).current_dir(paths::target()));
+    if said.as_deref() == Some("2048") { Ok(()) } else { Err("there was no first image".into()) }
+}
+
 /// The package's folder.
-fn package() -> PathBuf {
+pub fn package() -> PathBuf {
     paths::root().join("host/python")
 }

@@ -72,7 +72,10 @@ fn steps(
     let program = program(folder, log)?;
     let mut pytest = Command::new(python);
     pytest.args(["-m", "pytest", "-p", "no:cacheprovider", "-rP"]).arg(package().join("tests"));
-    pytest.env("TAXEL_PROGRAM", program).env("PATH", path(folder)?).current_dir(paths::target());
+    pytest
+        .env("TAXEL_PROGRAM", program)
+        .env("PATH", process::path_with(folder)?)
+        .current_dir(paths::target());
     let before = std::fs::read_to_string(log).unwrap_or_default().len();
     process::run_into(pytest.envs(variables.iter().copied()), log)?;
     let said = std::fs::read_to_string(log).unwrap_or_default();
@@ -93,7 +96,7 @@ fn messages(folder: &Path, python: &Path, log: &Path) -> Result<(), String> {
     let _ = std::fs::remove_dir_all(&build);
     let cmake = |args: &[&str]| -> Result<Command, String> {
         let mut command = Command::new(folder.join("bin/cmake"));
-        command.args(args).env("PATH", path(folder)?);
+        command.args(args).env("PATH", process::path_with(folder)?);
         command.env("AMENT_PREFIX_PATH", folder).env("CMAKE_PREFIX_PATH", folder);
         Ok(command)
     };
@@ -134,13 +137,6 @@ fn program(folder: &Path, log: &Path) -> Result<PathBuf, String> {
     let built = paths::target().join("debug/taxel");
     std::fs::copy(&built, &copy).map_err(|error| format!("{}: {error}", built.display()))?;
     Ok(copy)
-}
-
-/// The search path with an environment's programs first.
-fn path(folder: &Path) -> Result<std::ffi::OsString, String> {
-    let before = std::env::var_os("PATH").unwrap_or_default();
-    let folders = std::iter::once(folder.join("bin")).chain(std::env::split_paths(&before));
-    std::env::join_paths(folders).map_err(|error| format!("PATH: {error}"))
 }
 
 /// The package of messages, and the tests beside it.

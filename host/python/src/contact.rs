@@ -23,7 +23,7 @@ enum Field {
 
 /// The fields by their names in the JSON. Lengths are in taxels and, with `_mm`, in millimetres; angles in
 /// radians, times in seconds, pressure in counts.
-const FIELDS: [(&str, Field); 34] = [
+const FIELDS: [(&str, Field); 38] = [
     ("id", Field::Whole(4)),
     ("phase", Field::Text(8)),
     ("panel", Field::Whole(1)),
@@ -58,6 +58,10 @@ const FIELDS: [(&str, Field); 34] = [
     ("peak_breadth_mm", Field::Number),
     ("x_mm", Field::Number),
     ("y_mm", Field::Number),
+    ("top", Field::Whole(2)),
+    ("bottom", Field::Whole(2)),
+    ("left", Field::Whole(2)),
+    ("right", Field::Whole(2)),
 ];
 
 /// Age of the contact's form in frames, if the ages were asked for.

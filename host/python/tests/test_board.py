@@ -33,6 +33,23 @@ def test_it_perceives_what_the_simulation_perceives(scene: str) -> None:
     assert len(images) > 100
 
 
+def test_the_box_of_a_contact_holds_its_taxels() -> None:
+    board = taxel.Board("block-4x16")
+    board.tare(frames=8)
+    codes = np.full((4, 16), 100, np.uint16)
+    images: list[taxel.Frame] = []
+    for frame in range(30):
+        if frame == 20:
+            codes[1:3, 4:9] = 900
+        events = board.step(codes.ravel(), frame * 5000)
+        images += [event for event in events if isinstance(event, taxel.Frame)]
+    (contact,) = images[-1].contacts
+    assert [int(contact[side]) for side in ("top", "bottom", "left", "right")] == [1, 2, 4, 8]
+    image = images[-1].panels[str(contact["panel_name"])]
+    inside = image[contact["top"] : contact["bottom"] + 1, contact["left"] : contact["right"] + 1]
+    assert inside.sum() == contact["total"] == image.sum()
+
+
 def test_codes_are_checked() -> None:
     board = taxel.Board("block-4x16")
     assert board.taxels == 64

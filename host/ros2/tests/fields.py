@@ -4,7 +4,7 @@ import math
 
 # Fields of Contact.msg that are a key of a contact's JSON, or follow from one in another unit.
 PHASES = ["onset", "held", "released"]
-SAME = """id panel panel_name region link total peak peak_row peak_column area perimeter edge x y anisotropy
+SAME = """id panel panel_name region link total peak peak_row peak_column top bottom left right area perimeter edge x y anisotropy
 nmi nmi_peak nmi_s2 shape confidence dx dy vx vy slip unsure duration peak_total""".split()
 
 

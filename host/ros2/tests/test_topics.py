@@ -1,6 +1,7 @@
 """The other topics, and what they say."""
 
 import json
+import math
 import struct
 
 import fields
@@ -11,6 +12,9 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, PointCloud2
 from std_msgs.msg import String
 from taxel_msgs.msg import Contacts, Health, Intent, Reaction, Symbols
+
+#: Distance of the reference garment's taxels along x and y, m.
+PITCH = (0.012, 0.010)
 
 
 def by_type(told):
@@ -84,7 +88,13 @@ def test_images_points_and_forces_agree(listener):
             assert image.header.frame_id == cloud.header.frame_id == wrench.header.frame_id == "tactile/back"
             rows = struct.iter_unpack("<4f", bytes(cloud.data))
             assert [int(pressure) for *_, pressure in rows] == list(values)
-            assert wrench.wrench.force.z == -sum(values) / 1000
+            # Into the robot, at the centre of pressure.
+            assert wrench.wrench.force.z == sum(values) / 1000
+            by_rows = sum(value * (index // 16) for index, value in enumerate(values))
+            by_columns = sum(value * (index % 16) for index, value in enumerate(values))
+            torque = wrench.wrench.torque
+            assert math.isclose(torque.x, by_rows * PITCH[1] / 1000, abs_tol=1e-9)
+            assert math.isclose(torque.y, -by_columns * PITCH[0] / 1000, abs_tol=1e-9)
             compared += 1
     assert compared > 2
 

@@ -42,7 +42,8 @@ impl Panels {
         surface: Option<&Arc<Surface>>,
     ) -> Result<()> {
         self.surface = surface.cloned();
-        let areas = client.layout().map_or(&[][..], |layout| layout.areas());
+        let Some(layout) = client.layout() else { return Ok(()) };
+        let areas = layout.areas();
         if self.areas == areas {
             return Ok(());
         }
@@ -61,7 +62,7 @@ impl Panels {
         }
         self.areas = areas.to_vec();
         self.due_us = 0;
-        node.publish(&FRAMES, "", messages::frames(us, areas))
+        node.publish(&FRAMES, "", messages::frames(us, layout, surface.map(AsRef::as_ref)))
     }
 
     /// Topics of a panel: points need a pitch or a place, forces a calibration.
@@ -95,24 +96,13 @@ impl Panels {
                 }
                 let message = match topic {
                     IMAGE => messages::image(us, area, values),
-                    POINTS => self.points(us, area, values),
-                    _ => messages::wrench(us, area, self.newtons(values)),
+                    POINTS => pressing::points(us, area, self.surface.as_deref(), values),
+                    _ => messages::wrench(us, area, values, self.per_newton.unwrap_or(1.0)),
                 };
                 node.publish(&topic, &part, message)?;
             }
         }
         Ok(())
-    }
-
-    /// Points on the link of a panel, or on the panel itself if nobody says where it lies.
-    fn points(&self, us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
-        let placed = self.surface.as_ref().and_then(|surface| pressing::points(us, area, surface, values));
-        placed.unwrap_or_else(|| messages::points(us, area, values))
-    }
-
-    fn newtons(&self, values: &[u16]) -> f64 {
-        let counts: u32 = values.iter().map(|value| u32::from(*value)).sum();
-        f64::from(counts) / f64::from(self.per_newton.unwrap_or(1.0))
     }
 }
 

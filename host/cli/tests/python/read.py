@@ -59,7 +59,7 @@ def take(found, topic, message):
         values = [int(value) for value in points[3::4]]
         found["points"][panel] = crc_of(values, found["points"].get(panel, 0))
     elif topic.endswith("/wrench"):
-        found["newtons"] -= message.wrench.force.z
+        found["newtons"] += message.wrench.force.z
 
 
 def empty():

@@ -16,7 +16,8 @@ import numpy.typing as npt
 from .touch import INTENTIONS, Seen
 
 #: Names of the features of a window.
-VALUES, COUNT, TIMES = "observation.touch", "observation.touch_count", "observation.touch_time_us"
+VALUES, COUNT = "observation.touch", "observation.touch_count"
+FRAMES, TIMES = "observation.touch_frame", "observation.touch_time_us"
 #: Name of the feature of what presses on links, and its parts: force (counts) and moment (counts times m) about the
 #: link's origin, and the centre of pressure (m), in the link's frame. 0 where nothing presses.
 LINKS = "observation.touch_links"
@@ -61,6 +62,7 @@ def dataset_features(rows: int, taxels: int, links: int = 0) -> dict[str, dict[s
     return ({LINKS: on_links} if links else {}) | {
         VALUES: {"dtype": "float32", "shape": (rows, taxels), "names": ["sample", "taxel"]},
         COUNT: {"dtype": "int64", "shape": (1,), "names": None},
+        FRAMES: {"dtype": "int64", "shape": (rows,), "names": None},
         TIMES: {"dtype": "int64", "shape": (rows,), "names": None},
     }
 
@@ -73,5 +75,6 @@ def dataset_frame(seen: Seen) -> dict[str, npt.NDArray[Any]]:
     return ({LINKS: np.array(parts, np.float32)} if parts else {}) | {
         VALUES: window.values.astype(np.float32),
         COUNT: np.array([window.images], np.int64),
+        FRAMES: window.frames,
         TIMES: window.time_us,
     }

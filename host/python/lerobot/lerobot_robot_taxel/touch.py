@@ -107,7 +107,7 @@ class Touch:
         if not isinstance(event, taxel.Frame) or event.image is None:
             return
         with self._news:
-            self._windows.add(event.time_us, event.image)
+            self._windows.add(event.frame, event.time_us, event.image)
             self._frame = event
             concepts = event.intent["concepts"]
             self._felt = {name: float(concepts.get(name, 0.0)) for name in INTENTIONS}

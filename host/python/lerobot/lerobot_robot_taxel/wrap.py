@@ -26,6 +26,11 @@ class Wrapped:
         return dict(self.inner.action_features)
 
     @property
+    def cameras(self) -> dict[str, Any]:
+        """The robot's, which LeRobot's recorder counts."""
+        return dict(getattr(self.inner, "cameras", {}))
+
+    @property
     def is_connected(self) -> bool:
         """True if both are."""
         return bool(self.inner.is_connected) and self.touch.is_connected

@@ -21,6 +21,7 @@ class Arm:
 
     observation_features: dict[str, Any] = {"elbow.pos": float, "front": (480, 640, 3)}
     action_features: dict[str, Any] = {"elbow.pos": float}
+    cameras = {"front": "a camera"}
     is_connected = False
     is_calibrated = True
 
@@ -42,7 +43,7 @@ def test_no_image_is_lost() -> None:
     images = [np.full(4, number, np.uint16) for number in range(40)]
     seen: list[int] = []
     for number, image in enumerate(images):
-        windows.add(number * 5128, image)
+        windows.add(number, number * 5128, image)
         if number % 9 == 8:
             window = windows.take(4)
             assert window.values.shape == (ROWS, 4) and window.images == ROWS
@@ -51,6 +52,7 @@ def test_no_image_is_lost() -> None:
         window = windows.take(4)
         assert not window.values[window.images :].any()
         numbers = window.values[: window.images, 0].tolist()
+        assert window.frames[: window.images].tolist() == numbers
         assert window.time_us[: window.images].tolist() == [number * 5128 for number in numbers]
         seen += numbers
     assert seen == list(range(40))
@@ -62,6 +64,7 @@ def test_a_robot_has_touch() -> None:
     assert not robot.is_connected
     robot.connect()
     assert robot.is_connected and robot.is_calibrated and robot.observation_features == features
+    assert robot.cameras == Arm.cameras
     times: list[int] = []
     for _ in range(20):
         time.sleep(1 / 30)
@@ -85,9 +88,10 @@ def test_every_image_of_the_board_is_in_a_window() -> None:
         rows: list[Any] = []
         while touch.waiting:
             window = touch.observe().window
-            rows += list(zip(window.time_us[: window.images], window.values[: window.images], strict=True))
-    assert [row[0] for row in rows] == [event.time_us for event in told]
-    for (_, values), event in zip(rows, told, strict=True):
+            parts = (window.frames, window.time_us, window.values)
+            rows += zip(*(part[: window.images] for part in parts), strict=True)
+    assert [row[:2] for row in rows] == [(event.frame, event.time_us) for event in told]
+    for (*_, values), event in zip(rows, told, strict=True):
         assert event.image is not None and np.array_equal(values, event.image)
 
 

@@ -71,6 +71,7 @@ mod form;
 mod listed;
 pub mod mesh;
 mod on_robot;
+mod panel_frame;
 mod places;
 mod pose;
 pub mod posture;

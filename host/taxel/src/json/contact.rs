@@ -81,6 +81,14 @@ pub struct ContactLine<'a> {
     /// Centroid along the rows, mm from the first row; absent if the pitch is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_mm: Option<f64>,
+    /// First row of the box around its taxels on its panel.
+    pub top: u16,
+    /// Last row of the box.
+    pub bottom: u16,
+    /// First column of the box.
+    pub left: u16,
+    /// Last column of the box.
+    pub right: u16,
     /// Age of the form, frames; absent unless ages were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form_age: Option<u8>,
@@ -130,6 +138,10 @@ impl<'a> ContactLine<'a> {
             peak_breadth_mm: f64::from(contact.peak_breadth) / 10.0,
             x_mm,
             y_mm,
+            top: contact.bounds.top,
+            bottom: contact.bounds.bottom,
+            left: contact.bounds.left,
+            right: contact.bounds.right,
             form_age: None,
             force_n: None,
         }

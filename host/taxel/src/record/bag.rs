@@ -4,15 +4,16 @@
 //! | topic | message | what |
 //! |---|---|---|
 //! | `/tactile/PANEL/image` | sensor_msgs/Image, mono16 | pressure, counts |
-//! | `/tactile/PANEL/points` | sensor_msgs/PointCloud2 | x, y, z in m on the panel, pressure in counts; if the pitch is known |
-//! | `/tactile/PANEL/wrench` | geometry_msgs/WrenchStamped | sum of the normal forces, N; if counts per newton are known |
+//! | `/tactile/PANEL/points` | sensor_msgs/PointCloud2 | x, y, z in m on the panel, pressure in counts; if the pitch is known. With a body on the panel's link, with normals |
+//! | `/tactile/PANEL/wrench` | geometry_msgs/WrenchStamped | normal force, N, and its moment about the first taxel, N m; if counts per newton are known |
 //! | `/tactile/links/LINK/wrench` | geometry_msgs/WrenchStamped | of a board with a body: force, N, and moment on a link; without counts per newton `wrench_counts`, in counts |
-//! | `/tf_static` | tf2_msgs/TFMessage | the frame of each panel on its link; panels of one link side by side |
+//! | `/tf_static` | tf2_msgs/TFMessage | the frame of each panel on its link: by the body, else panels of one link side by side |
 //! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second |
 //!
 //! The frame of a panel's messages is `tactile/PANEL`, whose parent is its link. Stamps are the host's time.
 
 use super::stamps::Stamp;
+use crate::body::{ReadBody, Surface};
 use crate::client::{Client, Event, ImageNews};
 use crate::error::Result;
 use crate::recording::{Format, Store, Writer};
@@ -33,6 +34,10 @@ pub struct Ros2<S: Store> {
     ids: BTreeMap<String, u16>,
     /// Panels whose frames have been written.
     areas: Vec<Area>,
+    /// Where the panels lie on the robot.
+    body: Option<ReadBody>,
+    /// The body on this garment.
+    surface: Option<Surface>,
     /// Links that something has pressed on.
     links: BTreeSet<Name>,
 }
@@ -46,26 +51,28 @@ struct Sent {
 }
 
 impl<S: Store> Ros2<S> {
-    /// Creates a file.
-    pub fn create(store: S) -> Result<Ros2<S>> {
+    /// Creates a file, of a garment that lies on this body.
+    pub fn create(store: S, body: Option<ReadBody>) -> Result<Ros2<S>> {
         Ok(Ros2 {
             writer: Writer::create(store, "ros2")?,
             ids: BTreeMap::new(),
             areas: Vec::new(),
+            body,
+            surface: None,
             links: BTreeSet::new(),
         })
     }
 
-    /// Frames of the panels, unless written already.
-    fn frames(&mut self, client: &Client, stamp: Stamp) -> Vec<Sent> {
-        let areas = client.layout().map_or(&[][..], |layout| layout.areas());
-        if self.areas == areas {
-            return Vec::new();
-        }
-        self.areas = areas.to_vec();
-        let data = messages::frames(stamp.host_us, areas);
+    /// Frames of the panels, unless written already. Error if the body does not fit the garment.
+    fn frames(&mut self, client: &Client, stamp: Stamp) -> Result<Option<Sent>> {
+        let Some(worn) = client.worn().filter(|worn| self.areas != worn.layout.areas()) else {
+            return Ok(None);
+        };
+        let surface = self.body.as_ref().map(|body| body.surface(&worn.garment, &worn.layout)).transpose()?;
+        let data = messages::frames(stamp.host_us, &worn.layout, surface.as_ref());
+        (self.areas, self.surface) = (worn.layout.areas().to_vec(), surface);
         let schema = "tf2_msgs/msg/TFMessage";
-        vec![Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }]
+        Ok(Some(Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }))
     }
 
     /// Force and moment on each link that something has pressed on.
@@ -88,8 +95,8 @@ impl<S: Store> Ros2<S> {
     pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
         let all = match event {
             Event::Frame { image: ImageNews::Whole, .. } => {
-                let mut all = self.frames(client, stamp);
-                all.extend(frame(client, stamp, scale));
+                let mut all = Vec::from_iter(self.frames(client, stamp)?);
+                all.extend(frame(client, stamp, scale, self.surface.as_ref()));
                 all
             }
             Event::Pressing(report) => self.pressing(report, stamp, scale),
@@ -122,7 +129,7 @@ impl<S: Store> Ros2<S> {
 }
 
 /// Image, points and force of each panel.
-fn frame(client: &Client, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
+fn frame(client: &Client, stamp: Stamp, scale: Option<f32>, surface: Option<&Surface>) -> Vec<Sent> {
     let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
     let mut all = Vec::new();
     for area in layout.areas() {
@@ -135,13 +142,12 @@ fn frame(client: &Client, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
         };
         let time = stamp.host_us;
         send("image", "sensor_msgs/msg/Image", schemas::IMAGE, messages::image(time, area, values));
-        if !area.pitch_um.contains(&0) {
-            let data = messages::points(time, area, values);
+        if !area.pitch_um.contains(&0) || surface.is_some() {
+            let data = pressing::points(time, area, surface, values);
             send("points", "sensor_msgs/msg/PointCloud2", schemas::POINT_CLOUD, data);
         }
         if let Some(scale) = scale {
-            let counts: u32 = values.iter().map(|value| u32::from(*value)).sum();
-            let data = messages::wrench(time, area, f64::from(counts) / f64::from(scale));
+            let data = messages::wrench(time, area, values, scale);
             send("wrench", "geometry_msgs/msg/WrenchStamped", schemas::WRENCH, data);
         }
     }

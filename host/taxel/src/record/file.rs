@@ -25,15 +25,10 @@ pub struct RecordingFile<S: Store> {
 }
 
 impl<S: Store> RecordingFile<S> {
-    /// Creates a file, and another beside it for ROS 2 messages.
-    pub fn create(store: S, ros2: Option<S>) -> Result<RecordingFile<S>> {
+    /// Creates a file, beside another one of ROS 2 messages.
+    pub fn create(store: S, ros2: Option<Ros2<S>>) -> Result<RecordingFile<S>> {
         let mut writer = Writer::create(store, "")?;
-        Ok(RecordingFile {
-            topics: Topics::open(&mut writer)?,
-            writer,
-            ros2: ros2.map(Ros2::create).transpose()?,
-            says_what: false,
-        })
+        Ok(RecordingFile { topics: Topics::open(&mut writer)?, writer, ros2, says_what: false })
     }
 
     /// Attaches the board's `Hello`, its frame of the wire, and the origin of the stream.

@@ -1,5 +1,6 @@
 //! Records a board's stream, second by second, file after file.
 
+use super::bag::Ros2;
 use super::counters::Counters;
 use super::file::RecordingFile;
 use super::limit::Rotate;
@@ -8,6 +9,7 @@ use super::provenance::Origin;
 use super::stamps::{Stamp, Stamps};
 use super::standing::Standing;
 use super::tally::{COUNTS, Tally};
+use crate::body::ReadBody;
 use crate::client::passed::Passed;
 use crate::client::{Client, Event, Worn, request_name};
 use crate::error::{Context, Error, Result, SourceError};
@@ -46,6 +48,8 @@ pub struct Plan {
     pub rotate: Option<Rotate>,
     /// Also write ROS 2 messages.
     pub ros2: bool,
+    /// Where the panels lie on the robot, for the ROS 2 messages.
+    pub body: Option<ReadBody>,
     /// Replace existing files.
     pub force: bool,
     /// Input files, which are never replaced.
@@ -240,8 +244,10 @@ fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
         false => (None, None),
     };
     let (main, main_begun) = main.begin()?;
-    let file =
-        RecordingFile::create(main, ros2).with_context(|| format!("{} cannot be written", path.display()))?;
+    let ros2 = ros2.map(|file| Ros2::create(file, plan.body.clone())).transpose();
+    let file = ros2
+        .and_then(|ros2| RecordingFile::create(main, ros2))
+        .with_context(|| format!("{} cannot be written", path.display()))?;
     main_begun.name()?;
     match ros2_begun.map_or(Ok(()), Begun::name) {
         Ok(()) => Ok(file),

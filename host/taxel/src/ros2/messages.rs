@@ -2,8 +2,9 @@
 
 use super::cdr::Cdr;
 use super::names::frame;
+use crate::body::{DVec3, Pose, Surface};
 use std::collections::BTreeMap;
-use taxel_core::garment::Area;
+use taxel_core::garment::{Area, Layout};
 use taxel_core::wire::Health;
 
 /// `PointField.FLOAT32`
@@ -20,17 +21,26 @@ fn head(host_us: u64, frame: &str) -> Cdr {
     Cdr::default().time(host_us).text(frame)
 }
 
-/// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link. A garment does not say how its panels lie
-/// on a link, so those of one link are placed side by side along x.
-pub fn frames(host_us: u64, areas: &[Area]) -> Vec<u8> {
+/// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link: x along the columns, y along the rows, z into the
+/// robot, as of a camera's image. A garment does not say how its panels lie on a link: those without a place on
+/// `surface` are side by side along x.
+pub fn frames(host_us: u64, layout: &Layout, surface: Option<&Surface>) -> Vec<u8> {
     let mut taken: BTreeMap<&str, f64> = BTreeMap::new();
+    let areas = layout.areas();
     let mut cdr = Cdr::default().u32(areas.len() as u32);
-    for area in areas {
-        let link = if area.link.is_empty() { NO_LINK } else { area.link.as_str() };
-        let x = taken.entry(link).or_default();
-        cdr = cdr.time(host_us).text(link).text(&frame(area));
-        cdr = cdr.f64s([*x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        *x += f64::from(area.columns) * f64::from(area.pitch_um[0]) / f64::from(UM) + GAP;
+    for (panel, area) in (0..).zip(areas) {
+        let placed = surface.and_then(|surface| {
+            let (link, pose) = surface.panel_frame(layout, panel)?;
+            Some((surface.links().get(link)?.as_str(), pose))
+        });
+        let (link, Pose { at, turn }) = placed.unwrap_or_else(|| {
+            let link = if area.link.is_empty() { NO_LINK } else { area.link.as_str() };
+            let x = taken.entry(link).or_default();
+            let pose = Pose { at: DVec3::new(*x, 0.0, 0.0), ..Pose::IDENTITY };
+            *x += f64::from(area.columns) * f64::from(area.pitch_um[0]) / f64::from(UM) + GAP;
+            (link, pose)
+        });
+        cdr = cdr.time(host_us).text(link).text(&frame(area)).f64s(at.to_array()).f64s(turn.to_array());
     }
     cdr.finish()
 }
@@ -79,9 +89,22 @@ pub(super) fn cloud<const N: usize>(
     cdr.u8(0).u32(size).u32(size * u32::from(area.columns)).data(&data).u8(is_dense.into()).finish()
 }
 
-/// `geometry_msgs/msg/WrenchStamped`: a force along z, N. Pressure pushes into the panel, against its normal.
-pub fn wrench(host_us: u64, area: &Area, newtons: f64) -> Vec<u8> {
-    head(host_us, &frame(area)).f64s([0.0, 0.0, 0.0 - newtons, 0.0, 0.0, 0.0]).finish()
+/// `geometry_msgs/msg/WrenchStamped` of a panel that is pressed with these counts: the force, N, along z, into the
+/// robot, and its moment about the panel's first taxel, N m; NaN if the pitch is unknown.
+pub fn wrench(host_us: u64, area: &Area, values: &[u16], per_newton: f32) -> Vec<u8> {
+    let columns = usize::from(area.columns).max(1);
+    let mut sums = [0u64; 3];
+    for (index, value) in values.iter().enumerate() {
+        let value = u64::from(*value);
+        sums[0] += value;
+        sums[1] += value * (index % columns) as u64;
+        sums[2] += value * (index / columns) as u64;
+    }
+    let [force, by_columns, by_rows] = sums.map(|sum| sum as f64 / f64::from(per_newton));
+    let is_known = !area.pitch_um.contains(&0);
+    let [x, y] = area.pitch_um.map(|um| if is_known { f64::from(um) / f64::from(UM) } else { f64::NAN });
+    // A component of 0 has no sign.
+    head(host_us, &frame(area)).f64s([0.0, 0.0, force, by_rows * y, 0.0 - by_columns * x, 0.0]).finish()
 }
 
 /// State of a board, as its diagnostics tell it.
@@ -138,7 +161,7 @@ pub fn joints((sec, nanosec): (i32, u32), names: &[&str], positions: &[f64]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel_core::garment::{Garment, Layout};
+    use taxel_core::garment::Garment;
 
     /// True if a message holds this text: its length, its letters, 0.
     fn names(message: &[u8], text: &str) -> bool {
@@ -151,13 +174,14 @@ mod tests {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
         let areas = layout.areas();
         assert_eq!(areas[0].link, areas[1].link, "chest and back are on the torso");
-        let told = frames(5, areas);
+        let told = frames(5, &layout, None);
         let mut places = Vec::new();
         for area in areas {
             let own = frame(area);
             assert!(names(&told, &own) && names(&told, &area.link), "{own}");
             let values = vec![1; usize::from(area.rows) * usize::from(area.columns)];
-            for message in [image(5, area, &values), points(5, area, &values), wrench(5, area, 1.0)] {
+            for message in [image(5, area, &values), points(5, area, &values), wrench(5, area, &values, 1.0)]
+            {
                 assert!(names(&message, &own), "{own}");
             }
             // The position follows the name, aligned to 8 bytes from behind the header of 4.

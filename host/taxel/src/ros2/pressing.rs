@@ -2,7 +2,7 @@
 //! messages.
 
 use super::cdr::Cdr;
-use super::messages::cloud;
+use super::messages::{self, cloud};
 use crate::body::{Surface, TaxelPlace};
 use crate::client::Client;
 use taxel_core::format::Micros;
@@ -84,8 +84,15 @@ pub fn wrench(us: u64, link: &str, wrench: Option<&Wrench>, per_newton: Option<f
 }
 
 /// `sensor_msgs/msg/PointCloud2` of a panel in the frame of the link that it lies on: place and normal of
-/// each taxel, and its pressure, counts. NaN for a taxel without a place. None if none has one.
-pub fn points(us: u64, area: &Area, surface: &Surface, values: &[u16]) -> Option<Vec<u8>> {
+/// each taxel, and its pressure, counts. NaN for a taxel without a place. Without a place of the panel, its points
+/// lie in its own frame.
+pub fn points(us: u64, area: &Area, surface: Option<&Surface>, values: &[u16]) -> Vec<u8> {
+    let placed = surface.and_then(|surface| points_on_link(us, area, surface, values));
+    placed.unwrap_or_else(|| messages::points(us, area, values))
+}
+
+/// Points of a panel on its link; none if no taxel has a place.
+fn points_on_link(us: u64, area: &Area, surface: &Surface, values: &[u16]) -> Option<Vec<u8>> {
     let places = surface.places().get(usize::from(area.base)..)?;
     let link = places.iter().take(values.len()).flatten().next()?.link;
     let link = surface.links().get(link)?;

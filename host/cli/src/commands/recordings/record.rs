@@ -5,6 +5,7 @@ use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
 use anyhow::{Error, Result, bail};
 use clap::Args;
 use std::path::PathBuf;
+use taxel::body;
 use taxel::record::{Origin, Plan, Recorder, Rotate};
 use taxel::source::SourceOptions;
 
@@ -59,6 +60,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
         path: args.output,
         rotate: args.rotate,
         ros2: args.ros2,
+        body: args.board.body.as_deref().map(body::read).transpose()?,
         force: args.force.force,
         inputs: args.board.files(),
         origin: Origin {

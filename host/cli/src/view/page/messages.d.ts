@@ -235,6 +235,14 @@ export type ImageHead = {
       x_mm?: number | null;
       /** Centroid along the rows, mm from the first row; absent if the pitch is unknown. */
       y_mm?: number | null;
+      /** First row of the box around its taxels on its panel. */
+      top: number;
+      /** Last row of the box. */
+      bottom: number;
+      /** First column of the box. */
+      left: number;
+      /** Last column of the box. */
+      right: number;
       /** Age of the form, frames; absent unless ages were requested. */
       form_age?: number | null;
       /** Force by the calibration in force, N; null where the panel has none, absent without a calibration. */

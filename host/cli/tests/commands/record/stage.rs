@@ -66,6 +66,7 @@ pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan
         path: file(name),
         rotate,
         ros2,
+        body: None,
         force: true,
         inputs: Vec::new(),
         origin: Origin { label: label.into(), counts_per_newton: Some(1000.0), calibration: None },

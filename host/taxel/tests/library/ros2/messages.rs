@@ -3,12 +3,14 @@
 use super::definitions::Definitions;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
+use taxel::body::{self, DVec3, Pose};
 use taxel::client::{Client, Event};
 use taxel::json::message;
 use taxel::ros2::messages::{self, BoardState};
 use taxel::ros2::{own, schemas};
 use taxel::session::Session;
 use taxel_core::format::name;
+use taxel_core::garment::{Area, Garment, Layout};
 use taxel_core::react::Reaction;
 use taxel_core::wire::ReactionReport;
 
@@ -23,7 +25,7 @@ fn stamp() -> Value {
 }
 
 /// Fields of `Contact.msg` that are keys of a contact's JSON.
-const SAME: [&str; 29] = [
+const SAME: [&str; 33] = [
     "id",
     "panel",
     "panel_name",
@@ -33,6 +35,10 @@ const SAME: [&str; 29] = [
     "peak",
     "peak_row",
     "peak_column",
+    "top",
+    "bottom",
+    "left",
+    "right",
     "area",
     "perimeter",
     "edge",
@@ -150,8 +156,8 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
 /// Fails unless the standard messages of an image are as their definitions say.
 fn same_panels(client: &Client) {
     let Some((_, image)) = client.image() else { return };
-    let areas = client.layout().unwrap().areas();
-    for area in areas {
+    let layout = client.layout().unwrap();
+    for area in layout.areas() {
         let start = usize::from(area.base);
         let values = &image[start..start + usize::from(area.rows) * usize::from(area.columns)];
         let read = Definitions::of_text("I", schemas::IMAGE).read("I", &messages::image(US, area, values));
@@ -159,11 +165,62 @@ fn same_panels(client: &Client) {
         let read =
             Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &messages::points(US, area, values));
         assert_eq!(read["data"].as_array().unwrap().len(), 16 * values.len());
-        let read = Definitions::of_text("W", schemas::WRENCH).read("W", &messages::wrench(US, area, 2.5));
-        assert_eq!(read["wrench"]["force"]["z"], json!(-2.5));
+        same_wrench(area, values);
     }
-    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &messages::frames(US, areas));
-    assert_eq!(read["transforms"].as_array().unwrap().len(), areas.len());
+    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &messages::frames(US, layout, None));
+    assert_eq!(read["transforms"].as_array().unwrap().len(), layout.areas().len());
+}
+
+/// Fails unless force and moment of a panel are those of its points.
+fn same_wrench(area: &Area, values: &[u16]) {
+    let told = messages::wrench(US, area, values, SCALE);
+    let read = Definitions::of_text("W", schemas::WRENCH).read("W", &told);
+    let mut want = [DVec3::ZERO; 2];
+    for (index, value) in (0u16..).zip(values) {
+        let [x, y] = [index % area.columns, index / area.columns].map(f64::from);
+        let at = DVec3::new(x * f64::from(area.pitch_um[0]), y * f64::from(area.pitch_um[1]), 0.0) * 1e-6;
+        // Into the robot.
+        let force = DVec3::Z * f64::from(*value) / f64::from(SCALE);
+        want = [want[0] + force, want[1] + at.cross(force)];
+    }
+    for (part, want) in ["force", "torque"].into_iter().zip(want) {
+        for (axis, want) in ["x", "y", "z"].into_iter().zip(want.to_array()) {
+            let own = read["wrench"][part][axis].as_f64().unwrap();
+            assert!((own - want).abs() < 1e-9, "{part}.{axis}: {own}, not {want}");
+        }
+    }
+}
+
+#[test]
+fn frames_of_panels_lie_on_the_body() {
+    let garment = Garment::reference();
+    let layout = Layout::build(&garment, 2048, 4095).unwrap();
+    let surface = body::read("reference").unwrap().surface(&garment, &layout).unwrap();
+    let told = messages::frames(US, &layout, Some(&surface));
+    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &told);
+    let transforms = read["transforms"].as_array().unwrap();
+    assert_eq!(transforms.len(), layout.areas().len());
+    for ((panel, area), told) in (0..).zip(layout.areas()).zip(transforms) {
+        let parts = |key: &str, names: &[&str]| -> Vec<f64> {
+            names.iter().map(|name| told["transform"][key][name].as_f64().unwrap()).collect()
+        };
+        let at: [f64; 3] = parts("translation", &["x", "y", "z"]).try_into().unwrap();
+        let turn: [f64; 4] = parts("rotation", &["x", "y", "z", "w"]).try_into().unwrap();
+        let pose = Pose::from_arrays(at, turn);
+        // The middle of the flat panel is that on the body, and z goes into the robot there.
+        let [x, y] = [area.columns, area.rows].map(|count| f64::from(count - 1) / 2.0);
+        let pitch = area.pitch_um.map(|um| f64::from(um) * 1e-6);
+        let middle = surface.at(&layout, panel, x, y).unwrap();
+        assert_eq!(told["header"]["frame_id"], json!(surface.links()[middle.link]));
+        assert!(pose.point(DVec3::new(x * pitch[0], y * pitch[1], 0.0)).distance(middle.at) < 1e-9, "{told}");
+        assert!(pose.direction(DVec3::NEG_Z).distance(middle.normal) < 1e-3, "{told}");
+        // Taxels near the middle lie where the frame says: the body bends away by less than half a millimetre.
+        for (dx, dy) in [(0.5, 0.0), (0.0, 0.5), (-0.5, -0.5)] {
+            let near = surface.at(&layout, panel, x + dx, y + dy).unwrap();
+            let flat = pose.point(DVec3::new((x + dx) * pitch[0], (y + dy) * pitch[1], 0.0));
+            assert!(flat.distance(near.at) < 5e-4, "{dx}, {dy}: {flat} {}", near.at);
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,88 @@
+//! What is given away of the Python package: wheels for Linux on x86-64 and on aarch64, linked by zig against the C
+//! library of 2014, and a source distribution.
+
+use crate::targets::End;
+use crate::{aarch64, install, paths, process, python};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Targets of the wheels: that of the machine on which they are tested, and the other.
+const HERE: &str = "x86_64-unknown-linux-gnu";
+const AARCH64: &str = "aarch64-unknown-linux-gnu";
+/// What the wheels may need of a machine.
+const PLATFORM: &str = "manylinux2014";
+
+/// Builds the wheel for x86-64.
+pub fn here(interpreter: &str, log: &Path) -> End<PathBuf> {
+    Ok(wheel(&tools(interpreter)?, HERE, log))
+}
+
+/// `cargo xtask campaign --only python-others`: what the CPythons of this machine do not install: the wheel for aarch64
+/// is imported, and the source distribution is built by pip.
+pub fn campaign(log: &Path) -> End<Vec<String>> {
+    let interpreter = python::newest().ok_or("there is no python3.10 or later")?;
+    let tools = tools(&interpreter)?;
+    let lines =
+        foreign(&tools, &interpreter, log).and_then(|one| Ok(vec![one, source(&tools, &interpreter, log)?]));
+    Ok(lines)
+}
+
+/// Builds the wheel for aarch64, and imports it if an interpreter can be had.
+fn foreign(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String> {
+    let wheel = wheel(tools, AARCH64, log)?;
+    let python = match aarch64::python(interpreter, log) {
+        Ok(python) => python,
+        Err(why) => return Ok(format!("{}: not imported: {why}", shown(&wheel))),
+    };
+    python.install(&wheel, log)?;
+    python::first_image(&mut python.command())?;
+    Ok(format!("{}: imported by CPython {}, its first image seen", shown(&wheel), aarch64::SHOWN))
+}
+
+/// Makes a source distribution, and installs it by pip in an environment of its own.
+fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String> {
+    let source = maturin(tools, "sdist", &[], "source", log)?;
+    let own = install::new_python(interpreter, &paths::target().join("xtask/source-new"), log)?;
+    let mut install = Command::new(&own);
+    install.args(["-m", "pip", "install", "--quiet"]).arg(&source);
+    // What cargo has built already of its dependencies is the same.
+    process::run_into(install.env("CARGO_TARGET_DIR", paths::target()), log)?;
+    python::first_image(&mut Command::new(&own))?;
+    Ok(format!("{}: built and installed by pip, its first image seen", shown(&source)))
+}
+
+/// The environment with maturin and zig; its interpreter.
+fn tools(interpreter: &str) -> Result<PathBuf, String> {
+    install::python_in(interpreter, &folder(), &python::package().join("tests/wheels.txt"))
+}
+
+fn folder() -> PathBuf {
+    paths::target().join("xtask/wheels")
+}
+
+fn wheel(tools: &Path, target: &str, log: &Path) -> Result<PathBuf, String> {
+    process::run_into(Command::new("rustup").args(["target", "add", target]), log)?;
+    let options =
+        ["--release", "--features", "full", "--locked", "--zig", "--compatibility", PLATFORM, "--target"];
+    maturin(tools, "build", &[&options[..], &[target]].concat(), target, log)
+}
+
+/// Runs a command of maturin that makes one file, in a folder of its own.
+fn maturin(tools: &Path, command: &str, options: &[&str], name: &str, log: &Path) -> Result<PathBuf, String> {
+    let out = paths::target().join("given").join(name);
+    let _ = std::fs::remove_dir_all(&out);
+    let mut maturin = Command::new(tools);
+    maturin.args(["-m", "maturin", command]).args(options).arg("--out").arg(&out).arg("--manifest-path");
+    // It looks for zig on the search path.
+    maturin.arg(python::package().join("Cargo.toml")).env("PATH", process::path_with(&folder())?);
+    process::run_into(&mut maturin, log)?;
+    let found = std::fs::read_dir(&out).ok().and_then(|mut files| files.next()).and_then(Result::ok);
+    found.map(|file| file.path()).ok_or(format!("maturin {command} has made no file"))
+}
+
+/// Name and size of a file.
+pub fn shown(file: &Path) -> String {
+    let bytes = std::fs::metadata(file).map_or(0, |data| data.len());
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    format!("{name} of {:.1} MB", bytes as f64 / 1e6)
+}
