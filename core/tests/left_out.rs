@@ -105,5 +105,6 @@ fn a_request_is_refused_by_the_name_of_what_it_asks_for() {
     assert_eq!(refused(Request::SetSurface(&[0; 164])), left_out("surface"));
     assert_eq!(refused(Request::SetPoses(&[0])), left_out("surface"));
     assert_eq!(refused(Request::SetPressing(10)), left_out("surface"));
+    assert_eq!(refused(Request::MovePoses(&[0; 9])), left_out("surface"));
     assert_eq!(refused(Request::SetFolds(&[0; 300])), left_out("folds"));
 }

@@ -59,6 +59,7 @@ use retest::Retest;
 use saving::Saving;
 use surface::Surface;
 use tables::{TABLES, Uploads};
+use tx_frame::TxFrame;
 
 /// Input of the board: an event, or the passing of time.
 #[derive(Debug)]
@@ -377,6 +378,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
         self.outbox.enqueue(self.frame, time, &percept, late, &mut self.health);
         self.surface.note(self.frame, time, touched);
+        if cfg!(feature = "surface") {
+            let words = |id| percept.symbols.words(id).unwrap_or_default();
+            self.surface.feel((self.frame, time), layout, percept.present, words);
+        }
         #[cfg(feature = "folds")]
         self.folds.note(self.frame, time);
         if self.taring && percept.tare == Tare::Done {
@@ -425,8 +430,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             unsure: state.unsure(),
             taught: &state.taught,
         };
-        let pressing = surface.is_due().then_some(|| {
-            surface.report(|table, poses| state.pressing(table, poses, &setup.layout, image.values))
+        let falling = setup.circuit.falling();
+        let full = Code(if falling { 0 } else { setup.scene.plan.depth.keep(info.full_scale) });
+        let senses = (monitor.faulty(), full, falling);
+        let pressing = surface.is_due().then_some(|tx_frame: &mut TxFrame| {
+            surface.put(tx_frame, |sums, table| state.press(sums, table, &setup.layout, image.values, senses))
         });
         #[cfg(feature = "folds")]
         let folding = folds

@@ -132,7 +132,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Ok(())
             }
             Request::SetRaw { hz } => self.send_raw(hz),
-            Request::SetSurface(_) | Request::SetPoses(_) | Request::SetPressing(_)
+            Request::SetSurface(_)
+            | Request::SetPoses(_)
+            | Request::SetPressing(_)
+            | Request::MovePoses(_)
                 if !cfg!(feature = "surface") =>
             {
                 Err(left_out("surface"))
@@ -147,6 +150,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 refused => refused,
             },
             Request::SetPoses(bytes) => self.take_poses(bytes, now),
+            Request::MovePoses(bytes) => self.take_moving(bytes),
             Request::SetPressing(hz) => self.tell_pressing(hz),
         };
         self.outbox.answer(number, result.err());
@@ -156,6 +160,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     fn begin_stream(&mut self, now: Micros) {
         self.monitor.again();
         self.outbox.start();
+        self.surface.introduce();
         self.tell_lasting(now);
         if self.state.taught.gallery().is_some() {
             self.outbox.tell_shapes();

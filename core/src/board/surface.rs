@@ -2,12 +2,15 @@
 
 use super::pace::Pace;
 use super::refusal::Refusal;
+use super::tx_frame::TxFrame;
 use super::{Board, request};
-use crate::format::{Micros, Name};
+use crate::body::Placed;
+use crate::format::Micros;
 use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
-use crate::surface::{LINKS, Pose, Pressing, SurfaceState, Table};
-use crate::wire::PressingReport;
+use crate::surface::{LINKS, LinkName, MovingPose, Pose, Pressing, RegionStates, SurfaceState, Table};
+use crate::symbol::Words;
+use crate::wire::{Each, Report};
 use heapless::Vec;
 
 /// The surface in force.
@@ -16,9 +19,18 @@ pub(super) struct Surface {
     table: Option<&'static [u8]>,
     fits: bool,
     poses: SurfaceState,
+    regions: RegionStates<FOLLOWED>,
+    /// Frame of the regions' states to send.
+    felt: Option<(u32, Micros)>,
+    /// True if the regions' names are to be sent before their states.
+    names: bool,
+    /// Rate at which unchanged states are sent.
+    beat: Pace,
     rate: Pace,
     /// Frame to tell of.
     due: Option<(u32, Micros)>,
+    /// Frame whose bounds were sent last.
+    bounded: Option<u32>,
     /// True if the last report told of something.
     told: bool,
 }
@@ -29,8 +41,13 @@ impl Surface {
             table: None,
             fits: false,
             poses: SurfaceState::new(),
+            regions: RegionStates::new(),
+            felt: None,
+            names: false,
+            beat: Pace::NEVER,
             rate: Pace::NEVER,
             due: None,
+            bounded: None,
             told: false,
         }
     }
@@ -45,6 +62,31 @@ impl Surface {
         self.table = table;
         self.fits = table.is_some_and(|table| Table::check(table, layout).is_ok());
         self.poses = SurfaceState::new();
+        self.regions.reset(self.table().as_ref());
+        (self.felt, self.names, self.beat) = (None, true, Pace::new(1));
+    }
+
+    /// Names the regions again before their next states.
+    pub fn introduce(&mut self) {
+        self.names = true;
+    }
+
+    /// Follows the regions in a frame.
+    pub fn feel(
+        &mut self,
+        (frame, time): (u32, Micros),
+        layout: &Layout,
+        present: &[Placed],
+        words: impl Fn(u32) -> Words,
+    ) {
+        let Some(table) = self.table().filter(|table| table.regions() > 0) else { return };
+        let is_followed = !present.is_empty() || !self.regions.is_at_rest();
+        let has_changed =
+            is_followed && self.regions.follow(&table, layout, present, words, &self.poses, time);
+        // States that wait are sent as they are then.
+        if has_changed || self.beat.due(time) || self.felt.is_some() {
+            self.felt = Some((frame, time));
+        }
     }
 
     /// Another garment is worn.
@@ -64,21 +106,45 @@ impl Surface {
         }
     }
 
-    /// Report that is due. `press` makes it of a table.
-    pub fn report(
+    /// Encodes what is due: the regions' states, else what is unknown of a
+    /// [`PressingReport`](crate::wire::PressingReport), else that. `press` sums up by a table. Returns `false` if it does not fit. Own frame: it needs much stack.
+    #[inline(never)]
+    pub fn put(
         &mut self,
-        press: impl FnOnce(&Table<'_>, &SurfaceState) -> Pressing<CONTACTS>,
-    ) -> Option<PressingReport> {
-        let (frame, time) = self.due.take()?;
-        let table = self.table()?;
-        let Pressing { contacts, links } = press(&table, &self.poses);
-        self.told = !contacts.is_empty();
-        Some(PressingReport { frame, time, posed: self.poses.told(), contacts, links })
+        tx_frame: &mut TxFrame,
+        press: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
+    ) -> bool {
+        let Some(table) = self.table() else {
+            (self.felt, self.due) = (None, None);
+            return true;
+        };
+        if self.felt.is_some() && core::mem::take(&mut self.names) {
+            let names = (0..table.regions() as u8).map(|region| table.region(region).unwrap_or_default());
+            return tx_frame.put(Report::REGION_NAMES, &Each(names));
+        }
+        if let Some((frame, time)) = self.felt.take() {
+            return tx_frame.put(Report::REGIONS, &(frame, time, self.regions.all()));
+        }
+        let Some((frame, time)) = self.due.take() else { return true };
+        let mut pressing = Pressing::new();
+        press(&mut pressing, &table);
+        let frames = self.poses.at(time);
+        let is_bounded = core::mem::replace(&mut self.bounded, Some(frame)) == Some(frame);
+        if !is_bounded && (pressing.is_in_doubt() || frames.errors().next().is_some()) {
+            // What it bounds follows.
+            self.due = Some((frame, time));
+            let contacts = Each(pressing.doubts_of_contacts(&table));
+            let links = Each(pressing.doubts_of_links(&table));
+            return tx_frame.put(Report::BOUNDS, &(frame, contacts, links, Each(frames.errors())));
+        }
+        let (contacts, links) = (pressing.contacts(&frames), pressing.links(&table));
+        self.told = contacts.len() > 0;
+        tx_frame.put(Report::PRESSING, &(frame, time, self.poses.told(), Each(contacts), Each(links)))
     }
 
-    /// True if a report is due.
+    /// True if something is due.
     pub fn is_due(&self) -> bool {
-        self.due.is_some()
+        self.due.is_some() || self.felt.is_some()
     }
 }
 
@@ -92,8 +158,16 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     #[inline(never)]
     pub(super) fn take_poses(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         let table = self.surface.table().ok_or_else(|| Refusal::of(NO_SURFACE))?;
-        let poses = request::read::<Vec<(Name, Pose), LINKS>>("poses", bytes)?;
+        let poses = request::read::<Vec<(LinkName, Pose), LINKS>>("poses", bytes)?;
         self.surface.poses.accept(&poses, &table, now).map_err(Refusal::of)
+    }
+
+    /// Takes poses of links that move.
+    #[inline(never)]
+    pub(super) fn take_moving(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
+        let table = self.surface.table().ok_or_else(|| Refusal::of(NO_SURFACE))?;
+        let (at, poses) = request::read::<(Micros, Vec<MovingPose, LINKS>)>("poses", bytes)?;
+        self.surface.poses.accept_moving(&poses, &table, at).map_err(Refusal::of)
     }
 
     /// Sets the rate of reports of what presses on the robot.
@@ -107,6 +181,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Ok(())
     }
 }
+
+/// Contacts whose ways are followed. None without the feature `surface`.
+const FOLLOWED: usize = if cfg!(feature = "surface") { CONTACTS } else { 0 };
 
 /// Refusal without a table.
 const NO_SURFACE: &str = "no surface is in force";

@@ -118,6 +118,13 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.calibration.inactive_code(taxel, level, falling)
     }
 
+    /// Pressure of a taxel at a code, counts, beyond what its folds are expected to press.
+    pub(crate) fn felt(&self, taxel: usize, code: Code, falling: bool) -> u16 {
+        let folds = u16::try_from(taxel).ok().and_then(|taxel| self.folds.of(taxel));
+        let expected = folds.map_or(0, |[expected, _]| expected);
+        self.pressure(taxel, code, falling).saturating_sub(expected)
+    }
+
     /// Pressure of a taxel at a code, counts.
     pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {
         self.calibration.pressure(taxel, code, falling)

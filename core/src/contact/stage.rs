@@ -14,6 +14,7 @@ use crate::segment::config::{ContactConfig, NO_SLIP};
 use crate::segment::labeller::Labeller;
 use crate::segment::run::Run;
 use crate::segment::seams::Joins;
+use crate::segment::union_find::Label;
 use crate::track::assign::Matching;
 use crate::track::motion::Trail;
 use crate::track::slot::Slot;
@@ -146,9 +147,11 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
 
     /// The runs of the last frame's contacts, in the order of rows.
     pub(crate) fn pressed<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = PressedRun<'a>> {
-        self.labeller.runs.iter().filter_map(|run| {
-            let panel = self.labeller.labels.get(usize::from(run.label))?.panel;
-            let contact = self.tracks.index_of(self.labeller.contact_of(run)?)?;
+        let contacts = self.tracks.contacts_of_components();
+        self.labeller.runs.iter().filter_map(move |run| {
+            let Label { contact, panel, .. } = *self.labeller.labels.get(usize::from(run.label))?;
+            // NONE, if it is of no component.
+            let contact = usize::from(contacts.get(usize::from(contact)).copied().flatten()?);
             let area = layout.areas().get(usize::from(panel))?;
             let row = usize::from(run.row.checked_sub(area.first_row)?);
             let first = usize::from(area.base) + row * usize::from(area.columns) + usize::from(run.left);

@@ -304,7 +304,7 @@ pub fn write_fold_table(parts: &FoldTableParts<'_>, layout: &Layout, to: &mut [u
     to[14..16].copy_from_slice(&(4 * filled as u16).to_le_bytes());
     to[16..18].copy_from_slice(&unit.to_le_bytes());
     to[SUM].copy_from_slice(&layout.sum().to_le_bytes());
-    let (names, _) = to[NAMES].as_chunks_mut();
+    let (names, _) = to[NAMES].as_chunks_mut::<STORED_NAME>();
     if !names.iter_mut().zip(joints).all(|(to, joint)| store_name(joint, to)) {
         return Err(refuse("must name its joints in 1 to 16 bytes each"));
     }

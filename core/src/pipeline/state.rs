@@ -10,10 +10,11 @@ use crate::format::{Code, Micros};
 use crate::garment::Layout;
 #[cfg(feature = "gesture")]
 use crate::gesture::GestureState;
+use crate::health::FaultyTaxel;
 use crate::intent::{Fed, IntentState};
 use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
-use crate::surface::{Pressing, SurfaceState, Table};
+use crate::surface::{Pressing, Table, TaxelLimits};
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 #[cfg(feature = "folds")]
@@ -123,15 +124,20 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.contact.took_picture()
     }
 
-    /// Places and forces of the contacts of the last frame, whose image has these values.
-    pub(crate) fn pressing(
+    /// Places and forces of the contacts of the last frame, whose image has these values. `full` is the code at
+    /// the end of the converter's range.
+    pub(crate) fn press(
         &self,
+        pressing: &mut Pressing<CONTACTS>,
         table: &Table<'_>,
-        poses: &SurfaceState,
         layout: &Layout,
         values: &[u16],
-    ) -> Pressing<CONTACTS> {
-        poses.process(table, &self.contact, layout, [self.condition.calibrated(), values])
+        (faulty, full, falling): (&[FaultyTaxel], Code, bool),
+    ) {
+        let images = [self.condition.calibrated(), values];
+        pressing.sum(table, &self.contact, layout, images);
+        let ceiling = |taxel| self.condition.felt(taxel, full, falling);
+        pressing.doubt(table, &self.contact, layout, images, &TaxelLimits { faulty, ceiling });
     }
 
     /// By how much the totals of the contacts of the last frame may be off for the folds beneath them.

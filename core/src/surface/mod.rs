@@ -12,23 +12,38 @@
 //! link, right-handed. Taxels feel only what presses along their normals: friction is not part of any force.
 //! Forces are in counts, as pressure is; a calibration makes newtons of both.
 
+mod motion;
 mod place;
 mod pose;
 mod press;
+mod regions;
 mod stage;
 mod table;
 mod taxel;
+mod uncertainty;
 
+pub use motion::{CARRIED_US, LinkMotion};
 pub use place::SurfacePoint;
 pub use pose::{Pose, Quaternion};
-pub use stage::{InBase, Landed, Pressing, SurfaceState, Wrench};
+pub use regions::{BodyDirection, ONSET_MS, RELEASED_MS, RegionPhase, RegionStates, RegionSymbol};
+pub use stage::{InBase, Landed, LinkFrames, MovingPose, Pressing, SurfaceState, TaxelLimits, Wrench};
 pub use table::{Table, table_bytes, write_table};
-pub use taxel::TaxelRecord;
+pub use taxel::{NO_REGION, TaxelRecord};
+pub use uncertainty::Uncertainty;
 
 use crate::garment::PANELS;
 
 /// Most links that a garment lies on: each panel lies on one. None without the feature `surface`.
 pub const LINKS: usize = if cfg!(feature = "surface") { PANELS } else { 0 };
+
+/// Most regions of a body. None without the feature `surface`.
+pub const REGIONS: usize = if cfg!(feature = "surface") { 24 } else { 0 };
+
+/// Most bytes of the name of a link or of a region: the longest in robots' descriptions have about 30.
+pub const LINK_NAME: usize = 40;
+
+/// Name of a link or of a region, UTF-8.
+pub type LinkName = heapless::String<LINK_NAME>;
 
 /// Micrometres, in a frame of the robot.
 pub type Micrometres = [i32; 3];

@@ -1,13 +1,17 @@
 //! The stage: contacts on the robot, and what presses on each link.
 
-use super::place::{SurfacePoint, rounded};
-use super::pose::Pose;
-use super::press::press;
+use super::motion::{LinkMotion, between};
+use super::place::SurfacePoint;
+use super::pose::{Pose, Rigid};
+use super::press::PressSums;
 use super::table::Table;
-use super::{LINKS, Micrometres, UnitVector};
-use crate::contact::{ContactState, Slot};
-use crate::format::{Invalid, Inverse, Micros, Name, name};
-use crate::garment::{Layout, PANELS};
+use super::taxel::TaxelRecord;
+use super::uncertainty::{BlindTaxel, Uncertainty, distance, most_at, of_faulty};
+use super::{LINKS, LinkName, Micrometres, UnitVector};
+use crate::contact::{ContactState, PressedRun, Slot};
+use crate::format::{Invalid, Inverse, Micros, signed_wide};
+use crate::garment::{Layout, PANELS, Place};
+use crate::health::{FAULTY_TAXELS, FaultyTaxel};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -37,11 +41,11 @@ pub struct InBase {
 
 /// What presses on a link, in its frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Wrench {
+pub struct Wrench<Called = LinkName> {
     /// Index of the link in the table.
     pub link: u8,
     /// Its name.
-    pub name: Name,
+    pub name: Called,
     /// Sum of the taxels' forces, counts.
     pub force: [i32; 3],
     /// Their moment about the link's origin, counts times mm.
@@ -53,34 +57,67 @@ pub struct Wrench {
 }
 
 /// What presses on the robot in a frame.
-#[derive(Debug, Default, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct Pressing<const CONTACTS: usize> {
     /// The contacts with a place, in the order of their onset.
-    pub contacts: Vec<Landed, CONTACTS>,
-    /// The links that something presses on, in the order of the table.
-    pub links: Vec<Wrench, LINKS>,
+    landings: Vec<Landing, CONTACTS>,
+    /// Sums of all links, and the numbers of those that something presses on.
+    sums: [LinkSums; LINKS],
+    pressed: Vec<u8, LINKS>,
+    /// Faulty taxels under contacts or at their edges.
+    blind: Vec<BlindTaxel, FAULTY_TAXELS>,
 }
 
-/// Poses of the links, by the table's order.
+/// What is known of the taxels beside their pressure.
+pub struct TaxelLimits<'a, Ceiling> {
+    /// Taxels that feel nothing.
+    pub faulty: &'a [FaultyTaxel],
+    /// Pressure of a taxel at the end of the converter's range, counts.
+    pub ceiling: Ceiling,
+}
+
+/// A contact with a place.
+#[derive(Debug, Clone, Copy)]
+struct Landing {
+    id: u32,
+    /// Its index among the present contacts.
+    contact: u8,
+    spot: SurfacePoint,
+    total: u32,
+    /// Of its taxels on the link of its place.
+    sums: PressSums,
+    saturated: u16,
+}
+
+/// Poses of the links, by the table's order, and the time at which they are or were received.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct SurfaceState {
-    poses: [Option<Pose>; LINKS],
+    poses: [Option<(Pose, Option<LinkMotion>)>; LINKS],
     told: Option<Micros>,
 }
 
-/// LinkSums of a link.
-#[derive(Clone, Copy)]
+/// A link of the table by its name, its pose and its motion.
+pub type MovingPose = (LinkName, Pose, LinkMotion);
+
+/// The links in the frame of the poses at a time.
+#[derive(Debug, Clone, Copy)]
+pub struct LinkFrames {
+    /// By link, with the most by which places on it are off, um, if its pose says it.
+    frames: [Option<(Rigid, Option<u32>)>; LINKS],
+}
+
+/// Sums of a link.
+#[derive(Debug, Clone, Copy)]
 struct LinkSums {
-    force: [i64; 3],
-    moment: [i64; 3],
-    pressed: u32,
+    press: PressSums,
+    saturated: u16,
     /// Sum of place times total, of the contacts whose centroid lies on the link; and of their totals.
     places: [i64; 3],
     totals: u32,
 }
 
 impl LinkSums {
-    const NONE: LinkSums = LinkSums { force: [0; 3], moment: [0; 3], pressed: 0, places: [0; 3], totals: 0 };
+    const NONE: LinkSums = LinkSums { press: PressSums::NONE, saturated: 0, places: [0; 3], totals: 0 };
 }
 
 impl SurfaceState {
@@ -89,19 +126,44 @@ impl SurfaceState {
         SurfaceState { poses: [None; LINKS], told: None }
     }
 
-    /// Takes poses of links that were in force at `at`. A refused list changes nothing.
-    pub fn accept(&mut self, poses: &[(Name, Pose)], table: &Table<'_>, at: Micros) -> Result<(), Invalid> {
-        let link = |called: &Name| (0u8..).take(table.links()).find(|link| table.link(*link) == Some(called));
-        for (called, pose) in poses {
-            pose.build()?;
-            link(called).ok_or(Invalid { parameter: "pose.link", must: "must be a link of the surface" })?;
-        }
-        for (called, pose) in poses {
-            if let Some(to) = link(called).and_then(|link| self.poses.get_mut(usize::from(link))) {
-                *to = Some(*pose);
+    /// Takes poses of links that stand still from `at` on. A refused list changes nothing.
+    pub fn accept(
+        &mut self,
+        poses: &[(LinkName, Pose)],
+        table: &Table<'_>,
+        at: Micros,
+    ) -> Result<(), Invalid> {
+        self.take(poses.iter().map(|(link, pose)| (link, *pose, None)), table, at)
+    }
+
+    /// Takes poses of links at the time `at`, and how they move. A refused list changes nothing.
+    pub fn accept_moving(
+        &mut self,
+        poses: &[MovingPose],
+        table: &Table<'_>,
+        at: Micros,
+    ) -> Result<(), Invalid> {
+        self.take(poses.iter().map(|(link, pose, motion)| (link, *pose, Some(*motion))), table, at)
+    }
+
+    fn take<'a>(
+        &mut self,
+        poses: impl Iterator<Item = (&'a LinkName, Pose, Option<LinkMotion>)>,
+        table: &Table<'_>,
+        at: Micros,
+    ) -> Result<(), Invalid> {
+        let mut taken = self.poses;
+        for (called, pose, motion) in poses {
+            pose.check()?;
+            if let Some(motion) = &motion {
+                motion.check()?;
             }
+            let link = (0..table.links()).find(|link| table.link(*link as u8) == Some(called));
+            let to = link.and_then(|link| taken.get_mut(link));
+            let must = "must be a link of the surface";
+            *to.ok_or(Invalid { parameter: "pose.link", must })? = Some((pose, motion));
         }
-        self.told = Some(at);
+        *self = SurfaceState { poses: taken, told: Some(at) };
         Ok(())
     }
 
@@ -110,119 +172,328 @@ impl SurfaceState {
         self.told
     }
 
-    /// Places the contacts of the last frame, and sums up what presses on each link: the pressure of their
-    /// taxels before and after the filter, see `press.rs`.
+    /// Where the links are at a time: carried on by their motion, if it is known.
     #[inline(never)] // M0+: out of line
-    pub fn process<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
-        &self,
-        table: &Table<'_>,
-        contact: &ContactState<CONTACTS, RUNS, LABELS, S>,
-        layout: &Layout,
-        [calibrated, filtered]: [&[u16]; 2],
-    ) -> Pressing<CONTACTS> {
-        let mut spots = [None; CONTACTS];
-        for (spot, slot) in spots.iter_mut().zip(contact.present()) {
-            let touch = slot.contact();
-            *spot = table.spot(layout, touch.panel, touch.x, touch.y);
+    pub fn at(&self, time: Micros) -> LinkFrames {
+        let us = self.told.and_then(|told| between(told, time));
+        let mut frames = [None; LINKS];
+        for (frame, pose) in frames.iter_mut().zip(&self.poses) {
+            *frame = match pose {
+                Some((pose, Some(motion))) => {
+                    us.and_then(|us| motion.carry(pose, us)).map(|(frame, off)| (frame, Some(off)))
+                }
+                Some((pose, None)) => Some((pose.matrix(), None)),
+                None => None,
+            };
         }
-        let links = links_of(table, layout);
-        let mut forces = [[0; 3]; CONTACTS];
-        let mut sums = [LinkSums::NONE; LINKS];
-        for run in contact.pressed(layout) {
-            let Some(link) = links.get(usize::from(run.panel)).copied().flatten() else { continue };
-            let Some(sum) = sums.get_mut(usize::from(link)) else { continue };
-            let last = run.first + usize::from(run.run.right - run.run.left);
-            let taxels = run.first..=last;
-            let values = calibrated.get(taxels.clone()).zip(filtered.get(taxels.clone()));
-            let Some((values, records)) = values.zip(table.taxels().get(taxels)) else { continue };
-            let mut force = [0; 3];
-            let pressed = press(values, run.run.rebased(), records, (&mut force, &mut sum.moment));
-            sum.pressed = sum.pressed.saturating_add(pressed);
-            add(&mut sum.force, force);
-            let spot = spots.get(run.contact).copied().flatten();
-            if spot.is_some_and(|spot: SurfacePoint| spot.link == link)
-                && let Some(to) = forces.get_mut(run.contact)
-            {
-                add(to, force);
-            }
-        }
-        let mut pressing = Pressing { contacts: Vec::new(), links: Vec::new() };
-        for ((slot, spot), force) in contact.present().iter().zip(spots).zip(forces) {
-            let Some(spot) = spot else { continue };
-            if let Some(sum) = sums.get_mut(usize::from(spot.link)) {
-                sum.weigh(&spot, slot.contact().total);
-            }
-            // There are as many places as contacts.
-            let _ = pressing.contacts.push(self.landed(slot.contact().id, spot, force.map(counts)));
-        }
-        for (link, sum) in (0..).zip(&sums).filter(|(_, sum)| sum.pressed > 0) {
-            // There are as many places as links.
-            let _ = pressing.links.push(sum.wrench(link, table.link(link).unwrap_or_default()));
-        }
-        pressing
+        LinkFrames { frames }
     }
+}
 
+impl LinkFrames {
+    /// No pose.
+    pub const NONE: LinkFrames = LinkFrames { frames: [None; LINKS] };
+
+    /// A contact as it is told: also in the frame of the poses.
     #[inline(never)] // M0+: out of line
-    fn landed(&self, id: u32, spot: SurfacePoint, force: [i32; 3]) -> Landed {
-        let pose = self.poses.get(usize::from(spot.link)).copied().flatten();
-        let base = pose.and_then(|pose| pose.build().ok()).map(|frame| InBase {
+    fn landed(&self, Landing { id, spot, sums, .. }: &Landing) -> Landed {
+        let (id, spot, force) = (*id, *spot, sums.force.map(counts));
+        let frame = self.frames.get(usize::from(spot.link)).and_then(Option::as_ref);
+        let base = frame.map(|(frame, _)| InBase {
             at: frame.placed(spot.at),
             normal: frame.directed(spot.normal),
             force: frame.turned(force),
         });
         Landed { id, spot, force, base }
     }
+
+    /// A vector of a link in the frame of the poses, or as it is without one.
+    pub(super) fn turned(&self, link: u8, vector: [i32; 3]) -> [i32; 3] {
+        let frame = self.frames.get(usize::from(link)).and_then(Option::as_ref);
+        frame.map_or(vector, |(frame, _)| frame.turned(vector))
+    }
+
+    /// The most by which places on a link are off in the frame of the poses, um, by its index: of those whose
+    /// poses say it.
+    pub fn errors(&self) -> impl Iterator<Item = (u8, u32)> + Clone + '_ {
+        let of = |(link, frame): (u8, &Option<(Rigid, Option<u32>)>)| Some((link, frame.as_ref()?.1?));
+        (0..).zip(&self.frames).filter_map(of)
+    }
+}
+
+/// Number that stands for no link, and for no contact with a place.
+const NONE: u8 = u8::MAX;
+
+impl<const CONTACTS: usize> Pressing<CONTACTS> {
+    /// Nothing presses.
+    pub const fn new() -> Self {
+        const { assert!(CONTACTS < NONE as usize && LINKS < NONE as usize, "numbers have 8 bits") };
+        Pressing {
+            landings: Vec::new(),
+            sums: [LinkSums::NONE; LINKS],
+            pressed: Vec::new(),
+            blind: Vec::new(),
+        }
+    }
+
+    /// Places the contacts of the last frame, and sums up what presses on each link: the pressure of their
+    /// taxels before and after the filter, see `press.rs`. Built in place: call it once.
+    #[inline(never)] // M0+: out of line
+    pub fn sum<const RUNS: usize, const LABELS: usize, S: Slot>(
+        &mut self,
+        table: &Table<'_>,
+        contact: &ContactState<CONTACTS, RUNS, LABELS, S>,
+        layout: &Layout,
+        [calibrated, filtered]: [&[u16]; 2],
+    ) {
+        let mut placed = [NONE; CONTACTS];
+        for ((index, placed), slot) in (0..).zip(&mut placed).zip(contact.present()) {
+            let touch = slot.contact();
+            let Some(spot) = table.spot(layout, touch.panel, touch.x, touch.y) else { continue };
+            *placed = self.landings.len() as u8;
+            // There are as many places as contacts.
+            let _ = self.landings.push(Landing {
+                id: touch.id,
+                contact: index,
+                spot,
+                total: touch.total,
+                sums: PressSums::NONE,
+                saturated: 0,
+            });
+        }
+        let links = links_of(table, layout);
+        for run in contact.pressed(layout) {
+            let Some(link) = links.get(usize::from(run.panel)) else { continue };
+            let taxels = run.first..=run.first + usize::from(run.run.right - run.run.left);
+            let values = calibrated.get(taxels.clone()).zip(filtered.get(taxels.clone()));
+            let Some((values, records)) = values.zip(table.taxels().get(taxels)) else { continue };
+            let landing = placed.get(run.contact).map_or(NONE, |placed| *placed);
+            let landing = self.landings.get_mut(usize::from(landing)).filter(|it| it.spot.link == *link);
+            let sums = match landing {
+                Some(landing) => &mut landing.sums,
+                None => match self.sums.get_mut(usize::from(*link)) {
+                    Some(sums) => &mut sums.press,
+                    None => continue,
+                },
+            };
+            sums.press(values, run.run, records);
+        }
+        for landing in &self.landings {
+            if let Some(sums) = self.sums.get_mut(usize::from(landing.spot.link)) {
+                sums.add(landing);
+            }
+        }
+        for (link, _) in (0..).zip(&self.sums).filter(|(_, sums)| sums.press.pressed > 0) {
+            // There are as many places as links.
+            let _ = self.pressed.push(link);
+        }
+    }
+
+    /// Finds the taxels of the summed frame that do not tell what they feel: those that are saturated, and
+    /// those that are faulty.
+    #[inline(never)] // M0+: out of line
+    pub fn doubt<const RUNS: usize, const LABELS: usize, S: Slot>(
+        &mut self,
+        table: &Table<'_>,
+        contact: &ContactState<CONTACTS, RUNS, LABELS, S>,
+        layout: &Layout,
+        [calibrated, filtered]: [&[u16]; 2],
+        senses: &TaxelLimits<'_, impl Fn(usize) -> u16>,
+    ) {
+        // A contact may be saturated if its peak is within the upper half of what that taxel can tell.
+        let mut levels = [u16::MAX; CONTACTS];
+        for (level, slot) in levels.iter_mut().zip(contact.present()) {
+            let touch = slot.contact();
+            let half = layout.taxel(touch.peak_at).map_or(u16::MAX, |taxel| (senses.ceiling)(taxel) / 2);
+            if touch.peak >= half {
+                *level = half;
+            }
+        }
+        if levels.iter().any(|level| *level != u16::MAX) {
+            for run in contact.pressed(layout) {
+                let level = levels.get(run.contact).copied().unwrap_or(u16::MAX);
+                if run.run.peak >= level {
+                    let saturated = saturated(&run, level, calibrated, &senses.ceiling);
+                    self.saturate(saturated, run.contact, table.taxels().get(run.first));
+                }
+            }
+        }
+        for faulty in senses.faulty {
+            let taxel = usize::from(faulty.taxel);
+            let Some(place) = layout.place(taxel) else { continue };
+            let most = most_at(filtered, layout, place);
+            let placed = table.taxels().get(taxel).filter(|record| most > 0 && record.is_placed());
+            let Some(link) = placed.map(|record| record.link) else { continue };
+            let counted = contact.contact_at(layout, place);
+            let Some(index) = counted.or_else(|| beside(contact, layout, place)) else { continue };
+            let counted = counted.and_then(|_| filtered.get(taxel)).copied().unwrap_or(0);
+            let most = most.max(counted);
+            // There are as many places as faulty taxels.
+            let _ = self.blind.push(BlindTaxel {
+                taxel: faulty.taxel,
+                contact: index as u8,
+                link,
+                counted,
+                most,
+            });
+        }
+    }
+
+    /// Counts saturated taxels of a contact, one of which is `taxel`.
+    fn saturate(&mut self, count: u16, contact: usize, taxel: Option<&TaxelRecord>) {
+        let is_it = |landing: &&mut Landing| usize::from(landing.contact) == contact;
+        if let Some(landing) = self.landings.iter_mut().find(is_it) {
+            landing.saturated = landing.saturated.saturating_add(count);
+        }
+        let link = taxel.map_or(NONE.into(), |taxel| usize::from(taxel.link));
+        if let Some(sums) = self.sums.get_mut(link) {
+            sums.saturated = sums.saturated.saturating_add(count);
+        }
+    }
+
+    /// True if some taxel does not tell what it feels.
+    pub fn is_in_doubt(&self) -> bool {
+        !self.blind.is_empty() || self.sums.iter().any(|sums| sums.saturated > 0)
+    }
+
+    /// What is unknown of contacts, by id: of those where something is.
+    pub fn doubts_of_contacts<'a>(
+        &'a self,
+        table: &'a Table<'_>,
+    ) -> impl Iterator<Item = (u32, Uncertainty)> + Clone + 'a {
+        let of = |landing: &Landing| {
+            let blind = self.blind.iter().filter(|blind| blind.contact == landing.contact);
+            let far = |blind: &BlindTaxel| (*blind, reach(table, blind, landing.spot.at));
+            let of = of_faulty(blind.map(far), landing.sums.pressed);
+            (landing.id, Uncertainty { saturated: landing.saturated, ..of })
+        };
+        self.landings.iter().map(of).filter(|(_, of)| !of.is_none())
+    }
+
+    /// What is unknown of links, by number: of those where something is.
+    pub fn doubts_of_links<'a>(
+        &'a self,
+        table: &'a Table<'_>,
+    ) -> impl Iterator<Item = (u8, Uncertainty)> + Clone + 'a {
+        let of = |link: &u8| {
+            let sums = self.sums.get(usize::from(*link)).unwrap_or(&LinkSums::NONE);
+            let center = sums.center();
+            let blind = self.blind.iter().filter(|blind| blind.link == *link);
+            let far = |blind: &BlindTaxel| (*blind, reach(table, blind, center));
+            let of = of_faulty(blind.map(far), sums.press.pressed);
+            (*link, Uncertainty { saturated: sums.saturated, ..of })
+        };
+        self.pressed.iter().map(of).filter(|(_, of)| !of.is_none())
+    }
+
+    /// The contacts with a place, in the order of their onset; also in the frame of the poses, where there is
+    /// one.
+    pub fn contacts<'a>(
+        &'a self,
+        frames: &'a LinkFrames,
+    ) -> impl ExactSizeIterator<Item = Landed> + Clone + 'a {
+        self.landings.iter().map(|landing| frames.landed(landing))
+    }
+
+    /// The links that something presses on, in the order of the table.
+    pub fn links<'a>(
+        &'a self,
+        table: &'a Table<'_>,
+    ) -> impl ExactSizeIterator<Item = Wrench<&'a str>> + Clone + 'a {
+        self.pressed.iter().map(|link| {
+            let sums = self.sums.get(usize::from(*link)).unwrap_or(&LinkSums::NONE);
+            sums.wrench(*link, table.link(*link).unwrap_or_default())
+        })
+    }
+}
+
+impl<const CONTACTS: usize> Default for Pressing<CONTACTS> {
+    fn default() -> Self {
+        Pressing::new()
+    }
 }
 
 impl LinkSums {
-    /// Adds the place of a contact to the centre of pressure.
-    fn weigh(&mut self, spot: &SurfacePoint, total: u32) {
-        self.totals = self.totals.saturating_add(total);
+    /// Adds a contact on the link.
+    fn add(&mut self, Landing { spot, total, sums, .. }: &Landing) {
+        self.press.add(sums);
+        // A total has at most 2^11 taxels of 2^16 counts.
+        self.totals = self.totals.saturating_add(*total);
         for (sum, at) in self.places.iter_mut().zip(spot.at) {
-            *sum = sum.wrapping_add(i64::from(at) * i64::from(total));
+            *sum = sum.wrapping_add(signed_wide(at, *total));
         }
     }
 
     #[inline(never)] // M0+: out of line
-    fn wrench(&self, link: u8, called: &str) -> Wrench {
-        let inverse = Inverse::of(self.totals.max(1));
+    fn wrench<'a>(&self, link: u8, name: &'a str) -> Wrench<&'a str> {
+        let PressSums { force, moment, pressed } = self.press;
         Wrench {
             link,
-            name: name(called),
-            force: self.force.map(counts),
-            moment: self.moment.map(|sum| against(sum.saturating_mul(1000))),
-            pressed: self.pressed,
-            center: self.places.map(|sum| rounded(&inverse, sum, self.totals)),
+            name,
+            force: force.map(counts),
+            // 2^-14 m to mm; below 2^27 counts at less than 2 m.
+            moment: moment.map(|sum| against(sum.wrapping_mul(1000))),
+            pressed,
+            center: self.center(),
         }
+    }
+
+    /// Mean of the contacts' places, weighted by their totals.
+    fn center(&self) -> Micrometres {
+        let inverse = Inverse::of(self.totals);
+        if self.totals > 0 { self.places.map(|sum| inverse.nearest(sum)) } else { [0; 3] }
     }
 }
 
+/// Number of saturated taxels of a run among those of `level` counts and more.
+#[inline(never)] // M0+: out of line
+fn saturated(run: &PressedRun<'_>, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
+    let taxels = run.first..=run.first + usize::from(run.run.right - run.run.left);
+    let (mut saturated, mut mask) = (0, run.run.rebased());
+    for (taxel, value) in (run.first..).zip(calibrated.get(taxels).unwrap_or(&[])) {
+        if *value >= level && mask & 1 == 1 && *value >= ceiling(taxel) {
+            saturated += 1;
+        }
+        mask >>= 1;
+    }
+    saturated
+}
+
+/// Present contact of a neighbour of a taxel, the first in order: above, below, left, right.
+fn beside<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
+    contact: &ContactState<CONTACTS, RUNS, LABELS, S>,
+    layout: &Layout,
+    Place { panel, row, column }: Place,
+) -> Option<usize> {
+    [(-1, 0), (1, 0), (0, -1), (0, 1)].into_iter().find_map(|(down, right)| {
+        let (row, column) = (row.checked_add_signed(down)?, column.checked_add_signed(right)?);
+        contact.contact_at(layout, Place { panel, row, column })
+    })
+}
+
+/// Distance of a faulty taxel from a point of its link, um.
+fn reach(table: &Table<'_>, blind: &BlindTaxel, from: Micrometres) -> u32 {
+    table.taxels().get(usize::from(blind.taxel)).map_or(0, |record| distance(record.at(), from))
+}
+
 /// Link of each panel: that of its first taxel with a place.
-fn links_of(table: &Table<'_>, layout: &Layout) -> [Option<u8>; PANELS] {
-    let mut links = [None; PANELS];
+fn links_of(table: &Table<'_>, layout: &Layout) -> [u8; PANELS] {
+    let mut links = [NONE; PANELS];
     for (link, area) in links.iter_mut().zip(layout.areas()) {
         let taxels = table.taxels().get(usize::from(area.base)..).unwrap_or(&[]);
         let count = usize::from(area.rows) * usize::from(area.columns);
         let placed = taxels.iter().take(count).find(|taxel| taxel.is_placed());
-        *link = placed.map(|taxel| taxel.link as u8);
+        *link = placed.map_or(NONE, |taxel| taxel.link);
     }
     links
 }
 
 /// A force in whole counts: at most 2^11 taxels with 2^16 counts each.
-#[inline(never)] // M0+: out of line
 fn counts(sum: i64) -> i32 {
-    against(sum).clamp(i32::MIN.into(), i32::MAX.into()) as i32
+    against(sum) as i32
 }
 
 /// The opposite of a sum in units of 2^-14, rounded.
-#[inline(never)] // M0+: out of line
 fn against(sum: i64) -> i64 {
-    -(sum.saturating_add(1 << 13) >> 14)
-}
-
-fn add(to: &mut [i64; 3], more: [i64; 3]) {
-    for (to, more) in to.iter_mut().zip(more) {
-        *to = to.wrapping_add(more);
-    }
+    -(sum.wrapping_add(1 << 13) >> 14)
 }

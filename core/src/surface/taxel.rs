@@ -1,19 +1,24 @@
 //! A taxel's entry in the table.
 
-use super::{ONE, UnitVector};
+use super::place::micrometres;
+use super::{Micrometres, ONE, UnitVector};
 use crate::format::root;
 use bytemuck::{Pod, Zeroable};
 
 /// Number of a link that stands for none: the taxel has no place.
-pub(super) const NOWHERE: u16 = u16::MAX;
+pub(super) const NOWHERE: u8 = u8::MAX;
+/// Number of a region that stands for none.
+pub const NO_REGION: u8 = u8::MAX;
 
 /// A taxel on the robot, as it lies in flash: 20 bytes, little-endian. Lengths are in units of 2^-14 m (61
 /// um), so that every coordinate is below 2 m; rounding moves a taxel by at most 53 um.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
-#[repr(C)]
+#[repr(C, align(4))]
 pub struct TaxelRecord {
-    /// Index of its link in the table; 65535: it has no place, and all that follows is 0.
-    pub link: u16,
+    /// Index of its link in the table; 255: it has no place, and all vectors are 0.
+    pub link: u8,
+    /// Index of its region in the table; [`NO_REGION`]: it is in none.
+    pub region: u8,
     /// Its centre in the frame of the link.
     pub at: [i16; 3],
     /// Direction away from the robot.
@@ -28,20 +33,29 @@ const OFF: i32 = 8;
 
 impl TaxelRecord {
     /// A taxel without a place.
-    pub const NOWHERE: TaxelRecord = TaxelRecord { link: NOWHERE, at: [0; 3], normal: [0; 3], arm: [0; 3] };
+    pub const NOWHERE: TaxelRecord =
+        TaxelRecord { link: NOWHERE, region: NO_REGION, at: [0; 3], normal: [0; 3], arm: [0; 3] };
+
+    /// Its centre in the frame of the link, um.
+    pub(super) fn at(&self) -> Micrometres {
+        self.at.map(|x| micrometres(i32::from(x) << 16))
+    }
 
     /// True if it has a place.
     pub const fn is_placed(&self) -> bool {
         self.link != NOWHERE
     }
 
-    /// Condition that the entry breaks, if any: for a table of `links` links.
-    pub(super) fn fault(&self, links: u16) -> Option<&'static str> {
+    /// Condition that the entry breaks, if any: for a table of so many links and regions.
+    pub(super) fn fault(&self, links: usize, regions: usize) -> Option<&'static str> {
+        if self.region != NO_REGION && usize::from(self.region) >= regions {
+            return Some("must name a region of the table");
+        }
         if !self.is_placed() {
             let rest = [self.at, self.normal, self.arm];
             return (rest != [[0; 3]; 3]).then_some("must be all zero for a taxel without a place");
         }
-        if self.link >= links {
+        if usize::from(self.link) >= links {
             return Some("must name a link of the table");
         }
         let length = root(self.normal.iter().map(|n| u64::from(n.unsigned_abs()).pow(2)).sum());

@@ -104,6 +104,11 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
         self.said.iter_mut().for_each(ReportedWords::forget_class);
     }
 
+    /// Words of a present contact.
+    pub(crate) fn words(&self, contact: u32) -> Option<Words> {
+        Some(self.said.iter().find(|said| said.contact == contact)?.words)
+    }
+
     /// State of the first `count` regions.
     pub fn regions(&self, count: usize) -> &[RegionState] {
         self.regions.get(..count).unwrap_or(&self.regions)

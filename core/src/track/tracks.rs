@@ -82,6 +82,18 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         self.trails.iter().position(|trail| trail.component == component)
     }
 
+    /// Index of the contact of each component.
+    pub fn contacts_of_components(&self) -> [Option<u8>; CONTACTS] {
+        const { assert!(CONTACTS <= 1 << u8::BITS, "an index has 8 bits") };
+        let mut contacts = [None; CONTACTS];
+        for (index, trail) in (0..=u8::MAX).zip(&self.trails) {
+            if let Some(contact) = contacts.get_mut(usize::from(trail.component)) {
+                *contact = Some(index);
+            }
+        }
+        contacts
+    }
+
     /// Handles contacts that found no component. If the last peak of such a contact lies in a component or
     /// beside it, the contact takes that component. If another contact has it already, the one with the
     /// greater total keeps it, and if the totals are equal, the one that was matched by distance.

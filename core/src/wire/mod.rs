@@ -35,6 +35,9 @@
 //! | 21 | [`FormsReport`] | if requested: before a `Contacts` in which a form is older than its frame |
 //! | 22 | [`PressingReport`] | if requested: at that rate while something touches, when the link has room |
 //! | 23 | [`FoldsReport`] | ten times per second while a table of folds is in force, when the link has room |
+//! | 24 | [`BoundsReport`] | before a `Pressing` of which something is unknown |
+//! | 25 | [`RegionsReport`] | when a region of the surface changes, and each second |
+//! | 26 | [`RegionNames`] | before the first `Regions` after a `Start` or of another surface |
 //!
 //! A link carries nothing but these bytes. A board with several links uses one at a time, by whole messages:
 //! USB while a program there has opened its port, else the UART.
@@ -45,6 +48,7 @@
 
 mod cobs;
 mod codec;
+mod each;
 mod error;
 mod image_decode;
 mod image_encode;
@@ -55,6 +59,7 @@ mod writer;
 
 pub(crate) use codec::{close, frame, lead};
 pub use codec::{decode, encode, frame_bound, open};
+pub(crate) use each::Each;
 pub use error::WireError;
 pub use image_decode::{ImageError, ImageFault, decode_image, image_bound, image_sum};
 pub(crate) use image_encode::ImageReference;

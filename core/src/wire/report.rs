@@ -11,7 +11,7 @@ use crate::pipeline::CONTACTS;
 use crate::react::Reaction;
 use crate::selftest::Findings;
 use crate::shape::GALLERY_CLASSES;
-use crate::surface::{LINKS, Landed, Wrench};
+use crate::surface::{LINKS, Landed, LinkName, REGIONS, RegionSymbol, Uncertainty, Wrench};
 use crate::symbol::{RegionState, Symbol};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -78,6 +78,12 @@ pub enum Report<'a> {
     Pressing(PressingReport),
     /// What the garment's folds are expected to press.
     Folds(FoldsReport),
+    /// What is unknown of what presses.
+    Bounds(BoundsReport),
+    /// What each region of the surface feels.
+    Regions(RegionsReport),
+    /// Names of the surface's regions.
+    RegionNames(RegionNames),
 }
 
 /// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
@@ -131,6 +137,12 @@ impl Report<'_> {
     pub const PRESSING: u32 = 22;
     /// Number of `Folds`.
     pub const FOLDS: u32 = 23;
+    /// Number of `Bounds`.
+    pub const BOUNDS: u32 = 24;
+    /// Number of `Regions`.
+    pub const REGIONS: u32 = 25;
+    /// Number of `RegionNames`.
+    pub const REGION_NAMES: u32 = 26;
 }
 
 /// Identity and settings of the board. This layout is frozen.
@@ -403,6 +415,40 @@ pub struct PressingReport {
     pub contacts: Vec<Landed, CONTACTS>,
     /// The links that something presses on.
     pub links: Vec<Wrench, LINKS>,
+}
+
+/// What is unknown of the next [`PressingReport`], which is of the same frame: of contacts, links and poses
+/// where something is. Not sent if nothing is unknown.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BoundsReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// By contact, with its id.
+    pub contacts: Vec<(u32, Uncertainty), CONTACTS>,
+    /// By link, with its index in the table.
+    pub links: Vec<(u8, Uncertainty), LINKS>,
+    /// The most by which places on a link are off in the frame of the poses, um; of links whose poses say it.
+    pub poses: Vec<(u8, u32), LINKS>,
+}
+
+/// What each region of the surface feels: when one of them changes, and once a second; from a board whose body has
+/// regions. See [`RegionStates`](crate::surface::RegionStates).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegionsReport {
+    /// Number of the scan.
+    pub frame: u32,
+    /// Start of the scan.
+    pub time: Micros,
+    /// All regions, in the order of their names.
+    pub regions: Vec<RegionSymbol, REGIONS>,
+}
+
+/// Names of the surface's regions: before the first [`RegionsReport`] after a `Start`, and after another surface
+/// came into force.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegionNames {
+    /// In the order of the body.
+    pub names: Vec<LinkName, REGIONS>,
 }
 
 /// What the garment's folds are expected to press, ten times per second while a table of folds is in force.

@@ -19,7 +19,9 @@ use taxel_core::react::{Cause, Reaction};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::shape::{Class, ConfidenceTable, GalleryHead, MEASURES, Shape, Space};
-use taxel_core::surface::{InBase, Landed, SurfacePoint, Wrench};
+use taxel_core::surface::{
+    BodyDirection, InBase, Landed, LinkName, RegionPhase, RegionSymbol, SurfacePoint, Uncertainty, Wrench,
+};
 use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol, Words};
 use taxel_core::wire::*;
 
@@ -35,7 +37,7 @@ fn based() -> InBase {
 fn wrench() -> Wrench {
     Wrench {
         link: 1,
-        name: name("forearm"),
+        name: LinkName::try_from("forearm").unwrap(),
         force: [-3, 4_000, 0],
         moment: [-1_200_000, 0, 77],
         pressed: 4_100,
@@ -177,12 +179,22 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 24] {
+fn reports() -> [(&'static str, Report<'static>); 27] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
     let confidence = ConfidenceReport { frame, time, touch: 3, confidence: Q15(24_576) };
     let faulty = FaultyTaxels { first: 700, count: 2, health: TaxelHealth::Stuck };
+    let region = RegionSymbol {
+        phase: RegionPhase::Moving,
+        way: BodyDirection::Down,
+        contacts: 2,
+        strength: Strength::Firm,
+        extent: Extent::Patch,
+        class: Class(3),
+        since: Micros(4_000_000_000),
+    };
+    let uncertain = Uncertainty { saturated: 2, faulty: 1, less: 300, more: 70_000, off: 1_500 };
     let map = HealthMap { time, first: 0, end: 2048, taxels: one(faulty) };
     [
         ("Hello", Report::Hello(hello())),
@@ -233,10 +245,26 @@ fn reports() -> [(&'static str, Report<'static>); 24] {
                 contacts: one(Doubt { id: 300, doubt: 150 }),
             }),
         ),
+        (
+            "Bounds",
+            Report::Bounds(BoundsReport {
+                frame,
+                contacts: one((300, uncertain)),
+                links: one((1, uncertain)),
+                poses: one((1, 4_500)),
+            }),
+        ),
+        ("Regions", Report::Regions(RegionsReport { frame, time, regions: one(region) })),
+        (
+            "RegionNames",
+            Report::RegionNames(RegionNames {
+                names: one(LinkName::try_from("left forearm, outer").unwrap()),
+            }),
+        ),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 26] {
+fn requests() -> [(&'static str, Request<'static>); 27] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
@@ -269,6 +297,7 @@ fn requests() -> [(&'static str, Request<'static>); 26] {
         ("SetPoses", Request::SetPoses(&[6, 7])),
         ("SetPressing", Request::SetPressing(20)),
         ("SetFolds", Request::SetFolds(&[8, 9])),
+        ("MovePoses", Request::MovePoses(&[1, 2])),
     ]
 }
 

@@ -52,8 +52,8 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Answer, Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap, Hello,
-    IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode,
+    Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap,
+    Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode,
     decode_image,
 };
 use wanted::Sets;
@@ -109,8 +109,10 @@ pub struct Client {
     boot: Option<Boot>,
     /// Classes taught to the board; empty while the built-in base is in use.
     shapes: Vec<String>,
-    /// A frame, and the most by which a place in the base is off there, m.
-    pose_error: Option<(u32, f64)>,
+    /// What is unknown of what presses.
+    bounds: Option<BoundsReport>,
+    /// Names of the surface's regions.
+    surface_regions: Vec<String>,
 }
 
 impl Default for Client {
@@ -155,14 +157,9 @@ impl Client {
             self_test: None,
             boot: None,
             shapes: Vec::new(),
-            pose_error: None,
+            bounds: None,
+            surface_regions: Vec::new(),
         }
-    }
-
-    /// Notes the most by which a frame's places in the base are off, m, by what the host knows of the
-    /// posture.
-    pub fn tell_pose_error(&mut self, frame: u32, metres: f64) {
-        self.pose_error = Some((frame, metres));
     }
 
     /// Handles one byte. If it completes a message, updates the state and returns the event.
@@ -175,15 +172,12 @@ impl Client {
             message.clear();
             message.extend_from_slice(bytes);
         });
-        let event = match copied.and_then(|()| self.read(&message)) {
-            Ok(event) => event,
-            Err(error) => {
-                self.counts.refuse(error);
-                Event::Refused(error)
-            }
-        };
+        let event = copied.and_then(|()| self.read(&message)).unwrap_or_else(|error| {
+            self.counts.refuse(error);
+            Some(Event::Refused(error))
+        });
         self.message = message;
-        Some(event)
+        event
     }
 
     /// Restarts the counters: earlier messages were assembled from parts of a recording.
@@ -201,8 +195,8 @@ impl Client {
         }
     }
 
-    /// Handles the message of an intact frame.
-    fn read(&mut self, message: &[u8]) -> Result<Event, WireError> {
+    /// Handles the message of an intact frame. No event, if it belongs to the next one.
+    fn read(&mut self, message: &[u8]) -> Result<Option<Event>, WireError> {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
         if self.counts.sequence(seq) {
             self.begun_anew();
@@ -229,8 +223,9 @@ impl Client {
         (self.forms, self.boot) = (None, None);
     }
 
-    fn take(&mut self, report: Report<'_>) -> Event {
-        match report {
+    /// No event, if the report belongs to the next one.
+    fn take(&mut self, report: Report<'_>) -> Option<Event> {
+        Some(match report {
             Report::Hello(hello) => self.take_hello(&hello),
             Report::Frame(frame) => self.take_frame(&frame),
             Report::Contacts(list) => self.take_contacts(list),
@@ -259,6 +254,16 @@ impl Client {
                 report.links.iter_mut().for_each(|wrench| cleaned::name(&mut wrench.name));
                 Event::Pressing(Box::new(report))
             }
+            Report::Bounds(bounds) => {
+                self.bounds = Some(bounds);
+                return None;
+            }
+            Report::RegionNames(names) => {
+                let names = names.names.iter().map(|name| printable(name).into_owned());
+                self.surface_regions = names.collect();
+                return None;
+            }
+            Report::Regions(report) => Event::Regions(Box::new(report)),
             Report::Folds(report) => Event::Folds(Box::new(report)),
             Report::Shapes(report) => self.take_shapes(&report),
             Report::Reaction(mut report) => {
@@ -293,7 +298,7 @@ impl Client {
                 self.self_test = Some(report.clone());
                 Event::SelfTest(report)
             }
-        }
+        })
     }
 
     fn take_intent(&mut self, report: IntentReport) -> Event {

@@ -21,6 +21,8 @@ pub enum TouchPattern {
     One,
     /// Five discs on all panels, one across the seam of chest and back; each moves 0.1 taxel a frame.
     Five,
+    /// Sixteen discs, four on each panel, that move as those five: some 460 taxels.
+    Sixteen,
     /// Forty contacts of 2 x 2 to 3 x 3 taxels: more than can be tracked.
     Forty,
     /// Every taxel pressed, with 11 random bits on top of it.
@@ -77,10 +79,11 @@ impl Disc {
 
 impl TouchPattern {
     /// All patterns.
-    pub const ALL: [TouchPattern; 8] = [
+    pub const ALL: [TouchPattern; 9] = [
         TouchPattern::Empty,
         TouchPattern::One,
         TouchPattern::Five,
+        TouchPattern::Sixteen,
         TouchPattern::Forty,
         TouchPattern::Texture,
         TouchPattern::Flat,
@@ -94,6 +97,7 @@ impl TouchPattern {
             TouchPattern::Empty => "empty",
             TouchPattern::One => "1 contact",
             TouchPattern::Five => "5 contacts",
+            TouchPattern::Sixteen => "16 contacts",
             TouchPattern::Forty => "40 contacts",
             TouchPattern::Texture => "saturated",
             TouchPattern::Flat => "flat 4095",
@@ -116,12 +120,14 @@ impl TouchPattern {
             disc(2, 207 - along / 2, 100 + along),
             disc(3, 150, 311 + along),
         ];
-        let count = match self {
-            TouchPattern::One => 1,
-            TouchPattern::Five => 5,
-            _ => 0,
+        let (five, sixteen) = match self {
+            TouchPattern::One => (1, 0),
+            TouchPattern::Five => (5, 0),
+            TouchPattern::Sixteen => (0, 16),
+            _ => (0, 0),
         };
-        discs.into_iter().take(count)
+        let apart = move |number: usize| disc(number / 4, 80 + along, 80 + 160 * (number as i32 % 4));
+        discs.into_iter().take(five).chain((0..sixteen).map(apart))
     }
 
     /// Pressure of every taxel in a frame, counts, without noise.
@@ -129,7 +135,7 @@ impl TouchPattern {
         for (taxel, value) in image.iter_mut().enumerate() {
             let (row, column) = (taxel / COLUMNS, taxel % COLUMNS);
             *value = match self {
-                TouchPattern::Empty | TouchPattern::One | TouchPattern::Five => 0,
+                TouchPattern::Empty | TouchPattern::One | TouchPattern::Five | TouchPattern::Sixteen => 0,
                 TouchPattern::Forty => small(row, column),
                 TouchPattern::Texture => 64 + (hash(taxel as u32, 1) & 0x7ff) as u16,
                 TouchPattern::Flat => FULL_SCALE,

@@ -45,16 +45,17 @@ pub(crate) const fn layout_sum() -> [u8; 4] {
 const fn bytes() -> [u8; BYTES] {
     let mut bytes = put([0; BYTES], 0, b"TXSF");
     let [low, high] = (TAXELS as u16).to_le_bytes();
-    bytes = put(bytes, 8, &[1, 1, low, high]);
+    bytes = put(bytes, 8, &[2, 1, low, high]);
     let crc = Crc::<u32>::new(&CRC_32_ISO_HDLC);
     bytes = put(bytes, 12, &layout_sum());
-    bytes = put(bytes, 16, b"torso");
+    bytes = put(bytes, 20, b"torso");
     let mut taxel = 0;
     while taxel < TAXELS {
         // 10 mm apart, in units of 2^-14 m.
         let [x, y] = [(taxel % COLUMNS * 164) as i16, (taxel / COLUMNS * 164) as i16];
         let at = HEAD + 20 * taxel;
-        let numbers = [0, x, y, 0, 0, 0, ONE, y, -x, 0];
+        // Link 0, no region.
+        let numbers = [0xff00u16 as i16, x, y, 0, 0, 0, ONE, y, -x, 0];
         let mut index = 0;
         while index < numbers.len() {
             let [low, high] = numbers[index].to_le_bytes();

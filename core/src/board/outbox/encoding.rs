@@ -25,10 +25,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         now: Micros,
         about: About<'_>,
         image: &Image<'_>,
-        (pressing, folds): Slow<
-            impl FnOnce() -> Option<PressingReport>,
-            impl FnOnce() -> Option<FoldsReport>,
-        >,
+        (pressing, folds): Slow<impl FnOnce(&mut TxFrame) -> bool, impl FnOnce() -> Option<FoldsReport>>,
         health: &mut Health,
     ) {
         let tx_frame = &mut self.tx_frame;
@@ -82,7 +79,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         } else if let Some(temperature) = self.temperature.take() {
             tx_frame.put(Report::TEMPERATURE, &temperature)
         } else if let Some(pressing) = pressing.filter(|_| cfg!(feature = "surface") && self.streaming) {
-            put_made(tx_frame, Report::PRESSING, pressing)
+            pressing(tx_frame)
         } else if let Some(folds) = folds.filter(|_| cfg!(feature = "folds") && self.streaming) {
             put_made(tx_frame, Report::FOLDS, folds)
         } else if let Some((frame, time)) = self.image.due.take() {

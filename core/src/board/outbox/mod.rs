@@ -292,10 +292,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         now: Micros,
         about: About<'_>,
         image: &Image<'_>,
-        (pressing, folds): Slow<
-            impl FnOnce() -> Option<PressingReport>,
-            impl FnOnce() -> Option<FoldsReport>,
-        >,
+        (pressing, folds): Slow<impl FnOnce(&mut TxFrame) -> bool, impl FnOnce() -> Option<FoldsReport>>,
         health: &mut Health,
         probe: &mut impl Probe,
     ) {

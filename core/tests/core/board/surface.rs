@@ -3,10 +3,12 @@
 use super::tables::streaming;
 use super::{BoardAndHost, FINGER};
 use taxel_core::board::TableKind;
-use taxel_core::format::{Micros, name};
+use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::surface::{ONE, Pose, TaxelRecord, table_bytes, write_table};
-use taxel_core::wire::{PressingReport, Report, Request, TABLE_PIECE};
+use taxel_core::surface::{
+    BodyDirection, LinkMotion, LinkName, ONE, Pose, RegionPhase, TaxelRecord, table_bytes, write_table,
+};
+use taxel_core::wire::{PressingReport, RegionsReport, Report, Request, TABLE_PIECE};
 
 /// Units of a table in a pitch: 10.01 mm.
 const PITCH: i16 = 164;
@@ -17,10 +19,23 @@ pub fn flat() -> Vec<u8> {
     let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
     let place = |taxel: usize| {
         let [x, y] = [taxel % 16, taxel / 16].map(|at| PITCH * at as i16);
-        TaxelRecord { link: 0, at: [x, y, 0], normal: [0, 0, ONE], arm: [y, -x, 0] }
+        TaxelRecord {
+            link: 0,
+            region: u8::from(taxel % 16 >= 8),
+            at: [x, y, 0],
+            normal: [0, 0, ONE],
+            arm: [y, -x, 0],
+        }
     };
     let mut bytes = vec![0; table_bytes(64)];
-    write_table(&["hand"], &(0..64).map(place).collect::<Vec<_>>(), &layout, &mut bytes).unwrap();
+    write_table(
+        &["hand"],
+        &["palm", "fingers"],
+        &(0..64).map(place).collect::<Vec<_>>(),
+        &layout,
+        &mut bytes,
+    )
+    .unwrap();
     bytes
 }
 
@@ -75,7 +90,8 @@ fn a_table_in_pieces_is_put_in_force_and_presses_are_told() {
     // A quarter about z, and a metre up.
     let turn = [0, 0, 759_250_125, 759_250_125];
     let pose = Pose { at: [0, 0, 1_000_000], turn };
-    let poses = postcard::to_allocvec(&[(name("hand"), pose)][..]).unwrap();
+    let hand = LinkName::try_from("hand").unwrap();
+    let poses = postcard::to_allocvec(&[(hand, pose)][..]).unwrap();
     assert_eq!(
         bench.answer(&Request::SetPoses(&poses[..9])).unwrap(),
         "poses: these 9 bytes are none that this board can hold"
@@ -108,4 +124,134 @@ fn a_table_is_in_force_while_its_garment_is_worn() {
         assert_eq!(bench.board.surface().is_some(), is_in_force);
         (0..3).for_each(|_| bench.scan());
     }
+}
+
+/// What the bench's regions feel by the next scans, and their names.
+#[derive(Default)]
+struct RegionsTold {
+    names: Vec<String>,
+    states: Vec<RegionsReport>,
+}
+
+impl BoardAndHost {
+    fn regions(&mut self, scans: usize) -> RegionsTold {
+        let mut told = RegionsTold::default();
+        for _ in 0..scans {
+            self.scan();
+            self.drain(usize::MAX, |report| match report {
+                Report::RegionNames(report) => {
+                    assert!(told.states.is_empty(), "names come first");
+                    told.names = report.names.iter().map(ToString::to_string).collect();
+                }
+                Report::Regions(report) => told.states.push(report.clone()),
+                _ => {}
+            });
+        }
+        told
+    }
+}
+
+#[test]
+fn every_region_always_has_a_state() {
+    let mut bench = streaming();
+    bench.board.recall_table(TableKind::Surface, Some(Box::leak(flat().into_boxed_slice())));
+    let told = bench.regions(410);
+    assert_eq!(told.names, ["palm", "fingers"]);
+    assert_eq!(told.states.len(), 3, "once a second");
+    assert!(told.states[0].regions.iter().all(|region| region.phase == RegionPhase::Free));
+    let phases = |told: &RegionsTold, region: usize| {
+        let mut phases: Vec<_> = told.states.iter().map(|report| report.regions[region].phase).collect();
+        phases.dedup();
+        phases
+    };
+
+    bench.press(&FINGER, 1000);
+    let told = bench.regions(60);
+    assert_eq!(phases(&told, 0), [RegionPhase::Onset, RegionPhase::Held]);
+    assert_eq!(phases(&told, 1), [RegionPhase::Free]);
+    let [palm, fingers] = told.states.last().unwrap().regions[..] else { panic!("two regions") };
+    assert_eq!((palm.contacts, palm.way, fingers.contacts), (1, BodyDirection::None, 0));
+    bench.press(&FINGER, 0);
+    let told = bench.regions(300);
+    assert_eq!(phases(&told, 0), [RegionPhase::Released, RegionPhase::Free]);
+
+    // A fingertip that slides from the palm to the fingers: along x of the link.
+    let slide = |bench: &mut BoardAndHost| {
+        let mut told = RegionsTold::default();
+        for step in 0..90 {
+            let x = 2.0 + 0.125 * f64::from(step);
+            for taxel in 0..64 {
+                let (column, row) = ((taxel % 16) as f64, taxel / 16);
+                let share = (1.0 - (column - x).abs() / 1.8).max(0.0);
+                bench.press(&[taxel], if (1..3).contains(&row) { (share * 2500.0) as u16 } else { 0 });
+            }
+            told.states.extend(bench.regions(1).states);
+        }
+        told
+    };
+    let told = slide(&mut bench);
+    let moving = |told: &RegionsTold, region: usize| -> Vec<BodyDirection> {
+        let of = told.states.iter().map(|report| report.regions[region]);
+        let mut ways: Vec<_> = of.filter(|it| it.phase == RegionPhase::Moving).map(|it| it.way).collect();
+        ways.dedup();
+        ways
+    };
+    assert_eq!(moving(&told, 0), [BodyDirection::Forward]);
+    assert_eq!(moving(&told, 1), [BodyDirection::Forward]);
+    bench.press(&(0..64).collect::<Vec<_>>(), 0);
+    bench.regions(200);
+
+    // The link is turned by a quarter about z in the robot's frame: there it slides to the left.
+    let pose = Pose { at: [0; 3], turn: [0, 0, 759_250_125, 759_250_125] };
+    let hand = LinkName::try_from("hand").unwrap();
+    let still = LinkMotion { error: 700, ..LinkMotion::default() };
+    let poses = postcard::to_allocvec(&(Micros(bench.now), &[(hand.clone(), pose, still)][..])).unwrap();
+    assert_eq!(bench.answer(&Request::MovePoses(&poses)), None);
+    let poses = postcard::to_allocvec(&[(hand, pose)][..]).unwrap();
+    assert_eq!(bench.answer(&Request::SetPoses(&poses)), None);
+    assert_eq!(moving(&slide(&mut bench), 0), [BodyDirection::Left]);
+}
+
+/// Poses of links that move say how far off a place may be, and are forgotten after 0.2 s.
+#[test]
+fn bounds_are_told_before_what_they_bound() {
+    let mut bench = streaming();
+    bench.board.recall_table(TableKind::Surface, Some(Box::leak(flat().into_boxed_slice())));
+    assert_eq!(bench.answer(&Request::SetPressing(u16::MAX)), None);
+    let hand = LinkName::try_from("hand").unwrap();
+    let motion =
+        LinkMotion { velocity: [1_000_000, 0, 0], error: 700, drift: 10_000, ..LinkMotion::default() };
+    let pose = Pose { at: [0; 3], turn: [0, 0, 0, 1 << 30] };
+    let told = bench.now;
+    let poses = postcard::to_allocvec(&(Micros(told), &[(hand, pose, motion)][..])).unwrap();
+    assert_eq!(bench.answer(&Request::MovePoses(&poses)), None);
+    bench.press(&FINGER, 1000);
+    let mut bounds = None;
+    let mut judged = 0;
+    for _ in 0..60 {
+        bench.scan();
+        let now = bench.now;
+        bench.drain(usize::MAX, |report| match report {
+            Report::Bounds(report) => bounds = Some(report.clone()),
+            Report::Pressing(report) => {
+                let age = now - told;
+                let base = report.contacts.first().and_then(|contact| contact.base);
+                let Some(base) = base else {
+                    return assert!(report.contacts.is_empty() || age > 200_000);
+                };
+                assert!(age <= 200_000 && report.posed == Some(Micros(told)));
+                let bounds = bounds.take().expect("bounds come first");
+                assert_eq!(bounds.frame, report.frame);
+                let [(0, off)] = bounds.poses[..] else { panic!("{bounds:?}") };
+                let want = 700 + age / 100;
+                assert!((want..want + 70).contains(&u64::from(off)), "{off} {want}");
+                // A metre a second.
+                let at = base.at[0] - report.contacts[0].spot.at[0];
+                assert!((i64::from(at) - age as i64).abs() < 5, "{at} {age}");
+                judged += 1;
+            }
+            _ => {}
+        });
+    }
+    assert!(judged > 30, "{judged}");
 }

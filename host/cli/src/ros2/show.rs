@@ -23,7 +23,7 @@ use taxel_core::format::Micros;
 use taxel_core::wire::Request;
 
 /// Number of the request that tells the board poses.
-const SET_POSES: u8 = Request::SetPoses(&[]).number();
+const MOVE_POSES: u8 = Request::MovePoses(&[]).number();
 
 /// Publishes a board's stream, and passes on what comes for the board.
 pub struct RosShow {
@@ -110,7 +110,7 @@ impl RosShow {
                 if *request == Request::Posture(Posture::default()).number() {
                     self.postures.answered(node, client, refusal.is_none())?;
                 }
-                if let (SET_POSES, Some(why)) = (*request, refusal) {
+                if let (MOVE_POSES, Some(why)) = (*request, refusal) {
                     node.log(LogLevel::Warn, &format!("the board refuses poses: {why}"));
                 }
                 Ok(())

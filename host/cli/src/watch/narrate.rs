@@ -5,8 +5,9 @@ use taxel::tell::starts;
 use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
+use taxel_core::surface::{BodyDirection, RegionPhase, RegionSymbol};
 use taxel_core::symbol::{Extent, Strength, Symbol};
-use taxel_core::wire::GestureReport;
+use taxel_core::wire::{GestureReport, RegionsReport};
 
 /// Turns events into sentences.
 #[derive(Debug, Clone)]
@@ -16,12 +17,14 @@ pub struct Narrator {
     leading: Leading,
     /// Garbage was reported, and no other event has come since.
     garbage: bool,
+    /// Phases and ways of the surface's regions.
+    regions: Vec<(RegionPhase, BodyDirection)>,
 }
 
 impl Narrator {
     /// A narrator; with counts per newton, forces are told in newtons.
     pub fn new(counts_per_newton: Option<f32>) -> Narrator {
-        Narrator { counts_per_newton, leading: Leading::None, garbage: false }
+        Narrator { counts_per_newton, leading: Leading::None, garbage: false, regions: Vec::new() }
     }
 
     /// Returns the lines for an event, if it deserves any.
@@ -37,7 +40,25 @@ impl Narrator {
             }
             return vec![format!("{} intention: {}", seconds(report.time), report.leading.as_str())];
         }
+        if let Event::Regions(report) = event {
+            return self.regions(client, report);
+        }
         sentences(client, event, self.counts_per_newton)
+    }
+
+    /// Lines for the regions that feel something else than before.
+    fn regions(&mut self, client: &Client, report: &RegionsReport) -> Vec<String> {
+        let before = std::mem::take(&mut self.regions);
+        self.regions = report.regions.iter().map(|region| (region.phase, region.way)).collect();
+        let now = self.regions.iter().zip(&report.regions).enumerate();
+        let changed = now.filter(|(number, (now, _))| {
+            **now != before.get(*number).copied().unwrap_or((RegionPhase::Free, BodyDirection::None))
+        });
+        let line = |(number, (_, region)): (usize, (_, &RegionSymbol))| {
+            let says = felt(client, region)?;
+            Some(format!("{} {}: {says}", seconds(report.time), client.surface_region(number)))
+        };
+        changed.filter_map(line).collect()
     }
 }
 
@@ -90,6 +111,50 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
     }
 }
 
+/// What a region feels; none if it is free again.
+fn felt(client: &Client, region: &RegionSymbol) -> Option<String> {
+    Some(match region.phase {
+        RegionPhase::Free => return None,
+        RegionPhase::Onset => {
+            let words = [strength(region.strength), extent(region.extent)];
+            format!("touched ({}, {})", words.join(" "), client.shape_name(region.class))
+        }
+        RegionPhase::Held => "held".into(),
+        RegionPhase::Moving => format!("moves {}", direction(region.way)),
+        RegionPhase::Released => "released".into(),
+    })
+}
+
+fn strength(strength: Strength) -> &'static str {
+    match strength {
+        Strength::Faint => "faint",
+        Strength::Light => "light",
+        Strength::Firm => "firm",
+        Strength::Hard => "hard",
+    }
+}
+
+fn extent(extent: Extent) -> &'static str {
+    match extent {
+        Extent::Point => "point",
+        Extent::Patch => "patch",
+        Extent::Wide => "wide",
+        Extent::Sharp => "sharp",
+    }
+}
+
+fn direction(way: BodyDirection) -> &'static str {
+    match way {
+        BodyDirection::None => "nowhere",
+        BodyDirection::Forward => "forward",
+        BodyDirection::Back => "back",
+        BodyDirection::Left => "left",
+        BodyDirection::Right => "right",
+        BodyDirection::Up => "up",
+        BodyDirection::Down => "down",
+    }
+}
+
 fn hello(worn: &Worn) -> String {
     let (taxels, panels) = (worn.layout.taxels(), worn.layout.areas().len());
     format!(
@@ -114,18 +179,8 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
     if symbol.phase != Phase::Released {
         return format!("contact {} on the {region} begins", symbol.contact);
     }
-    let strength = match symbol.words.strength {
-        Strength::Faint => "faint",
-        Strength::Light => "light",
-        Strength::Firm => "firm",
-        Strength::Hard => "hard",
-    };
-    let extent = match symbol.words.extent {
-        Extent::Point => "point",
-        Extent::Patch => "patch",
-        Extent::Wide => "wide",
-        Extent::Sharp => "sharp",
-    };
+    let strength = strength(symbol.words.strength);
+    let extent = extent(symbol.words.extent);
     let moving = if symbol.words.moving { ", sliding" } else { "" };
     let feels = match client.hardness(symbol.contact).map(Hardness::of) {
         None | Some(Hardness::Firm) => String::new(),

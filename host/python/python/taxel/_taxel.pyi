@@ -219,6 +219,13 @@ class Folds(_Scanned):
     def contacts(self) -> list[dict[str, int]]: ...
 
 @final
+class Regions(_Scanned):
+    """What each region of the robot's surface feels."""
+
+    @property
+    def regions(self) -> list[dict[str, Any]]: ...
+
+@final
 class Shapes(Event):
     """The base of shapes in use."""
 

@@ -52,6 +52,7 @@ classes! {
     "forms" => Forms, "Ages of the forms of contacts.";
     "pressing" => Pressing, "What presses on the robot: contacts on links, and the force on each link.";
     "folds" => Folds, "What the garment's folds are expected to press.";
+    "regions" => Regions, "What each region of the robot's surface feels.";
     "shapes" => Shapes, "The base of shapes in use.";
     "reaction" => Reaction, "A reaction that began or ended.";
     "reflex" => Reflex, "A reaction that began within a frame.";

@@ -4,10 +4,10 @@ use super::surface::Surface;
 use super::taxel_place::TaxelPlace;
 use crate::error::SettingError;
 use taxel_core::garment::Layout;
-use taxel_core::surface::{ONE, TaxelRecord, table_bytes, write_table};
+use taxel_core::surface::{NO_REGION, ONE, TaxelRecord, table_bytes, write_table};
 
-/// The table of a surface. Error if it has no taxel, more links than a board's table, or a link's name of
-/// more than 16 bytes; or if a taxel lies 2 m or more from its link's origin, along an axis.
+/// The table of a surface. Error if it has no taxel, more links or regions than a board's table, or a name of
+/// one of more than 40 bytes; or if a taxel lies 2 m or more from its link's origin, along an axis.
 pub fn table(surface: &Surface, layout: &Layout) -> Result<Vec<u8>, SettingError> {
     let mut records = Vec::with_capacity(layout.taxels());
     for (taxel, place) in surface.places().iter().enumerate() {
@@ -17,8 +17,9 @@ pub fn table(surface: &Surface, layout: &Layout) -> Result<Vec<u8>, SettingError
         })?);
     }
     let links: Vec<&str> = surface.links().iter().map(String::as_str).collect();
+    let regions: Vec<&str> = surface.regions().iter().map(String::as_str).collect();
     let mut bytes = vec![0; table_bytes(records.len())];
-    write_table(&links, &records, layout, &mut bytes)
+    write_table(&links, &regions, &records, layout, &mut bytes)
         .map_err(|error| SettingError::Surface(error.to_string()))?;
     Ok(bytes)
 }
@@ -34,5 +35,6 @@ fn record(place: &TaxelPlace) -> Option<TaxelRecord> {
     // From the rounded vectors, as the board checks them.
     let exact = |v: [i16; 3]| glam::DVec3::from(v.map(|x| f64::from(x) / f64::from(ONE)));
     let arm = vector(exact(at).cross(exact(normal)))?;
-    Some(TaxelRecord { link: place.link as u16, at, normal, arm })
+    let region = place.region.map_or(NO_REGION, |region| region as u8);
+    Some(TaxelRecord { link: place.link as u8, region, at, normal, arm })
 }

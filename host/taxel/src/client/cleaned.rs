@@ -1,15 +1,16 @@
 //! Removes control characters from a board's names, which are shown in many places.
 
 use crate::tell::words::printable;
-use taxel_core::format::Name;
 use taxel_core::garment::Garment;
 use taxel_core::react::Cause;
 use taxel_core::scene::Scene;
 
-/// Cleans a name. Replacements are never longer.
-pub fn name(name: &mut Name) {
+/// Cleans a name.
+pub fn name<const BYTES: usize>(name: &mut heapless::String<BYTES>) {
     if let std::borrow::Cow::Owned(clean) = printable(name) {
-        *name = taxel_core::format::name(&clean);
+        name.clear();
+        // Replacements are never longer.
+        let _ = name.push_str(&clean);
     }
 }
 

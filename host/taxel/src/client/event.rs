@@ -5,8 +5,8 @@ use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
     Budget, ConfidenceReport, FoldsReport, FormsReport, GestureReport, Health, IntentReport, Level,
-    PressingReport, ReactionReport, ReflexReport, SelfTestReport, SymbolList, SyncReport, Temperature,
-    UnsureReport, WireError,
+    PressingReport, ReactionReport, ReflexReport, RegionsReport, SelfTestReport, SymbolList, SyncReport,
+    Temperature, UnsureReport, WireError,
 };
 
 /// An event; persistent state is found in the [`Client`](super::Client).
@@ -56,6 +56,8 @@ pub enum Event {
     Pressing(Box<PressingReport>),
     /// What the garment's folds are expected to press.
     Folds(Box<FoldsReport>),
+    /// What each region of the robot's surface feels; the names are in the client.
+    Regions(Box<RegionsReport>),
     /// The base of shapes; the names are in the client, too.
     Shapes {
         /// Names of the classes; empty while the built-in base is in use.

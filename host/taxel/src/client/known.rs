@@ -9,7 +9,9 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{Base, Class};
 use taxel_core::symbol::RegionState;
-use taxel_core::wire::{Budget, ConfidenceReport, GestureReport, Health, IntentReport, SelfTestReport};
+use taxel_core::wire::{
+    BoundsReport, Budget, ConfidenceReport, GestureReport, Health, IntentReport, SelfTestReport,
+};
 
 impl Client {
     /// Counters of the connection.
@@ -66,10 +68,21 @@ impl Client {
         self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
     }
 
-    /// The most by which a place in the base is off in a frame, m, because joints have moved since the
-    /// board's poses or are not known exactly; none if nobody knows.
+    /// What is unknown of what presses in a frame; none if nothing is.
+    pub fn bounds(&self, frame: u32) -> Option<&BoundsReport> {
+        self.bounds.as_ref().filter(|bounds| bounds.frame == frame)
+    }
+
+    /// Name of a region of the robot's surface, by its number; empty if it is not known.
+    pub fn surface_region(&self, region: usize) -> &str {
+        self.surface_regions.get(region).map_or("", String::as_str)
+    }
+
+    /// The most by which a place in the base is off in a frame, m, because joints are not known exactly and
+    /// move on; none if nobody knows.
     pub fn pose_error(&self, frame: u32) -> Option<f64> {
-        self.pose_error.filter(|(of, _)| *of == frame).map(|(_, metres)| metres)
+        let errors = self.bounds(frame)?.poses.iter().map(|(_, um)| f64::from(*um) * 1e-6);
+        errors.reduce(f64::max)
     }
 
     /// Ids of the contacts released with the last frame; at most the last 1,024.

@@ -8,8 +8,9 @@ use super::contact::ContactLine;
 use super::lines::{
     AnswerLine, BootLine, ConfidenceLine, ContactsLine, DoubtLine, FoldsLine, FormAge, FormsLine, FrameLine,
     GestureLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, PinFaultLine,
-    RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, SelfTestLine, ShapesLine, SymbolLine,
-    SymbolsLine, SyncLine, TemperatureLine, UnsureLine, UnusableLine, WordsLine,
+    RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, RegionsLine, SelfTestLine, ShapesLine,
+    SurfaceRegionLine, SymbolLine, SymbolsLine, SyncLine, TemperatureLine, UnsureLine, UnusableLine,
+    WordsLine,
 };
 use super::meaning::MeaningOfTouch;
 use super::pressing;
@@ -18,9 +19,11 @@ use serde_json::Value;
 use taxel_core::body::Placed;
 use taxel_core::format::{Micros, Name};
 use taxel_core::intent::Outcome;
+use taxel_core::surface::RegionSymbol;
 use taxel_core::symbol::Symbol;
 use taxel_core::wire::{
-    GestureReport, IntentReport, Level, ReactionReport, ReflexReport, SelfTestReport, SymbolList,
+    GestureReport, IntentReport, Level, ReactionReport, ReflexReport, RegionsReport, SelfTestReport,
+    SymbolList,
 };
 
 /// Encodes one event as a JSON object; null for a `Hello` that cannot be used.
@@ -77,6 +80,7 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             doubt: report.doubt,
             contacts: report.contacts.iter().map(|it| DoubtLine { id: it.id, doubt: it.doubt }).collect(),
         }),
+        Event::Regions(report) => JsonLine::Regions(regions(client, report)),
         Event::Shapes { names, prototypes } => {
             JsonLine::Shapes(ShapesLine { classes: names, prototypes: *prototypes })
         }
@@ -214,6 +218,21 @@ fn symbols<'a>(client: &'a Client, list: &SymbolList) -> SymbolsLine<'a> {
         events: list.events.iter().map(event).collect(),
         regions: list.regions.iter().map(region).collect(),
     }
+}
+
+fn regions<'a>(client: &'a Client, report: &RegionsReport) -> RegionsLine<'a> {
+    let region = |(number, state): (usize, &RegionSymbol)| SurfaceRegionLine {
+        region: client.surface_region(number),
+        phase: state.phase,
+        way: state.way,
+        contacts: state.contacts,
+        strength: state.strength,
+        extent: state.extent,
+        class: client.shape_name(state.class),
+        since: state.since.0,
+    };
+    let regions = report.regions.iter().enumerate().map(region).collect();
+    RegionsLine { frame: report.frame, time_us: report.time.0, regions }
 }
 
 /// Models are fitted to score 2^18 for the right class and -2^18 for the others.

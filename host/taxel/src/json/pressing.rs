@@ -1,6 +1,6 @@
 //! The JSON message of what presses on the robot.
 
-use super::lines::{LandedLine, PressingLine, PushLine, WrenchLine};
+use super::lines::{LandedLine, PressingLine, PushLine, UncertainLine, WrenchLine};
 use crate::body::{DVec3, Surface, wrenches};
 use crate::client::Client;
 use std::collections::BTreeSet;
@@ -8,18 +8,20 @@ use taxel_core::body::Placed;
 use taxel_core::contact::Contact;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Layout, Place};
-use taxel_core::surface::{Landed, Micrometres, ONE, UnitVector, Wrench};
-use taxel_core::wire::PressingReport;
+use taxel_core::surface::{Landed, Micrometres, ONE, Uncertainty, UnitVector, Wrench};
+use taxel_core::wire::{BoundsReport, PressingReport};
 
 /// The message of a report that the client has just taken.
 pub fn line<'a>(client: &Client, report: &'a PressingReport) -> PressingLine<'a> {
     let name =
         |link: u8| report.links.iter().find(|wrench| wrench.link == link).map_or("", |w| w.name.as_str());
+    let bounds = client.bounds(report.frame);
     let contact = |landed: &Landed| LandedLine {
         id: landed.id,
         link: name(landed.spot.link),
         own: push(landed.spot.at, landed.spot.normal, landed.force),
         base: landed.base.map(|base| push(base.at, base.normal, base.force)),
+        uncertain: bounds.and_then(|it| uncertain(&it.contacts, &landed.id)),
     };
     PressingLine {
         frame: report.frame,
@@ -28,7 +30,7 @@ pub fn line<'a>(client: &Client, report: &'a PressingReport) -> PressingLine<'a>
         pose_age_us: report.posed.map(|time| report.time.0.wrapping_sub(time.0) as i64),
         pose_error_m: client.pose_error(report.frame).filter(|_| report.posed.is_some()),
         contacts: report.contacts.iter().map(contact).collect(),
-        links: report.links.iter().map(wrench).collect(),
+        links: report.links.iter().map(|it| wrench(it, bounds)).collect(),
     }
 }
 
@@ -50,7 +52,7 @@ pub fn computed<'a>(
         let place = surface.at(layout, contact.panel, contact.x.to_f64(), contact.y.to_f64())?;
         let force = counts(force_of(contact, layout, surface, image, low));
         let own = PushLine { at_m: place.at.to_array(), normal: place.normal.to_array(), force };
-        Some(LandedLine { id: contact.id, link: name(place.link), own, base: None })
+        Some(LandedLine { id: contact.id, link: name(place.link), own, base: None, uncertain: None })
     };
     let pressed: Vec<f64> = image.iter().map(|counts| f64::from(*counts)).collect();
     let links = wrenches(surface, &pressed).into_iter().filter(|wrench| wrench.pressed > 0.0);
@@ -68,6 +70,7 @@ pub fn computed<'a>(
                 moment: wrench.moment.to_array(),
                 pressed: wrench.pressed as u32,
                 center_m: wrench.center.to_array(),
+                uncertain: None,
             })
             .collect(),
     })
@@ -95,14 +98,22 @@ fn force_of(contact: &Contact, layout: &Layout, surface: &Surface, image: &[u16]
     if total > 0.0 { force * (f64::from(contact.total) / total) } else { DVec3::ZERO }
 }
 
-fn wrench(wrench: &Wrench) -> WrenchLine<'_> {
+fn wrench<'a>(wrench: &'a Wrench, bounds: Option<&BoundsReport>) -> WrenchLine<'a> {
     WrenchLine {
         link: &wrench.name,
         force: wrench.force,
         moment: wrench.moment.map(|moment| moment as f64 / 1000.0),
         pressed: wrench.pressed,
         center_m: metres(wrench.center),
+        uncertain: bounds.and_then(|it| uncertain(&it.links, &wrench.link)),
     }
+}
+
+/// What is unknown of a contact or of a link.
+fn uncertain<T: PartialEq>(all: &[(T, Uncertainty)], of: &T) -> Option<UncertainLine> {
+    let (_, it) = all.iter().find(|(named, _)| named == of)?;
+    let Uncertainty { saturated, faulty, less, more, off } = *it;
+    Some(UncertainLine { saturated, faulty, less, more, off_m: f64::from(off) / 1e6 })
 }
 
 fn push(at: Micrometres, normal: UnitVector, force: [i32; 3]) -> PushLine {

@@ -21,8 +21,8 @@ use crate::ros2::messages::{self, BoardState};
 use crate::ros2::topics::{LINK_COUNTS, LINK_WRENCH};
 use crate::ros2::{pressing, schemas, topic_part};
 use std::collections::{BTreeMap, BTreeSet};
-use taxel_core::format::Name;
 use taxel_core::garment::Area;
+use taxel_core::surface::LinkName;
 use taxel_core::wire::PressingReport;
 
 /// A file with ROS 2 messages only: readers of ROS bags refuse files with other messages. A channel is
@@ -39,7 +39,7 @@ pub struct Ros2<S: Store> {
     /// The body on this garment.
     surface: Option<Surface>,
     /// Links that something has pressed on.
-    links: BTreeSet<Name>,
+    links: BTreeSet<LinkName>,
 }
 
 /// A message for a topic.
@@ -79,7 +79,7 @@ impl<S: Store> Ros2<S> {
     fn pressing(&mut self, report: &PressingReport, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
         self.links.extend(report.links.iter().map(|wrench| wrench.name.clone()));
         let of = if scale.is_some() { LINK_WRENCH } else { LINK_COUNTS };
-        let sent = |link: &Name| {
+        let sent = |link: &LinkName| {
             let presses = report.links.iter().find(|wrench| wrench.name == *link);
             Sent {
                 topic: format!("/{}", of.name.replace("LINK", &topic_part(link))),

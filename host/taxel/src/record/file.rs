@@ -11,7 +11,7 @@ use crate::recording::{HELLO, Store, Writer};
 use crate::session::JointPositions;
 use taxel_core::fold::Posture;
 use taxel_core::format::Name;
-use taxel_core::surface::Pose;
+use taxel_core::surface::{LinkName, Pose};
 
 /// A file of a recording.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ impl<S: Store> RecordingFile<S> {
     }
 
     /// Writes poses sent to the board.
-    pub fn poses(&mut self, stamp: Stamp, poses: &[(Name, Pose)]) -> Result<()> {
+    pub fn poses(&mut self, stamp: Stamp, poses: &[(LinkName, Pose)]) -> Result<()> {
         let links = poses.iter().map(|(name, pose)| LinkPoseLine {
             link: name.as_str(),
             at_m: pose.at.map(|um| f64::from(um) * 1e-6),

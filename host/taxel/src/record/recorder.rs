@@ -20,12 +20,15 @@ use crate::tell::progress::{self, Unit};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel_core::format::Name;
-use taxel_core::surface::{LINKS, Pose};
+use taxel_core::format::Micros;
+use taxel_core::surface::{LINKS, LinkName, MovingPose, Pose};
 use taxel_core::wire::{self, Request};
 
 /// What `SetPoses` holds.
-type SentPoses = heapless::Vec<(Name, Pose), LINKS>;
+type SentPoses = heapless::Vec<(LinkName, Pose), LINKS>;
+
+/// What `MovePoses` holds beside the time.
+type MovingPoses = heapless::Vec<MovingPose, LINKS>;
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
@@ -294,6 +297,14 @@ impl<E: From<Error>> Show<E> for Recorder {
                 Ok(Request::SetPoses(poses)) => match wire::decode::<SentPoses>(poses) {
                     Ok(poses) => file.poses(stamp, &poses),
                     // A program's own bytes, which the board refuses.
+                    Err(_) => Ok(()),
+                },
+                Ok(Request::MovePoses(poses)) => match wire::decode::<(Micros, MovingPoses)>(poses) {
+                    Ok((_, poses)) => {
+                        let poses: SentPoses =
+                            poses.into_iter().map(|(link, pose, _)| (link, pose)).collect();
+                        file.poses(stamp, &poses)
+                    }
                     Err(_) => Ok(()),
                 },
                 _ => Ok(()),

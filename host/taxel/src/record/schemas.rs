@@ -11,7 +11,7 @@ macro_rules! schema {
 pub type JsonTopic = (&'static str, &'static str);
 
 /// All JSON topics.
-pub const JSON: [JsonTopic; 17] = [
+pub const JSON: [JsonTopic; 18] = [
     schema!("hello"),
     schema!("frames"),
     schema!("contacts"),
@@ -29,17 +29,18 @@ pub const JSON: [JsonTopic; 17] = [
     schema!("pressing"),
     schema!("joints"),
     schema!("poses"),
+    schema!("regions"),
 ];
 
 /// The schemas as the structs give them, in the order of [`JSON`]: as programs for recordings want them, and
 /// as they are.
 #[cfg(feature = "schema")]
-pub fn derived() -> [[serde_json::Value; 2]; 17] {
+pub fn derived() -> [[serde_json::Value; 2]; 18] {
     use super::message::{FrameMessage, JointsLine, PosesLine, PostureLine};
     use crate::json::HostTimed;
     use crate::json::lines::{
         BudgetLine, ContactsLine, GestureLine, HealthLine, HealthMapLine, HelloLine, IntentLine, LogLine,
-        PressingLine, ReactionLine, SelfTestLine, SymbolsLine, TemperatureLine,
+        PressingLine, ReactionLine, RegionsLine, SelfTestLine, SymbolsLine, TemperatureLine,
     };
     use crate::json::schema::{of, plain};
     use schemars::JsonSchema;
@@ -73,5 +74,6 @@ pub fn derived() -> [[serde_json::Value; 2]; 17] {
         timed::<PressingLine<'static>>(),
         timed::<JointsLine<'static>>(),
         timed::<PosesLine<'static>>(),
+        timed::<RegionsLine<'static>>(),
     ]
 }

@@ -113,6 +113,7 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Forms(report) => report.time,
         Event::Pressing(report) => report.time,
         Event::Folds(report) => report.time,
+        Event::Regions(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
         Event::Boot(_)

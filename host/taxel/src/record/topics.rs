@@ -56,6 +56,7 @@ pub fn of(event: &Event) -> Option<&'static str> {
         Event::Gesture(_) => "gestures",
         Event::SelfTest(_) => "self_test",
         Event::Pressing(_) => "pressing",
+        Event::Regions(_) => "regions",
         Event::Log { .. } => "log",
         _ => return None,
     })

@@ -21,6 +21,7 @@
 //! | `absence.rs` | a lost source, until it is back |
 //! | `setting.rs` | garments, scenes and models of the user, queued as requests |
 //! | `joint_time.rs` | when positions of joints were read |
+//! | `moving.rs` | how the links move that wear a garment |
 //! | `posing.rs` | [`Posing`]: a robot's posture, told to the board |
 //! | `joint_states.rs` | positions of joints as lines |
 //! | `show.rs` | [`Show`]: who is handed the stream |
@@ -28,6 +29,7 @@
 mod absence;
 mod joint_states;
 mod joint_time;
+mod moving;
 mod outgoing;
 mod posing;
 pub mod setting;
@@ -260,7 +262,7 @@ impl Session {
             self.taken += 1;
             if let Some(event) = self.client.push(*byte) {
                 if let Some(posing) = &mut self.posing {
-                    posing.event(&mut self.client, &event);
+                    posing.event(&event);
                 }
                 return Some(event);
             }

@@ -1,8 +1,9 @@
 //! A robot's posture, told to the board that the robot wears.
 
 use super::joint_time::JointTime;
+use super::moving::moving;
 use super::setting;
-use crate::body::posture::{Estimate, JointHistory, Motion};
+use crate::body::posture::{JointHistory, Motion};
 use crate::body::robot::{self, Robot};
 use crate::body::{self, ReadBody, RobotSurface};
 use crate::client::{Client, Event};
@@ -26,8 +27,8 @@ const REFUSED: Duration = Duration::from_secs(1);
 const SILENT: Duration = Duration::from_millis(200);
 /// Most by which positions may be stamped before or after now, us.
 const APART_US: u128 = 10_000_000;
-/// Number of `SetPoses`.
-const SET_POSES: u8 = Request::SetPoses(&[]).number();
+/// Number of `MovePoses`.
+const MOVE_POSES: u8 = Request::MovePoses(&[]).number();
 
 /// Positions of joints, at a time.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,8 +39,8 @@ pub struct JointPositions {
     pub positions: Vec<(String, f64)>,
 }
 
-/// Turns positions of a robot's joints into poses of the links that wear the garment, sends them to the
-/// board, and bounds the error of what the board makes of them.
+/// Turns positions of a robot's joints into poses of the links that wear the garment, and sends them to the
+/// board, with how they move: the board carries them on, and bounds the error.
 ///
 /// Positions come through [`Session::take_joints`](super::Session::take_joints) or [`Posing::take`]. Poses
 /// are those of the [live](JointHistory::live) posture in the frame of the robot's root, the base. While
@@ -57,10 +58,8 @@ pub struct Posing {
     taken: Vec<JointPositions>,
     /// The board's time of the next poses, us.
     due_us: u64,
-    /// The posture of the poses that the board has not answered, and when they were sent.
-    asked: Option<(Vec<f64>, Instant)>,
-    /// That of the poses that the board has.
-    in_force: Option<Vec<f64>>,
+    /// When the poses were sent that the board has not answered.
+    asked: Option<Instant>,
     refused: Option<Instant>,
     /// Restarts of the board so far.
     restarts: u64,
@@ -95,7 +94,6 @@ impl Posing {
             taken: Vec::new(),
             due_us: 0,
             asked: None,
-            in_force: None,
             refused: None,
             restarts: 0,
         })
@@ -164,10 +162,10 @@ impl Posing {
         if std::mem::replace(&mut self.restarts, restarts) != restarts {
             // Its clock begins anew, and it has no poses.
             self.history.forget();
-            (self.in_force, self.asked, self.due_us) = (None, None, 0);
+            (self.asked, self.due_us) = (None, 0);
         }
         let (Some(worn), Some(now)) = (&self.worn, self.now.0) else { return Ok(()) };
-        let waits = self.asked.as_ref().is_some_and(|(_, since)| since.elapsed() < ANSWER)
+        let waits = self.asked.is_some_and(|since| since.elapsed() < ANSWER)
             || self.refused.is_some_and(|since| since.elapsed() < REFUSED)
             || client.is_storing_table();
         // A replayed clock may go back.
@@ -179,15 +177,13 @@ impl Posing {
         if estimate.age > SILENT {
             return Ok(());
         }
-        let Estimate { posture, .. } = estimate;
-        let poses = worn.surface.poses(&self.robot.poses(&posture), 0).unwrap_or_default();
+        let Some(moving) = moving(&worn.surface, &self.history, &estimate, now) else { return Ok(()) };
         let links = worn.surface.surface().links().iter().map(String::as_str);
-        let told = links.zip(&poses).map(|(link, pose)| (link, pose.at.to_array(), pose.turn.to_array()));
-        setting::set_poses(client, told)?;
+        setting::move_poses(client, now, links.zip(moving))?;
         // Later than due by less than a period: the next one is not late, too.
         let next_us = self.due_us + self.period_us;
         self.due_us = if next_us > now.0 { next_us } else { now.0 + self.period_us };
-        (self.asked, self.refused) = (Some((posture, Instant::now())), None);
+        (self.asked, self.refused) = (Some(Instant::now()), None);
         Ok(())
     }
 
@@ -200,33 +196,15 @@ impl Posing {
         let surface = self.body.on_robot(&board.garment, &board.layout, self.robot.clone())?;
         self.history.need(&surface.moving(0));
         self.worn = Some(WornBody { garment: board.garment.clone(), surface });
-        (self.in_force, self.asked) = (None, None);
+        self.asked = None;
         Ok(())
     }
 
-    /// Handles an event that the client already includes.
-    pub(super) fn event(&mut self, client: &mut Client, event: &Event) {
-        match event {
-            Event::Answer { request: SET_POSES, refusal } => {
-                // Answers precede the reports to which the poses apply.
-                let posture = self.asked.take().map(|(posture, _)| posture);
-                self.in_force = posture.filter(|_| refusal.is_none());
-                self.refused = refusal.is_some().then(Instant::now);
-            }
-            Event::Pressing(report) if report.posed.is_some() => {
-                if let Some(error) = self.error(report.time) {
-                    client.tell_pose_error(report.frame, error);
-                }
-            }
-            _ => {}
+    /// Handles an event.
+    pub(super) fn event(&mut self, event: &Event) {
+        if let Event::Answer { request: MOVE_POSES, refusal } = event {
+            self.asked = None;
+            self.refused = refusal.is_some().then(Instant::now);
         }
-    }
-
-    /// The most by which a taxel is elsewhere in the base, at a time, than the board's poses say, m. None if
-    /// it is not known.
-    fn error(&self, time: Micros) -> Option<f64> {
-        let (worn, told) = (self.worn.as_ref()?, self.in_force.as_ref()?);
-        let estimate = self.history.live(time).ok()?;
-        Some(worn.surface.told_displacement(told, &estimate, 0)).filter(|error| error.is_finite())
     }
 }

@@ -8,11 +8,11 @@ use crate::source::SceneFile;
 use crate::tell::verbose;
 use std::path::Path;
 use taxel_core::board::TableKind;
-use taxel_core::format::Name;
+use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::gesture::{Certainty, GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
-use taxel_core::surface::{LINKS, Pose};
+use taxel_core::surface::{LINKS, LinkMotion, LinkName, MovingPose, Pose};
 use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
 
 /// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
@@ -80,14 +80,31 @@ pub fn set_poses<'a>(
     client: &mut Client,
     poses: impl IntoIterator<Item = (&'a str, [f64; 3], [f64; 4])>,
 ) -> Result<()> {
-    let mut told: heapless::Vec<(Name, Pose), LINKS> = heapless::Vec::new();
+    let mut told: heapless::Vec<(LinkName, Pose), LINKS> = heapless::Vec::new();
     for (link, at, turn) in poses {
         let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
-        let called = link.try_into().map_err(|_| wrong("its name is longer than 16 bytes"))?;
+        let called = link.try_into().map_err(|_| wrong("its name is longer than 40 bytes"))?;
         let pose = body::Pose::from_arrays(at, turn).for_board().map_err(wrong)?;
         told.push((called, pose)).map_err(|_| wrong("a body has at most 8 links"))?;
     }
     Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
+}
+
+/// Queues poses of links of the board's body at the board's time `at`, by name, in the frame in which contacts are
+/// to be told, and how they move: the board carries them on.
+pub fn move_poses<'a>(
+    client: &mut Client,
+    at: Micros,
+    poses: impl IntoIterator<Item = (&'a str, (body::Pose, LinkMotion))>,
+) -> Result<()> {
+    let mut told: heapless::Vec<MovingPose, LINKS> = heapless::Vec::new();
+    for (link, (pose, motion)) in poses {
+        let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
+        let called = link.try_into().map_err(|_| wrong("its name is longer than 40 bytes"))?;
+        let pose = pose.for_board().map_err(wrong)?;
+        told.push((called, pose, motion)).map_err(|_| wrong("a body has at most 8 links"))?;
+    }
+    Ok(client.request(&Request::MovePoses(&postcard::to_allocvec(&(at, told))?))?)
 }
 
 /// Queues `SetScene` for a scene's file.

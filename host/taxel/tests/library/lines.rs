@@ -11,10 +11,12 @@ use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::format::{Celsius, Micros, Q15, name};
 use taxel_core::react::Reaction;
 use taxel_core::selftest::{Fault, Findings, PinFault};
-use taxel_core::surface::{InBase, Landed, SurfacePoint, Wrench};
+use taxel_core::surface::{
+    BodyDirection, InBase, Landed, LinkName, RegionPhase, RegionSymbol, SurfacePoint, Wrench,
+};
 use taxel_core::wire::{
     Budget, ConfidenceReport, FormsReport, GestureReport, Health, Level, PressingReport, ReactionReport,
-    ReflexReport, SelfTestReport, SyncReport, Temperature, UnsureReport, WireError,
+    ReflexReport, RegionsReport, SelfTestReport, SyncReport, Temperature, UnsureReport, WireError,
 };
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/library/golden/lines.txt");
@@ -77,7 +79,7 @@ fn pressing() -> PressingReport {
     let landed = |id, base| Landed { id, spot, force: [-3, 4_000, 0], base };
     let wrench = Wrench {
         link: 1,
-        name: name("forearm"),
+        name: LinkName::try_from("forearm").unwrap(),
         force: [-3, 4_000, 0],
         moment: [-1_200_000, 0, 77],
         pressed: 4_100,
@@ -114,6 +116,13 @@ fn others(client: &Client, lines: &mut Lines) {
     let confidence = ConfidenceReport { frame: 9, time: TIME, touch: 3, confidence: Q15(23_456) };
     let unsure = UnsureReport { frame: 9, time: TIME, contacts: heapless::Vec::from_slice(&[4, 5]).unwrap() };
     let ages = heapless::Vec::from_slice(&[(4, 7), (5, 255)]).unwrap();
+    let region = RegionSymbol {
+        phase: RegionPhase::Moving,
+        way: BodyDirection::Down,
+        contacts: 2,
+        since: Micros(1_000),
+        ..RegionSymbol::default()
+    };
     let all = [
         Event::Unusable("protocol 2".into()),
         Event::Gesture(gesture),
@@ -121,6 +130,11 @@ fn others(client: &Client, lines: &mut Lines) {
         Event::Unsure(Box::new(unsure)),
         Event::Forms(Box::new(FormsReport { frame: 9, time: TIME, ages })),
         Event::Pressing(Box::new(pressing())),
+        Event::Regions(Box::new(RegionsReport {
+            frame: 9,
+            time: TIME,
+            regions: [region].into_iter().collect(),
+        })),
         Event::Shapes { names: vec!["mug".into(), "ball".into()], prototypes: 12 },
         Event::Reaction(ReactionReport { frame: 9, time: TIME, reaction }),
         Event::Reflex(reflex),

@@ -286,11 +286,11 @@ export type ImageHead = {
       frame: number;
       /** Start of the scan, us of the board. */
       time_us: number;
-      /** Time at which the board received the poses in force, us of the board; null without poses. */
+      /** Time of the poses in force, us of the board: of links that stand still, when it received them. Null without poses. */
       posed_us: number | null;
       /** Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses. */
       pose_age_us: number | null;
-      /** The most by which a place in the frame of the poses is off, m, because joints have moved since the poses, or are not known exactly: by what the host that tells the poses knows of the joints. Null if it does not know. */
+      /** The most by which a place in the frame of the poses is off, m, because joints are not known exactly and move on: by what the host that tells the poses knows of the joints. Null if it does not say it. */
       pose_error_m: number | null;
       /** The contacts that have a place. */
       contacts: {
@@ -313,6 +313,19 @@ export type ImageHead = {
           /** Force, counts. */
           force: [number, number, number];
         } | null;
+        /** What saturated and faulty taxels leave unknown; null if there is none. */
+        uncertain: {
+          /** Number of saturated taxels: with one or more, the force is the least that it may be. */
+          saturated: number;
+          /** Number of faulty taxels under the contact, or at its edge. */
+          faulty: number;
+          /** The most by which the faulty ones press less than is counted for them, counts. */
+          less: number;
+          /** The most by which they press more, counts. */
+          more: number;
+          /** The most by which they move the centre of pressure, m. */
+          off_m: number;
+        } | null;
       }[];
       /** The links that something presses on. */
       links: {
@@ -326,6 +339,19 @@ export type ImageHead = {
         pressed: number;
         /** Centre of pressure, m. */
         center_m: [number, number, number];
+        /** What saturated and faulty taxels leave unknown; null if there is none. */
+        uncertain: {
+          /** Number of saturated taxels: with one or more, the force is the least that it may be. */
+          saturated: number;
+          /** Number of faulty taxels under the contact, or at its edge. */
+          faulty: number;
+          /** The most by which the faulty ones press less than is counted for them, counts. */
+          less: number;
+          /** The most by which they press more, counts. */
+          more: number;
+          /** The most by which they move the centre of pressure, m. */
+          off_m: number;
+        } | null;
       }[];
     };
     /** True if the image is from before the page was opened. */

@@ -7,6 +7,7 @@ mod folds;
 mod frame;
 mod perceived;
 mod pressing;
+mod regions;
 mod touch;
 
 pub use board::{
@@ -16,7 +17,8 @@ pub use board::{
 pub use folds::{DoubtLine, FoldsLine};
 pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
 pub use perceived::{IntentLine, ReactionLine, ReflexLine, RegionLine, SymbolLine, SymbolsLine, WordsLine};
-pub use pressing::{LandedLine, PressingLine, PushLine, WrenchLine};
+pub use pressing::{LandedLine, PressingLine, PushLine, UncertainLine, WrenchLine};
+pub use regions::{RegionsLine, SurfaceRegionLine};
 pub use touch::{ConfidenceLine, FormAge, FormsLine, GestureLine, ShapesLine, UnsureLine};
 
 use serde::Serialize;
@@ -41,6 +43,7 @@ pub enum JsonLine<'a> {
     Forms(FormsLine),
     Pressing(PressingLine<'a>),
     Folds(FoldsLine),
+    Regions(RegionsLine<'a>),
     Shapes(ShapesLine<'a>),
     Reaction(ReactionLine<'a>),
     Reflex(ReflexLine),

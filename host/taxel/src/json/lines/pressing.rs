@@ -14,13 +14,13 @@ pub struct PressingLine<'a> {
     pub frame: u32,
     /// Start of the scan, us of the board.
     pub time_us: u64,
-    /// Time at which the board received the poses in force, us of the board; null without poses.
+    /// Time of the poses in force, us of the board: of links that stand still, when it received them. Null
+    /// without poses.
     pub posed_us: Option<u64>,
     /// Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses.
     pub pose_age_us: Option<i64>,
-    /// The most by which a place in the frame of the poses is off, m, because joints have moved since the
-    /// poses, or are not known exactly: by what the host that tells the poses knows of the joints. Null if it
-    /// does not know.
+    /// The most by which a place in the frame of the poses is off, m, because joints are not known exactly and
+    /// move on: by what the host that tells the poses knows of the joints. Null if it does not say it.
     pub pose_error_m: Option<f64>,
     /// The contacts that have a place.
     pub contacts: Vec<LandedLine<'a>>,
@@ -41,6 +41,24 @@ pub struct LandedLine<'a> {
     pub own: PushLine,
     /// The same in the frame of the poses; null without a pose of the link.
     pub base: Option<PushLine>,
+    /// What saturated and faulty taxels leave unknown; null if there is none.
+    pub uncertain: Option<UncertainLine>,
+}
+
+/// What saturated and faulty taxels leave unknown of a force and its place.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct UncertainLine {
+    /// Number of saturated taxels: with one or more, the force is the least that it may be.
+    pub saturated: u16,
+    /// Number of faulty taxels under the contact, or at its edge.
+    pub faulty: u16,
+    /// The most by which the faulty ones press less than is counted for them, counts.
+    pub less: u32,
+    /// The most by which they press more, counts.
+    pub more: u32,
+    /// The most by which they move the centre of pressure, m.
+    pub off_m: f64,
 }
 
 /// A force at a place.
@@ -69,4 +87,6 @@ pub struct WrenchLine<'a> {
     pub pressed: u32,
     /// Centre of pressure, m.
     pub center_m: [f64; 3],
+    /// What saturated and faulty taxels leave unknown; null if there is none.
+    pub uncertain: Option<UncertainLine>,
 }
