@@ -9,7 +9,7 @@ use super::pose::{Pose, Quaternion, Rigid};
 use crate::format::{Invalid, Micros};
 use serde::{Deserialize, Serialize};
 
-/// LinkMotion of a link at the time of its pose, in the frame in which contacts are told.
+/// Motion of a link at the time of its pose, in the frame in which contacts are told.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LinkMotion {

@@ -77,7 +77,7 @@ pub struct RegionSymbol {
 pub const ONSET_MS: u64 = 150;
 /// Time for which a release is told, ms.
 pub const RELEASED_MS: u64 = 500;
-/// BodyDirection of a contact after which its direction is known, um.
+/// Way that a contact has gone before its direction is known, um.
 const STEP_UM: i32 = 5_000;
 
 /// A contact on the surface, and where it began its present step.
