@@ -129,7 +129,7 @@ impl Surface {
         let mut pressing = Pressing::new();
         press(&mut pressing, &table);
         let frames = self.poses.at(time);
-        let is_bounded = core::mem::replace(&mut self.bounded, Some(frame)) == Some(frame);
+        let is_bounded = self.bounded.replace(frame) == Some(frame);
         if !is_bounded && (pressing.is_in_doubt() || frames.errors().next().is_some()) {
             // What it bounds follows.
             self.due = Some((frame, time));

@@ -73,8 +73,8 @@ impl LinkMotion {
         }
         let turn = turned(pose.turn, angle, square);
         let long = i64::from(seconds).abs();
-        let moved =
-            (i64::from(self.drift) * long >> 24) + ((i64::from(self.acceleration) * long >> 24) * long >> 25);
+        let moved = ((i64::from(self.drift) * long) >> 24)
+            + ((((i64::from(self.acceleration) * long) >> 24) * long) >> 25);
         let off = u64::from(self.error) + moved.unsigned_abs() + u64::from(ROUNDED_UM);
         Some((Pose { at, turn }.matrix(), u32::try_from(off).unwrap_or(u32::MAX)))
     }
