@@ -210,7 +210,8 @@ impl Scene {
         let times = |factor: u16| deviation.saturating_mul(factor).max(1);
         self.condition.filter = Filter::Square;
         self.condition.floor = self.condition.floor.max(times(2));
-        self.contact.low = self.contact.low.max(times(2));
+        // Two thirds of the high threshold, which small taxels then do not lower.
+        self.contact.low = self.contact.low.max((u32::from(deviation) * 13).div_ceil(6).min(0xffff) as u16);
         self.contact.high = self.contact.high.max((u32::from(deviation) * 13 / 4).min(0xffff) as u16);
         self
     }

@@ -41,6 +41,8 @@ pub(crate) struct Consensus {
     panels: [PanelDrift; PANELS],
     /// True if one of the panels drifts fast.
     fast: bool,
+    /// Votes until no panel drifts fast, or did recently: as many as panels vote in a half-turn.
+    restless: u8,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,14 +68,14 @@ impl PanelDrift {
 impl Consensus {
     pub const fn new() -> Self {
         let panel = PanelDrift { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0, lately: 0 };
-        Consensus { panels: [panel; PANELS], fast: false }
+        Consensus { panels: [panel; PANELS], fast: false, restless: 0 }
     }
 
     /// Begins again after baselines have been set.
     pub fn forget(&mut self) {
         let begin = |panel: &mut PanelDrift| (panel.begun, panel.steps, panel.lately) = (false, [0; 2], 0);
         self.panels.iter_mut().for_each(begin);
-        self.fast = false;
+        (self.fast, self.restless) = (false, 0);
     }
 
     /// Drift of a panel in this turn, counts.
@@ -94,6 +96,11 @@ impl Consensus {
     /// True if one of the panels drifts fast.
     pub const fn is_fast(&self) -> bool {
         self.fast
+    }
+
+    /// True if one of the panels drifts fast, or did recently.
+    pub const fn is_restless(&self) -> bool {
+        self.restless > 0
     }
 
     /// Takes the votes of a panel's witnesses, given the baselines and gains of all taxels. `whole`: a turn
@@ -156,6 +163,7 @@ impl Consensus {
             true => panel.lately.saturating_add(LASTS).min(LASTING),
             false => panel.lately.saturating_sub(1),
         };
+        self.restless = if panel.lately > 0 { PANELS as u8 } else { self.restless.saturating_sub(1) };
         self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
     }
 }

@@ -104,6 +104,11 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.tracking.consensus.drifted(panel)
     }
 
+    /// True while a panel drifts fast, and for some seconds after it did.
+    pub fn drifts_fast(&self) -> bool {
+        self.tracking.consensus.is_restless()
+    }
+
     /// Gains by taxel number, Q4.12.
     pub fn gain(&self) -> &[u16] {
         &self.calibration.gain

@@ -67,7 +67,7 @@ pub struct Touches<'a, S = Contact> {
     /// Number of contacts that did not fit into this frame: those with the smallest totals.
     pub dropped: u16,
     /// Panels with a component that is nearly a contact, one bit each: its peak is at least three quarters of
-    /// the high threshold.
+    /// the least peak of a contact there.
     pub faint: u8,
     /// Number of runs and of joins across seams that did not fit: parts of contacts may be missing or
     /// separate.
@@ -112,6 +112,12 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         self.labeller.clear();
         self.tracks.clear();
         self.feedback = Feedback::new();
+    }
+
+    /// Sets whether the baseline of a panel drifts fast: then no contact begins below the high threshold,
+    /// however small the taxels are.
+    pub fn set_drifting(&mut self, drifting: bool) {
+        self.components.drifting = drifting;
     }
 
     /// The contacts' rectangles and peaks, for the conditioning of the next frame.
@@ -238,7 +244,7 @@ impl Contacts {
         labeller.scan(layout, image, self.config.low);
         labeller.mark_held(layout, feedback, self.config.high);
         joins.find(labeller, layout);
-        components.select(&self.config, labeller);
+        components.select(&self.config, labeller, layout);
         components.number(labeller);
         components.measure(labeller, joins, layout, image);
         components.feed_back(feedback);

@@ -12,6 +12,9 @@
 //! the latest earlier frame that is at least [`WINDOW_US`] older; if frames are further apart, since the
 //! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
 //! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
+//!
+//! A touch **still comes** while its load, at the rate of that time, would double within [`COMING_US`]: what
+//! it will be cannot be known yet.
 
 use super::felt::Felt;
 use crate::format::{Inverse, Micros, wide};
@@ -20,6 +23,9 @@ use core::num::NonZeroU32;
 /// Shortest time over which a rise is measured, us: two frames of the reference board, a quarter of the time
 /// in which a hand closes.
 pub const WINDOW_US: u64 = 9_000;
+/// Time within which a load that still comes would double at its present rate, us. Pokes and pushes grow
+/// faster until they are harder than a kind touch; what leans, holds or strokes grows more slowly.
+const COMING_US: u32 = 60_000;
 /// Shortest time between two beats of a hand, us.
 const FASTEST_BEAT_US: u64 = 120_000;
 /// Time without a beat after which the rhythm is over, us.
@@ -92,6 +98,8 @@ pub struct Evidence {
     begun: bool,
     /// Rise of this frame, counts/ms.
     pub(super) rise: u32,
+    /// True while the touch still comes; see the [module](self).
+    pub(super) comes: bool,
     blow: RecentPeak,
     load: RecentPeak,
     peak: RecentPeak,
@@ -127,7 +135,7 @@ impl Evidence {
         self.rests(felt.load, now);
     }
 
-    /// Returns the rise of this frame, counts/ms.
+    /// Returns the rise of this frame, counts/ms, and updates whether the touch still comes.
     fn rise_of(&mut self, felt: &Felt, now: Micros) -> u32 {
         if !self.begun {
             // The onset of what touches in the first frame was not seen.
@@ -140,6 +148,9 @@ impl Evidence {
         let region = regions.map(|(here, then)| here.saturating_sub(*then)).max().unwrap_or(0);
         let gain = region.min(felt.whole().saturating_sub(anchor.felt.whole()));
         let passed = u32::try_from(now.since(anchor.at)).unwrap_or(u32::MAX);
+        let growth = felt.load.saturating_sub(anchor.felt.load);
+        // Within WINDOW_US it grows by a seventh; what grows by less needs no long product.
+        self.comes = growth > felt.load / 8 && wide(growth, COMING_US) > wide(felt.load, passed);
         let rise = match NonZeroU32::new(passed) {
             Some(passed) if gain > 0 => Inverse::of(passed.get()).quotient(wide(gain, 1_000)),
             _ => 0,
@@ -244,6 +255,25 @@ mod tests {
         }
         // Within a frame of 40 ms it may have come slowly.
         assert!(steepest(40_000, slap) <= 1_000);
+    }
+
+    #[test]
+    fn what_would_double_soon_still_comes_at_any_rate() {
+        // Grows e-fold in that many milliseconds, and rests from 0.2 s on.
+        let comes = |period_us: u64, fold_ms: f64, until_ms: u64| {
+            let mut evidence = Evidence::default();
+            for now in (0..=until_ms * 1_000).step_by(period_us as usize) {
+                let total = 100.0 * (now.min(200_000) as f64 / 1e3 / fold_ms).exp();
+                evidence.take(&felt(total as u32, 60), true, Micros(now), MEMORY_US);
+            }
+            evidence.comes
+        };
+        for period_us in [640, 2_500, 5_128, 9_000] {
+            for (fold_ms, wanted) in [(20.0, true), (40.0, true), (80.0, false), (270.0, false)] {
+                assert_eq!(comes(period_us, fold_ms, 200), wanted, "{fold_ms} ms at {period_us} us");
+                assert!(!comes(period_us, fold_ms, 240), "{fold_ms} ms at {period_us} us, at rest");
+            }
+        }
     }
 
     #[test]

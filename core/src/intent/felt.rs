@@ -12,22 +12,22 @@ pub struct Felt {
     pub cover_mm2: u32,
     /// Greatest pressure of a taxel, counts.
     pub peak: u16,
-    /// By region: certain pressure since nothing touched, counts. A taxel may have held up to the high
-    /// threshold of contacts before anything was announced; only pressure above that is certain.
+    /// By region: certain pressure since nothing touched, counts. A taxel may have held up to the least peak
+    /// of a contact before anything was announced; only pressure above that is certain.
     pub certain: [u32; PANELS],
 }
 
 impl Felt {
-    /// Adds a contact of `area` taxels, of `cell_mm2` each, in a region; `high` is the high threshold of
-    /// contacts, counts.
-    pub fn add(&mut self, region: u8, total: u32, peak: u16, area: u16, cell_mm2: u32, high: u16) {
+    /// Adds a contact of `area` taxels, of `cell_mm2` each, in a region; `least` is the least peak of a
+    /// contact there, counts.
+    pub fn add(&mut self, region: u8, total: u32, peak: u16, area: u16, cell_mm2: u32, least: u16) {
         let area = u32::from(area);
         self.load = self.load.saturating_add(total);
         self.cover_mm2 = self.cover_mm2.saturating_add(area.saturating_mul(cell_mm2));
         self.peak = self.peak.max(peak);
         if let Some(certain) = self.certain.get_mut(usize::from(region)) {
             // The product has 16 + 16 bits.
-            *certain = certain.saturating_add(total.saturating_sub(area * u32::from(high)));
+            *certain = certain.saturating_add(total.saturating_sub(area * u32::from(least)));
         }
     }
 

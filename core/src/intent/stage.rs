@@ -270,10 +270,12 @@ impl<const N: usize> Intent<N> {
         true
     }
 
-    /// Announces the intention that has led for `onset_ms`; true if it is new.
+    /// Announces the intention that has led for `onset_ms`; true if it is new. Kindness waits until the touch
+    /// no longer comes: a push and a poke begin as lightly as a hand that is laid on.
     fn debounce(&self, state: &mut IntentState<N>, now: Micros) -> bool {
         let candidate = self.candidate(state);
-        if candidate != state.candidate {
+        let early = candidate == Leading::Kindness && state.leading != candidate && state.evidence.comes;
+        if candidate != state.candidate || early {
             (state.candidate, state.since) = (candidate, now);
         }
         let lasted = now.since(state.since) >= self.onset_us;

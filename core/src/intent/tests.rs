@@ -367,6 +367,20 @@ fn how_steeply_the_force_came_tells_a_blow_from_a_grab() {
     assert_eq!(words(came(200)), [Leading::Kindness, Leading::None, Leading::Threat, Leading::None]);
 }
 
+/// A push begins as lightly as a hand that is laid on.
+#[test]
+fn what_still_comes_is_not_called_kind() {
+    let came = |newton: f64| {
+        announced((0..200u32).map(|at| {
+            let force = newton / (1.0 + (-(5.0 * f64::from(at) - 300.0) / 25.0).exp());
+            if force < 0.3 { List::new() } else { std::vec![touch(force, 70.0, 5 * at, 30, 0)] }
+        }))
+    };
+    let said = |newton: f64, of: Leading| came(newton).iter().any(|(_, leading)| *leading == of);
+    assert!(!said(60.0, Leading::Kindness) && said(60.0, Leading::Threat));
+    assert!(said(8.0, Leading::Kindness) && !said(8.0, Leading::Threat));
+}
+
 /// A garment before its tare seems to be pressed all over.
 #[test]
 fn what_was_there_in_the_first_frame_did_not_come_suddenly() {

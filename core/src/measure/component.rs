@@ -23,6 +23,8 @@ pub struct Component {
     pub(crate) label: u16,
     /// True if it holds labels that a seam joins.
     pub(super) joined: bool,
+    /// True if it may begin a contact; else it only continues one.
+    pub(crate) begins: bool,
     /// Sum of the pressure, counts.
     pub total: u32,
     /// Greatest pressure of a taxel, counts.
@@ -49,6 +51,7 @@ const NOWHERE: Rect = Rect { panel: 0, top: u16::MAX, bottom: 0, left: u16::MAX,
 struct Candidate {
     label: u16,
     joined: bool,
+    begins: bool,
     total: u32,
     peak: u16,
     area: u16,
@@ -65,38 +68,53 @@ pub(crate) struct Components<const CONTACTS: usize> {
     pub dropped: u16,
     /// Panels with a component that is nearly a contact, one bit each.
     pub faint: u8,
+    /// True while the baseline of a panel drifts fast.
+    pub drifting: bool,
 }
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
     pub const fn new() -> Self {
         const { assert!(CONTACTS < NONE as usize, "a contact is numbered with 16 bits") };
-        Components { list: Vec::new(), beyond: Vec::new(), dropped: 0, faint: 0 }
+        Components { list: Vec::new(), beyond: Vec::new(), dropped: 0, faint: 0, drifting: false }
     }
 
     /// Picks the components that are contacts; if they do not fit, those with the greatest totals.
+    #[inline(never)] // own frame: locals stay within short SP offsets
     pub fn select<const RUNS: usize, const LABELS: usize>(
         &mut self,
         config: &ContactConfig,
         labeller: &Labeller<RUNS, LABELS>,
+        layout: &Layout,
     ) {
         self.list.clear();
         self.beyond.clear();
         (self.dropped, self.faint) = (0, 0);
         let mut least = None;
+        let clear = config.clear_peak(self.drifting);
         for (index, label) in labeller.roots().filter(|(index, label)| label.group == *index) {
             let (total, peak, area, held) = if label.joined {
                 weigh(labeller, index)
             } else {
                 (label.mass, label.peak as u16, label.area, label.held)
             };
-            if area < config.min_area || (peak < config.high && !held) {
-                if peak >= config.high - config.high / 4 {
+            let Some(panel) = layout.areas().get(usize::from(label.panel)) else { continue };
+            let least_peak = panel.counts_of(config.high).max(clear);
+            let begins = u32::from(peak) >= least_peak;
+            if area < config.min_area || !(begins || held) {
+                if u32::from(peak) >= least_peak - least_peak / 4 {
                     self.faint |= 1u8.checked_shl(label.panel.into()).unwrap_or(0);
                 }
                 continue;
             }
-            let found =
-                Candidate { label: index, joined: label.joined, total, peak, area, panel: label.panel };
+            let found = Candidate {
+                label: index,
+                joined: label.joined,
+                begins,
+                total,
+                peak,
+                area,
+                panel: label.panel,
+            };
             if self.list.is_full() {
                 self.dropped = self.dropped.saturating_add(1);
                 self.replace_least(&mut least, &found);
@@ -265,6 +283,7 @@ impl Component {
     const BLANK: Component = Component {
         label: NONE,
         joined: false,
+        begins: false,
         total: 0,
         peak: 0,
         peak_at: None,
@@ -277,9 +296,10 @@ impl Component {
     };
 
     /// Starts over with what was found; neither component has been measured yet.
+    #[inline(never)] // has two callers
     fn begin(&mut self, found: &Candidate) {
-        let Candidate { label, joined, total, peak, area, panel } = *found;
-        (self.label, self.joined) = (label, joined);
+        let Candidate { label, joined, begins, total, peak, area, panel } = *found;
+        (self.label, self.joined, self.begins) = (label, joined, begins);
         (self.total, self.peak, self.area) = (total, peak, area);
         self.bounds.panel = panel;
     }
@@ -305,6 +325,7 @@ impl Component {
             (self.peak, self.peak_at) = (other.peak, other.peak_at);
         }
         self.joined |= other.joined;
+        self.begins |= other.begins;
         self.total = self.total.saturating_add(other.total);
         self.area = self.area.saturating_add(other.area);
         self.moments.add(&other.moments);
@@ -432,7 +453,7 @@ mod tests {
             labeller.scan(&layout, &image, 1);
             joins.find(&mut labeller, &layout);
             let mut components = Components::<40>::new();
-            components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labeller);
+            components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labeller, &layout);
             components.number(&mut labeller);
             let mut found = [false, true].map(|strips| {
                 let mut carried = CarriedLabels::new();
@@ -474,6 +495,39 @@ mod tests {
     }
 
     #[test]
+    fn a_contact_begins_at_the_same_pressure_on_every_pitch() {
+        let config = ContactConfig { low: 16, high: 40, ..Default::default() };
+        for (mm, least) in [
+            ([0, 0], 40),
+            ([12, 10], 40),
+            ([10, 10], 33),
+            ([9, 9], 26),
+            ([6, 6], 24),
+            ([14, 14], 65),
+            ([30, 30], 80),
+        ] {
+            let mut garment = Garment::recorded(12, 16);
+            garment.panels[0].pitch_um = mm.map(|mm| 1_000 * mm);
+            let layout = Layout::build(&garment, 3072, 4095).unwrap();
+            for (peak, area, drifting) in (16..100)
+                .flat_map(|peak| [1, 2].map(|area| (peak, area)))
+                .flat_map(|(peak, area)| [false, true].map(|drifting| (peak, area, drifting)))
+            {
+                let mut values = vec![0; layout.taxels()];
+                values[20..][..area].fill(peak);
+                let rows = Rows::of(&layout, &values);
+                let mut labeller = Labeller::<64, 64>::new();
+                labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
+                let mut components = Components::<4>::new();
+                components.drifting = drifting;
+                components.select(&config, &labeller, &layout);
+                let begins = peak >= if drifting { least.max(40) } else { least };
+                assert_eq!(components.list.len(), usize::from(begins), "{area} of {peak} at {mm:?} mm");
+            }
+        }
+    }
+
+    #[test]
     fn a_panel_is_faint_from_three_quarters_of_a_contact_on() {
         let mut garment = Garment::recorded(12, 16);
         garment.panels.push(garment.panels[0].clone()).unwrap();
@@ -489,7 +543,7 @@ mod tests {
             let mut labeller = Labeller::<64, 64>::new();
             labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
             let mut components = Components::<4>::new();
-            components.select(&config, &labeller);
+            components.select(&config, &labeller, &layout);
             let is_contact = area == 2 && peak >= 400;
             let faint = if !is_contact && peak >= 300 { 1 << panel } else { 0 };
             let found = (components.list.len(), components.faint);

@@ -30,6 +30,7 @@ impl Pipeline {
         let condition = &*condition;
         let image = self.condition.image(condition, layout);
         probe.begin(Stage::Contact);
+        contact.set_drifting(condition.drifts_fast());
         let touches = self.contact.process(contact, layout, &image, now);
         probe.begin(Stage::Shape);
         let dropped = touches.dropped.saturating_add(touches.overflow);
@@ -57,7 +58,7 @@ impl Pipeline {
             let folds = condition.folds();
             let own = folds.posture.moves(now) && !folds.is_followed();
             let touch = strongest(sure()).map(|placed| Touch { own, ..self.touch(layout, placed) });
-            let felt = self.felt(layout, sure());
+            let felt = self.felt(layout, sure(), condition.drifts_fast());
             stage.process(intent, touch.as_slice(), &felt, &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
@@ -114,16 +115,19 @@ impl Pipeline {
     }
 
     /// Inputs of the map from all contacts that are not unsure.
-    fn felt<'p>(&self, layout: &Layout, sure: impl Iterator<Item = &'p Placed>) -> Felt {
+    fn felt<'p>(&self, layout: &Layout, sure: impl Iterator<Item = &'p Placed>, drifting: bool) -> Felt {
         let mut felt = Felt::default();
-        let high = self.contact.config().high;
+        let config = self.contact.config();
+        let clear = config.clear_peak(drifting);
+        let mut least = clear;
         let mut panel = (u8::MAX, 0);
         for Placed { contact, region, .. } in sure {
             if contact.panel != panel.0 {
                 let area = layout.areas().get(usize::from(contact.panel));
                 panel = (contact.panel, area.map_or(0, |area| area.cell_mm2));
+                least = area.map_or(clear, |area| area.counts_of(config.high).max(clear)).min(0xffff);
             }
-            felt.add(*region, contact.total, contact.peak, contact.area, panel.1, high);
+            felt.add(*region, contact.total, contact.peak, contact.area, panel.1, least as u16);
         }
         felt
     }

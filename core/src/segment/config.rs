@@ -9,7 +9,8 @@ pub struct ContactConfig {
     /// Threshold of a component's taxels, counts; at least 1.
     pub low: u16,
     /// Peak at which a component becomes a contact, counts; not below `low`. It stays one while its peak is
-    /// at least `low`.
+    /// at least `low`. The value is that of a taxel of 120 mm2, or of one whose pitch is unknown; on others
+    /// the peak is that of the same pressure, but at least 1.5 `low`, and at most twice the value.
     pub high: u16,
     /// Smallest area of a contact, taxels.
     pub min_area: u16,
@@ -31,6 +32,13 @@ pub const NO_SLIP: u16 = u16::MAX;
 const SLIP: u16 = if cfg!(feature = "slip") { 64 } else { NO_SLIP };
 
 impl ContactConfig {
+    /// Returns the peak from which on a contact may begin on any panel, however small its taxels are. While
+    /// the baseline drifts fast, what is left of the drift is no contact.
+    pub(crate) fn clear_peak(&self, drifting: bool) -> u32 {
+        let high = u32::from(self.high);
+        if drifting { high } else { high.min(u32::from(self.low) * 3 / 2) }
+    }
+
     /// True if the scene looks for slip.
     #[inline(always)]
     pub(crate) const fn slips(&self) -> bool {

@@ -5,15 +5,16 @@ use crate::baseline::feedback::{Feedback, Pressed};
 use crate::garment::{Area, Layout, Rect};
 
 impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
-    /// Marks the labels that come within one taxel of a contact of the previous frame. Only labels with a
-    /// peak below `high` need the mark, and most frames have none.
+    /// Marks the labels that come within one taxel of a contact of the previous frame. Only labels that begin
+    /// no contact by themselves need the mark, and most frames have none.
     pub fn mark_held<const CONTACTS: usize>(
         &mut self,
         layout: &Layout,
         last: &Feedback<CONTACTS>,
         high: u16,
     ) {
-        if self.roots().all(|(_, label)| label.peak >= high.into()) {
+        // The least peak is at most twice the threshold.
+        if self.roots().all(|(_, label)| label.peak >= 2 * u32::from(high)) {
             return;
         }
         for Pressed { rect, .. } in last.home.iter().chain(&last.beyond) {

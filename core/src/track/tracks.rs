@@ -144,7 +144,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         let Sight { layout, image, .. } = *sight;
         let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
         let known = self.known();
-        self.part(config, components, &known);
+        self.part(components, &known);
         self.released.clear();
         self.album.busy = false;
         for (slot, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
@@ -174,7 +174,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         self.trails.retain(|trail| trail.component != NONE);
         let held = self.contacts.len();
         for (index, component) in (0u16..).zip(components) {
-            if is_new(config, &known, index, component) {
+            if is_new(&known, index, component) {
                 self.begin(index, component, now);
             }
         }
@@ -222,9 +222,9 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
     }
 
     /// Marks the contacts that split: a new component peaks within their box.
-    fn part(&mut self, config: &ContactConfig, components: &[Component], known: &[bool]) {
+    fn part(&mut self, components: &[Component], known: &[bool]) {
         for (index, component) in (0u16..).zip(components) {
-            let Some(at) = component.peak_at.filter(|_| is_new(config, known, index, component)) else {
+            let Some(at) = component.peak_at.filter(|_| is_new(known, index, component)) else {
                 continue;
             };
             for (slot, trail) in self.contacts.iter().zip(&mut self.trails) {
@@ -271,8 +271,8 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
 
 /// True if a new contact begins with a component. A faint component only continues a contact: it is a
 /// splinter of one that lifts.
-fn is_new(config: &ContactConfig, known: &[bool], index: u16, component: &Component) -> bool {
-    component.peak >= config.high && known.get(usize::from(index)) == Some(&false)
+fn is_new(known: &[bool], index: u16, component: &Component) -> bool {
+    component.begins && known.get(usize::from(index)) == Some(&false)
 }
 
 /// Returns the contact of a taxel or, if it has none, of one of its eight neighbours in the panel.

@@ -37,11 +37,15 @@ fn floor() {
     }
 }
 
+/// The settings are those of a taxel of 120 mm2.
 #[test]
 fn low_and_high() {
+    let mut garment = Garment::mat();
+    garment.panels[0].pitch_um = [12_000, 10_000];
     for (low, high) in [(60, 120), (1, 1), (60, 60), (65_535, 65_535), (1, 65_535)] {
         let found = |peak: u16, beside: u16| -> Vec<u16> {
-            let mut rig = rig(ContactConfig { low, high, ..ContactConfig::default() });
+            let config = ContactConfig { low, high, ..ContactConfig::default() };
+            let mut rig = ContactRig { stage: config.build().unwrap(), ..ContactRig::new(&garment) };
             let frame = rig.set(0, 9, 9, peak).set(0, 9, 10, beside).frame();
             frame.present.iter().map(|contact| contact.area).collect()
         };
@@ -58,7 +62,7 @@ fn a_faint_touch_goes_on_within_one_taxel() {
     for (shift, goes_on) in [(0, true), (1, true), (2, false)] {
         let mut rig = ContactRig::mat();
         rig.set(0, 9, 9, 120).only();
-        let frame = rig.clear().set(0, 9, 9 + shift, 119).frame();
+        let frame = rig.clear().set(0, 9, 9 + shift, 99).frame();
         assert_eq!(
             (frame.present.len(), frame.released.len()),
             (usize::from(goes_on), usize::from(!goes_on))

@@ -1,6 +1,6 @@
 //! Limits of tracked drift and of slow touches.
 
-use super::rig::{Felt, Trial, feel, garments};
+use super::rig::{Felt, Trial, feel, fine, garments};
 use taxel::sim::{Course, Patch};
 use taxel_core::garment::Garment;
 
@@ -10,7 +10,7 @@ fn is_silent(felt: &Felt) -> bool {
 
 #[test]
 fn twenty_counts_per_second_are_followed_on_every_garment_at_every_rate() {
-    for (garment, quickest) in garments() {
+    for (garment, quickest) in garments().into_iter().chain([fine()]) {
         for hz in [25.0, quickest] {
             for rate in [0.5, -3.0, 20.0, -20.0] {
                 let felt = feel(&Trial::new(garment.clone(), hz).drifting(rate), 45.0);

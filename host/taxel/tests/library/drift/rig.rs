@@ -3,7 +3,7 @@
 use taxel::files::scripts;
 use taxel::sim::{Course, Drifting, Patch, World};
 use taxel_core::capacity::TAXELS;
-use taxel_core::format::{Code, Micros};
+use taxel_core::format::{Code, Micros, name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::intent::Leading;
 use taxel_core::pipeline::{Pipeline, PipelineState};
@@ -35,6 +35,14 @@ pub fn garments() -> [(Garment, f64); 4] {
         (Garment::block(), 1_562.0),
         (Garment::recorded(20, 27), 195.0),
     ]
+}
+
+/// A sheet of 40 columns of small taxels, on which contacts begin at 24 counts.
+pub fn fine() -> (Garment, f64) {
+    let mut garment = Garment::recorded(32, 40);
+    garment.name = name("fine");
+    garment.panels[0].pitch_um = [6_000, 7_000];
+    (garment, 195.0)
 }
 
 impl Trial {

@@ -8,15 +8,19 @@ use fastrand::Rng;
 use std::collections::BTreeSet;
 use std::fmt;
 use taxel_core::contact::Phase;
-use taxel_core::garment::Garment;
+use taxel_core::garment::{Garment, Panel, cell_mm2};
 use taxel_core::symbol::{Symbol, SymbolConfig};
 
 /// Frame period of the reference, us.
 const PERIOD_US: u64 = 5_128;
 /// Pressure at which a taxel is nearly saturated.
 const FULL: u16 = 3_800;
-/// Signal of a taxel clearly above the threshold of contacts, which is 40, counts.
-const CLEAR: u16 = 240;
+/// Least peak of a contact on a panel, counts: 40 on a taxel of 120 mm2, and the same pressure on others.
+fn least_peak(panel: &Panel) -> f64 {
+    40.0 * (f64::from(cell_mm2(panel.pitch_um)) / 120.0).clamp(0.6, 2.0)
+}
+/// Signal of a taxel from which on touches are compared, as a multiple of the least peak of a contact.
+const CLEAR: f64 = 2.0;
 /// Taxels from which on a touch covers 3 x 3.
 const LARGE: u16 = 9;
 
@@ -25,8 +29,9 @@ const LARGE: u16 = 9;
 struct Heard {
     /// Time (ms) and total pressure (counts) while there is a contact.
     course: Vec<(f64, u64)>,
-    /// Greatest pressure of a taxel.
+    /// Greatest pressure of a taxel, and as a multiple of the least peak of a contact.
     peak: u16,
+    clear: f64,
     /// Most taxels of a contact, and its greatest area.
     taxels: u16,
     area_cm2: f64,
@@ -39,16 +44,17 @@ struct Heard {
 impl Heard {
     fn of(mut act: Act) -> Heard {
         let (mut heard, begin) = (Heard::default(), act.span.0);
-        let pitch: Vec<[f64; 2]> =
-            act.garment.panels.iter().map(|panel| panel.pitch_um.map(|um| f64::from(um) / 1e4)).collect();
+        let panels = act.garment.panels.clone();
         play(&mut act, |now, percept| {
             let force: u64 = percept.present.iter().map(|placed| u64::from(placed.contact.total)).sum();
             if force > 0 {
                 heard.course.push(((now as f64 - begin as f64) / 1e3, force));
             }
             for contact in percept.present.iter().map(|placed| &placed.contact) {
-                let [x, y] = pitch[usize::from(contact.panel)];
+                let panel = &panels[usize::from(contact.panel)];
+                let [x, y] = panel.pitch_um.map(|um| f64::from(um) / 1e4);
                 heard.peak = heard.peak.max(contact.peak);
+                heard.clear = heard.clear.max(f64::from(contact.peak) / least_peak(panel));
                 heard.taxels = heard.taxels.max(contact.area);
                 heard.area_cm2 = heard.area_cm2.max(f64::from(contact.area) * x * y);
             }
@@ -144,7 +150,6 @@ struct Tally {
 
 /// Families that are not a touch, or whose place depends on the garment: arms, and fingers as far apart as
 /// its panels are wide.
-/// panels are wide.
 const ELSEWHERE: [&str; 5] = ["drift", "breath", "drops", "hug", "stroke by fingers"];
 
 /// Compared properties, with the least percentage of agreement. A slow touch begins when a taxel has 40
@@ -173,14 +178,14 @@ impl Pair {
         };
         let want = touch(Garment::reference(), PERIOD_US);
         let rise_us = want.rise() * 1e3;
-        if want.peak < CLEAR || rise_us < 2.0 * PERIOD_US as f64 {
+        if want.clear < CLEAR || rise_us < 2.0 * PERIOD_US as f64 {
             return None;
         }
         let slowest = (rise_us / 2.0).min(40_000.0);
         let period_us = (640.0 * (slowest / 640.0).powf(random.f64())) as u64;
         let have = touch(garment, period_us);
         let title = format!("seed {seed}, {} at {period_us} us", FAMILIES[family].name);
-        (have.peak >= CLEAR).then_some(Pair { title, period_us, want, have })
+        (have.clear >= CLEAR).then_some(Pair { title, period_us, want, have })
     }
 
     /// Agreement in each of [`COMPARED`]; none where a comparison makes no sense.

@@ -134,6 +134,7 @@ pub fn judge(rows: &[Row]) {
         ("kindness told", 0.90, share(rows, |row| row.family.wish == Wish::Kind, |row| row.kind)),
         ("attacks told", 0.95, share(rows, |row| row.family.wish == Wish::Attack, |row| row.attack)),
         ("harmful families: threat or attack", 0.99, share(rows, harmful, |row| row.agreed)),
+        ("harmful families never called kind", 0.95, share(rows, harmful, |row| row.count - row.kind)),
         ("nothing from nothing", 1.0, share(rows, |row| row.family.wish == Wish::Nothing, |row| row.agreed)),
         (
             "at most once from what falls and lies",
