@@ -22,7 +22,7 @@ export function page(source, { search = "", options = [], ...size } = {}) {
 /** Shows a view, with these layers and no others. */
 export async function show(browser, view, ...layers) {
   await browser.value(`document.getElementById("tab-${view}").click()`);
-  for (const layer of ["smooth", "contours", "contacts", "peaks", "glow", "held"]) {
+  for (const layer of ["smooth", "contours", "contacts", "peaks", "folds", "glow", "held"]) {
     const id = JSON.stringify(`layer-${layer}`);
     const pressed = await browser.value(`document.getElementById(${id}).getAttribute("aria-pressed") === "true"`);
     if (pressed !== layers.includes(layer)) await browser.value(`document.getElementById(${id}).click()`);

@@ -11,6 +11,7 @@
 //! | [`palette`] | colours and scale of pressure, for all that shows it |
 //! | [`watch`] | a followed board: options, loop, sentences about events |
 //! | [`terminal`] | views in the terminal |
+//! | [`folding`] | where the garment folds, for what shows it |
 //! | [`on_robot`] | the robot that wears the garment, for what shows it |
 //! | [`report`] | a recording or a board on one page |
 //! | [`serve`] | the door of a server on this machine |
@@ -33,6 +34,8 @@ pub mod palette;
 pub mod watch;
 
 pub mod terminal;
+
+pub mod folding;
 
 pub mod on_robot;
 

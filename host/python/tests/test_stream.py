@@ -107,7 +107,7 @@ def test_requests_are_answered() -> None:
 
 
 def test_postures_are_told_by_names() -> None:
-    with taxel.open("sim:elbow", tare=0, seconds=1) as board:
+    with taxel.open("sim:pat", tare=0, seconds=1) as board:
         answers: list[taxel.Answer] = []
         for event in board:
             if isinstance(event, taxel.Hello):

@@ -7,7 +7,8 @@ The solver of a simulator that nobody of this project wrote says what presses wh
 
 from .crease import Creases
 from .fabric import FORCES, Chain, Fabric, Sensor
-from .places import BODIES, Places, places
+from .pattern import Pattern
+from .places import BODIES, GARMENTS, Places, places
 from .presses import Press, press, random_presses
 from .robot import OBJECTS, World, bent, reference
 from .spread import Spread, spread
@@ -17,10 +18,12 @@ from .wrench import Wrench, wrench
 __all__ = [
     "BODIES",
     "FORCES",
+    "GARMENTS",
     "OBJECTS",
     "Chain",
     "Creases",
     "Fabric",
+    "Pattern",
     "Places",
     "Press",
     "Sensor",

@@ -23,6 +23,46 @@ FILE = Path(__file__).parent / "creases.toml"
 """The numbers of the model."""
 
 
+class Sleeve:
+    """Angle of a sleeve that lags behind that of its joint: Prandtl's play between two stops."""
+
+    def __init__(self, hysteresis: Mapping[str, float]) -> None:
+        """Begins straight."""
+        self._play, self._share = hysteresis["play_deg"], hysteresis["share"]
+        self._played = 0.0
+
+    def follow(self, degrees: float) -> float:
+        """Angle of the sleeve, degrees, when the joint has come to this one."""
+        self._played = min(max(self._played, degrees - self._play), degrees + self._play)
+        return (1.0 - self._share) * degrees + self._share * self._played
+
+
+class Growth:
+    """How far a bulge has grown: it appears at once, grows, gives way while it is held, and vanishes at once."""
+
+    def __init__(self, hysteresis: Mapping[str, float]) -> None:
+        """Begins as nothing."""
+        self._held = hysteresis
+        self._is_out = False
+        self._relaxed = 0.0
+        """Share of the force that the fabric has given up, 0 to 1 of what it gives up."""
+
+    def step(self, degrees: float, onset_deg: float, over_deg: float, seconds: float) -> tuple[float, float]:
+        """How much of its way it has gone, 0 to 1, and the share of its force, at this angle of its sleeve.
+
+        It begins at ``onset_deg`` and is full ``over_deg`` later; ``seconds`` have passed.
+        """
+        held = self._held
+        self._is_out = degrees > (onset_deg if self._is_out else onset_deg + held["snap_deg"])
+        if not self._is_out:
+            self._relaxed = 0.0
+            return 0.0, 0.0
+        self._relaxed += (1.0 - self._relaxed) * (1.0 - float(np.exp(-seconds / held["relaxes_s"])))
+        part = min(max((degrees - onset_deg) / over_deg, 0.0), 1.0)
+        grown = held["snap_share"] + (1.0 - held["snap_share"]) * part
+        return part, grown * (1.0 - held["relaxes"] * self._relaxed)
+
+
 @dataclass
 class _Bulge:
     """One bulge on one side of one elbow, as it lies today."""
@@ -38,9 +78,7 @@ class _Bulge:
     force: float
     shift_mm: float
     turn_deg: float
-    is_out: bool = False
-    relaxed: float = 0.0
-    """Share of the force that the fabric has given up, 0 to 1 of what it gives up."""
+    growth: Growth
 
 
 class Creases:
@@ -50,7 +88,7 @@ class Creases:
         """Lays the bulges of ``file`` on a garment, as on this ``day``. A side without taxels has none."""
         self._taxels = places.taxels
         read = tomllib.loads(file.read_text(encoding="utf-8"))
-        self._hysteresis: Mapping[str, float] = read["hysteresis"]
+        hysteresis: Mapping[str, float] = read["hysteresis"]
         self._joints: list[str] = [elbow["joint"] for elbow in read["elbow"]]
         rng = np.random.default_rng([2026, day])
         spread: Mapping[str, float] = read["day"]
@@ -76,9 +114,10 @@ class Creases:
                                 bulge["newtons"] * float(np.exp(spread["force_share"] * own[1])),
                                 sleeve_mm + spread["along_mm"] * own[2],
                                 sleeve_deg + spread["around_deg"] * own[3],
+                                Growth(hysteresis),
                             )
                         )
-        self._played = np.zeros(len(self._joints))
+        self._sleeves = [Sleeve(hysteresis) for _ in self._joints]
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -90,28 +129,21 @@ class Creases:
 
         Joints that are left out are straight.
         """
-        degrees = np.degrees([angles.get(joint, 0.0) for joint in self._joints])
-        play, share = self._hysteresis["play_deg"], self._hysteresis["share"]
-        # What plays between two stops that the joint drags along (Prandtl's play).
-        self._played = np.clip(self._played, degrees - play, degrees + play)
-        felt = (1.0 - share) * degrees + share * self._played
+        degrees = [float(np.degrees(angles.get(joint, 0.0))) for joint in self._joints]
+        felt = [sleeve.follow(angle) for sleeve, angle in zip(self._sleeves, degrees, strict=True)]
         newtons = np.zeros(self._taxels)
         for bulge in self._bulges:
-            np.add.at(newtons, bulge.taxels, self._press(bulge, float(felt[bulge.elbow]), seconds))
+            np.add.at(newtons, bulge.taxels, self._press(bulge, felt[bulge.elbow], seconds))
         return newtons
 
     def _press(self, bulge: _Bulge, degrees: float, seconds: float) -> Array:
         """(n,) Forces of a bulge on its taxels at this angle of its sleeve, N."""
-        held, it = self._hysteresis, bulge.numbers
-        onset = it["from_deg"] + bulge.onset_deg
-        bulge.is_out = degrees > (onset if bulge.is_out else onset + held["snap_deg"])
-        if not bulge.is_out:
-            bulge.relaxed = 0.0
+        it = bulge.numbers
+        onset, over = it["from_deg"] + bulge.onset_deg, it["full_deg"] - it["from_deg"]
+        part, share = bulge.growth.step(degrees, onset, over, seconds)
+        if share == 0.0:
             return np.zeros(len(bulge.taxels))
-        bulge.relaxed += (1.0 - bulge.relaxed) * (1.0 - float(np.exp(-seconds / held["relaxes_s"])))
-        part = min(max((degrees - onset) / (it["full_deg"] - it["from_deg"]), 0.0), 1.0)
-        grown = held["snap_share"] + (1.0 - held["snap_share"]) * part
-        crest = bulge.force * grown * (1.0 - held["relaxes"] * bulge.relaxed)
+        crest = bulge.force * share
 
         def between(key: str) -> float:
             first, last = it[key]

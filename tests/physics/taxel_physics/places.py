@@ -17,8 +17,8 @@ import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
 
-BODIES = Path(__file__).parent / "bodies"
-"""Body files of this package."""
+BODIES, GARMENTS = (Path(__file__).parent / kind for kind in ("bodies", "garments"))
+"""Files of bodies and of garments of this package."""
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,15 @@ class Places:
         return len(self.link)
 
 
-def places(body: str | Path = "reference", taxels: int = 2048) -> Places:
-    """Places of a body: a preset's name or a TOML file, worn by the reference garment.
+def places(
+    body: str | Path = "reference", taxels: int = 2048, garment: str | Path = "reference"
+) -> Places:
+    """Places of a body and the garment that it wears, each a preset's name or a TOML file.
 
     ``taxels`` is the garment's number of taxels. Raises ``RuntimeError`` with the program's own words.
     """
-    words = [sys.executable, "-m", "taxel", "body", "places", str(body), "-o", "-"]
+    words = [sys.executable, "-m", "taxel", "body", "places", str(body), "--garment", str(garment)]
+    words += ["-o", "-"]
     done = subprocess.run(words, check=False, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())

@@ -74,6 +74,11 @@ def table(title: str, columns: Mapping[str, Iterable[float]], bars: Mapping[str,
     _tables.append("\n".join(lines))
 
 
+def note(text: str) -> None:
+    """Adds lines to pytest's summary."""
+    _tables.append(text)
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Prints the tables."""
     for text in _tables:

@@ -5,18 +5,10 @@ Nothing that is judged was learned from: other days of the creases, other fabric
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
-from pathlib import Path
-
 import numpy as np
 import pytest
-import taxel
 from conftest import Worn, table
-from taxel.folds import Sweep, learn
-
-from taxel_physics.folding import PRESSES_IN_S, Folding, Moment, fingertip, random_motion, scans_in
-from taxel_physics.places import Array, Places
+from judge import Day, Learned, r, touched, untouched
 
 SWEPT_DAYS, SWEPT_S = range(6), 90.0
 """Days on which sweeps are taken, and the length of each."""
@@ -26,18 +18,6 @@ DAYS, DAY_S = range(200, 204), 150.0
 
 EARLY_S = 30.0
 """Beginning of a day, in which the board has not yet compared its folds with those of the day."""
-
-COMPARED_SCANS = 39
-"""Scans from one comparison of expected and measured pressure to the next: 0.2 s."""
-
-TOUCH_S, APART_S = 0.6, 0.4
-"""Length of a touch, and the time between two."""
-
-SETTLES_S = 0.2
-"""Time after the onset of a touch from which on its force counts."""
-
-PRESSED = 50
-"""Counts from which on a fold presses on a taxel."""
 
 LEFT = 0.01
 """Most of the share of scans with a false contact that compensation may leave over all days."""
@@ -77,186 +57,17 @@ TOLD_S, UNTOLD_S, STALE_S = 6.0, 3.0, 0.5
 """Times for which postures are told and are not, in turn; and the age at which a posture counts no more."""
 
 
-@dataclass(frozen=True)
-class Learned:
-    """A body, and the table of its folds."""
-
-    name: str
-    places: Places
-    table: Path
-
-    def day(self, day: int, knows: bool = True) -> Folding:
-        """A board on one of the days that are judged; one that knows of no folds, if it should not."""
-        return Folding(self.places, day=day, seed=1000 + day, table=self.table if knows else None)
-
-
 @pytest.fixture(scope="module")
 def learned(worn: Worn, tmp_path_factory: pytest.TempPathFactory) -> Learned:
     """Learns a body's folds from sweeps."""
-    sweeps = []
-    for day in SWEPT_DAYS:
-        folding = Folding(worn.places, day=day, seed=50 + day)
-        moments = [(moment.known, moment.frame.image) for moment in folding.run(motion(day, SWEPT_S))]
-        degrees = np.degrees([known for known, _ in moments])
-        felt = np.array([image for _, image in moments], np.uint16)
-        sweeps.append(Sweep(dict(zip(folding.joints, degrees.T, strict=True)), felt))
-    path = tmp_path_factory.mktemp(worn.name) / "learned.folds"
-    learn(sweeps).save(path)
-    return Learned(worn.name, worn.places, path)
-
-
-def motion(day: int, seconds: float) -> Array:
-    """(scans, joints) Angles of both elbows, another motion each day."""
-    return random_motion(2, seconds, seed=2000 + day)
-
-
-@dataclass
-class Day:
-    """What a board said while the joints moved and nothing touched."""
-
-    contacts: set[int] = field(default_factory=set)
-    """Ids of false contacts."""
-    false_scans: int = 0
-    """Scans with a false contact."""
-    scans: int = 0
-    intentions: set[str] = field(default_factory=set)
-    pairs: list[Array] = field(default_factory=list)
-    """(5, n) Of taxels that fold at some moments: time, s; taxel; expected, measured, doubt, counts."""
-
-    def note(self, moment: Moment) -> None:
-        """Counts a scan."""
-        self.contacts.update(moment.frame.contacts["id"].tolist())
-        self.false_scans += len(moment.frame.contacts) > 0
-        self.scans += 1
-        self.intentions.add(moment.leading)
-
-    def compare(self, folding: Folding, moment: Moment) -> None:
-        """Notes what the board expects and what the folds press, wherever one of them is something."""
-        taxels, expected, doubt = folding.board.folds()
-        measured = folding.counts(moment.folds)
-        # What presses on a taxel that the table has not is expected to be nothing.
-        all_expected, all_doubts = np.zeros((2, len(measured)))
-        all_expected[taxels], all_doubts[taxels] = expected, doubt
-        on = np.flatnonzero((all_expected > 0.0) | (measured > 0.0))
-        time = np.full(len(on), moment.time_s)
-        self.pairs.append(np.array([time, on, all_expected[on], measured[on], all_doubts[on]]))
-
-    @property
-    def share(self) -> float:
-        """Share of the scans with a false contact."""
-        return self.false_scans / self.scans
-
-    @property
-    def per_minute(self) -> float:
-        """False contacts a minute."""
-        return len(self.contacts) / (self.scans / scans_in(60.0))
-
-
-def untouched(learned: Learned, day: int, knows: bool) -> Day:
-    """A day on which nothing touches."""
-    folding, seen = learned.day(day, knows), Day()
-    for scan, moment in enumerate(folding.run(motion(day, DAY_S))):
-        seen.note(moment)
-        if knows and scan % COMPARED_SCANS == 0:
-            seen.compare(folding, moment)
-    return seen
-
-
-@dataclass
-class Felt:
-    """A fingertip on the garment, and what the board said of it."""
-
-    time_s: float
-    """Of its onset."""
-    newtons: float
-    where: str
-    """Of its taxels: ``pressed`` by a fold at its onset, ``folding`` but not pressed, or ``elsewhere``."""
-    forces: Array
-    """(taxels,) N."""
-    found: bool = False
-    full: bool = False
-    """True if a taxel came to the end of its range."""
-    said: list[tuple[float, float]] = field(default_factory=list)
-    """Total of its contact as a share of the true one, and the doubt of it as a share; at each report."""
-
-
-class Touching:
-    """A board that is touched by a fingertip, again and again, while its joints move."""
-
-    def __init__(self, learned: Learned, folding: Folding, seed: int, newtons: tuple[float, float]) -> None:
-        self._places, self._folding, self._newtons = learned.places, folding, newtons
-        self._rng = np.random.default_rng(seed)
-        taxels = folding.board.folds()[0]
-        self._folds = np.zeros(learned.places.taxels, bool)
-        self._folds[taxels] = True
-        self._next_s = 2.0
-
-    def run(self, angles: Array) -> Iterator[tuple[Moment, Felt | None]]:
-        """Each moment, and the touch that ended with it."""
-        touch: Felt | None = None
-        for moment in self._folding.run(angles):
-            ended = None
-            if touch is None:
-                if moment.time_s >= self._next_s:
-                    touch = self._begin(moment)
-            else:
-                self._note(touch, moment)
-                since = moment.time_s - touch.time_s
-                if since >= TOUCH_S:
-                    ended, touch, self._next_s = touch, None, moment.time_s + APART_S
-                    self._folding.touch = np.zeros(len(self._folds))
-                else:
-                    self._folding.touch = min(since / PRESSES_IN_S, 1.0) * touch.forces
-            yield moment, ended
-
-    def _begin(self, moment: Moment) -> Felt:
-        """A touch at random: where a fold presses, where one may, or elsewhere."""
-        pressed = self._folding.counts(moment.folds) >= PRESSED
-        kind = self._rng.choice(["pressed", "folding", "elsewhere"])
-        allowed = {
-            "pressed": self._folds & pressed,
-            "folding": self._folds & ~pressed,
-            "elsewhere": ~self._folds,
-        }
-        newtons = self._rng.uniform(*self._newtons)
-        while True:
-            # Where no fold presses now, the next best.
-            taxels = np.flatnonzero(allowed[kind] if allowed[kind].any() else allowed["folding"])
-            center = int(self._rng.choice(taxels))
-            forces = fingertip(self._places, center, newtons)
-            # A fingertip beside a fold reaches into it: that is no place elsewhere.
-            if kind != "elsewhere" or not self._folds[forces > 0.0].any():
-                break
-        where = "elsewhere" if kind == "elsewhere" else "pressed" if pressed[center] else "folding"
-        return Felt(moment.time_s, float(newtons), where, forces)
-
-    def _note(self, touch: Felt, moment: Moment) -> None:
-        """Looks for the contact of a touch, and what is said of its force."""
-        panels = list(moment.frame.panels.values())
-        bases = np.cumsum([0] + [panel.size for panel in panels])
-        touch.full |= bool(self._folding.fabric.is_full(moment.folds + self._folding.touch).any())
-        for contact in moment.frame.contacts:
-            panel = int(contact["panel"])
-            peak = contact["peak_row"] * panels[panel].shape[1] + contact["peak_column"]
-            if touch.forces[bases[panel] + int(peak)] == 0.0:
-                continue
-            touch.found = True
-            if moment.said is None or moment.time_s - touch.time_s < SETTLES_S:
-                continue
-            doubts = {each["id"]: each["doubt"] for each in moment.said.contacts}
-            true = self._folding.counts(touch.forces).sum()
-            doubt = doubts.get(int(contact["id"]), 0)
-            touch.said.append((float(contact["total"] / true), float(doubt / true)))
-
-
-def r(pairs: Array) -> float:
-    """Correlation of expected and measured pressure."""
-    return float(np.corrcoef(pairs[2], pairs[3])[0, 1])
+    learned = Learned(worn.name, worn.places, tmp_path_factory.mktemp(worn.name) / "learned.folds")
+    learned.learn(SWEPT_DAYS, SWEPT_S)
+    return learned
 
 
 def test_folds_are_no_touches_and_mean_nothing(learned: Learned) -> None:
-    without = [untouched(learned, day, knows=False) for day in DAYS]
-    days = [untouched(learned, day, knows=True) for day in DAYS]
+    without = [untouched(learned, day, False, DAY_S) for day in DAYS]
+    days = [untouched(learned, day, True, DAY_S) for day in DAYS]
     pairs = [np.concatenate(day.pairs, axis=1) for day in days]
     parts = {
         "all": pairs,
@@ -302,23 +113,8 @@ def test_folds_are_no_touches_and_mean_nothing(learned: Learned) -> None:
     assert max(columns["1 - r, all"]) <= DAY_UNLIKE
 
 
-def touched(
-    learned: Learned, newtons: tuple[float, float], days: Iterable[int] = DAYS, told: bool = True
-) -> list[Felt]:
-    """Touches on these days; those that take a taxel to the end of its range do not count."""
-    felt = []
-    for day in days:
-        folding = learned.day(day)
-        folding.told = told
-        touching = Touching(learned, folding, seed=3000 + day, newtons=newtons)
-        felt += [touch for _, touch in touching.run(motion(day, TOUCHED_S)) if touch is not None]
-    whole = [touch for touch in felt if not touch.full]
-    assert len(whole) > 0.9 * len(felt)
-    return whole
-
-
 def test_touches_are_found_and_their_force_is_known(learned: Learned) -> None:
-    felt = touched(learned, FORCES_N)
+    felt = touched(learned, FORCES_N, DAYS, TOUCHED_S)
     columns: dict[str, list[float]] = {}
     missed: dict[str, list[float]] = {}
     good: dict[str, list[float]] = {}
@@ -359,15 +155,15 @@ def test_without_a_posture_nothing_is_a_touch_but_what_is_strong(learned: Learne
     for day, never in zip(DAYS, silent, strict=True):
         folding = learned.day(day)
         folding.told = False
-        for moment in folding.run(motion(day, SILENT_S)):
+        for moment in folding.run(learned.motion(day, SILENT_S)):
             never.note(moment)
         folding = learned.day(day)
-        for moment in folding.run(motion(day, SILENT_S)):
+        for moment in folding.run(learned.motion(day, SILENT_S)):
             since_s = moment.time_s % (TOLD_S + UNTOLD_S)
             folding.told = since_s < TOLD_S
             state = "told" if folding.told else "not yet stale" if since_s < TOLD_S + STALE_S else "stale"
             ends[state].append(float(len(moment.frame.contacts) > 0))
-    touches = {newtons: touched(learned, newtons, DAYS[:2], told=False) for newtons in (STRONG_N, FORCES_N)}
+    touches = {newtons: touched(learned, newtons, DAYS[:2], TOUCHED_S, told=False) for newtons in (STRONG_N, FORCES_N)}
     columns = {
         "never told: scans with a contact": [day.share for day in silent],
         **{f"{name}: scans with one, share": [float(np.mean(scans))] for name, scans in ends.items()},

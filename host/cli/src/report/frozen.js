@@ -33,6 +33,7 @@ const onRobot = told.body && {
   image: told.image,
   top: told.top,
   pressing: told.pressing,
+  folding: told.folding?.taxels ?? [],
   force: words,
   chosen: null,
 };

@@ -4,6 +4,7 @@ use super::seen::{Moment, Seen, of};
 use super::strips::Strip;
 use super::svg::escaped;
 use super::{plane, ranges, surface, tables};
+use crate::folding::FoldingLine;
 use crate::palette;
 use anyhow::{Result, bail};
 use taxel_core::body::Placed;
@@ -18,7 +19,7 @@ const STYLE: &str = "
 body{margin:2rem auto;max-width:1120px;padding:0 1rem;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,'DejaVu Sans',sans-serif}
 h1{font-size:1.5rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2rem 0 .4rem}p{margin:.3rem 0;max-width:75ch}
 .panels{display:flex;flex-wrap:wrap;gap:12px}svg{max-width:100%;height:auto}svg text{fill:var(--ink);font-size:12px}svg .title{font-size:14px;font-weight:600}svg .mark{fill:var(--soft);font-size:10px}
-.level{fill:none;stroke:#fff;stroke-opacity:.75;stroke-width:.7}.axis{stroke:#fff;stroke-width:1.6}.centre{fill:#fff;stroke:#000;stroke-width:.8}.peak{stroke:#e8123c;stroke-width:1.8;fill:none}svg .id{fill:#fff;font-weight:600;paint-order:stroke;stroke:#000;stroke-width:2.5px}
+.level{fill:none;stroke:#fff;stroke-opacity:.75;stroke-width:.7}.axis{stroke:#fff;stroke-width:1.6}.centre{fill:#fff;stroke:#000;stroke-width:.8}.fold{fill:none;stroke:#fff;stroke-width:1.2;stroke-opacity:.85}.peak{stroke:#e8123c;stroke-width:1.8;fill:none}svg .id{fill:#fff;font-weight:600;paint-order:stroke;stroke:#000;stroke-width:2.5px}
 #surface,#robot{height:460px}.quiet{color:var(--soft)}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round}.grid{stroke:var(--line);fill:none}
 table{border-collapse:collapse;font-size:13px;font-variant-numeric:tabular-nums}td,th{padding:3px 12px 3px 0;text-align:left;border-bottom:1px solid var(--line)}th{color:var(--soft);font-weight:500}
@@ -38,7 +39,7 @@ pub fn page(seen: &Seen) -> Result<String> {
         bail!("{}: no image was received, so there is nothing to report", seen.label);
     }
     let top = palette::end_of(&seen.hold);
-    let Moment { time_us, total, image, contacts, .. } = &seen.top;
+    let Moment { time_us, total, image, contacts, folding, .. } = &seen.top;
     let moment = format!("{:.3} s", *time_us as f64 / 1e6);
     let limits = ranges::limits(top);
     let each = |draw: Draw<'_>| -> String {
@@ -56,9 +57,18 @@ pub fn page(seen: &Seen) -> Result<String> {
             "Pressure, 2-D",
             format!(
                 "<p>At {moment}, the moment of the greatest force: {force} in {}. Lines are the limits of the ranges \
-             below, dots centroids with the main axis, red crosses peaks; marks are taxels.</p>\n{}",
+             below, dots centroids with the main axis, red crosses peaks; marks are taxels.{}</p>\n{}",
                 if contacts.len() == 1 { "1 contact".into() } else { format!("{} contacts", contacts.len()) },
-                each(&|area, values, contacts| plane::draw(area, values, contacts, top, &limits))
+                folding.as_ref().map_or(String::new(), strokes),
+                each(&|area, values, contacts| {
+                    let folding = folding.as_ref().map_or(&[][..], |folding| &folding.taxels);
+                    plane::draw(
+                        area,
+                        values,
+                        top,
+                        &plane::PlaneOverlay { contacts, folding, limits: &limits },
+                    )
+                })
             ),
         ),
         (
@@ -98,6 +108,17 @@ pub fn page(seen: &Seen) -> Result<String> {
         surface::STYLE,
         head(seen)
     ))
+}
+
+/// The meaning of the strokes over taxels, as in `folds.js`.
+fn strokes(FoldingLine { followed, taxels }: &FoldingLine) -> String {
+    match (followed, taxels.len()) {
+        (true, 0) => " The garment folds nowhere.".into(),
+        (true, count) => format!(" Strokes: the garment folds here, {count} taxels."),
+        (false, count) => {
+            format!(" Strokes: the garment may fold here, {count} taxels; no posture was told.")
+        }
+    }
 }
 
 /// Source, contents and duration.

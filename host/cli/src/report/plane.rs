@@ -13,11 +13,20 @@ const MARGIN: [f64; 4] = [26.0, 30.0, 12.0, 22.0];
 /// Taxels between two marks of an axis.
 const STEP: u16 = 4;
 
-/// Draws a panel; colours end at `top` counts, contours are at `limits`.
-pub fn draw(area: &Area, values: &[u16], contacts: &[Placed], top: u16, limits: &[u16]) -> String {
+/// What is drawn over the pressure of a panel.
+pub struct PlaneOverlay<'a> {
+    pub contacts: &'a [Placed],
+    /// Numbers of the taxels of the garment on which it folds.
+    pub folding: &'a [u16],
+    /// Contours, counts.
+    pub limits: &'a [u16],
+}
+
+/// Draws a panel; colours end at `top` counts.
+pub fn draw(area: &Area, values: &[u16], top: u16, over: &PlaneOverlay<'_>) -> String {
     let mut svg = String::new();
     // Writing to a string cannot fail.
-    let _ = Plane::of(area).write(&mut svg, area, values, contacts, top, limits);
+    let _ = Plane::of(area).write(&mut svg, area, values, top, over);
     svg
 }
 
@@ -43,9 +52,8 @@ impl Plane {
         svg: &mut String,
         area: &Area,
         values: &[u16],
-        contacts: &[Placed],
         top: u16,
-        limits: &[u16],
+        over: &PlaneOverlay<'_>,
     ) -> Result {
         let [w, h] = self.cell;
         let (wide, high) = (f64::from(area.columns) * w, f64::from(area.rows) * h);
@@ -77,8 +85,9 @@ impl Plane {
                 h + 0.2
             )?;
         }
-        self.levels(svg, values, columns, limits)?;
-        for placed in contacts {
+        self.levels(svg, values, columns, over.limits)?;
+        self.folding(svg, area, over.folding)?;
+        for placed in over.contacts {
             self.contact(svg, placed)?;
         }
         self.axes(svg, area)?;
@@ -95,6 +104,23 @@ impl Plane {
             writeln!(svg, "\"/>")?;
         }
         Ok(())
+    }
+
+    /// Strokes the taxels on which the garment folds.
+    fn folding(&self, svg: &mut String, area: &Area, folding: &[u16]) -> Result {
+        let taxels = usize::from(area.rows) * usize::from(area.columns);
+        let own = folding.iter().filter_map(|taxel| usize::from(*taxel).checked_sub(area.base.into()));
+        let own: Vec<usize> = own.filter(|taxel| *taxel < taxels).collect();
+        if own.is_empty() {
+            return Ok(());
+        }
+        write!(svg, "<path class=\"fold\" d=\"")?;
+        let columns = usize::from(area.columns).max(1);
+        for taxel in own {
+            let [x, y] = self.place((taxel % columns) as f64, (taxel / columns) as f64);
+            write!(svg, "M{:.1} {:.1}l5 -5", x - 2.5, y + 2.5)?;
+        }
+        writeln!(svg, "\"/>")
     }
 
     /// Draws centroid, axis, id and peak.

@@ -2,6 +2,7 @@
 
 use super::scale::PageUnit;
 use super::series::Series;
+use crate::folding::{Folding, FoldingLine};
 use crate::on_robot::Wearer;
 use crate::watch::narrate::Narrator;
 use anyhow::Result;
@@ -51,6 +52,8 @@ pub struct Seen {
     pub(super) ill: BTreeMap<u16, TaxelHealth>,
     /// The robot that wears the garment; none if it is not shown.
     pub(super) wearer: Option<Wearer>,
+    /// Where it folds; none without a table.
+    folding: Option<Folding>,
     /// Damage of a recording.
     pub skipped: Skipped,
     narrator: Narrator,
@@ -65,6 +68,8 @@ pub(super) struct Moment {
     pub contacts: Vec<Placed>,
     /// What presses on the robot: the message `pressing`; null without one.
     pub pressing: Value,
+    /// Where the garment folds; none if that is not known.
+    pub folding: Option<FoldingLine>,
 }
 
 impl Seen {
@@ -88,6 +93,7 @@ impl Seen {
             health: None,
             ill: BTreeMap::new(),
             wearer: None,
+            folding: None,
             skipped: Skipped::default(),
             narrator: Narrator::new(counts_per_newton),
         }
@@ -96,6 +102,11 @@ impl Seen {
     /// Also shows the garment on this robot.
     pub fn on(self, wearer: Option<Wearer>) -> Seen {
         Seen { wearer, ..self }
+    }
+
+    /// Also shows where the garment folds.
+    pub fn folding(self, folding: Option<Folding>) -> Seen {
+        Seen { folding, ..self }
     }
 
     /// Unit of the page.
@@ -125,6 +136,7 @@ impl Seen {
                 contacts: client.contacts().to_vec(),
                 // Numbers, texts, and keys that are texts: this cannot fail.
                 pressing: serde_json::to_value(pressing).unwrap_or_default(),
+                folding: self.folding.as_ref().and_then(|folding| folding.at(time_us)),
             };
         }
     }
@@ -170,6 +182,9 @@ impl Show<anyhow::Error> for Seen {
                 {
                     wearer.wear(worn)?;
                 }
+                if let (Some(folding), Some(worn)) = (&mut self.folding, client.worn()) {
+                    folding.wear(worn)?;
+                }
                 self.concepts = client.concepts().iter().map(ToString::to_string).collect();
             }
             Event::Frame { time, image: ImageNews::Whole, .. } => self.image(client, time.0),
@@ -193,6 +208,11 @@ impl Show<anyhow::Error> for Seen {
         for sentence in self.narrator.tell(client, event) {
             if self.sentences.len() < SENTENCES { self.sentences.push(sentence) } else { self.unsaid += 1 }
         }
+        Ok(())
+    }
+
+    fn asked(&mut self, client: &Client, requests: &[u8]) -> Result<()> {
+        self.folding.iter_mut().for_each(|folding| folding.asked(client, requests));
         Ok(())
     }
 

@@ -54,5 +54,6 @@ fn data(seen: &Seen, top: u16) -> Value {
         "body": seen.wearer.as_ref().and_then(Wearer::body),
         "poses": seen.wearer.as_ref().and_then(Wearer::poses),
         "pressing": seen.top.pressing,
+        "folding": seen.top.folding,
     })
 }

@@ -52,6 +52,7 @@ const FILES: &[(&str, Asset)] = files![
     SCRIPT "recorder.js",
     SCRIPT "afterglow.js",
     SCRIPT "follow.js",
+    SCRIPT "folds.js",
     SCRIPT "presence.js",
     SCRIPT "body.js",
     SCRIPT "on-robot.js",

@@ -5,6 +5,7 @@ use super::lines::{
     TaxelLine,
 };
 use super::message::PageWish;
+use crate::folding::FoldingLine;
 use crate::on_robot::{BodyLine, PosesLine};
 use serde_json::Value;
 use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine};
@@ -20,6 +21,7 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("ImageHead", of::<ImageHead>()),
         ("BodyLine", of::<BodyLine<'static>>()),
         ("PosesLine", of::<PosesLine<'static>>()),
+        ("FoldingLine", of::<FoldingLine>()),
         ("GlowLine", of::<GlowLine>()),
         ("PinsLine", of::<PinsLine>()),
         ("TaxelLine", of::<TaxelLine>()),

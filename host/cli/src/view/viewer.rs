@@ -7,6 +7,7 @@ use super::pace::Pace;
 use super::raw::RawCodes;
 use super::said::{Said, Teller};
 use super::shot::{Shot, text};
+use crate::folding::Folding;
 use crate::watch::rate::Rate;
 use anyhow::Result;
 use std::sync::Arc;
@@ -29,6 +30,8 @@ pub struct Viewer {
     hub: Arc<PageHub>,
     label: String,
     counts_per_newton: Option<f32>,
+    /// Where the garment folds; none without a table.
+    folding: Option<Folding>,
     teller: Teller,
     rate: Rate,
     /// Paces a saved stream to its own time; none for a live one.
@@ -49,6 +52,7 @@ impl Viewer {
             hub,
             label: source.label.clone(),
             counts_per_newton: source.counts_per_newton,
+            folding: None,
             teller: Teller::new(source.counts_per_newton),
             rate: Rate::default(),
             pace: source.label.starts_with("file:").then(Pace::default),
@@ -60,10 +64,18 @@ impl Viewer {
         }
     }
 
+    /// Also shows where the garment folds.
+    pub fn folding(self, folding: Option<Folding>) -> Viewer {
+        Viewer { folding, ..self }
+    }
+
     fn frame(&mut self, client: &Client, event: &Event, time: Micros) {
         self.rate.add(time);
         if let Some(pace) = &mut self.pace {
             std::thread::sleep(pace.wait(time, Instant::now()));
+        }
+        if let Some(line) = self.folding.as_mut().and_then(|folding| folding.news(time.0)) {
+            self.hub.state("folding", line);
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
         let Some(line) = message::frame(client, event) else { return };
@@ -74,11 +86,14 @@ impl Viewer {
         self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
     }
 
-    fn hello(&self, client: &Client) -> Result<()> {
+    fn hello(&mut self, client: &Client) -> Result<()> {
         let circuit =
             client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
         self.hub.wired(circuit);
         self.hub.state("hello", &message::hello(client, &self.label, self.counts_per_newton));
+        if let (Some(folding), Some(worn)) = (&mut self.folding, client.worn()) {
+            folding.wear(worn)?;
+        }
         self.hub.worn(client)
     }
 
@@ -91,6 +106,11 @@ impl Viewer {
 impl Show<anyhow::Error> for Viewer {
     fn bytes(&mut self, bytes: &[u8]) {
         self.hub.keep(bytes);
+    }
+
+    fn asked(&mut self, client: &Client, requests: &[u8]) -> Result<()> {
+        self.folding.iter_mut().for_each(|folding| folding.asked(client, requests));
+        Ok(())
     }
 
     fn joints(&mut self, _: &Client, taken: &JointPositions) -> Result<()> {

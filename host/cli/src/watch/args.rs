@@ -165,6 +165,7 @@ impl BoardArgs {
                 seed: self.seed,
                 garment: self.garment.clone(),
                 body: self.body.clone(),
+                folds: self.folds.clone(),
                 ..options
             },
         )?;

@@ -146,7 +146,7 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(body) = args.body.as_ref().filter(|_| !source.has_body) {
         setting::set_body(client, body, args.garment.as_deref().unwrap_or("reference"))?;
     }
-    if let Some(folds) = &args.folds {
+    if let Some(folds) = args.folds.as_ref().filter(|_| !source.has_folds) {
         setting::set_folds(client, folds)?;
     }
     client.start(args.tare.unwrap_or(source.tare))?;

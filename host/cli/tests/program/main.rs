@@ -7,6 +7,7 @@ mod commands;
 mod drawn;
 mod exports;
 mod fitted;
+mod folded;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod hostile;

@@ -36,6 +36,9 @@ pub enum SettingError {
     /// A surface does not fit a board's table.
     #[error("{0}")]
     Surface(String),
+    /// A table of folds does not fit the garment.
+    #[error("{0}")]
+    Folds(String),
     /// How a panel is worn cannot be found from its touches.
     #[error("{0}")]
     Placing(String),

@@ -1,7 +1,8 @@
-//! Files that users name: outputs, recorded frames, garments, scripts of touches, calibrations.
+//! Files that users name: outputs, recorded frames, garments, tables of folds, scripts of touches, calibrations.
 
 pub mod arrays;
 pub mod calibrate;
+pub mod folds;
 pub mod garments;
 pub mod output;
 pub mod rows;

@@ -3,6 +3,7 @@
 use crate::error::{LearnError, Result};
 use crate::recording::Messages;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Topic of the postures that were sent to the board.
@@ -13,6 +14,8 @@ const POSTURE: &str = "/taxel/posture";
 pub struct Angles {
     /// The board's time, us; joint; degrees.
     told: Vec<(u64, String, f32)>,
+    /// Names of the joints.
+    joints: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -46,15 +49,28 @@ impl Angles {
             path.display()
         );
         angles.told.sort_by_key(|(time, ..)| *time);
+        angles.joints = angles.told.iter().map(|(_, joint, _)| joint.clone()).collect();
+        angles.joints.sort();
+        angles.joints.dedup();
         Ok(angles)
     }
 
     /// Names of the joints.
-    pub fn joints(&self) -> Vec<String> {
-        let mut joints: Vec<String> = self.told.iter().map(|(_, joint, _)| joint.clone()).collect();
-        joints.sort();
-        joints.dedup();
-        joints
+    pub fn joints(&self) -> &[String] {
+        &self.joints
+    }
+
+    /// Angle of each joint as last told by a time of the board, us, and when the last one was told.
+    pub fn at(&self, time_us: u64) -> (BTreeMap<String, f32>, Option<u64>) {
+        let told = &self.told[..self.told.partition_point(|(at, ..)| *at <= time_us)];
+        let mut angles = BTreeMap::new();
+        for (_, joint, degrees) in told.iter().rev() {
+            if angles.len() == self.joints.len() {
+                break;
+            }
+            angles.entry(joint.clone()).or_insert(*degrees);
+        }
+        (angles, told.last().map(|(at, ..)| *at))
     }
 
     /// All angles by the board's time, us: joint, degrees.

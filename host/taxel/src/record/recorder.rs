@@ -290,10 +290,11 @@ impl<E: From<Error>> Show<E> for Recorder {
             let mut frame = frame.to_vec();
             let request = wire::open(&mut frame).and_then(wire::decode::<Request<'_>>);
             done = done.and_then(|()| match request {
-                Ok(Request::Posture(posture)) => {
-                    let names = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
-                    file.posture(stamp, &posture, names)
-                }
+                // Before the board has told its scene, nobody knows which joints these are.
+                Ok(Request::Posture(posture)) => match client.worn() {
+                    Some(worn) => file.posture(stamp, &posture, &worn.scene.joints),
+                    None => Ok(()),
+                },
                 Ok(Request::SetPoses(poses)) => match wire::decode::<SentPoses>(poses) {
                     Ok(poses) => file.poses(stamp, &poses),
                     // A program's own bytes, which the board refuses.

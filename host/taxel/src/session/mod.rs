@@ -217,7 +217,8 @@ impl Session {
         }
     }
 
-    /// Sends queued requests after passing them to `sent`, and reads. Error if the source is lost for good,
+    /// Sends queued requests after passing them to `sent`, and reads; requests of the source itself are passed to
+    /// `sent`, too. Error if the source is lost for good,
     /// or if its board refuses a setting that it had accepted before; `sent` has errors of the caller's own.
     pub fn turn<E: From<Error>>(&mut self, sent: &mut OnSent<'_, E>) -> Result<Turn, E> {
         self.buffer.clear();
@@ -237,6 +238,8 @@ impl Session {
         match self.exchange() {
             Ok(true) => {
                 self.tell_time();
+                let told = self.source.port.told();
+                sent(&self.client, &told)?;
                 Ok(Turn::Bytes)
             }
             // Recordings and simulations end; a board streams as long as there is a link.

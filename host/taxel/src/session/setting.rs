@@ -2,8 +2,8 @@
 
 use crate::body;
 use crate::client::Client;
-use crate::error::{Context, FileError, Result, SettingError, UsageError};
-use crate::files::garments;
+use crate::error::{Context, Result, SettingError, UsageError};
+use crate::files::{folds, garments};
 use crate::source::SceneFile;
 use crate::tell::verbose;
 use std::path::Path;
@@ -49,9 +49,7 @@ pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
 /// Queues the requests that store a table of folds on the board, as [`learn::folds`](crate::learn::folds) makes
 /// them. The board checks it.
 pub fn set_folds(client: &mut Client, file: &Path) -> Result<()> {
-    let table = std::fs::read(file)
-        .map_err(|error| FileError::read(file, error))
-        .with_context(|| format!("{} cannot be read", file.display()))?;
+    let table = folds::read(file)?;
     verbose::tell(format_args!("sending folds {}, {} bytes", file.display(), table.len()));
     send_table(client, TableKind::Folds, &table)
 }

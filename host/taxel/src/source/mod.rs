@@ -7,6 +7,7 @@ mod file;
 mod pipe;
 mod replay;
 mod scene;
+mod script_posture;
 mod serial;
 pub mod shared;
 mod sim;
@@ -23,6 +24,7 @@ use crate::error::Result;
 use crate::sim::Script;
 use crate::tell::verbose;
 use std::io;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// A byte stream in both directions. Bytes written before the first read are delivered before it, so that a
@@ -33,6 +35,11 @@ pub trait Port: Send {
     /// Writes as many bytes as the other end accepts within a short while, which may be 0. Returns their
     /// number.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
+    /// Requests that the board was sent by the source itself, before what was read last: a simulation tells the
+    /// joints of its script.
+    fn told(&mut self) -> Vec<u8> {
+        Vec::new()
+    }
     /// A remark to print at the end.
     fn remark(&self) -> Option<String> {
         None
@@ -58,6 +65,8 @@ pub struct SourceOptions {
     pub garment: Option<String>,
     /// Body that a simulated board has in its flash from the start, a preset or a TOML file.
     pub body: Option<String>,
+    /// Table of folds that a simulated board has in its flash from the start.
+    pub folds: Option<PathBuf>,
 }
 
 /// Opens a lost source again.
@@ -79,6 +88,8 @@ pub struct Source {
     pub wears_asked: bool,
     /// Its board already has the requested body.
     pub has_body: bool,
+    /// Its board already has the requested table of folds.
+    pub has_folds: bool,
     /// It has a board that receives requests; false for recordings.
     pub listens: bool,
     /// Opens it again when it is lost; none if it ends for good.
@@ -96,6 +107,7 @@ impl Source {
             counts_per_newton: None,
             wears_asked: false,
             has_body: false,
+            has_folds: false,
             listens: true,
             returns: None,
         }

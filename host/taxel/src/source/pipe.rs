@@ -16,6 +16,11 @@ const PATIENCE: Duration = Duration::from_millis(10);
 struct Queues {
     to_host: VecDeque<u8>,
     to_board: VecDeque<u8>,
+    /// Bytes for the host so far: queued, and read.
+    queued: u64,
+    read: u64,
+    /// Requests that did not come from the host, each with the number of bytes queued before it.
+    told: VecDeque<(u64, Vec<u8>)>,
     /// The host has read for the first time.
     begun: bool,
     host_gone: bool,
@@ -44,6 +49,7 @@ impl super::Port for HostEnd {
         for (slot, byte) in buffer.iter_mut().zip(queues.to_host.drain(..count)) {
             *slot = byte;
         }
+        queues.read += count as u64;
         self.0.wake();
         Ok((count > 0 || !queues.board_gone).then_some(count))
     }
@@ -53,6 +59,16 @@ impl super::Port for HostEnd {
         let count = bytes.len().min(ROOM.saturating_sub(queues.to_board.len()));
         queues.to_board.extend(&bytes[..count]);
         Ok(count)
+    }
+
+    fn told(&mut self) -> Vec<u8> {
+        let mut queues = self.0.lock();
+        let read = queues.read;
+        let mut all = Vec::new();
+        while let Some((_, told)) = queues.told.pop_front_if(|(after, _)| *after < read) {
+            all.extend(told);
+        }
+        all
     }
 }
 
@@ -79,6 +95,32 @@ impl BoardEnd {
     /// True if the host's end is closed.
     pub fn is_alone(&self) -> bool {
         self.0.lock().host_gone
+    }
+
+    /// Notes a request to the board that does not come from the host, which learns of it with what the board
+    /// says next.
+    pub fn tell(&self, request: &[u8]) {
+        let mut queues = self.0.lock();
+        if !queues.host_gone {
+            let after = queues.queued;
+            queues.told.push_back((after, request.into()));
+        }
+    }
+
+    /// Reads up to the end of a request. Returns the number of bytes.
+    pub fn read_request(&self, buffer: &mut [u8]) -> usize {
+        let mut queues = self.0.lock();
+        let mut count = 0;
+        while let Some(slot) = buffer.get_mut(count)
+            && let Some(byte) = queues.to_board.pop_front()
+        {
+            *slot = byte;
+            count += 1;
+            if byte == 0 {
+                break;
+            }
+        }
+        count
     }
 
     /// Sleeps, or returns early if the host's end is closed.
@@ -111,6 +153,7 @@ impl Link for &BoardEnd {
         }
         if !queues.host_gone {
             queues.to_host.extend(bytes);
+            queues.queued += bytes.len() as u64;
             self.0.wake();
         }
         bytes.len()

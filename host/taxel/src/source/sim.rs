@@ -1,12 +1,14 @@
 //! The simulated board as a source: runs the core's loop in a thread, on virtual time.
 
 use super::pipe::{BoardEnd, pipe};
+use super::script_posture::{ScriptPosture, TellingEnd};
 use super::{Source, SourceOptions, scene_of};
 use crate::body;
 use crate::error::{Context, Error, Result, SourceError};
-use crate::files::{garments, scripts};
+use crate::files::{self, garments, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use std::ops::Range;
+use std::path::Path;
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -34,8 +36,9 @@ struct Playing {
     garment: Garment,
     /// Scene of the board at its start.
     scene: Scene,
-    /// Table of the surface in its flash at its start.
-    table: Option<&'static [u8]>,
+    /// Tables of the surface and of the folds in its flash at its start.
+    surface: Option<&'static [u8]>,
+    folds: Option<&'static [u8]>,
     seed: u64,
     realtime: bool,
     repeat: bool,
@@ -60,7 +63,8 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     if options.raw {
         board_scene.stream.raw_hz = u16::MAX;
     }
-    let table = options.body.as_ref().map(|body| table(body, &garment)).transpose()?;
+    let surface = options.body.as_ref().map(|body| surface(body, &garment)).transpose()?;
+    let folds = options.folds.as_ref().map(|file| folds(file, &garment)).transpose()?;
     let tare = script.tare_frames.min(4096) as u16;
     let play = Playing {
         seed: options.seed.unwrap_or(script.seed),
@@ -69,7 +73,8 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         end_us: end_us(script.duration_s, options),
         garment,
         scene: board_scene,
-        table,
+        surface,
+        folds,
         script,
     };
     let (host, board_end) = pipe();
@@ -97,15 +102,24 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         counts_per_newton: Some(COUNTS_PER_NEWTON),
         wears_asked: options.garment.is_some(),
         has_body: options.body.is_some(),
+        has_folds: options.folds.is_some(),
         ..Source::new(label, host)
     })
 }
 
 /// Table of a body's surface that this garment covers.
-fn table(body: &str, garment: &Garment) -> Result<&'static [u8]> {
+fn surface(body: &str, garment: &Garment) -> Result<&'static [u8]> {
     let layout = Layout::build(garment, TAXELS, FULL_SCALE)?;
     let surface = body::read(body)?.surface(garment, &layout)?;
     Ok(lasting(&body::table(&surface, &layout)?))
+}
+
+/// Table of folds in a file, for this garment.
+fn folds(file: &Path, garment: &Garment) -> Result<&'static [u8]> {
+    let layout = Layout::build(garment, TAXELS, FULL_SCALE)?;
+    let table = files::folds::read(file)?;
+    files::folds::check(file, &table, &layout)?;
+    Ok(lasting(&table))
 }
 
 /// The script on another garment, once checked. Changes are reported on standard error.
@@ -167,7 +181,8 @@ impl Playing {
     /// A board as after power-up.
     fn board(&self) -> Result<Shipped> {
         let mut board = Shipped::new(info(&self.garment), self.garment.clone(), self.scene.clone())?;
-        board.recall_table(TableKind::Surface, self.table);
+        board.recall_table(TableKind::Surface, self.surface);
+        board.recall_table(TableKind::Folds, self.folds);
         board.booted(Boot::default());
         Ok(board)
     }
@@ -193,9 +208,12 @@ impl Playing {
         let mut offset_us = 0;
         let mut origin = Instant::now();
         let mut flash = SimFlash::new(tables_start(TableKind::Folds) + tables_bytes(TableKind::Folds));
+        let mut posture = ScriptPosture::new(&self.script, &self.scene);
         // The inputs have been checked, so every round builds the same board.
         while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
             let SimBoard { mut lines, delay, adc, clock } = simulated;
+            let script_clock = clock.clone();
+            let script_us = || script_clock.now().0;
             let clock = Shifted { clock, offset_us };
             let mut platform = Virtual {
                 clock: clock.clone(),
@@ -206,10 +224,12 @@ impl Playing {
                 origin: self.realtime.then_some(&mut origin),
             };
             let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
-            let mut ends = &link;
-            block_on(run(&mut scan, &mut ends, &mut platform, board));
+            posture.begin();
+            let mut end = TellingEnd::new(&link, &mut posture, &script_us);
+            block_on(run(&mut scan, &mut end, &mut platform, board));
             offset_us = clock.now().0;
             if platform.restarts && self.restart(board, &mut flash).is_ok() {
+                posture.follow(&board.setup().scene);
                 // Both its clock and the script restart.
                 offset_us = 0;
                 origin = Instant::now();

@@ -74,7 +74,7 @@ pub fn run(args: &BodyLearnArgs) -> Result<()> {
 fn sweep(path: &Path, taxels: usize) -> Result<FoldSweep> {
     let angles = Angles::read(path)?;
     let joints = angles.joints();
-    let mut sweep = FoldSweep::new(joints.clone(), taxels);
+    let mut sweep = FoldSweep::new(joints.to_vec(), taxels);
     let mut now: BTreeMap<&str, f32> = BTreeMap::new();
     let mut told = angles.all().peekable();
     let mut play = Play::open(path)?;

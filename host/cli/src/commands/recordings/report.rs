@@ -1,6 +1,7 @@
 //! The command `taxel report`.
 
 use crate::fault::Fault;
+use crate::folding::Folding;
 use crate::on_robot::Wearer;
 use crate::report::{Seen, page};
 use crate::watch::{self, LiveArgs, Overwrite};
@@ -40,6 +41,9 @@ pub struct ReportArgs {
     /// Positions of joints, deg, rad or m: elbow=30deg,wrist=-0.5rad; the others rest
     #[arg(long, value_name = "JOINTS", requires = "robot")]
     pub joints: Option<String>,
+    /// Also show where the garment folds: the table, a file of `taxel body learn`; a simulated board has it
+    #[arg(long, value_name = "FILE")]
+    pub folds: Option<PathBuf>,
     /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
     /// once]
     #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
@@ -55,12 +59,15 @@ pub fn run(args: ReportArgs) -> Result<()> {
         |body: &String| Wearer::read(body, args.robot.as_deref(), args.joints.as_deref().unwrap_or_default());
     let wearer = args.body.as_ref().map(read).transpose()?;
     let inputs = args.file.clone().into_iter().chain(args.source.as_ref().and_then(SourceSpec::file));
-    let named = [&args.body, &args.robot].into_iter().flatten().map(PathBuf::from);
+    let named = [&args.body, &args.robot].into_iter().flatten().map(PathBuf::from).chain(args.folds.clone());
     let lists = wearer.iter().flat_map(Wearer::lists).map(Path::to_path_buf);
     let output = Output::stream(&args.output, args.force, inputs.chain(named).chain(lists))?;
     let seen = match (&args.file, args.source) {
-        (Some(path), _) => recorded(path, args.seconds, wearer)?,
-        (None, Some(spec)) => watched(spec, args.seconds, wearer)?,
+        (Some(path), _) => {
+            let folding = args.folds.as_ref().map(|folds| Folding::recorded(folds, path)).transpose()?;
+            recorded(path, args.seconds, wearer, folding)?
+        }
+        (None, Some(spec)) => watched(spec, args.seconds, wearer, args.folds)?,
         (None, None) => bail!(Fault::usage("give a recording, or a --source")),
     };
     let told = !output.is_standard();
@@ -75,13 +82,18 @@ pub fn run(args: ReportArgs) -> Result<()> {
 }
 
 /// Reads a recording.
-fn recorded(path: &Path, seconds: Option<f64>, wearer: Option<Wearer>) -> Result<Seen> {
+fn recorded(
+    path: &Path,
+    seconds: Option<f64>,
+    wearer: Option<Wearer>,
+    folding: Option<Folding>,
+) -> Result<Seen> {
     let overview = Overview::of(path)?;
     let mut play = Play::open(path)?;
     let mut progress =
         Progress::of(format!("reading {}", path.display()), Unit::Bytes, Some(play.passed()[1]));
     let scale = overview.counts_per_newton().map(|counts| counts as f32);
-    let mut seen = Seen::new(path.display().to_string(), scale).on(wearer);
+    let mut seen = Seen::new(path.display().to_string(), scale).on(wearer).folding(folding);
     let mut began = None;
     while let Some((_, event)) = play.next_event()? {
         seen.event(play.client(), &event)?;
@@ -99,11 +111,17 @@ fn recorded(path: &Path, seconds: Option<f64>, wearer: Option<Wearer>) -> Result
 }
 
 /// Watches a board.
-fn watched(spec: SourceSpec, seconds: Option<f64>, wearer: Option<Wearer>) -> Result<Seen> {
-    let options = SourceOptions { seconds, ..SourceOptions::default() };
+fn watched(
+    spec: SourceSpec,
+    seconds: Option<f64>,
+    wearer: Option<Wearer>,
+    folds: Option<PathBuf>,
+) -> Result<Seen> {
+    let folding = folds.as_deref().map(Folding::read).transpose()?;
+    let options = SourceOptions { seconds, folds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;
     let seconds = seconds.or(source.real_time.then_some(WATCHED));
-    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(wearer);
+    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(wearer).folding(folding);
     watch::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
     Ok(seen)
 }

@@ -1,6 +1,7 @@
 //! `taxel view`: shows a board's stream or a recording in the browser.
 
 use crate::fault::Fault;
+use crate::folding::Folding;
 use crate::on_robot::Wearer;
 use crate::view::{PageHub, Player, Tape, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
@@ -76,7 +77,8 @@ pub fn run(args: ViewArgs) -> Result<()> {
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     wearer.into_iter().for_each(|wearer| hub.wear(wearer));
     announce(&source.label, listener, &hub, args.open)?;
-    let mut viewer = Viewer::new(&source, hub);
+    let folding = args.board.folds.as_deref().map(Folding::read).transpose()?;
+    let mut viewer = Viewer::new(&source, hub).folding(folding);
     // Where a board does not listen, the host alone knows the body.
     let BoardArgs { body, robot, .. } = args.board.clone();
     let (body, robot) = (body.filter(|_| source.listens), robot.filter(|_| source.listens));
@@ -90,8 +92,8 @@ pub fn run(args: ViewArgs) -> Result<()> {
 
 /// Shows a recording.
 fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
-    // The host places the taxels of a recording: its board is not asked.
-    BoardArgs { body: None, robot: None, ..args.board.clone() }
+    // The host places the taxels of a recording, and knows where it folds: its board is not asked.
+    BoardArgs { body: None, robot: None, folds: None, ..args.board.clone() }
         .check_recorded(&file.display().to_string())?;
     ensure!(
         args.board.joint_states.is_none(),
@@ -103,7 +105,8 @@ fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
     let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(PageHub::default());
     args.wearer()?.into_iter().for_each(|wearer| hub.wear(wearer));
-    let player = Player::open(file, speed, calibration, hub.clone())?;
+    let folding = args.board.folds.as_deref().map(|folds| Folding::recorded(folds, file)).transpose()?;
+    let player = Player::open(file, speed, calibration, folding, hub.clone())?;
     announce(&file.display().to_string(), bind(args.port)?, &hub, args.open)?;
     player.run()
 }

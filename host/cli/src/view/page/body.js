@@ -3,6 +3,7 @@
 import { make } from "./dom.js";
 import { placeOf } from "./garment.js";
 import { OnRobot } from "./on-robot.js";
+import { folding } from "./folds.js";
 import { Regions } from "./regions.js";
 import { force } from "./units.js";
 
@@ -73,6 +74,7 @@ export class Body {
       image: settings.held && held ? held : shown.image,
       top: settings.top,
       pressing: settings.contacts && !settings.held ? (frame.pressing ?? null) : null,
+      folding: folding(shown, settings),
       force: (counts) => force(garment, counts),
       chosen: place && place.panel.base + place.row * place.panel.columns + place.column,
     };

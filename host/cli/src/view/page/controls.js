@@ -20,6 +20,7 @@ const LAYERS = /** @type {const} */ ([
   ["contours", "Contours", "c", "Lines between the bands of pressure"],
   ["contacts", "Contacts", "e", "Ellipses with id, axis and arrow"],
   ["peaks", "Peaks", "p", "Every local maximum"],
+  ["folds", "Folds", "f", "Taxels on which the garment folds"],
   ["glow", "Afterglow", "g", "Pressure of the last second, in red, fading"],
   ["held", "Hold", "h", "The highest pressure since it was cleared (x)"],
 ]);
@@ -65,6 +66,7 @@ export class Controls {
       contours: true,
       contacts: true,
       peaks: true,
+      folds: true,
       glow: true,
       held: false,
       top: 0,

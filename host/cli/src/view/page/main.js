@@ -5,6 +5,7 @@ import { Body } from "./body.js";
 import { CognitiveMap } from "./fcm.js";
 import { Concepts, contacts } from "./contacts.js";
 import { Controls } from "./controls.js";
+import { legend } from "./folds.js";
 import { Health } from "./health.js";
 import { Hover } from "./hover.js";
 import { Link } from "./link.js";
@@ -105,6 +106,8 @@ function spoken() {
 /** @param {import("./types.d.ts").Settings} settings */
 function beside(settings) {
   link.draw(store);
+  $("layer-folds").hidden = !store.states.folding;
+  say($("folding"), legend(store.shown(), settings));
   say($("spoken"), speaker.next(spoken(), performance.now()));
   concepts.draw(store);
   contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);

@@ -130,6 +130,28 @@ export function peak(context, { row, column }, sx, sy) {
 }
 
 /**
+ * Strokes the taxels of a panel on which the garment folds.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[]} taxels of the garment
+ * @param {import("./types.d.ts").Panel} panel
+ * @param {number} sx
+ * @param {number} sy
+ */
+export function folds(context, taxels, { base, rows, columns }, sx, sy) {
+  const own = taxels.filter((taxel) => taxel >= base && taxel < base + rows * columns);
+  if (!own.length) return;
+  const half = Math.min(sx, sy) / 4;
+  stroke(context, 1, () => {
+    for (const taxel of own) {
+      const at = taxel - base;
+      const [x, y] = [((at % columns) + 0.5) * sx, (Math.floor(at / columns) + 0.5) * sy];
+      context.moveTo(x - half, y + half);
+      context.lineTo(x + half, y - half);
+    }
+  });
+}
+
+/**
  * Draws a local maximum of the surface.
  * @param {CanvasRenderingContext2D} context
  * @param {number} x

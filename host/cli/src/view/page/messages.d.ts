@@ -1,5 +1,5 @@
 // Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs,
-// host/cli/src/on_robot/lines.rs and host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs:
+// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs and host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs:
 // TAXEL_BLESS=1 updates it.
 
 /** Garment, scene and firmware of the board, and how the page shows them. */
@@ -393,6 +393,16 @@ export type PosesLine = {
     /** Rotation: a quaternion x, y, z, w of length 1. */
     turn: [number, number, number, number];
   }>;
+};
+
+/** Where the garment folds. The docs of the fields are the descriptions in `view/page/messages.d.ts`. */
+export type FoldingLine = {
+  /** Type of the message. */
+  type: "folding";
+  /** True if the posture is known. */
+  followed: boolean;
+  /** Taxels on which the folds press at this posture, as they were learned; if it is not known, all on which they may. */
+  taxels: number[];
 };
 
 /** The pressure just before a moment of a recording. */

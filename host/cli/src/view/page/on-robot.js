@@ -23,6 +23,7 @@ import { GlPainter } from "./relief-gl.js";
  * @property {ArrayLike<number>} image counts
  * @property {number} top end of the colours, counts
  * @property {Pressing | null} pressing
+ * @property {number[]} folding taxels on which the garment folds
  * @property {(counts: number) => string} force in words
  * @property {number | null} chosen a taxel that is marked
  * @typedef {object} Aspect a side from which the robot is seen
@@ -46,6 +47,8 @@ const MARGINS = /** @type {[number, number]} */ ([30, 22]);
 const PER_ARROW = 40;
 /** Height of a line of names, and width of a letter, pixels; letters of the force behind a name. */
 const [LINE, LETTER, FORCE] = [14, 6.8, 7];
+/** Half of the width of a stroke over a taxel that folds, pixels. */
+const STROKE = 2.5;
 /** Shortest time between two texts in a place, ms: nobody reads faster. */
 const SAID_MS = 100;
 const TURNS = "Arrow keys turn and tilt it, Page Up and Page Down move nearer and farther, Home resets.";
@@ -69,10 +72,13 @@ export class OnRobot {
       watch.changed();
     });
     this.front = draw("svg", { "aria-hidden": "true" });
+    this.folds = ["halo", "mark"].map((ink, at) =>
+      draw("path", { fill: "none", stroke: `var(--${ink})`, "stroke-width": 3 - 2 * at, "stroke-linecap": "round" }),
+    );
     this.names = draw("g", { "font-size": 12, "text-anchor": "middle", fill: "var(--ink)" });
     this.forces = draw("g", { "font-size": 13, "font-weight": 650, "text-anchor": "middle" });
     this.ring = draw("circle", { r: 7, fill: "none", stroke: "var(--mark)", "stroke-width": 1.5, display: "none" });
-    this.front.append(this.names, this.forces, this.ring);
+    this.front.append(...this.folds, this.names, this.forces, this.ring);
     this.note = make("p", { class: "note quiet" });
     this.stage.append(this.front, this.note);
     root.replaceChildren(this.stage);
@@ -240,6 +246,26 @@ export class OnRobot {
   }
 
   /**
+   * A stroke over each taxel on which the garment folds, where its outside is seen.
+   * @param {Aspect} aspect
+   * @param {number[]} folding
+   */
+  strokes({ seen, viewer }, folding) {
+    const { cloth, standing } = this;
+    if (!cloth || !standing || !folding.length) return "";
+    const folded = new Set(folding);
+    let strokes = "";
+    cloth.taxels.forEach((taxel, corner) => {
+      // A taxel that stands alone has four corners: one stroke is enough.
+      if (!folded.delete(taxel)) return;
+      const facing = viewer.reduce((sum, part, axis) => sum + part * (standing.normals[3 * corner + axis] ?? 0), 0);
+      const [x, y] = [seen[3 * corner] ?? 0, seen[3 * corner + 1] ?? 0];
+      if (facing > 0) strokes += `M${(x - STROKE).toFixed(1)} ${(y + STROKE).toFixed(1)}l${2 * STROKE} ${-2 * STROKE}`;
+    });
+    return strokes;
+  }
+
+  /**
    * Names the links, and draws each contact with its force, and the chosen taxel.
    * @param {BodyScene} scene
    */
@@ -278,6 +304,8 @@ export class OnRobot {
     });
     if (isDue) this.name(scene);
     this.choose(scene.chosen);
+    const strokes = this.aspects.map((aspect) => this.strokes(aspect, scene.folding)).join("");
+    for (const path of this.folds) set(path, "d", strokes);
     const note = [
       this.poses ? "" : "No robot is known: each link stands in its own frame.",
       this.cloth?.bare.length ? `No place on the robot: ${this.cloth.bare.join(", ")}.` : "",

@@ -8,6 +8,7 @@ import { trace } from "./contours.js";
 import { maxima } from "./peaks.js";
 import * as marks from "./marks.js";
 import { opacity } from "./afterglow.js";
+import { folding } from "./folds.js";
 
 const GAP = 8;
 const CAPTION = 20;
@@ -46,9 +47,10 @@ export class Panels {
     const image = settings.held && store.held ? store.held : shown.image;
     const { contacts } = shown.head.frame;
     const glow = settings.glow && !settings.held ? store.glowing() : null;
+    const folds = folding(shown, settings);
     for (const { panel, canvas, note } of this.parts) {
       const own = contacts.filter((touch) => touch.panel === panel.index);
-      this.panel(canvas, panel, image, settings.held ? [] : own, garment, settings, glow);
+      this.panel(canvas, panel, image, settings.held ? [] : own, garment, settings, glow, folds);
       const total = own.reduce((sum, touch) => sum + touch.total, 0);
       say(note, settings.held ? "highest since cleared" : own.length ? force(garment, total) : "");
     }
@@ -93,8 +95,9 @@ export class Panels {
    * @param {Garment} garment
    * @param {import("./types.d.ts").Settings} settings
    * @param {Float32Array | null} glow
+   * @param {number[]} folds numbers of taxels of the garment
    */
-  panel(canvas, panel, image, contacts, garment, settings, glow) {
+  panel(canvas, panel, image, contacts, garment, settings, glow, folds) {
     const context = fit(canvas);
     if (!context) return;
     const { clientWidth: width, clientHeight: height } = canvas;
@@ -105,6 +108,7 @@ export class Panels {
     context.drawImage(this.raster.paint(image, panel, { top, smooth, absent: garment.absent }), 0, 0, width, height);
     if (glow) context.drawImage(this.glow.shine(glow, image, panel, top, opacity), 0, 0, width, height);
     if (settings.contours) contours(context, image, panel, top, sx, sy);
+    marks.folds(context, folds, panel, sx, sy);
     if (settings.peaks) for (const peak of maxima(image, panel, garment.low)) marks.peak(context, peak, sx, sy);
     if (settings.contacts) for (const touch of contacts) marks.contact(context, touch, sx, sy);
     const { place } = this.hover;

@@ -124,7 +124,12 @@ export class Store {
     const slot = this.count % this.size;
     this.images.set(image, slot * garment.taxels);
     this.highest.set(highest, (this.count % GLOWING) * garment.taxels);
-    this.heads[slot] = { ...head, poses: this.states.poses ?? null, samples: Float64Array.from(samples.flat()) };
+    this.heads[slot] = {
+      ...head,
+      poses: this.states.poses ?? null,
+      folding: this.states.folding ?? null,
+      samples: Float64Array.from(samples.flat()),
+    };
     this.count += 1;
     this.latest = this.at(this.count - 1);
   }

@@ -4,6 +4,7 @@ import type {
   BodyLine,
   BudgetLine,
   EndLine,
+  FoldingLine,
   GlowLine,
   HealthLine,
   HealthMapLine,
@@ -57,6 +58,8 @@ export interface Head extends Omit<ImageHead, "samples"> {
   samples: Float64Array;
   /** Where the robot's links were when it came; null if that is not known. */
   poses: PosesLine | null;
+  /** Where the garment folded then; null if that is not known. */
+  folding: FoldingLine | null;
 }
 
 /** An image, as it comes. */
@@ -99,6 +102,7 @@ export interface States {
   taxel?: TaxelState;
   body?: BodyState;
   poses?: PosesLine;
+  folding?: FoldingLine;
   end?: EndLine;
   player?: PlayerState;
   glow?: GlowLine & { values?: Uint16Array };
@@ -122,6 +126,7 @@ export interface Settings {
   contours: boolean;
   contacts: boolean;
   peaks: boolean;
+  folds: boolean;
   glow: boolean;
   held: boolean;
   /** End of the scale, counts; 0 before the program has said where it begins. */

@@ -30,6 +30,7 @@ pub use cut::Cut;
 
 use super::hub::PageHub;
 use super::tape::Tape;
+use crate::folding::Folding;
 use anyhow::{Context, Result, bail};
 use deck::{Deck, Go};
 use reel::Reel;
@@ -61,11 +62,13 @@ pub struct Player {
 }
 
 impl Player {
-    /// Opens a recording and shows its first image. `calibration` replaces the attached one.
+    /// Opens a recording and shows its first image. `calibration` replaces the attached one; `folding` says
+    /// where the garment folds.
     pub fn open(
         path: &Path,
         speed: f64,
         calibration: Option<Calibration>,
+        folding: Option<Folding>,
         hub: Arc<PageHub>,
     ) -> Result<Player> {
         let mut clips = Clips::open(path, WIRE)?;
@@ -85,7 +88,7 @@ impl Player {
         let mut player = Player {
             deck: Deck::new(clock.duration(), speed, Instant::now()),
             reel: Reel::new(clips, survey),
-            screen: PageScreen::new(hub.clone(), path.display().to_string(), scale),
+            screen: PageScreen::new(hub.clone(), path.display().to_string(), scale, folding),
             told: Instant::now(),
             hub,
         };

@@ -1,5 +1,6 @@
 //! Shows moments of a recording to the pages of a hub.
 
+use crate::folding::Folding;
 use crate::view::hub::PageHub;
 use crate::view::lines::PageFrame;
 use crate::view::message;
@@ -17,13 +18,15 @@ pub struct PageScreen {
     hub: Arc<PageHub>,
     label: String,
     scale: Option<f32>,
+    /// Where the garment folds; none without a table.
+    folding: Option<Folding>,
     rate: Rate,
 }
 
 impl PageScreen {
     /// Shows a recording with this label.
-    pub fn new(hub: Arc<PageHub>, label: String, scale: Option<f32>) -> PageScreen {
-        PageScreen { hub, label, scale, rate: Rate::default() }
+    pub fn new(hub: Arc<PageHub>, label: String, scale: Option<f32>, folding: Option<Folding>) -> PageScreen {
+        PageScreen { hub, label, scale, folding, rate: Rate::default() }
     }
 
     /// Shows another moment and its afterglow; earlier messages are no longer valid.
@@ -66,6 +69,9 @@ impl PageScreen {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return };
         let Some((_, image)) = client.image() else { return };
         self.rate.add(*time);
+        if let Some(line) = self.folding.as_mut().and_then(|folding| folding.news(time.0)) {
+            self.hub.state("folding", line);
+        }
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         let Some(line) = message::frame(client, event) else { return };
         let wearer = self.hub.wearer();
@@ -74,12 +80,16 @@ impl PageScreen {
         self.hub.show(Shot { line, image: image.into(), time_us: time.0, total });
     }
 
-    fn hello(&self, client: &Client) {
+    fn hello(&mut self, client: &Client) {
         let circuit =
             client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
         self.hub.wired(circuit);
         self.hub.state("hello", &message::hello(client, &self.label, self.scale));
-        if let Err(error) = self.hub.worn(client) {
+        let folds = match (&mut self.folding, client.worn()) {
+            (Some(folding), Some(worn)) => folding.wear(worn),
+            _ => Ok(()),
+        };
+        for error in [folds.err(), self.hub.worn(client).err()].into_iter().flatten() {
             self.hub.say(&Said::note(format!("{error:#}")));
         }
     }

@@ -36,6 +36,16 @@ impl Axis {
         Axis { first, step, knots: knots as usize, play }
     }
 
+    /// Knots of the joints before this one, each split into those around an angle of this one.
+    fn split(&self, knots: [KnotWeight; 4], angle: f32) -> [KnotWeight; 4] {
+        let (knot, share) = self.at(angle);
+        let [first, second, ..] = knots;
+        let of = |(outer, weight): KnotWeight, more: usize, share: f32| {
+            (outer * self.knots + (knot + more).min(self.knots - 1), weight * share)
+        };
+        [of(first, 0, 1.0 - share), of(first, 1, share), of(second, 0, 1.0 - share), of(second, 1, share)]
+    }
+
     /// Knot below an angle, and the share of the way to the next.
     fn at(&self, angle: f32) -> (usize, f32) {
         let along = ((angle - self.first) / self.step).clamp(0.0, (self.knots - 1) as f32);
@@ -55,6 +65,9 @@ fn played(angles: impl Iterator<Item = f32>, play: f32) -> impl Iterator<Item = 
 /// A knot, and how much it counts.
 pub(super) type KnotWeight = (usize, f32);
 
+/// The knot of no joint.
+const START: [KnotWeight; 4] = [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)];
+
 /// The joints of a fold, and their knots.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Knots {
@@ -72,23 +85,18 @@ impl Knots {
 
     /// The knots around each frame's posture, four at most; none if a joint did not take part in the sweep.
     pub fn weights(&self, sweep: &FoldSweep) -> Option<Vec<[KnotWeight; 4]>> {
-        let mut all = vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; sweep.frames()];
+        let mut all = vec![START; sweep.frames()];
         for (joint, axis) in self.joints.iter().zip(&self.axes) {
             for (frame, at) in all.iter_mut().zip(played(sweep.angles(joint)?, axis.play)) {
-                let (knot, share) = axis.at(at);
-                let [first, second, ..] = *frame;
-                let of = |(outer, weight): KnotWeight, more: usize, share: f32| {
-                    (outer * axis.knots + (knot + more).min(axis.knots - 1), weight * share)
-                };
-                *frame = [
-                    of(first, 0, 1.0 - share),
-                    of(first, 1, share),
-                    of(second, 0, 1.0 - share),
-                    of(second, 1, share),
-                ];
+                *frame = axis.split(*frame, at);
             }
         }
         Some(all)
+    }
+
+    /// The knots around a posture: the angle of each joint's sleeve, degrees.
+    pub fn around(&self, degrees: &[f32]) -> [KnotWeight; 4] {
+        self.axes.iter().zip(degrees).fold(START, |knots, (axis, at)| axis.split(knots, *at))
     }
 
     /// The knots within so many degrees of one, itself among them.

@@ -8,6 +8,7 @@
 //! | `felt.rs` | a taxel's mean and spread at the knots, and how much of what it felt they explain |
 //! | `near.rs` | the taxels that a shift of the garment may bring to where one lies |
 //! | `learner.rs` | which taxels fold with which joints, and the table |
+//! | `expected.rs` | what a table expects at a posture |
 //!
 //! Each taxel that was pressed belongs to the fold that explains it best. Its expectation is the mean over
 //! the days, linear between knots; its spread covers all but a few frames of each day. From day to day a
@@ -16,10 +17,12 @@
 //! appears at once does so elsewhere tomorrow.
 
 mod bend;
+mod expected;
 mod felt;
 mod learner;
 mod near;
 mod sweep;
 
+pub use expected::expected;
 pub use learner::{FoldSettings, LearnedFold, LearnedFolds, learn};
 pub use sweep::FoldSweep;

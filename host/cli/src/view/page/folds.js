@@ -1,0 +1,27 @@
+// Where the garment folds: taxels that it presses by itself, and what the strokes over them mean.
+
+/**
+ * @typedef {import("./types.d.ts").Shown} Shown
+ * @typedef {import("./types.d.ts").Settings} Settings
+ */
+
+/**
+ * The taxels that are stroked: their numbers.
+ * @param {Shown} shown
+ * @param {Settings} settings
+ * @returns {number[]}
+ */
+export const folding = ({ head }, settings) => (settings.folds && !settings.held ? (head.folding?.taxels ?? []) : []);
+
+/**
+ * What the strokes mean; empty if nothing is known of folds.
+ * @param {Shown | null} shown
+ * @param {Settings} settings
+ */
+export function legend(shown, settings) {
+  const told = shown?.head.folding;
+  if (!told || !settings.folds || settings.held) return "";
+  const { followed, taxels } = told;
+  if (!followed) return `╱ may fold: ${taxels.length} taxels, no posture is told`;
+  return taxels.length ? `╱ folds here: ${taxels.length} taxels` : "no fold presses";
+}
