@@ -186,6 +186,16 @@ impl<'a> FoldTable<'a> {
         self.taxels
     }
 
+    /// The folds, each with the numbers of its taxels.
+    pub fn folded(self) -> impl Iterator<Item = (&'a FoldRecord, &'a [u16])> {
+        let (mut start, taxels) = (FoldStart::FIRST, self.taxels);
+        self.folds.iter().map(move |fold| {
+            let its = taxels.get(start.quads(fold)).unwrap_or(&[]).as_flattened();
+            start = start.after(fold);
+            (fold, its.get(..fold.taxels.into()).unwrap_or(its))
+        })
+    }
+
     /// What a taxel feels at a knot of its fold. None if it does not fold, or has no such knot.
     pub fn cell(&self, taxel: u16, knot: usize) -> Option<FoldCell> {
         let mut start = FoldStart::FIRST;

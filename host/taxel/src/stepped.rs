@@ -81,9 +81,10 @@ impl Stepped {
     /// The taxels that fold: number, expected pressure and doubt of it, counts.
     pub fn folds(&self) -> Vec<[u16; 3]> {
         let folds = self.board.state().condition.folds();
-        let taxels = folds.table().map_or(&[][..], |table| table.taxels());
+        let taxels =
+            folds.table().into_iter().flat_map(|table| table.folded()).flat_map(|(_, taxels)| taxels);
         let told = |taxel: &u16| folds.of(*taxel).map(|[expected, doubt]| [*taxel, expected, doubt]);
-        taxels.as_flattened().iter().filter_map(told).collect()
+        taxels.filter_map(told).collect()
     }
 
     /// The client, for requests; they reach the board with the next step.

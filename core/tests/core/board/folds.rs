@@ -304,6 +304,7 @@ fn a_table_holds_what_was_written() {
     write_fold_table(&parts, &layout(), &mut bytes).unwrap();
     let table = FoldTable::check(&bytes, &layout()).unwrap();
     assert_eq!(table.taxels(), [[3, 9, 10, 41], [63, NO_TAXEL, NO_TAXEL, NO_TAXEL], [0, 4, 62, NO_TAXEL]]);
+    assert_eq!(table.folded().map(|(_, its)| its).collect::<Vec<_>>(), [&taxels[..5], &taxels[5..]]);
     let mut cells = felt.iter();
     for (at, taxel) in taxels.into_iter().enumerate() {
         let knots = if at < 5 { 5 } else { 6 };

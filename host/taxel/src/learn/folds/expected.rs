@@ -7,18 +7,14 @@ use taxel_core::fold::{FoldRecord, FoldTable, NO_JOINT};
 /// the sleeve and what it has corrected since. None of a fold one of whose joints stands at no known angle;
 /// `degrees` gives that of a joint by its name.
 pub fn expected(table: &FoldTable<'_>, degrees: impl Fn(&str) -> Option<f32>) -> Vec<(u16, Option<f32>)> {
-    let (mut taxels, mut cells) = (table.taxels(), table.cells());
-    let mut all = Vec::with_capacity(taxels.len());
-    for fold in table.folds() {
-        let (its, other) = taxels.split_at(usize::from(fold.taxels).min(taxels.len()));
-        let (felt, beyond) = cells.split_at((its.len() * fold.cells()).min(cells.len()));
-        (taxels, cells) = (other, beyond);
+    let mut all = Vec::new();
+    for (fold, taxels) in table.folded() {
         let knots = knots(table, fold);
         let at: Option<Vec<f32>> = knots.joints.iter().map(|joint| degrees(joint)).collect();
         let around = at.map(|at| knots.around(&at));
-        all.extend(its.iter().zip(felt.chunks(fold.cells().max(1))).map(|(taxel, felt)| {
+        all.extend(taxels.iter().map(|taxel| {
             let counts = |around: [(usize, f32); 4]| {
-                let mean = |knot: usize| felt.get(knot).map_or(0.0, |cell| f32::from(cell.mean));
+                let mean = |knot: usize| table.cell(*taxel, knot).map_or(0.0, |cell| f32::from(cell.mean));
                 let units: f32 = around.iter().map(|(knot, weight)| weight * mean(*knot)).sum();
                 units * f32::from(table.unit())
             };
