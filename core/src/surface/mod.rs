@@ -12,6 +12,7 @@
 //! link, right-handed. Taxels feel only what presses along their normals: friction is not part of any force.
 //! Forces are in counts, as pressure is; a calibration makes newtons of both.
 
+mod frames;
 mod motion;
 mod place;
 mod pose;
@@ -22,11 +23,12 @@ mod table;
 mod taxel;
 mod uncertainty;
 
+pub use frames::{LinkFrames, MovingPose, SurfaceState};
 pub use motion::{CARRIED_US, LinkMotion};
 pub use place::SurfacePoint;
 pub use pose::{Pose, Quaternion};
 pub use regions::{BodyDirection, ONSET_MS, RELEASED_MS, RegionPhase, RegionStates, RegionSymbol};
-pub use stage::{InBase, Landed, LinkFrames, MovingPose, Pressing, SurfaceState, TaxelLimits, Wrench};
+pub use stage::{InBase, Landed, Pressing, TaxelLimits, Wrench};
 pub use table::{Table, table_bytes, write_table};
 pub use taxel::{NO_REGION, TaxelRecord};
 pub use uncertainty::Uncertainty;

@@ -48,7 +48,8 @@ impl Table<'_> {
         Some(SurfacePoint { link: corner.link, at: at.map(micrometres), normal: unit(normal)? })
     }
 
-    /// The point as of [`Table::spot`], and the region of the nearest taxel, see [`NO_REGION`](super::NO_REGION).
+    /// The point as of [`Table::spot`], and the region of the nearest taxel, see
+    /// [`NO_REGION`](super::NO_REGION).
     pub(super) fn spot_in(
         &self,
         layout: &Layout,

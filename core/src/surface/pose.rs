@@ -42,8 +42,8 @@ impl Pose {
     /// The pose of a link in its own frame.
     pub const OWN: Pose = Pose { at: [0; 3], turn: [0, 0, 0, 1 << BITS] };
 
-    /// Checks the pose. Error if the origin is farther than 100 m along an axis, or the quaternion's length is
-    /// not 1.
+    /// Checks the pose. Error if the origin is farther than 100 m along an axis, or the quaternion's length
+    /// is not 1.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
         if self.at.iter().any(|um| um.unsigned_abs() > FAR_UM) {
             return Err(Invalid { parameter: "pose.at", must: "must be within 100 m" });
@@ -80,8 +80,8 @@ fn twice(a: i32, b: i32) -> i64 {
 }
 
 impl Rigid {
-    /// A vector of less than 2^21 units in each component turned into the frame; at most 3 units off. A longer
-    /// one is rounded to as many bits as fit.
+    /// A vector of less than 2^21 units in each component turned into the frame; at most 3 units off. A
+    /// longer one is rounded to as many bits as fit.
     pub fn turned(&self, mut vector: [i32; 3]) -> [i32; 3] {
         let mut shift = 0;
         while vector.iter().any(|x| x.unsigned_abs() >> (ROW_BITS + 1) != 0) {

@@ -4,8 +4,8 @@
 //! released just now; with the words of the contact that presses most. Axes are those of the frame of the
 //! poses (x forward, y to the left, z up) or, without a pose of the link, of the link.
 
+use super::frames::{LinkFrames, SurfaceState};
 use super::place::SurfacePoint;
-use super::stage::{LinkFrames, SurfaceState};
 use super::table::Table;
 use super::{Micrometres, REGIONS};
 use crate::body::Placed;

@@ -1,9 +1,9 @@
 //! What saturated and faulty taxels leave unknown of a force and of its place.
 //!
-//! A saturated taxel presses at least what it says. What a faulty one presses is unknown: between nothing, and
-//! the most that its neighbours let expect, which is what the two next to it in a row or a column continue to.
-//! Where the filter bridges it, the least of its neighbours is counted for it already. A touch narrower than
-//! two taxels may hide in a faulty one: then its neighbours let expect less than it is.
+//! A saturated taxel presses at least what it says. What a faulty one presses is unknown: between nothing,
+//! and the most that its neighbours let expect, which is what the two next to it in a row or a column
+//! continue to. Where the filter bridges it, the least of its neighbours is counted for it already. A touch
+//! narrower than two taxels may hide in a faulty one: then its neighbours let expect less than it is.
 
 use super::Micrometres;
 use crate::format::{Inverse, root};
@@ -59,8 +59,8 @@ pub(super) fn most_at(values: &[u16], layout: &Layout, place: Place) -> u16 {
     })
 }
 
-/// The uncertainty that faulty taxels leave; each with its distance from the centre of pressure, um. `total` is
-/// the sum of all pressures, counts.
+/// The uncertainty that faulty taxels leave; each with its distance from the centre of pressure, um. `total`
+/// is the sum of all pressures, counts.
 pub(super) fn of_faulty(blind: impl Iterator<Item = (BlindTaxel, u32)>, total: u32) -> Uncertainty {
     let (mut sum, mut moved) = (Uncertainty::default(), 0u64);
     for (BlindTaxel { counted, most, .. }, distance) in blind {

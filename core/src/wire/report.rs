@@ -431,8 +431,8 @@ pub struct BoundsReport {
     pub poses: Vec<(u8, u32), LINKS>,
 }
 
-/// What each region of the surface feels: when one of them changes, and once a second; from a board whose body has
-/// regions. See [`RegionStates`](crate::surface::RegionStates).
+/// What each region of the surface feels: when one of them changes, and once a second; from a board whose
+/// body has regions. See [`RegionStates`](crate::surface::RegionStates).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegionsReport {
     /// Number of the scan.
@@ -443,8 +443,8 @@ pub struct RegionsReport {
     pub regions: Vec<RegionSymbol, REGIONS>,
 }
 
-/// Names of the surface's regions: before the first [`RegionsReport`] after a `Start`, and after another surface
-/// came into force.
+/// Names of the surface's regions: before the first [`RegionsReport`] after a `Start`, and after another
+/// surface came into force.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegionNames {
     /// In the order of the body.

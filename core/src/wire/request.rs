@@ -116,9 +116,9 @@ pub enum Request<'a> {
     SetPressing(u16),
     /// postcard of a [`TablePiece`] of the table of folds; as `SetSurface`.
     SetFolds(&'a [u8]),
-    /// postcard of the board's time of the poses, and of a list of [`MovingPose`](crate::surface::MovingPose)s: as
-    /// `SetPoses`, of links that move. The board carries them on to the time of each frame, for
-    /// [`CARRIED_US`](crate::surface::CARRIED_US) at most.
+    /// postcard of the board's time of the poses, and of a list of
+    /// [`MovingPose`](crate::surface::MovingPose)s: as `SetPoses`, of links that move. The board carries them
+    /// on to the time of each frame, for [`CARRIED_US`](crate::surface::CARRIED_US) at most.
     MovePoses(&'a [u8]),
 }
 

@@ -27,8 +27,8 @@ pub fn set_garment(client: &mut Client, name_or_path: &str) -> Result<()> {
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
-/// Queues the requests that store a body on the board: a preset or a TOML file, for the garment that the board
-/// wears or, before its `Hello`, for `garment`.
+/// Queues the requests that store a body on the board: a preset or a TOML file, for the garment that the
+/// board wears or, before its `Hello`, for `garment`.
 pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
     let read = body::read(body)?;
     let table = |garment: &Garment, layout: &Layout| -> Result<Vec<u8>> {
@@ -46,16 +46,16 @@ pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
     send_table(client, TableKind::Surface, &table)
 }
 
-/// Queues the requests that store a table of folds on the board, as [`learn::folds`](crate::learn::folds) makes
-/// them. The board checks it.
+/// Queues the requests that store a table of folds on the board, as [`learn::folds`](crate::learn::folds)
+/// makes them. The board checks it.
 pub fn set_folds(client: &mut Client, file: &Path) -> Result<()> {
     let table = folds::read(file)?;
     verbose::tell(format_args!("sending folds {}, {} bytes", file.display(), table.len()));
     send_table(client, TableKind::Folds, &table)
 }
 
-/// Queues the requests that store a table on the board; an empty one takes the board's table out of force. The
-/// board answers each piece, the last one once the table is in force.
+/// Queues the requests that store a table on the board; an empty one takes the board's table out of force.
+/// The board answers each piece, the last one once the table is in force.
 fn send_table(client: &mut Client, kind: TableKind, table: &[u8]) -> Result<()> {
     let length = table.len() as u32;
     // At least one: an empty piece of an empty table.
@@ -72,8 +72,8 @@ fn send_table(client: &mut Client, kind: TableKind, table: &[u8]) -> Result<()> 
     Ok(())
 }
 
-/// Queues poses of the links of the board's body: by name, its origin (m) and its rotation (quaternion x, y, z,
-/// w) in the frame in which contacts are to be told.
+/// Queues poses of the links of the board's body: by name, its origin (m) and its rotation (quaternion x, y,
+/// z, w) in the frame in which contacts are to be told.
 pub fn set_poses<'a>(
     client: &mut Client,
     poses: impl IntoIterator<Item = (&'a str, [f64; 3], [f64; 4])>,
@@ -88,8 +88,8 @@ pub fn set_poses<'a>(
     Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
 }
 
-/// Queues poses of links of the board's body at the board's time `at`, by name, in the frame in which contacts are
-/// to be told, and how they move: the board carries them on.
+/// Queues poses of links of the board's body at the board's time `at`, by name, in the frame in which
+/// contacts are to be told, and how they move: the board carries them on.
 pub fn move_poses<'a>(
     client: &mut Client,
     at: Micros,
