@@ -4,6 +4,7 @@ use crate::targets::{End, shown};
 use crate::{install, paths, process, wheels};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 use std::time::Instant;
 
 /// The oldest CPython that the wheel is for, and the newest that it is tested with.
@@ -59,9 +60,20 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
         Err(why) => return Ok(Err(why)),
     };
     let variables = [variables, &[("TAXEL_FRAMES", FRAMES)]].concat();
+    // A million frames take each of them minutes.
+    let told: Vec<_> = thread::scope(|scope| {
+        let run = |python: &'_ String| {
+            let (python, log) = (python.clone(), log.with_extension(format!("{}.log", minor(python))));
+            let _ = std::fs::remove_file(&log);
+            let (wheel, variables) = (wheel.clone(), &variables);
+            scope.spawn(move || tested(&python, |_| Ok(wheel), &log, variables))
+        };
+        let runs: Vec<_> = found.iter().map(run).collect();
+        runs.into_iter().map(|run| run.join().unwrap_or_else(|_| Err("its thread ended".into()))).collect()
+    });
     let mut lines = vec![wheels::shown(&wheel)];
-    for python in &found {
-        match tested(python, |_| Ok(wheel.clone()), log, &variables)? {
+    for (python, told) in found.iter().zip(told) {
+        match told? {
             Ok(said) => lines.extend(said),
             Err(why) => return Ok(Err(format!("{python}: {why}"))),
         }
@@ -74,9 +86,8 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
         });
         match quickest.unwrap_or_else(|| Err("nothing was tried".into())) {
             Ok(seconds) => {
-                let [major, minor] = version(python).unwrap_or_default();
                 let what = "from pip install to the first frame";
-                lines.push(format!("CPython {major}.{minor}: {what} {seconds:.1} s"));
+                lines.push(format!("CPython 3.{}: {what} {seconds:.1} s", minor(python)));
             }
             Err(why) => return Ok(Err(format!("{python}: {why}"))),
         }
@@ -130,6 +141,11 @@ fn tested(
         let head = format!("CPython 3.{minor}:");
         lines.into_iter().map(|line| format!("{head} {line}")).collect()
     }))
+}
+
+/// Minor version of an interpreter.
+fn minor(python: &str) -> u32 {
+    version(python).map_or(0, |[_, minor]| minor)
 }
 
 /// Builds the wheel as it is given away, for this machine alone.
