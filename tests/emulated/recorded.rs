@@ -3,7 +3,7 @@
 
 use crate::board::Emulated;
 use crate::data;
-use crate::twin::{DWELL, FULL_SCALE, RATE_HZ, same, scene};
+use crate::twin::{Course, DWELL, FULL_SCALE, RATE_HZ, same, scene};
 use std::path::PathBuf;
 use taxel::files::arrays::read_all;
 use taxel_core::garment::Garment;
@@ -51,7 +51,8 @@ fn recorded_people() {
     // It hears nothing before it has started.
     board.receive();
     let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Reaction", "Gesture", "Confidence"];
-    let counts = same(&mut board, &[], &requests, &codes, &kinds);
+    let course = Course { tables: &[], requests: &requests, codes: &codes, dwell: DWELL };
+    let counts = same(&mut board, &course, &kinds);
     board.end();
     assert!(
         ["Contacts", "Symbols", "Intent", "Frame", "Gesture"].iter().all(|kind| counts.contains_key(kind))

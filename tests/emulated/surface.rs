@@ -1,9 +1,11 @@
 //! Tables on the emulated board: they are sent in pieces and kept in flash, over a restart; what presses on the
-//! robot, and what is felt where the garment folds, is what the same core says on this machine. `cargo xtask test --only
-//! emulator-surface`.
+//! robot, and what is felt where the garment folds, is what the same core says on this machine, also while the
+//! robot moves. `cargo xtask test --only emulator-surface`.
+
+mod moving;
 
 use crate::board::Emulated;
-use crate::twin::{DWELL, RATE_HZ, same, scene};
+use crate::twin::{Course, DWELL, RATE_HZ, same, scene};
 use std::path::Path;
 use taxel::body::{self, Pose, Surface};
 use taxel::files::scripts::load;
@@ -29,26 +31,40 @@ fn table() -> (&'static [u8], Surface) {
     (Box::leak(table.into_boxed_slice()), surface)
 }
 
-/// A pose of each link but the first, in no special direction.
-fn poses(surface: &Surface) -> Vec<u8> {
-    let pose = |(index, link): (usize, &String)| {
-        let pose = Pose::from_arrays([0.1 * index as f64, -0.7, 1.2], [0.3, -0.2, 0.1 * index as f64, 0.9]);
-        let pose = pose.for_board().unwrap();
-        (name(link), pose)
-    };
+/// Poses of links, as they are sent.
+fn sent<'a>(poses: impl Iterator<Item = (&'a String, Pose)>) -> Vec<u8> {
     let poses: Vec<(Name, taxel_core::surface::Pose)> =
-        surface.links().iter().enumerate().skip(1).map(pose).collect();
+        poses.map(|(link, pose)| (name(link), pose.for_board().unwrap())).collect();
     postcard::to_allocvec(&poses).unwrap()
 }
 
-/// A board that is sent these tables, stores them, and starts again with these codes to come.
-fn storing(flash: &str, tables: &[(TableKind, &'static [u8])], codes: &[u16]) -> Emulated {
+/// A pose of each link but the first, in no special direction.
+fn poses(surface: &Surface) -> Vec<u8> {
+    let pose = |(index, link)| {
+        let turn = [0.3, -0.2, 0.1 * index as f64, 0.9];
+        (link, Pose::from_arrays([0.1 * index as f64, -0.7, 1.2], turn))
+    };
+    sent(surface.links().iter().enumerate().skip(1).map(pose))
+}
+
+/// A board that is sent these tables, stores them, and starts again with these codes to come, each frame in so
+/// many scans.
+fn storing(
+    (flash, link): (&str, &str),
+    tables: &[(TableKind, &'static [u8])],
+    (codes, dwell): (&[u16], u64),
+) -> Emulated {
     let flash = Path::new(env!("CARGO_TARGET_TMPDIR")).join(flash);
     let _ = std::fs::remove_file(&flash);
-    let dwell = DWELL.to_string();
-    let options = ["--dwell", &dwell, "--flash", flash.to_str().unwrap()];
-    let mut board = Emulated::start(&Garment::reference(), codes, 0, &options);
-    board.receive();
+    let dwell = dwell.to_string();
+    let options = ["--link", link, "--dwell", &dwell, "--flash", flash.to_str().unwrap()];
+    let start = || {
+        let mut board = Emulated::start(&Garment::reference(), codes, 0, &options);
+        // It hears nothing before it has started.
+        board.receive();
+        board
+    };
+    let mut board = start();
     for (kind, table) in tables {
         for (index, bytes) in table.chunks(TABLE_PIECE).enumerate() {
             let (length, offset) = (table.len() as u32, (index * TABLE_PIECE) as u32);
@@ -60,9 +76,7 @@ fn storing(flash: &str, tables: &[(TableKind, &'static [u8])], codes: &[u16]) ->
         }
     }
     board.end();
-    let mut board = Emulated::start(&Garment::reference(), codes, 0, &options);
-    board.receive();
-    board
+    start()
 }
 
 /// Codes of five contacts, a frame in each 50 ms. Without a tare what rests is to read as no pressure.
@@ -78,14 +92,15 @@ fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart()
     let (table, surface) = table();
     let (scene, poses) = (postcard::to_allocvec(&scene()).unwrap(), poses(&surface));
     let tables = [(TableKind::Surface, table)];
-    let mut board = storing("surface.bin", &tables, &codes);
+    let mut board = storing(("surface.bin", "uart"), &tables, (&codes, DWELL));
     let requests = [
         Request::SetScene(&scene),
         Request::SetPoses(&poses),
         Request::SetPressing(u16::MAX),
         Request::Start,
     ];
-    let kinds = same(&mut board, &tables, &requests, &codes, &["Frame", "Contacts", "Pressing"]);
+    let course = Course { tables: &tables, requests: &requests, codes: &codes, dwell: DWELL };
+    let kinds = same(&mut board, &course, &["Frame", "Contacts", "Pressing"]);
     board.end();
     println!("{kinds:?}");
     assert!(kinds["Pressing"] as usize > FRAMES / 2, "{kinds:?}");
@@ -97,9 +112,10 @@ fn what_folds_is_the_same_on_the_board_and_lasts_over_a_restart() {
     let codes = five();
     let scene = postcard::to_allocvec(&scene()).unwrap();
     let tables = [(TableKind::Folds, &FOLDS.0[..])];
-    let mut board = storing("folds.bin", &tables, &codes);
+    let mut board = storing(("folds.bin", "uart"), &tables, (&codes, DWELL));
     let requests = [Request::SetScene(&scene), Request::Start];
-    let kinds = same(&mut board, &tables, &requests, &codes, &["Frame", "Contacts"]);
+    let course = Course { tables: &tables, requests: &requests, codes: &codes, dwell: DWELL };
+    let kinds = same(&mut board, &course, &["Frame", "Contacts"]);
     board.end();
     println!("{kinds:?}");
     assert!(kinds["Contacts"] as usize > FRAMES / 2, "{kinds:?}");

@@ -1,0 +1,146 @@
+//! A robot that moves: its joints become poses and a posture on the host, which are sent over USB. Contacts come
+//! back in the base, and what the elbow folds is none.
+
+use super::{REST, sent, storing, table};
+use crate::twin::{Course, Reports, SCAN_US, Told, followed};
+use std::f64::consts::TAU;
+use std::ops::Range;
+use std::sync::Arc;
+use taxel::body::robot::{self, Robot};
+use taxel::body::{self, DVec3, Pose, RobotSurface};
+use taxel::files::scripts::load;
+use taxel::sim::{frame_codes, scale_rate};
+use taxel_core::board::TableKind;
+use taxel_core::capacity::TAXELS;
+use taxel_core::fold::{FoldTable, JointAngle, Posture, STALE_US};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{FoldsReport, PressingReport, Report, Request, decode};
+use taxel_suite::folds::FOLDS;
+
+/// Scans that are shown.
+const SCANS: usize = 600;
+/// Time in which nobody tells where the robot is, us.
+const SILENT: Range<u64> = 1_000_000..2_000_000;
+/// Most by which a place in the base may differ from that in f64, m.
+const APART: f64 = 1e-4;
+
+/// Angle of the left elbow after so many us, degrees.
+fn elbow(us: u64) -> f64 {
+    60.0 - 60.0 * (TAU * us as f64 / 1.7e6).cos()
+}
+
+/// A robot in a garment.
+struct Moving {
+    robot: Arc<Robot>,
+    surface: RobotSurface,
+}
+
+impl Moving {
+    fn new(garment: &Garment, layout: &Layout) -> Moving {
+        let robot = Arc::new(robot::read("reference").unwrap());
+        let body = body::read("reference").unwrap();
+        Moving { surface: body.on_robot(garment, layout, robot.clone()).unwrap(), robot }
+    }
+
+    /// Poses of the links in the base after so many us.
+    fn poses(&self, us: u64) -> Vec<Pose> {
+        let swing = (TAU * us as f64 / 2.3e6).sin();
+        let at = [
+            ("waist", 0.6 * swing),
+            ("left_shoulder_roll", 0.4 + 0.3 * swing),
+            ("right_shoulder_pitch", -0.5 * swing),
+            ("left_elbow", elbow(us).to_radians()),
+        ];
+        let posture = self.robot.posture(at).unwrap();
+        self.surface.poses(&self.robot.poses(&posture), 0).unwrap()
+    }
+
+    /// What is told of the robot after so many us.
+    fn told(&self, us: u64) -> Told {
+        let bent = JointAngle { joint: 0, centidegrees: (100.0 * elbow(us)) as i16 };
+        Told {
+            us,
+            posture: Posture { joints: [bent].into_iter().collect() },
+            poses: sent(self.surface.surface().links().iter().zip(self.poses(us))),
+        }
+    }
+}
+
+/// Codes of five contacts, and of what the elbow presses, scan by scan.
+fn codes(garment: &Garment, layout: &Layout) -> Vec<u16> {
+    let table = FoldTable::check(&FOLDS.0, layout).unwrap();
+    let (fold, unit) = (table.folds()[0], f64::from(table.unit()));
+    let script = scale_rate(&load("five").unwrap(), 0.6);
+    let mut codes = frame_codes(&script, garment, SCAN_US, SCANS).unwrap();
+    codes.iter_mut().for_each(|code| *code = code.saturating_sub(REST));
+    for (scan, frame) in codes.chunks_mut(TAXELS).enumerate() {
+        let along = 100.0 * elbow(scan as u64 * SCAN_US) / f64::from(fold.step[0]);
+        let (knot, share) = (along as usize, along.fract());
+        for (taxel, cells) in table.taxels().iter().zip(table.cells().chunks(fold.cells())) {
+            let [below, above] = [0, 1].map(|next| f64::from(cells[knot + next].mean));
+            frame[usize::from(*taxel)] += (unit * (below + (above - below) * share)) as u16;
+        }
+    }
+    codes
+}
+
+fn metres(um: [i32; 3]) -> DVec3 {
+    DVec3::from(um.map(|um| f64::from(um) * 1e-6))
+}
+
+/// Reports of folds and of what presses.
+fn read(reports: &Reports) -> (Vec<FoldsReport>, Vec<PressingReport>) {
+    let (mut folds, mut pressing) = (Vec::new(), Vec::new());
+    for (.., report) in reports {
+        match decode(report).unwrap() {
+            Report::Folds(report) => folds.push(report),
+            Report::Pressing(report) => pressing.push(report),
+            _ => {}
+        }
+    }
+    (folds, pressing)
+}
+
+#[test]
+fn a_robot_that_moves_is_felt_in_its_base_and_not_where_it_folds() {
+    let garment = Garment::reference();
+    let layout = Layout::build(&garment, TAXELS, 4095).unwrap();
+    let moving = Moving::new(&garment, &layout);
+    let codes = codes(&garment, &layout);
+    let tables = [(TableKind::Surface, table().0), (TableKind::Folds, &FOLDS.0[..])];
+    let mut board = storing(("moving.bin", "usb"), &tables, (&codes, 1));
+    let mut scene = Scene::shipped();
+    scene.condition.track_baseline = false;
+    let scene = postcard::to_allocvec(&scene).unwrap();
+    let requests = [Request::SetPressing(u16::MAX), Request::Start, Request::SetScene(&scene)];
+    let course = Course { tables: &tables, requests: &requests, codes: &codes, dwell: 1 };
+    let tell = |us: u64| (!SILENT.contains(&us)).then(|| moving.told(us));
+    let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Pressing", "Folds"];
+    let (reports, told) = followed(&mut board, &course, &kinds, &tell);
+    board.end();
+
+    // Posture, none any more, and one again: each report says which.
+    let (folds, pressing) = read(&reports);
+    let is_told = |it: &FoldsReport| it.posed.is_some_and(|at| it.time.since(at) < STALE_US);
+    assert!(folds.iter().all(|it| it.followed == is_told(it)));
+    let mut turns: Vec<bool> = folds.iter().map(|it| it.followed).collect();
+    turns.dedup();
+    assert_eq!(turns.strip_prefix(&[false]).unwrap_or(&turns), [true, false, true]);
+
+    // Contacts in the base are where the host's kinematics have them.
+    let mut judged = 0;
+    for PressingReport { posed, contacts, .. } in &pressing {
+        let told = told.iter().find(|(arrived, _)| Some(*arrived) == *posed);
+        let Some((_, Told { us, .. })) = told else { continue };
+        let poses = moving.poses(*us);
+        for contact in contacts {
+            let exact = poses[usize::from(contact.spot.link)].point(metres(contact.spot.at));
+            let off = (exact - metres(contact.base.unwrap().at)).length();
+            assert!(off < APART, "{off} m");
+            judged += 1;
+        }
+    }
+    println!("{} reports, {judged} places in the base, {} of folds", reports.len(), folds.len());
+    assert!(judged > SCANS);
+}
