@@ -92,6 +92,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
         inputs: Vec::new(),
         origin: Origin::default(),
         raw: false,
+        body: None,
     };
     let recorder = Recorder::create(plan).unwrap();
     let mut shows: Vec<Box<dyn Show<anyhow::Error>>> = vec![
