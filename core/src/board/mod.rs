@@ -18,6 +18,7 @@ mod reading;
 mod rebuilds;
 mod reflex;
 mod refusal;
+mod region_reports;
 mod request;
 mod retest;
 mod saving;

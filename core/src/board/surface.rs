@@ -2,13 +2,14 @@
 
 use super::pace::Pace;
 use super::refusal::Refusal;
+use super::region_reports::RegionReports;
 use super::tx_frame::TxFrame;
 use super::{Board, request};
 use crate::body::Placed;
 use crate::format::Micros;
 use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
-use crate::surface::{LINKS, LinkName, MovingPose, Pose, Pressing, RegionStates, SurfaceState, Table};
+use crate::surface::{LINKS, LinkName, MovingPose, Pose, Pressing, SurfaceState, Table};
 use crate::symbol::Words;
 use crate::wire::{Each, Report};
 use heapless::Vec;
@@ -19,18 +20,13 @@ pub(super) struct Surface {
     table: Option<&'static [u8]>,
     fits: bool,
     poses: SurfaceState,
-    regions: RegionStates<FOLLOWED>,
-    /// Frame of the regions' states to send.
-    felt: Option<(u32, Micros)>,
-    /// True if the regions' names are to be sent before their states.
-    names: bool,
-    /// Rate at which unchanged states are sent.
-    beat: Pace,
+    /// What the regions feel: without the feature there is no room for it.
+    regions: [RegionReports; USED],
     rate: Pace,
     /// Frame to tell of.
     due: Option<(u32, Micros)>,
-    /// Frame whose bounds were sent last.
-    bounded: Option<u32>,
+    /// True if the bounds of the frame to tell of were sent.
+    bounded: bool,
     /// True if the last report told of something.
     told: bool,
 }
@@ -41,13 +37,10 @@ impl Surface {
             table: None,
             fits: false,
             poses: SurfaceState::new(),
-            regions: RegionStates::new(),
-            felt: None,
-            names: false,
-            beat: Pace::NEVER,
+            regions: [const { RegionReports::new() }; USED],
             rate: Pace::NEVER,
             due: None,
-            bounded: None,
+            bounded: false,
             told: false,
         }
     }
@@ -62,30 +55,25 @@ impl Surface {
         self.table = table;
         self.fits = table.is_some_and(|table| Table::check(table, layout).is_ok());
         self.poses = SurfaceState::new();
-        self.regions.reset(self.table().as_ref());
-        (self.felt, self.names, self.beat) = (None, true, Pace::new(1));
+        let table = self.table();
+        self.regions.iter_mut().for_each(|regions| regions.reset(table.as_ref()));
     }
 
     /// Names the regions again before their next states.
     pub fn introduce(&mut self) {
-        self.names = true;
+        self.regions.iter_mut().for_each(RegionReports::introduce);
     }
 
     /// Follows the regions in a frame.
     pub fn feel(
         &mut self,
-        (frame, time): (u32, Micros),
+        frame: (u32, Micros),
         layout: &Layout,
         present: &[Placed],
         words: impl Fn(u32) -> Words,
     ) {
-        let Some(table) = self.table().filter(|table| table.regions() > 0) else { return };
-        let is_followed = !present.is_empty() || !self.regions.is_at_rest();
-        let has_changed =
-            is_followed && self.regions.follow(&table, layout, present, words, &self.poses, time);
-        // States that wait are sent as they are then.
-        if has_changed || self.beat.due(time) || self.felt.is_some() {
-            self.felt = Some((frame, time));
+        if let (Some(table), Some(regions)) = (self.table(), self.regions.first_mut()) {
+            regions.feel(frame, (&table, layout), present, words, &self.poses);
         }
     }
 
@@ -102,7 +90,7 @@ impl Surface {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {
-            self.due = Some((frame, time));
+            (self.due, self.bounded) = (Some((frame, time)), false);
         }
     }
 
@@ -116,24 +104,20 @@ impl Surface {
         press: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
     ) -> bool {
         let Some(table) = self.table() else {
-            (self.felt, self.due) = (None, None);
+            self.regions.iter_mut().for_each(RegionReports::skip);
+            self.due = None;
             return true;
         };
-        if self.felt.is_some() && core::mem::take(&mut self.names) {
-            let names = (0..table.regions() as u8).map(|region| table.region(region).unwrap_or_default());
-            return tx_frame.put(Report::REGION_NAMES, &Each(names));
-        }
-        if let Some((frame, time)) = self.felt.take() {
-            return tx_frame.put(Report::REGIONS, &(frame, time, self.regions.all()));
+        if let Some(fits) = self.regions.iter_mut().find_map(|regions| regions.put(tx_frame, &table)) {
+            return fits;
         }
         let Some((frame, time)) = self.due.take() else { return true };
         let mut pressing = Pressing::new();
         press(&mut pressing, &table);
         let frames = self.poses.at(time);
-        let is_bounded = self.bounded.replace(frame) == Some(frame);
-        if !is_bounded && (pressing.is_in_doubt() || frames.errors().next().is_some()) {
+        if !self.bounded && (pressing.is_in_doubt() || frames.errors().next().is_some()) {
             // What it bounds follows.
-            self.due = Some((frame, time));
+            (self.due, self.bounded) = (Some((frame, time)), true);
             let contacts = Each(pressing.doubts_of_contacts(&table));
             let links = Each(pressing.doubts_of_links(&table));
             return tx_frame.put(Report::BOUNDS, &(frame, contacts, links, Each(frames.errors())));
@@ -145,7 +129,7 @@ impl Surface {
 
     /// True if something is due.
     pub fn is_due(&self) -> bool {
-        self.due.is_some() || self.felt.is_some()
+        cfg!(feature = "surface") && (self.due.is_some() || self.regions.iter().any(RegionReports::is_due))
     }
 }
 
@@ -183,8 +167,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 }
 
-/// Contacts whose ways are followed. None without the feature `surface`.
-const FOLLOWED: usize = if cfg!(feature = "surface") { CONTACTS } else { 0 };
+/// 1 if this build has a surface, else 0.
+const USED: usize = if cfg!(feature = "surface") { 1 } else { 0 };
 
 /// Refusal without a table.
 const NO_SURFACE: &str = "no surface is in force";

@@ -13,7 +13,7 @@
 //! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
 //! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
 //!
-//! A touch **still comes** while its load, at the rate of that time, would double within [`COMING_US`]: what
+//! A touch **still comes** while its load, at the rate of that time, would double within 60 ms: what
 //! it will be cannot be known yet.
 
 use super::felt::Felt;
