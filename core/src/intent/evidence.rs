@@ -13,8 +13,8 @@
 //! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
 //! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
 //!
-//! A touch **still comes** while its load, at the rate of that time, would double within 60 ms: what
-//! it will be cannot be known yet.
+//! A touch **still comes** while its load, at the rate of that time, would double within 60 ms: what it will
+//! be cannot be known yet.
 
 use super::felt::Felt;
 use crate::format::{Inverse, Micros, wide};
@@ -149,7 +149,7 @@ impl Evidence {
         let gain = region.min(felt.whole().saturating_sub(anchor.felt.whole()));
         let passed = u32::try_from(now.since(anchor.at)).unwrap_or(u32::MAX);
         let growth = felt.load.saturating_sub(anchor.felt.load);
-        // Within WINDOW_US it grows by a seventh; what grows by less needs no long product.
+        // What comes grows by a seventh within WINDOW_US; what grows by less needs no long product.
         self.comes = growth > felt.load / 8 && wide(growth, COMING_US) > wide(felt.load, passed);
         let rise = match NonZeroU32::new(passed) {
             Some(passed) if gain > 0 => Inverse::of(passed.get()).quotient(wide(gain, 1_000)),
