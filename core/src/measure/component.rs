@@ -128,11 +128,7 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
 
     /// Replaces the component with the smallest total if `found` has more. `least` caches that component.
     fn replace_least(&mut self, least: &mut Option<(usize, u32)>, found: &Candidate) {
-        // Among equal totals the last one found is replaced.
-        let totals = || self.list.iter().map(|kept| kept.total).enumerate().rev();
-        let Some((index, smallest)) = least.or_else(|| totals().min_by_key(|(_, total)| *total)) else {
-            return;
-        };
+        let Some((index, smallest)) = least.or_else(|| self.smallest()) else { return };
         *least = Some((index, smallest));
         if smallest < found.total
             && let Some(kept) = self.list.get_mut(index)
@@ -140,6 +136,18 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             kept.begin(found);
             *least = None;
         }
+    }
+
+    /// The component with the smallest total, the last of equal ones, and that total.
+    #[inline(never)] // seldom
+    fn smallest(&self) -> Option<(usize, u32)> {
+        let mut least = None;
+        for (index, kept) in self.list.iter().enumerate() {
+            if least.is_none_or(|(_, total)| kept.total <= total) {
+                least = Some((index, kept.total));
+            }
+        }
+        least
     }
 
     /// Gives each label the index of its contact.
