@@ -37,6 +37,11 @@ impl RegionReports {
         self.names = true;
     }
 
+    /// True if the table in force has no regions.
+    pub fn is_empty(&self) -> bool {
+        self.states.all().is_empty()
+    }
+
     /// Follows the regions in a frame.
     pub fn feel(
         &mut self,
@@ -46,9 +51,6 @@ impl RegionReports {
         words: impl Fn(u32) -> Words,
         poses: &SurfaceState,
     ) {
-        if table.regions() == 0 {
-            return;
-        }
         let is_followed = !present.is_empty() || !self.states.is_at_rest();
         let has_changed = is_followed && self.states.follow(table, layout, present, words, poses, time);
         // States that wait are sent as they are then.

@@ -72,6 +72,10 @@ impl Surface {
         present: &[Placed],
         words: impl Fn(u32) -> Words,
     ) {
+        // Most tables have none, and to view one takes a division.
+        if self.regions.iter().all(RegionReports::is_empty) {
+            return;
+        }
         if let (Some(table), Some(regions)) = (self.table(), self.regions.first_mut()) {
             regions.feel(frame, (&table, layout), present, words, &self.poses);
         }

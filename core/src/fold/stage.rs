@@ -244,7 +244,7 @@ impl FoldState {
 
     /// True if taxels are to be compared with what is expected of them.
     pub(crate) fn compares(&self) -> bool {
-        self.bends.iter().any(|bend| bend.is_known && bend.left > 0)
+        self.table().is_some() && self.bends.iter().any(|bend| bend.is_known && bend.left > 0)
     }
 
     /// Compares the taxels whose turn it was and whose joint has come to another knot with what they feel:

@@ -97,9 +97,14 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             } else {
                 (label.mass, label.peak as u16, label.area, label.held)
             };
-            let Some(panel) = layout.areas().get(usize::from(label.panel)) else { continue };
-            let least_peak = panel.counts_of(config.high).max(clear);
-            let begins = u32::from(peak) >= least_peak;
+            // Beyond twice the threshold it begins anywhere.
+            let mut least_peak = 2 * u32::from(config.high);
+            let mut begins = u32::from(peak) >= least_peak;
+            if !begins {
+                let Some(panel) = layout.areas().get(usize::from(label.panel)) else { continue };
+                least_peak = panel.counts_of(config.high).max(clear);
+                begins = u32::from(peak) >= least_peak;
+            }
             if area < config.min_area || !(begins || held) {
                 if u32::from(peak) >= least_peak - least_peak / 4 {
                     self.faint |= 1u8.checked_shl(label.panel.into()).unwrap_or(0);
