@@ -1,5 +1,5 @@
-//! What is given away of the Python package: wheels for Linux on x86-64 and on aarch64, linked by zig against the C
-//! library of 2014, and a source distribution.
+//! What is given away of the Python package: wheels for Linux on x86-64 and on aarch64, linked by zig against
+//! the C library of 2014, and a source distribution.
 
 use crate::targets::End;
 use crate::{aarch64, install, paths, process, python};
@@ -17,8 +17,8 @@ pub fn here(interpreter: &str, log: &Path) -> End<PathBuf> {
     Ok(wheel(&tools(interpreter)?, HERE, log))
 }
 
-/// `cargo xtask campaign --only python-others`: what the CPythons of this machine do not install: the wheel for aarch64
-/// is imported, and the source distribution is built by pip.
+/// `cargo xtask campaign --only python-others`: what the CPythons of this machine do not install: the wheel for
+/// aarch64 is imported, and the source distribution is built by pip.
 pub fn campaign(log: &Path) -> End<Vec<String>> {
     let interpreter = python::newest().ok_or("there is no python3.10 or later")?;
     let tools = tools(&interpreter)?;
