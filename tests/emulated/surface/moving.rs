@@ -77,8 +77,9 @@ fn codes(garment: &Garment, layout: &Layout) -> Vec<u16> {
     for (scan, frame) in codes.chunks_mut(TAXELS).enumerate() {
         let along = 100.0 * elbow(scan as u64 * SCAN_US) / f64::from(fold.step[0]);
         let (knot, share) = (along as usize, along.fract());
-        for (taxel, cells) in table.taxels().iter().zip(table.cells().chunks(fold.cells())) {
-            let [below, above] = [0, 1].map(|next| f64::from(cells[knot + next].mean));
+        for taxel in table.folded().flat_map(|(_, taxels)| taxels) {
+            let [below, above] =
+                [0, 1].map(|next| f64::from(table.cell(*taxel, knot + next).expect("a knot").mean));
             frame[usize::from(*taxel)] += (unit * (below + (above - below) * share)) as u16;
         }
     }
