@@ -23,7 +23,7 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
 
 /// Name of a request, by its number.
 pub fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 26] = [
+    const NAMES: [&str; 27] = [
         "set-garment",
         "set-scene",
         "tare",
@@ -50,6 +50,7 @@ pub fn request_name(number: u8) -> &'static str {
         "set-poses",
         "set-pressing",
         "set-folds",
+        "move-poses",
     ];
     NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
 }
@@ -130,5 +131,21 @@ impl Client {
             let _ = self.request(&sync);
         }
         std::mem::take(&mut self.requests)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_request_has_the_last_name() {
+        // Numbers are those of the variants on the wire; new ones are only appended.
+        let number = |request: &Request<'_>| postcard::to_allocvec(request).unwrap()[0];
+        assert_eq!(request_name(number(&Request::SetFolds(&[]))), "set-folds");
+        let last = number(&Request::MovePoses(&[]));
+        assert_eq!(request_name(last), "move-poses");
+        assert_eq!(request_name(last + 1), "unreadable request");
+        assert!(postcard::from_bytes::<Request<'_>>(&[last + 1, 0]).is_err(), "a request has no name");
     }
 }
