@@ -5,11 +5,12 @@
 //! The modules in the order of the data: [`garment`] (layout, wiring), [`acquire`] (multiplexer scan),
 //! [`reflex`] (check of raw codes within a frame), [`selftest`] (select lines, converter inputs), [`health`]
 //! (faulty taxels), [`fold`] (posture, what the garment's folds press), [`condition`] (baseline, calibration,
-//! filter), [`contact`] (segments, moments, tracks), [`surface`] (place and force on the robot), [`gesture`]
-//! (touch over time), [`shape`] (NMI, k-NN), [`body`] (place on the robot), [`unsure`] (contacts that may be
-//! drift), [`symbol`] (words), [`intent`] (fuzzy cognitive map), [`react`] (reactions), [`scene`] (settings of
-//! all stages), [`pipeline`] (composition of the stages), [`boot`] (causes of restarts), [`wire`] (messages,
-//! frames), [`board`] (the device as a function of its inputs) and [`mod@run`] (the loop around it).
+//! filter), [`contact`] (segments, moments, tracks), [`gesture`] (touch over time), [`shape`] (NMI, k-NN),
+//! [`body`] (region of a contact), [`unsure`] (contacts that may be drift), [`symbol`] (words), [`surface`]
+//! (place and force on the robot, and what its regions feel), [`intent`] (fuzzy cognitive map), [`react`]
+//! (reactions), [`scene`] (settings of all stages), [`pipeline`] (composition of the stages), [`boot`] (causes
+//! of restarts), [`wire`] (messages, frames), [`board`] (the device as a function of its inputs) and
+//! [`mod@run`] (the loop around it).
 //! [`format`](mod@format) is the table of number formats, [`capacity`] the sizes of the board that ships.
 //!
 //! Two stages compose folders, private to the crate: `image`, `calibrate`, `baseline` and
@@ -56,8 +57,6 @@ mod track;
 
 pub mod contact;
 
-pub mod surface;
-
 pub mod gesture;
 
 pub mod shape;
@@ -67,6 +66,8 @@ pub mod body;
 pub mod unsure;
 
 pub mod symbol;
+
+pub mod surface;
 
 pub mod intent;
 

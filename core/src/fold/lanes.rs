@@ -16,17 +16,17 @@ pub(super) const ZERO: u32 = 128;
 
 /// Weighted sums of the bytes of words.
 #[derive(Clone, Copy)]
-pub(super) struct Sums {
+pub(super) struct LaneSums {
     even: u32,
     odd: u32,
 }
 
-impl Sums {
-    /// Nothing yet: half of a unit, so that [`Sums::bytes`] rounds.
-    pub const NONE: Sums = Sums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
+impl LaneSums {
+    /// Nothing yet: half of a unit, so that [`LaneSums::bytes`] rounds.
+    pub const NONE: LaneSums = LaneSums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
 
-    /// Nothing yet: almost a unit, so that [`Sums::bytes`] rounds up.
-    pub const ALMOST: Sums = Sums { even: ONE * (WHOLE as u32 - 1), odd: ONE * (WHOLE as u32 - 1) };
+    /// Nothing yet: almost a unit, so that [`LaneSums::bytes`] rounds up.
+    pub const ALMOST: LaneSums = LaneSums { even: ONE * (WHOLE as u32 - 1), odd: ONE * (WHOLE as u32 - 1) };
 
     /// Adds `weight` of each byte.
     #[inline(always)]
@@ -95,7 +95,7 @@ mod tests {
             a in any::<[u8; 4]>(), b in any::<[u8; 4]>(), c in any::<[u8; 4]>(), d in any::<[u8; 4]>(),
             weight in 0u32..=128, less in 0u32..=128,
         ) {
-            let mut sums = Sums::NONE;
+            let mut sums = LaneSums::NONE;
             let [wa, wb, wc, wd] = [a, b, c, d].map(u32::from_le_bytes);
             sums.add_both([wa, wb], weight);
             sums.add_both([wc, wd], 128 - weight);
@@ -105,11 +105,11 @@ mod tests {
                 sum.saturating_sub(less).min(255) as u8
             });
             prop_assert_eq!(sums.bytes(less).to_le_bytes(), want);
-            let mut sums = Sums::NONE;
+            let mut sums = LaneSums::NONE;
             sums.add(wa, weight);
             let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);
             prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);
-            let mut sums = Sums::ALMOST;
+            let mut sums = LaneSums::ALMOST;
             sums.add(wa, weight);
             let want = a.map(|a| (u32::from(a) * weight).div_ceil(128) as u8);
             prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);

@@ -1,7 +1,7 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::Bend;
-use super::lanes::{Sums, WHOLE, ZERO, byte, set_byte, whole_bytes, zeros};
+use super::lanes::{LaneSums, WHOLE, ZERO, byte, set_byte, whole_bytes, zeros};
 use super::posture::PostureState;
 use super::record::FoldRecord;
 use super::table::{FoldStart, FoldTable};
@@ -358,7 +358,7 @@ impl Corners<'_> {
     /// Expectations and doubts of some quads of a fold, units.
     #[inline(never)] // own registers
     fn felt(&self, corrections: &[u32], quads: Range<usize>, felt: &mut [[u32; 2]; AT_ONCE]) {
-        let mut means = [Sums::NONE; AT_ONCE];
+        let mut means = [LaneSums::NONE; AT_ONCE];
         for corner in self.around.iter().filter(|corner| corner.weight > 0) {
             add_means(&mut means, corner.of(corrections, &quads), corner.weight);
         }
@@ -367,7 +367,7 @@ impl Corners<'_> {
         for ((felt, means), ([_, spread, days], correction)) in felt.iter_mut().zip(means).zip(nearest) {
             // The doubt of days is whole where nothing was compared.
             let whole = days & whole_bytes(zeros(*correction));
-            let mut doubt = Sums::ALMOST;
+            let mut doubt = LaneSums::ALMOST;
             doubt.add_both([*spread, whole], WHOLE.into());
             doubt.add(days ^ whole, self.nearest.weight);
             *felt = [means.bytes(ZERO), doubt.bytes(0)];
@@ -377,7 +377,7 @@ impl Corners<'_> {
 
 /// Adds a knot's part to the expectations of quads.
 #[inline(never)] // own registers
-fn add_means(means: &mut [Sums], (cells, corrections): (&[[u32; 3]], &[u32]), weight: u32) {
+fn add_means(means: &mut [LaneSums], (cells, corrections): (&[[u32; 3]], &[u32]), weight: u32) {
     for ((sums, [mean, ..]), correction) in means.iter_mut().zip(cells).zip(corrections) {
         // 128 stands for a correction of 0.
         sums.add_both([*mean, correction | zeros(*correction)], weight);
