@@ -347,7 +347,7 @@ fn write(
     let largest = all().flat_map(|course| course.mean.iter().chain(&course.spread).chain(&course.days));
     let unit = (largest.fold(0.0f32, |most, next| most.max(*next)) / 255.0).ceil().max(1.0);
     require!(
-        unit <= f32::from(MOST_UNIT),
+        unit as u32 <= u32::from(MOST_UNIT),
         LearnError::TooLarge,
         "a fold presses with up to {:.0} counts, a board holds {}: record with codes of 12 bits",
         unit * 255.0,
