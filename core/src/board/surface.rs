@@ -90,7 +90,7 @@ impl Surface {
 
     /// Notes a frame to tell of: when something touches, and once when nothing does any more.
     pub fn note(&mut self, frame: u32, time: Micros, touched: bool) {
-        if self.table().is_none() || !(touched || self.told) {
+        if !self.fits || !(touched || self.told) {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {

@@ -87,10 +87,16 @@ impl Points {
     #[inline(never)]
     fn restore_row(&mut self, values: &[u16], out: &mut [u16], first: usize) {
         for (taxel, (value, out)) in (first..).zip(values.iter().zip(out)) {
-            if stands_out(*value, *out) {
-                *out = self.take(StoredPoint { taxel: taxel as u16, value: *value }).max(*out);
+            // Most taxels are left as they are by smoothing.
+            if value != out && stands_out(*value, *out) {
+                self.restore_taxel(taxel, *value, out);
             }
         }
+    }
+
+    #[inline(never)] // M0+: leaves the registers to the search
+    fn restore_taxel(&mut self, taxel: usize, value: u16, out: &mut u16) {
+        *out = self.take(StoredPoint { taxel: taxel as u16, value }).max(*out);
     }
 
     /// Stores a point whose number is above that of the last one. Returns the lesser of its value and that in

@@ -72,11 +72,12 @@ struct Beats {
 impl Beats {
     /// A fall by a fifth of the greatest load and a rise by the same amount are a beat.
     fn take(&mut self, load: u32, now: Micros) {
-        let swing = self.high / 5;
+        // A product is cheaper than a fifth.
+        let swings = |change: u32, high: u32| change.saturating_mul(5) > high;
         if !self.falling {
             self.high = self.high.max(load);
-            (self.falling, self.low) = (load < self.high - self.high / 5, load);
-        } else if load > self.low.saturating_add(swing) {
+            (self.falling, self.low) = (swings(self.high - load, self.high), load);
+        } else if swings(load.saturating_sub(self.low), self.high) {
             if now.since(self.last) >= FASTEST_BEAT_US {
                 self.count = self.count.saturating_add(1);
                 self.last = now;
@@ -165,7 +166,7 @@ impl Evidence {
     /// Updates the time of being still: a load is still as long as no more than a tenth is added. Removal of
     /// a part does not end it.
     fn rests(&mut self, load: u32, now: Micros) {
-        if load > self.rest.saturating_add(self.rest / 10) {
+        if load.saturating_sub(self.rest).saturating_mul(10) > self.rest {
             (self.rest, self.since, self.whole) = (load, now, now);
         } else if load > self.rest / 2 {
             self.whole = now;

@@ -17,9 +17,13 @@ pub(crate) fn touched(values: &[u16], low: u16) -> u32 {
 /// One value after the other.
 #[cfg(any(test, not(target_pointer_width = "64")))]
 fn touched_by_sums(values: &[u16], low: u16) -> u32 {
-    // The sum carries into bit 16 if the value reaches the threshold; cheaper than a comparison.
-    let rest = (1 << 16) - u32::from(low);
-    values.iter().rev().fold(0, |taxels, value| taxels << 1 | (rest + u32::from(*value)) >> 16)
+    // The difference is negative if the value reaches the threshold; cheaper than a comparison.
+    let below = u32::from(low) - 1;
+    let next = |taxels: u32, value: &u16| taxels << 1 | below.wrapping_sub(u32::from(*value)) >> 31;
+    // By four, because a loop over single values takes a third of its time for itself.
+    let (first, fours) = values.as_rchunks::<4>();
+    let taxels = fours.iter().rev().fold(0, |taxels, four| four.iter().rev().fold(taxels, next));
+    first.iter().rev().fold(taxels, next)
 }
 
 /// Sixteen values at once.
