@@ -43,6 +43,12 @@ impl Emulated {
     /// Runs the image that TAXEL_FIRMWARE_ELF names with `garment` on its pins. The taxels show `rest` until
     /// `play`, then the frames of `codes`. `options` are further ones of the harness.
     pub fn start(garment: &Garment, codes: &[u16], rest: u16, options: &[&str]) -> Emulated {
+        let rest = rest.to_string();
+        Emulated::run(garment, codes, &[&["--hold", "--idle", &rest], options].concat())
+    }
+
+    /// The same, but the taxels show the frames of `codes` from the first scan on.
+    pub fn run(garment: &Garment, codes: &[u16], options: &[&str]) -> Emulated {
         let image = std::env::var_os("TAXEL_FIRMWARE_ELF")
             .expect("TAXEL_FIRMWARE_ELF names no image: run this by `cargo xtask test --only emulator`");
         let layout = Layout::build(garment, 2048, 4095).unwrap();
@@ -53,7 +59,7 @@ impl Emulated {
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("emulator/emulator.mjs"))
             .arg("--image")
             .arg(image)
-            .args(["--port", "0", "--hold", "--idle", &rest.to_string()])
+            .args(["--port", "0"])
             .args(options)
             .arg("--wiring")
             .arg(file("json", wiring.as_bytes()))

@@ -220,7 +220,8 @@ fn lose_samples(depth: Depth) {
         stats["check"]["frames"],
     );
     assert_eq!(stats["check"]["wrong"].as_u64(), Some(0));
-    assert_eq!(failed, 20);
+    // A loss in a frame that the board does not take, because another is still on its way, refuses none.
+    assert!((1..=20).contains(&failed));
     assert_eq!(u64::from(failed + after.overruns - before.overruns), missing);
 }
 
