@@ -29,9 +29,9 @@ pub mod capacity;
 
 pub mod garment;
 
-pub mod acquire;
-
 pub mod reflex;
+
+pub mod acquire;
 
 pub mod selftest;
 

@@ -1,6 +1,7 @@
 //! RAM of the states, as the docs of their modules tell it: for the board that ships. Asserted wherever the
 //! core is built for an RP2040, and on a 64-bit host, where the lengths of lists are longer.
 
+use crate::acquire::Reflex;
 use crate::body::Placed;
 use crate::capacity::{PARTS, RUNS, TAXELS};
 use crate::condition::ConditionState;
@@ -11,7 +12,6 @@ use crate::health::Monitor;
 use crate::intent::{Evidence, Fed, IntentState};
 use crate::pipeline::CONTACTS;
 use crate::react::ReactState;
-use crate::reflex::Reflex;
 use crate::shape::Shapes;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;

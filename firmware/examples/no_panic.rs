@@ -13,14 +13,14 @@
 
 use core::hint::black_box;
 use core::panic::PanicInfo;
-use taxel_core::acquire::{Fields, Scan, ScanError, ScanReport};
+use taxel_core::acquire::{Fields, Reflex, Scan, ScanError, ScanReport};
 use taxel_core::board::{BoardInfo, Input, Part, Saved, Setup, Shipped};
 use taxel_core::boot::{Boots, Remains, Reset, panicked};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::gesture::{Model, TouchClassifier, TouchState};
-use taxel_core::reflex::{Early, Reflex};
+use taxel_core::reflex::Early;
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
 

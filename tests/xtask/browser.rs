@@ -1,6 +1,7 @@
 //! Tests the page of `taxel view` in a browser, see tests/browser.
 
-use crate::targets::{End, shown, test_target};
+use crate::end::{End, shown};
+use crate::targets::test_target;
 use crate::{install, paths, process};
 use std::path::Path;
 use std::process::Command;

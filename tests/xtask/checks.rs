@@ -1,11 +1,12 @@
 //! `cargo xtask test`: all checks, two at a time: while one compiles on all cores, the other mostly waits for
 //! cargo; while one runs the emulator, on one core, the other has the rest.
 
+use crate::cargo::{WHOLE, cargo};
 use crate::counts::Counts;
 use crate::cross::Toolchain;
+use crate::end::End;
 use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
-use crate::targets::{End, WHOLE};
 use crate::{
     browser, features, firmware, locks, no_panic, package, paths, process, python, recordings, ros2, sizes,
     targets,
@@ -153,17 +154,6 @@ fn one(name: &str, check: Check, log: &Path) -> Outcome {
             Outcome::NotRun(why)
         }
     }
-}
-
-/// Cargo in a folder, without incremental builds unless the user enables them: writing their data takes
-/// longer than it saves here.
-pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
-    let mut command = Command::new("cargo");
-    command.args(args).current_dir(folder);
-    if std::env::var_os("CARGO_INCREMENTAL").is_none() {
-        command.env("CARGO_INCREMENTAL", "0");
-    }
-    command
 }
 
 fn fmt(log: &Path) -> End {

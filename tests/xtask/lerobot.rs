@@ -1,8 +1,8 @@
 //! `cargo xtask campaign --only lerobot`: the plug-in in LeRobot itself, of some 5 GB, in an environment of its own
 //! with the wheel that is given away.
 
-use crate::targets::End;
-use crate::{install, paths, process, python};
+use crate::end::End;
+use crate::{install, interpreter, paths, process, python};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -13,7 +13,7 @@ const SAID: &str = "lerobot: ";
 
 /// Records and loads data sets. Returns what was measured.
 pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
-    let interpreter = python::interpreter(MINOR).ok_or(format!("there is no python3.{MINOR}"))?;
+    let interpreter = interpreter::interpreter(MINOR).ok_or(format!("there is no python3.{MINOR}"))?;
     let wheel = match python::wheel(&interpreter, log)? {
         Ok(wheel) => wheel,
         Err(why) => return Ok(Err(why)),
@@ -42,5 +42,5 @@ fn steps(python: &Path, wheel: &Path, log: &Path, variables: &[(&str, &str)]) ->
 
 /// The plug-in's package.
 fn package() -> PathBuf {
-    python::package().join("lerobot")
+    interpreter::package().join("lerobot")
 }

@@ -3,16 +3,19 @@
 mod aarch64;
 mod browser;
 mod campaign;
+mod cargo;
 mod checks;
 mod counts;
 mod cross;
 mod docs;
 mod elf;
+mod end;
 mod excerpt;
 mod features;
 mod firmware;
 mod fuzz;
 mod install;
+mod interpreter;
 #[cfg(test)]
 mod layers;
 mod lerobot;

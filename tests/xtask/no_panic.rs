@@ -2,7 +2,7 @@
 //! microcontroller.
 
 use crate::cross::Toolchain;
-use crate::targets::End;
+use crate::end::End;
 use crate::{paths, process};
 use std::path::Path;
 use std::process::Command;

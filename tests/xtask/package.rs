@@ -1,8 +1,8 @@
 //! `cargo xtask package`: the crates that others can depend on. Builds each from its package alone, and all
 //! with the oldest dependencies that the manifests allow; compares their interfaces with the last release.
 
-use crate::checks::cargo;
-use crate::targets::End;
+use crate::cargo::cargo;
+use crate::end::End;
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;

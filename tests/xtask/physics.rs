@@ -1,8 +1,8 @@
 //! `cargo xtask campaign --only physics`: MuJoCo judges places and forces (`tests/physics`), in an
 //! environment of its own with the wheel that is given away.
 
-use crate::targets::End;
-use crate::{install, paths, process, python};
+use crate::end::End;
+use crate::{install, interpreter, paths, process, python};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -11,7 +11,7 @@ const VERSIONS: std::ops::RangeInclusive<u32> = 11..=13;
 
 /// Runs the package's tests and its types. Returns the tables that they print.
 pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
-    let found = VERSIONS.into_iter().find_map(|minor| Some((minor, python::interpreter(minor)?)));
+    let found = VERSIONS.into_iter().find_map(|minor| Some((minor, interpreter::interpreter(minor)?)));
     let (minor, interpreter) = found.ok_or("there is no python3.11 or later")?;
     let wheel = match python::wheel(&interpreter, log)? {
         Ok(wheel) => wheel,

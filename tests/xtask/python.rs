@@ -1,14 +1,13 @@
 //! `cargo xtask python`: the Python package as a wheel, tested in an environment of its own.
 
-use crate::targets::{End, shown};
+use crate::end::{End, shown};
+use crate::interpreter::{VERSIONS, first_image, interpreter, minor, package, version};
 use crate::{install, paths, process, wheels};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 use std::time::Instant;
 
-/// The oldest CPython that the wheel is for, and the newest that it is tested with.
-const VERSIONS: std::ops::RangeInclusive<u32> = 10..=13;
 /// Longest time from the wheel to the first frame, s.
 const FIRST_FRAME_S: f64 = 10.0;
 /// Installations from nothing, of which the quickest counts.
@@ -18,10 +17,6 @@ const FRAMES: &str = "1000000";
 /// Folders of tests, and of what else mypy checks.
 const TESTS: [&str; 2] = ["tests", "lerobot/tests"];
 const TYPED: &[&str] = &["tests", "examples", "lerobot/lerobot_robot_taxel", "lerobot/tests"];
-/// Prints the length of the first image.
-const FIRST: &str = "import taxel; \
-                     print(next(e.image.size for e in taxel.open('sim:pat') if isinstance(e, taxel.Frame)))";
-
 /// How the wheel is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Build {
@@ -97,32 +92,6 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     Ok(Ok(lines))
 }
 
-/// The newest CPython that is there.
-pub fn newest() -> Option<String> {
-    VERSIONS.rev().find_map(interpreter)
-}
-
-/// Name or path of the CPython of this version: on the PATH, or one that pyenv has installed.
-pub fn interpreter(minor: u32) -> Option<String> {
-    let is_it = |python: &str| version(python).is_some_and(|[_, have]| have == minor);
-    let named = format!("python3.{minor}");
-    if is_it(&named) {
-        return Some(named);
-    }
-    let root = process::output(Command::new("pyenv").arg("root"))?;
-    let folders = std::fs::read_dir(Path::new(&root).join("versions")).ok()?.flatten();
-    let pythons = folders.map(|folder| folder.path().join("bin/python").display().to_string());
-    pythons.into_iter().find(|python| is_it(python))
-}
-
-/// Version of an interpreter.
-fn version(python: &str) -> Option<[u32; 2]> {
-    let told =
-        process::output(Command::new(python).args(["-c", "import sys; print(*sys.version_info[:2])"]))?;
-    let mut numbers = told.split(' ').map(str::parse);
-    Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
-}
-
 /// Makes a wheel by an environment with the pinned tools, installs it beside them, and runs the tests and mypy. Returns
 /// what they measured.
 fn tested(
@@ -141,11 +110,6 @@ fn tested(
         let head = format!("CPython 3.{minor}:");
         lines.into_iter().map(|line| format!("{head} {line}")).collect()
     }))
-}
-
-/// Minor version of an interpreter.
-fn minor(python: &str) -> u32 {
-    version(python).map_or(0, |[_, minor]| minor)
 }
 
 /// Builds the wheel as it is given away, for this machine alone.
@@ -215,15 +179,4 @@ fn from_nothing(python: &str, wheel: &Path, log: &Path) -> Result<f64, String> {
         Ok(()) => Err(format!("from pip install to the first frame {seconds:.1} s")),
         Err(why) => Err(why),
     }
-}
-
-/// Waits for the first image by an interpreter that has the package.
-pub fn first_image(python: &mut Command) -> Result<(), String> {
-    let said = process::output(python.args(["-c", FIRST]).current_dir(paths::target()));
-    if said.as_deref() == Some("2048") { Ok(()) } else { Err("there was no first image".into()) }
-}
-
-/// The package's folder.
-pub fn package() -> PathBuf {
-    paths::root().join("host/python")
 }

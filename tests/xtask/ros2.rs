@@ -1,9 +1,9 @@
 //! `cargo xtask ros2`: the ROS 2 node, against ROS itself: wheels of a third party, pinned by hash, in an
 //! environment for each distribution, with our messages built into it.
 
-use crate::checks::cargo;
-use crate::targets::{End, WHOLE, shown};
-use crate::{install, paths, process, python};
+use crate::cargo::{WHOLE, cargo};
+use crate::end::{End, shown};
+use crate::{install, interpreter, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -25,7 +25,8 @@ pub fn run(args: &[String]) -> Result<(), String> {
 
 /// The check: the short form, with the first distribution whose Python is there.
 pub fn check(log: &Path) -> End {
-    let found = DISTRIBUTIONS.into_iter().find_map(|(name, minor)| Some((name, python::interpreter(minor)?)));
+    let found =
+        DISTRIBUTIONS.into_iter().find_map(|(name, minor)| Some((name, interpreter::interpreter(minor)?)));
     let (name, python) = found.ok_or("there is neither python3.11 for Kilted nor python3.12 for Jazzy")?;
     shown(tested(name, &python, log, &[])?)
 }
@@ -39,7 +40,7 @@ fn all(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     let mut lines = Vec::new();
     let mut ran = 0;
     for (name, minor) in DISTRIBUTIONS {
-        let Some(python) = python::interpreter(minor) else {
+        let Some(python) = interpreter::interpreter(minor) else {
             lines.push(format!("{name}: not run: there is no python3.{minor}"));
             continue;
         };

@@ -1,14 +1,12 @@
 //! Test targets that a plain `cargo test` leaves out: they need the firmware image, recordings, Python, or
 //! failing system calls.
 
-use crate::checks::cargo;
+use crate::cargo::{WHOLE, cargo};
 use crate::cross::Toolchain;
+use crate::end::{End, shown};
 use crate::{firmware, install, paths, process, recordings};
 use std::path::Path;
 use std::process::Command;
-
-/// Result of a check; an outer error means that it cannot run, and why.
-pub type End<T = ()> = Result<Result<T, String>, String>;
 
 /// These targets by package; cargo skips them even if all targets are selected.
 pub const APART: &[(&str, &[&str])] =
@@ -17,18 +15,9 @@ pub const APART: &[(&str, &[&str])] =
 /// Default minutes of a soak.
 const SOAK_MINUTES: f64 = 20.0;
 
-/// Options shared by all builds of the workspace, so that they reuse each other's products: cargo unifies the
-/// features of dependencies over all selected packages and targets.
-pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
-
 /// Runs one module of the tests on the emulated board, and prints its measurements.
 pub fn on_emulator(module: &'static str, log: &Path) -> End {
     shown(measured(module, log, &[])?)
-}
-
-/// Prints the lines of a check that are for people.
-pub fn shown(end: Result<Vec<String>, String>) -> End {
-    Ok(end.map(|lines| lines.iter().filter(|line| !line.is_empty()).for_each(|line| println!("  {line}"))))
 }
 
 /// Output of one module of the tests on the emulated board.

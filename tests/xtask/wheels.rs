@@ -1,8 +1,8 @@
 //! What is given away of the Python package: wheels for Linux on x86-64 and on aarch64, linked by zig against
 //! the C library of 2014, and a source distribution.
 
-use crate::targets::End;
-use crate::{aarch64, install, paths, process, python};
+use crate::end::End;
+use crate::{aarch64, install, interpreter, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -20,7 +20,7 @@ pub fn here(interpreter: &str, log: &Path) -> End<PathBuf> {
 /// `cargo xtask campaign --only python-others`: what the CPythons of this machine do not install: the wheel for
 /// aarch64 is imported, and the source distribution is built by pip.
 pub fn campaign(log: &Path) -> End<Vec<String>> {
-    let interpreter = python::newest().ok_or("there is no python3.10 or later")?;
+    let interpreter = interpreter::newest().ok_or("there is no python3.10 or later")?;
     let tools = tools(&interpreter)?;
     let lines =
         foreign(&tools, &interpreter, log).and_then(|one| Ok(vec![one, source(&tools, &interpreter, log)?]));
@@ -35,7 +35,7 @@ fn foreign(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String
         Err(why) => return Ok(format!("{}: not imported: {why}", shown(&wheel))),
     };
     python.install(&wheel, log)?;
-    python::first_image(&mut python.command())?;
+    interpreter::first_image(&mut python.command())?;
     Ok(format!("{}: imported by CPython {}, its first image seen", shown(&wheel), aarch64::SHOWN))
 }
 
@@ -47,13 +47,13 @@ fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String>
     install.args(["-m", "pip", "install", "--quiet"]).arg(&source);
     // What cargo has built already of its dependencies is the same.
     process::run_into(install.env("CARGO_TARGET_DIR", paths::target()), log)?;
-    python::first_image(&mut Command::new(&own))?;
+    interpreter::first_image(&mut Command::new(&own))?;
     Ok(format!("{}: built and installed by pip, its first image seen", shown(&source)))
 }
 
 /// The environment with maturin and zig; its interpreter.
 fn tools(interpreter: &str) -> Result<PathBuf, String> {
-    install::python_in(interpreter, &folder(), &python::package().join("tests/wheels.txt"))
+    install::python_in(interpreter, &folder(), &interpreter::package().join("tests/wheels.txt"))
 }
 
 fn folder() -> PathBuf {
@@ -74,7 +74,7 @@ fn maturin(tools: &Path, command: &str, options: &[&str], name: &str, log: &Path
     let mut maturin = Command::new(tools);
     maturin.args(["-m", "maturin", command]).args(options).arg("--out").arg(&out).arg("--manifest-path");
     // It looks for zig on the search path.
-    maturin.arg(python::package().join("Cargo.toml")).env("PATH", process::path_with(&folder())?);
+    maturin.arg(interpreter::package().join("Cargo.toml")).env("PATH", process::path_with(&folder())?);
     process::run_into(&mut maturin, log)?;
     let found = std::fs::read_dir(&out).ok().and_then(|mut files| files.next()).and_then(Result::ok);
     found.map(|file| file.path()).ok_or(format!("maturin {command} has made no file"))

@@ -1,6 +1,5 @@
-//! The board's output pins, and the traits of pins and converters that a self-test needs.
+//! The board's output pins, and the trait of pins that a self-test needs.
 
-use super::Adc;
 use embedded_hal::digital::{OutputPin, PinState};
 
 /// The weak pull resistor of a pin.
@@ -21,12 +20,6 @@ pub trait ProbePin: OutputPin {
     fn release(&mut self, pull: Pull) -> Result<(), Self::Error>;
     /// Level at the pin itself, driven or not.
     fn level(&mut self) -> Result<bool, Self::Error>;
-}
-
-/// A converter whose inputs can be pulled.
-pub trait PulledAdc: Adc {
-    /// Sets the pull of the input on GPIO `input`.
-    fn pull(&mut self, input: u8, pull: Pull) -> Result<(), Self::Error>;
 }
 
 /// The board's free output pins, looked up by GPIO number, because garments name their pins at run time.

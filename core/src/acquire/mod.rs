@@ -3,25 +3,29 @@
 //! The board's loop calls [`Acquire`]. [`MuxScan`] implements it for embedded-hal pins. A board with DMA has
 //! its own implementation, with tables made from a [`Sweep`] and frames in a [`Ring`].
 
+mod adc;
 mod addresses;
 mod duration;
 mod fields;
 mod lines;
 mod mux;
 mod plan;
+mod reflex;
 mod ring;
 mod rounds;
 mod sweep;
 mod unfit;
 
+pub use adc::{Adc, PulledAdc};
 pub use addresses::Read;
 pub use duration::{
     FrameTooLong, LONGEST_MS, WATCHDOG_MS, check_duration, longest_frame_us, longest_self_test_us,
 };
 pub use fields::{FIELDS, Fields};
-pub use lines::{Lines, ProbePin, Pull, PulledAdc};
-pub use mux::{Adc, Clock, Mux, MuxScan};
+pub use lines::{Lines, ProbePin, Pull};
+pub use mux::{Clock, Mux, MuxScan};
 pub use plan::{Depth, Plan};
+pub use reflex::Reflex;
 pub use ring::{Lent, PLACES, Ring, TURN_PLACES};
 pub use rounds::{CONVERSION_CLOCKS, CONVERSION_NS, Rounds, frame_us};
 pub use sweep::{SWEEP_ADDRESSES, SWEEP_STRETCHES, Sweep, SweepStretch};
@@ -118,7 +122,7 @@ pub trait Acquire {
     fn rest(&mut self) {}
 
     /// Sets what is checked in each sub-field from now on; none pauses the check. See
-    /// [`Reflex::watch`](crate::reflex::Reflex::watch). No effect on readers of whole frames.
+    /// [`Reflex::watch`]. No effect on readers of whole frames.
     fn watch(&mut self, _reflexes: Option<&Reflexes>, _active: u8, _limit: impl Fn(u16) -> Option<u16>) {}
 
     /// Returns the next reflex that has begun and was not returned yet.

@@ -1,25 +1,10 @@
 //! Progressive scan through multiplexers, on any HAL.
 
-use super::{Acquire, Depth, Lines, Plan, ProbePin, Scan, ScanError, ScanReport};
+use super::{Acquire, Adc, Depth, Lines, Plan, ProbePin, Scan, ScanError, ScanReport};
 use crate::format::{Code, Micros};
 use crate::garment::{BLOCKS, Circuit, Site};
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{OutputPin, PinState};
-
-/// A converter with numbered inputs (embedded-hal 1.0 has no trait for one).
-pub trait Adc {
-    /// Error of a conversion.
-    type Error;
-    /// One 12-bit sample, 0 ..= 4095, of the input on GPIO `input`.
-    fn read(&mut self, input: u8) -> Result<u16, Self::Error>;
-}
-
-impl<A: Adc> Adc for &mut A {
-    type Error = A::Error;
-    fn read(&mut self, input: u8) -> Result<u16, A::Error> {
-        (**self).read(input)
-    }
-}
 
 /// The board's clock.
 pub trait Clock {

@@ -8,34 +8,6 @@ use crate::wire::ReactionReport;
 /// Silence after which the host counts as gone, so that concepts it has fed expire.
 const SILENCE_US: u64 = 3_000_000;
 
-/// Times of the last frame and the last message.
-#[derive(Debug, Default, Clone, Copy)]
-pub(super) struct Senses {
-    /// Time of the last perceived frame; none since the start, a change of garment, or an interruption.
-    seen: Option<Micros>,
-    /// Time of the last message from a host, or of the start.
-    heard: Micros,
-    /// Number of perceived frames.
-    frames: u32,
-}
-
-impl Senses {
-    /// Forgets the last frame: nothing is perceived for now.
-    pub fn blind(&mut self) {
-        self.seen = None;
-    }
-
-    /// True if no frame was perceived since [`Senses::blind`].
-    pub fn are_blind(&self) -> bool {
-        self.seen.is_none()
-    }
-
-    /// Records a message from a host.
-    pub fn hear(&mut self, now: Micros) {
-        self.heard = now;
-    }
-}
-
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Records a perceived frame and shows it on its pins. During a tare no frame counts as perceived.
     pub(super) fn saw(&mut self, now: Micros) {

@@ -1,7 +1,8 @@
 //! The self-test: results of the test of lines and inputs, and a retest of all taxels.
 
+use super::Board;
 use super::refusal::Refusal;
-use super::{Board, Work, request};
+use super::work::Work;
 use crate::acquire::ScanError;
 use crate::format::Micros;
 use crate::selftest::Findings;
@@ -34,7 +35,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.recover();
             self.outbox.examined();
         }
-        self.outbox.answer(request::number_of(Work::SelfTest), refusal);
+        self.outbox.answer(Work::SelfTest.request(), refusal);
     }
 
     /// Stores the findings. Returns true if the faults differ from those known before.

@@ -1,9 +1,9 @@
 //! The garment's folds: their table follows garment and scene; what is expected of them is told.
 
-use super::Board;
 use super::pace::Pace;
 use crate::fold::{Doubt, Expected, FoldState, FoldTable};
 use crate::format::Micros;
+use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
 use crate::wire::FoldsReport;
 use heapless::Vec;
@@ -24,6 +24,18 @@ pub(super) struct Folds {
 impl Folds {
     pub const fn new() -> Folds {
         Folds { table: None, fits: false, rate: Pace::NEVER, due: None }
+    }
+
+    /// Puts a table in force.
+    pub fn wear(&mut self, table: Option<&'static [u8]>) {
+        self.table = table;
+    }
+
+    /// Returns the table in force, if it fits a garment; only then there are reports.
+    pub fn fit(&mut self, layout: &Layout) -> Option<FoldTable<'static>> {
+        let table = self.table.and_then(|table| FoldTable::check(table, layout).ok());
+        (self.fits, self.rate) = (table.is_some(), Pace::new(RATE_HZ));
+        table
     }
 
     /// Notes a frame to tell of.
@@ -56,20 +68,5 @@ impl Folds {
             doubt,
             contacts: contacts(),
         })
-    }
-}
-
-impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// Puts a table of folds in force, if it fits the present garment.
-    pub(super) fn wear_folds(&mut self, table: Option<&'static [u8]>) {
-        self.folds.table = table;
-        self.refit_folds();
-    }
-
-    /// Garment or scene have changed.
-    pub(super) fn refit_folds(&mut self) {
-        let table = self.folds.table.and_then(|table| FoldTable::check(table, &self.setup.layout).ok());
-        (self.folds.fits, self.folds.rate) = (table.is_some(), Pace::new(RATE_HZ));
-        self.state.condition.wear(table, &self.setup.scene.joints);
     }
 }

@@ -13,6 +13,7 @@ mod missed_scans;
 mod outbox;
 mod outputs;
 mod pace;
+mod poses;
 mod quota;
 mod reading;
 mod rebuilds;
@@ -20,19 +21,24 @@ mod reflex;
 mod refusal;
 mod region_reports;
 mod request;
+mod restoring;
 mod retest;
 mod saving;
+mod senses;
 mod settings;
 mod setup;
 mod surface;
 mod tables;
 mod taxel_health;
 mod tx_frame;
+mod uploads;
+mod work;
+mod works;
 
 pub use info::BoardInfo;
 pub use settings::{PART_BYTES, Part, Saved, Settings, TooLong};
 pub use setup::{Setup, SetupError};
-pub use tables::{PieceToStore, TableKind};
+pub use uploads::{PieceToStore, TableKind};
 
 use crate::acquire::{Plan, Scan, ScanError};
 use crate::boot::Boot;
@@ -46,11 +52,10 @@ use crate::reflex::Early;
 use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
 use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
-use alarms::Senses;
 use budget::{Doing, Ledger};
 #[cfg(feature = "folds")]
 use folds::Folds;
-use heapless::{Deque, String, Vec};
+use heapless::Deque;
 use outbox::{About, Outbox};
 use outputs::Outputs;
 use pace::Pace;
@@ -58,9 +63,11 @@ use rebuilds::Rebuilds;
 use refusal::Refusal;
 use retest::Retest;
 use saving::Saving;
+use senses::Senses;
 use surface::Surface;
-use tables::{TABLES, Uploads};
 use tx_frame::TxFrame;
+use uploads::{TABLES, Uploads};
+use work::{TARE, Work};
 
 /// Input of the board: an event, or the passing of time.
 #[derive(Debug)]
@@ -112,16 +119,6 @@ pub enum Job {
     /// Stop a free-running scan, and examine lines and inputs: the circuit has changed, the host asks for it,
     /// or there is evidence against one of them. Answered by [`Input::Examined`].
     Examine,
-}
-
-/// Work other than scanning, done between two scans.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Work {
-    SelfTest,
-    Save,
-    Reset { undo: bool },
-    StoreTable,
-    KeepTable(TableKind),
 }
 
 /// The whole state of the board, for garments of up to TAXELS taxels; RUNS and PARTS as in
@@ -254,7 +251,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.rewired = true;
         self.outbox.renew();
         if core::mem::take(&mut self.taring) {
-            self.outbox.answer(request::TARE, Some(Refusal::of("the garment was changed")));
+            self.outbox.answer(TARE, Some(Refusal::of("the garment was changed")));
         }
         self.tared = false;
         (self.examined, self.retest) = (None, Retest::new());
@@ -337,7 +334,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// scene need a scan between them; all other bytes are accepted at any time. A change that is passed on
     /// too early is made all the same.
     pub fn takes_message(&mut self, now: Micros) -> bool {
-        !self.inbox.first().is_some_and(request::rebuilds) || self.rebuilds.are_due(now)
+        !self.inbox.first().is_some_and(Rebuilds::count) || self.rebuilds.are_due(now)
     }
 
     /// A scan has ended, successfully or not.
@@ -387,7 +384,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.folds.note(self.frame, time);
         if self.taring && percept.tare == Tare::Done {
             (self.taring, self.tared) = (false, true);
-            self.outbox.answer(request::TARE, None);
+            self.outbox.answer(TARE, None);
         }
         self.outbox.raw(scan.codes, layout.taxels());
         self.watch(now, scan.codes, touched);
@@ -475,12 +472,3 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         &self.health
     }
 }
-
-/// A message text of the board, truncated to this length.
-type Sentence = String<112>;
-
-/// Raw codes to be sent, kept until the link has room.
-#[cfg(feature = "raw")]
-type CodeVec<const TAXELS: usize> = Vec<Code, TAXELS>;
-#[cfg(not(feature = "raw"))]
-type CodeVec<const TAXELS: usize> = Vec<Code, 0>;

@@ -2,6 +2,7 @@
 
 use super::quota::Quota;
 use crate::format::Micros;
+use crate::wire::Request;
 
 /// Allows a change if a scan has ended since the last one, and the quota allows it: four in a row, ten a
 /// second.
@@ -15,6 +16,11 @@ pub(super) struct Rebuilds {
 impl Rebuilds {
     pub const fn new() -> Rebuilds {
         Rebuilds { quota: Quota::new(), waits: false }
+    }
+
+    /// True if a request of this number is such a change.
+    pub fn count(number: u8) -> bool {
+        number == Request::SetGarment(&[]).number() || number == Request::SetScene(&[]).number()
     }
 
     /// True if a change is allowed now.

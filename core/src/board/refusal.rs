@@ -1,7 +1,10 @@
 //! Reasons for which requests are refused.
 
-use super::Sentence;
 use core::fmt::{self, Write};
+use heapless::String;
+
+/// A message text of the board, truncated to this length.
+pub(super) type Sentence = String<112>;
 
 /// Reason of a refusal, as a sentence.
 #[derive(Debug, Clone)]

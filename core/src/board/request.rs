@@ -1,8 +1,11 @@
 //! Requests of the host.
 
 use super::outputs::Outputs;
+use super::rebuilds::Rebuilds;
 use super::refusal::Refusal;
-use super::{Board, TableKind, Work, reading};
+use super::uploads::TableKind;
+use super::work::Work;
+use super::{Board, reading};
 use crate::condition::Certificate;
 use crate::contact::Forms;
 use crate::format::{Invalid, LEFT_OUT, Micros, Q15};
@@ -12,39 +15,11 @@ use crate::intent::{Feed, Intent};
 use crate::pipeline::CONTACTS;
 use crate::scene::Scene;
 use crate::shape::{Exemplar, Taught};
-use crate::wire::{Request, SHAPES_ADDED, WireError, decode};
+use crate::wire::{Request, SHAPES_ADDED, decode};
 use heapless::Vec;
-use serde::Deserialize;
 
-/// Number of `Tare`, which is answered when it is done.
-pub(super) const TARE: u8 = 2;
 /// Number that stands in the answer to an unreadable request.
 const UNREADABLE: u8 = 255;
-
-/// True if a request of this number changes garment or scene.
-pub(super) fn rebuilds(number: u8) -> bool {
-    number == Request::SetGarment(&[]).number() || number == Request::SetScene(&[]).number()
-}
-
-/// Number of the request for this work.
-pub(super) fn number_of(work: Work) -> u8 {
-    match work {
-        Work::SelfTest => Request::SelfTest.number(),
-        Work::Save => Request::Save.number(),
-        Work::Reset { .. } => Request::ResetSettings { undo: false }.number(),
-        Work::KeepTable(TableKind::Folds) => Request::SetFolds(&[]).number(),
-        Work::StoreTable | Work::KeepTable(TableKind::Surface) => Request::SetSurface(&[]).number(),
-    }
-}
-
-/// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
-#[inline(never)]
-pub(super) fn read<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
-    decode(bytes).map_err(|error| match error {
-        WireError::LeftOver => format_args!("{what}: bytes after its end").into(),
-        _ => format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into(),
-    })
-}
 
 /// Refuses what this build leaves out.
 #[inline(never)] // M0+: out of line
@@ -79,7 +54,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     fn obey(&mut self, now: Micros, request: Request<'_>) {
         let number = request.number();
-        if rebuilds(number) {
+        if Rebuilds::count(number) {
             self.rebuilds.charge(now);
         }
         let result = match request {
@@ -249,7 +224,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             self.shapes_changed();
             return Ok(());
         }
-        let head = read("shapes", bytes)?;
+        let head = reading::value("shapes", bytes)?;
         self.teach(|taught| taught.begin(head))
     }
 
@@ -258,7 +233,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if !cfg!(feature = "gallery") {
             return Err(left_out("shapes"));
         }
-        let prototypes = read::<Vec<Exemplar, SHAPES_ADDED>>("prototypes", bytes)?;
+        let prototypes = reading::value::<Vec<Exemplar, SHAPES_ADDED>>("prototypes", bytes)?;
         self.teach(|taught| taught.add(&prototypes))
     }
 
@@ -321,7 +296,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     fn start(&mut self, work: Work) {
         if self.works.push_back(work).is_err() {
-            self.outbox.answer(number_of(work), Some(Refusal::of("too much is waiting to be done")));
+            self.outbox.answer(work.request(), Some(Refusal::of("too much is waiting to be done")));
         }
     }
 }

@@ -1,25 +1,22 @@
 //! The garment's surface: what presses on the robot is told at a rate of its own.
 
 use super::pace::Pace;
-use super::refusal::Refusal;
 use super::region_reports::RegionReports;
 use super::tx_frame::TxFrame;
-use super::{Board, request};
 use crate::body::Placed;
 use crate::format::Micros;
 use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
-use crate::surface::{LINKS, LinkName, MovingPose, Pose, Pressing, SurfaceState, Table};
+use crate::surface::{Pressing, SurfaceState, Table};
 use crate::symbol::Words;
 use crate::wire::{Each, Report};
-use heapless::Vec;
 
 /// The surface in force.
 pub(super) struct Surface {
     /// The stored table, and whether it fits the present garment.
     table: Option<&'static [u8]>,
     fits: bool,
-    poses: SurfaceState,
+    pub poses: SurfaceState,
     /// What the regions feel: without the feature there is no room for it.
     regions: [RegionReports; USED],
     rate: Pace,
@@ -62,6 +59,11 @@ impl Surface {
     /// Names the regions again before their next states.
     pub fn introduce(&mut self) {
         self.regions.iter_mut().for_each(RegionReports::introduce);
+    }
+
+    /// Sets the rate of reports of what presses on the robot.
+    pub fn tell(&mut self, hz: u16) {
+        (self.rate, self.due) = (Pace::new(hz), None);
     }
 
     /// Follows the regions in a frame.
@@ -137,42 +139,5 @@ impl Surface {
     }
 }
 
-impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// The surface in force.
-    pub fn surface(&self) -> Option<Table<'static>> {
-        self.surface.table()
-    }
-
-    /// Takes poses of links.
-    #[inline(never)]
-    pub(super) fn take_poses(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
-        let table = self.surface.table().ok_or_else(|| Refusal::of(NO_SURFACE))?;
-        let poses = request::read::<Vec<(LinkName, Pose), LINKS>>("poses", bytes)?;
-        self.surface.poses.accept(&poses, &table, now).map_err(Refusal::of)
-    }
-
-    /// Takes poses of links that move.
-    #[inline(never)]
-    pub(super) fn take_moving(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
-        let table = self.surface.table().ok_or_else(|| Refusal::of(NO_SURFACE))?;
-        let (at, poses) = request::read::<(Micros, Vec<MovingPose, LINKS>)>("poses", bytes)?;
-        self.surface.poses.accept_moving(&poses, &table, at).map_err(Refusal::of)
-    }
-
-    /// Sets the rate of reports of what presses on the robot.
-    #[inline(never)]
-    pub(super) fn tell_pressing(&mut self, hz: u16) -> Result<(), Refusal> {
-        if hz > 0 && self.surface.table().is_none() {
-            return Err(Refusal::of(NO_SURFACE));
-        }
-        self.surface.rate = Pace::new(hz);
-        self.surface.due = None;
-        Ok(())
-    }
-}
-
 /// 1 if this build has a surface, else 0.
 const USED: usize = if cfg!(feature = "surface") { 1 } else { 0 };
-
-/// Refusal without a table.
-const NO_SURFACE: &str = "no surface is in force";

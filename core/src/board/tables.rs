@@ -1,97 +1,16 @@
 //! Tables that lie in flash: a table comes in pieces, and is stored beside the one of its kind in force.
 
 use super::refusal::Refusal;
-use super::{Board, Work, request};
-use crate::capacity;
-use crate::fold::{CELLS, FOLDED, FOLDS, FoldTable, fold_table_bytes};
+use super::uploads::{PieceToStore, TableKind, Upload};
+use super::work::Work;
+use super::{Board, reading};
+use crate::fold::FoldTable;
 use crate::format::{Invalid, Micros};
-use crate::surface::{Table, table_bytes};
+use crate::surface::Table;
 use crate::wire::{TABLE_PIECE, TablePiece};
-use heapless::Vec;
 
-/// What a table in flash holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TableKind {
-    /// Where the taxels lie, see [`Table`].
-    Surface,
-    /// What the garment's folds press, see [`FoldTable`].
-    Folds,
-}
-
-impl TableKind {
-    /// The kinds that this build has a use for.
-    pub const USED: &[TableKind] = match (cfg!(feature = "surface"), cfg!(feature = "folds")) {
-        (true, true) => &[TableKind::Surface, TableKind::Folds],
-        (true, false) => &[TableKind::Surface],
-        (false, true) => &[TableKind::Folds],
-        (false, false) => &[],
-    };
-
-    /// Length of the longest table: that of a garment of [`capacity::TAXELS`] taxels.
-    pub const fn bytes(self) -> usize {
-        match self {
-            TableKind::Surface => table_bytes(capacity::TAXELS),
-            TableKind::Folds => fold_table_bytes(FOLDS, FOLDED, CELLS),
-        }
-    }
-}
-
-/// True if this build has a use for any table.
-pub(super) const TABLES: bool = !TableKind::USED.is_empty();
-
-/// A piece of a table, to be stored.
-#[derive(Debug, Clone, Copy)]
-pub struct PieceToStore<'a> {
-    /// What the table holds.
-    pub kind: TableKind,
-    /// Length of the whole table.
-    pub length: u32,
-    /// Position of the piece in it, a multiple of 256.
-    pub offset: u32,
-    /// The piece: 256 bytes, or what is left.
-    pub bytes: &'a [u8],
-    /// Number of times that the flash may be written soon after this; a reset grants no more.
-    pub saves: u8,
-}
-
-/// The table being received.
-#[derive(Debug, Clone, Copy)]
-struct Upload {
-    kind: TableKind,
-    length: u32,
-    stored: u32,
-    /// The table, once all of it is stored.
-    whole: Option<&'static [u8]>,
-}
-
-/// The next table.
-pub(super) struct Uploads {
-    /// The table being received; a build without tables has no room for one.
-    upload: [Option<Upload>; TABLES as usize],
-    #[cfg(any(feature = "surface", feature = "folds"))]
-    piece: Vec<u8, TABLE_PIECE>,
-    #[cfg(not(any(feature = "surface", feature = "folds")))]
-    piece: Vec<u8, 0>,
-}
-
-impl Uploads {
-    pub const fn new() -> Uploads {
-        Uploads { upload: [None; TABLES as usize], piece: Vec::new() }
-    }
-
-    /// What the table being received, or received last, holds.
-    pub fn kind(&self) -> TableKind {
-        self.upload().map_or(TableKind::Surface, |upload| upload.kind)
-    }
-
-    fn upload(&self) -> Option<Upload> {
-        self.upload.first().copied().flatten()
-    }
-
-    fn set(&mut self, upload: Option<Upload>) {
-        self.upload.fill(upload);
-    }
-}
+/// Refusal of work.
+const FULL: &str = "too much is waiting to be done";
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Gives the board a table that its flash holds, after its garment and scene.
@@ -123,7 +42,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Takes a piece of a table. Error if it is not the next one. It is answered once it is stored.
     #[inline(never)]
     pub(super) fn take_table(&mut self, now: Micros, kind: TableKind, piece: &[u8]) -> Result<(), Refusal> {
-        let TablePiece { length, offset, bytes } = request::read("table", piece)?;
+        let TablePiece { length, offset, bytes } = reading::value("table", piece)?;
         if self.works.iter().any(|work| matches!(work, Work::StoreTable | Work::KeepTable(_))) {
             return Err(Refusal::of("the last piece is not stored yet"));
         }
@@ -179,7 +98,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let checked = result.map_err(Refusal::of).and_then(|whole| {
             whole.map(|whole| self.check_table(kind, whole).map_err(Refusal::of)).transpose()
         });
-        let number = request::number_of(Work::KeepTable(kind));
+        let number = Work::KeepTable(kind).request();
         match checked {
             // It is answered once the table is kept.
             Ok(Some(())) if self.works.push_back(Work::KeepTable(kind)).is_ok() => {}
@@ -201,14 +120,25 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if result.is_ok() {
             self.wear(kind, upload.and_then(|upload| upload.whole));
         }
-        self.outbox.answer(request::number_of(Work::KeepTable(kind)), result.err().map(Refusal::of));
+        self.outbox.answer(Work::KeepTable(kind).request(), result.err().map(Refusal::of));
     }
 
     fn table_worked(&mut self, now: Micros) {
         let us = self.saving.ended(now).unwrap_or(0);
         self.not_scanned(us);
     }
-}
 
-/// Refusal of work.
-const FULL: &str = "too much is waiting to be done";
+    /// Puts a table of folds in force, if it fits the present garment.
+    #[cfg(feature = "folds")]
+    fn wear_folds(&mut self, table: Option<&'static [u8]>) {
+        self.folds.wear(table);
+        self.refit_folds();
+    }
+
+    /// Garment or scene have changed.
+    #[cfg(feature = "folds")]
+    pub(super) fn refit_folds(&mut self) {
+        let table = self.folds.fit(&self.setup.layout);
+        self.state.condition.wear(table, &self.setup.scene.joints);
+    }
+}

@@ -36,7 +36,7 @@ struct SeenTaxel {
 
 /// Taxels that were beyond their limits within the time of a frame.
 #[derive(Debug, Clone)]
-pub(super) struct Recent {
+pub(crate) struct Recent {
     seen: Vec<SeenTaxel, SEEN>,
     oldest: u8,
     /// Number of the present sub-field, counted over all frames.

@@ -6,7 +6,7 @@
 //! | input | codes of a sub-field in the order of the scan, a limit for each taxel |
 //! | output | codes by taxel number; rows of the scene's reactions that begin |
 //! | latency | the rest of the sub-field: 640 us at most on the reference garment |
-//! | RAM | [`Reflex`] of 2,048 taxels: 8,968 bytes |
+//! | RAM | [`Reflex`](crate::acquire::Reflex) of 2,048 taxels: 8,968 bytes |
 //! | Cortex-M0+ | `docs/reflex.md` |
 //!
 //! Contacts, shapes and meanings need whole frames. A pin that has to move within a millisecond cannot wait
@@ -18,10 +18,11 @@
 //! watched.
 
 mod agree;
-mod check;
+mod early;
 mod spot;
 mod watched;
 
 pub use agree::Agree;
-pub use check::{Early, Reflex};
+pub(crate) use agree::Recent;
+pub use early::Early;
 pub use watched::{ROWS, ReflexRow, Reflexes};

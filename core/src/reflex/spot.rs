@@ -2,7 +2,7 @@
 
 /// Position of a taxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Spot {
+pub(crate) struct Spot {
     pub panel: u8,
     pub row: u16,
     pub column: u16,

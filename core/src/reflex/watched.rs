@@ -25,7 +25,7 @@ pub struct ReflexRow {
 
 impl ReflexRow {
     /// Bit of the row in a mask.
-    pub(super) const fn bit(&self) -> u8 {
+    pub(crate) const fn bit(&self) -> u8 {
         1 << (self.index & 7)
     }
 }
@@ -89,7 +89,7 @@ impl Reflexes {
     }
 
     /// Position of a taxel.
-    pub(super) fn spot(&self, taxel: u16) -> Option<Spot> {
+    pub(crate) fn spot(&self, taxel: u16) -> Option<Spot> {
         let (panel, local) = self.find(taxel)?;
         let columns = self.panels.get(usize::from(panel))?.columns;
         let row = local.checked_div(columns)?;

@@ -1,7 +1,7 @@
 //! Hands received bytes to the board. Bytes that the board does not accept yet wait here, those after them in
 //! the link's ring.
 
-use super::{Link, Platform};
+use super::services::{Link, Platform};
 use crate::board::{Board, Input};
 
 /// Most bytes read from the link at a time.

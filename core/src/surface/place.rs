@@ -1,7 +1,7 @@
 //! Place of a contact: between the four taxels around its centroid.
 
 use super::table::Table;
-use super::taxel::TaxelRecord;
+use super::taxel::{TaxelRecord, micrometres};
 use super::{Micrometres, UnitVector};
 use crate::format::Fixed16;
 use crate::garment::Layout;
@@ -94,13 +94,6 @@ fn within(at: Fixed16, count: u16) -> (u16, u32) {
     ((at >> 16) as u16, (at & 0xffff) as u32 >> 1)
 }
 
-/// 2^-30 m to micrometres: at most 1 um off.
-pub(super) fn micrometres(fine: i32) -> i32 {
-    // Units of 2^-20 m, of which a micrometre is 1 - 759 / 2^14.
-    let near = (fine >> 9).wrapping_add(1) >> 1;
-    near - ((near * 759 + (1 << 13)) >> 14)
-}
-
 /// Length, in units of 2^-15 squared, below which a vector has no direction: 1/16.
 const SHORT: u32 = 1 << 22;
 /// Remainder of the squared length, units of 2^-15, after which a vector is of length 1: then the rest is
@@ -132,14 +125,6 @@ fn unit(mut vector: [i32; 3]) -> Option<UnitVector> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn micrometres_are_at_most_one_off() {
-        for fine in (i32::MIN..=i32::MAX).step_by(7919).chain([i32::MIN, -1, 0, 1, i32::MAX]) {
-            let exact = f64::from(fine) / f64::from(1 << 30) * 1e6;
-            assert!((f64::from(micrometres(fine)) - exact).abs() <= 1.0, "{fine}");
-        }
-    }
 
     #[test]
     fn directions_are_of_length_1() {

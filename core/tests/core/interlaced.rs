@@ -2,10 +2,9 @@
 
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use taxel_core::acquire::{Depth, Fields, Plan, Ring, Sweep, TURN_PLACES, Unfit};
+use taxel_core::acquire::{Depth, Fields, Plan, Reflex, Ring, Sweep, TURN_PLACES, Unfit};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Block, Circuit, Garment, Layout, Orientation, Pins, Place};
-use taxel_core::reflex::Reflex;
 
 const PLAN: Plan = Plan { panels: u8::MAX, blocks: u64::MAX, depth: Depth::Interlaced };
 

@@ -1,13 +1,13 @@
 //! The reflex: who begins it, how late, and who never does.
 
 use crate::random::Noise;
-use taxel_core::acquire::{Depth, Fields, Plan};
+use taxel_core::acquire::{Depth, Fields, Plan, Reflex};
 use taxel_core::board::{BoardInfo, Setup};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros, name};
 use taxel_core::garment::{Circuit, Garment, Layout};
 use taxel_core::react::{Cause, ReactionConfig};
-use taxel_core::reflex::{Agree, Early, Reflex};
+use taxel_core::reflex::{Agree, Early};
 use taxel_core::scene::Scene;
 
 const COLUMNS: usize = 16;

@@ -4,10 +4,10 @@
 use core::cell::RefCell;
 use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
 use rp_pac::SIO;
-use taxel_core::acquire::{Fields, Read};
+use taxel_core::acquire::{Fields, Read, Reflex};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
-use taxel_core::reflex::{Early, Reflex, Reflexes};
+use taxel_core::reflex::{Early, Reflexes};
 
 /// Taxels that are checked: none in an image without reflexes.
 const CHECKED: usize = if cfg!(feature = "reflex") { TAXELS } else { 0 };

@@ -5,13 +5,13 @@ use super::board::SimAdc;
 use super::hardware::{PINS, SimDelay, SimPin};
 use super::signal::FULL_SCALE;
 use taxel_core::acquire::{
-    Acquire, Adc, Clock, Depth, Fields, Lines, MuxScan, Plan, Rounds, SWEEP_ADDRESSES, SWEEP_STRETCHES, Scan,
-    ScanError, ScanReport, Sweep,
+    Acquire, Adc, Clock, Depth, Fields, Lines, MuxScan, Plan, Reflex, Rounds, SWEEP_ADDRESSES,
+    SWEEP_STRETCHES, Scan, ScanError, ScanReport, Sweep,
 };
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::Code;
 use taxel_core::garment::Circuit;
-use taxel_core::reflex::{Early, Reflex, Reflexes};
+use taxel_core::reflex::{Early, Reflexes};
 use taxel_core::selftest::{Examine, Findings};
 
 /// Reads the simulated garment. If a chain can read it, a frame takes [`taxel_core::acquire::frame_us`].

@@ -4,78 +4,20 @@
 //! with the tests that take long too.
 
 mod list;
+mod parts;
 mod run;
 mod switched;
 mod table;
 
 use crate::{install, paths};
 use list::Mutant;
+use parts::PARTS;
 use run::{listed, tested};
 use std::path::{Path, PathBuf};
 use table::{AGAIN, Ended, explained, is_equal, lasting};
 
 /// Default number of mutants.
 const COUNT: usize = 200;
-/// A part to be mutated, and the tests that should notice.
-struct Part {
-    name: &'static str,
-    folders: &'static [&'static str],
-    package: &'static str,
-    /// Test target besides the unit tests.
-    target: &'static str,
-    /// Filters of test names; the other tests test other parts.
-    tests: &'static [&'static str],
-    /// Filters of the tests that take seconds for each change and notice hardly one that no other test does.
-    long: &'static [&'static str],
-}
-
-const PARTS: [Part; 3] = [
-    Part {
-        name: "contact",
-        folders: &["core/src/segment", "core/src/measure", "core/src/track", "core/src/contact"],
-        package: "taxel-core",
-        target: "core",
-        tests: &[
-            "segment::",
-            "measure::",
-            "track::",
-            "contact",
-            "hard::",
-            "moments",
-            "dense",
-            "bounds::",
-            "tracking::",
-            "board",
-        ],
-        long: &[
-            "baseline::",
-            "sparse_is_dense",
-            "bounds::map",
-            "bounds::nmi",
-            "axes_hold_at_every_magnitude",
-            "never_slip",
-            "slides_under_the_whole_panel",
-            "that_moves_as_a_whole",
-        ],
-    },
-    Part {
-        name: "wire",
-        folders: &["core/src/wire"],
-        package: "taxel-core",
-        target: "core",
-        tests: &["wire", "golden", "board", "exchange"],
-        long: &[],
-    },
-    Part {
-        name: "store",
-        folders: &["firmware/store/src"],
-        package: "taxel-store",
-        target: "settings",
-        tests: &[""],
-        long: &[],
-    },
-];
-
 /// Options of the command line.
 #[derive(Debug, PartialEq, Eq)]
 struct Asked {

@@ -1,9 +1,9 @@
 //! Runs the tests of a part with each of its mutants: of those built together, and of the rest one by one.
 
 use super::list::{self, Mutant};
+use super::parts::{PARTS, Part};
 use super::switched::{self, Built, End};
 use super::table::Ended;
-use super::{PARTS, Part};
 use crate::{paths, process};
 use std::path::Path;
 use std::process::Command;

@@ -1,6 +1,6 @@
 //! The table of results, `docs/bench/mutants.txt`, and the explanations that are kept in it.
 
-use super::{PARTS, Part};
+use super::parts::{PARTS, Part};
 use std::collections::BTreeMap;
 
 /// Title of the table.

@@ -5,10 +5,9 @@ mod encoding;
 mod enqueue;
 
 use super::pace::{Pace, Rates};
-use super::refusal::Refusal;
+use super::refusal::{Refusal, Sentence};
 use super::tx_frame::TxFrame;
 use super::{BoardInfo, Setup};
-use super::{CodeVec, Sentence};
 use crate::body::Placed;
 use crate::boot::Boot;
 use crate::condition::{Certificate, Image};
@@ -50,6 +49,12 @@ pub(super) struct About<'a> {
 
 /// Gestures to send, each with its confidence until that has been sent.
 type GestureQueue = Deque<(GestureReport, Option<Q15>), 4>;
+
+/// Raw codes to be sent, kept until the link has room.
+#[cfg(feature = "raw")]
+type CodeVec<const TAXELS: usize> = Vec<Code, TAXELS>;
+#[cfg(not(feature = "raw"))]
+type CodeVec<const TAXELS: usize> = Vec<Code, 0>;
 
 /// Messages to send.
 pub(super) struct Outbox<const TAXELS: usize> {

@@ -8,8 +8,18 @@ pub(super) use garment::garment;
 pub(super) use scene::scene;
 
 use super::refusal::Refusal;
+use crate::wire::{WireError, decode};
 use heapless::Vec;
 use serde::Deserialize;
+
+/// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
+#[inline(never)]
+pub(super) fn value<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
+    decode(bytes).map_err(|error| match error {
+        WireError::LeftOver => format_args!("{what}: bytes after its end").into(),
+        _ => format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into(),
+    })
+}
 
 /// Unread bytes of a message, which errors call `what`.
 struct Unread<'a> {

@@ -1,9 +1,8 @@
-//! The check of a sub-field's codes.
+//! The check of a sub-field's codes as soon as they are read.
 
-use super::agree::{Agree, Recent};
-use super::watched::{ROWS, Reflexes};
-use crate::acquire::{Fields, Read};
+use super::{Fields, Read};
 use crate::format::{Code, Micros};
+use crate::reflex::{Agree, Early, ROWS, Recent, Reflexes};
 use heapless::{Deque, Vec};
 
 /// Codes per iteration of the loop, which the compiler unrolls.
@@ -22,21 +21,6 @@ struct WatchedTaxel {
     taxel: u16,
     /// Last inactive code; inverted if pressure lowers the code.
     limit: u16,
-}
-
-/// A reflex that has begun.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Early {
-    /// Index into the scene's table of reactions.
-    pub index: u8,
-    /// Time at which the sub-field had been read.
-    pub time: Micros,
-    /// Number of the taxel that triggered it.
-    pub taxel: u16,
-    /// Its code.
-    pub code: Code,
-    /// Number of the taxel that agreed, if two must.
-    pub other: Option<u16>,
 }
 
 /// State of the check from sub-field to sub-field.

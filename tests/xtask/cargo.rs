@@ -1,0 +1,19 @@
+//! Cargo, called for the whole workspace.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Options shared by all builds of the workspace, so that they reuse each other's products: cargo unifies the
+/// features of dependencies over all selected packages and targets.
+pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
+
+/// Cargo in a folder, without incremental builds unless the user enables them: writing their data takes
+/// longer than it saves here.
+pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
+    let mut command = Command::new("cargo");
+    command.args(args).current_dir(folder);
+    if std::env::var_os("CARGO_INCREMENTAL").is_none() {
+        command.env("CARGO_INCREMENTAL", "0");
+    }
+    command
+}
