@@ -44,7 +44,12 @@ impl Surface {
 
     /// The table in force.
     pub fn table(&self) -> Option<Table<'static>> {
-        if cfg!(feature = "surface") && self.fits { Table::view(self.table?) } else { None }
+        if self.is_worn() { Table::view(self.table?) } else { None }
+    }
+
+    /// True if a table is in force; cheaper than to view it.
+    fn is_worn(&self) -> bool {
+        cfg!(feature = "surface") && self.fits
     }
 
     /// Puts a table in force if it fits the garment; forgets poses, which are of the links of another.
@@ -92,7 +97,7 @@ impl Surface {
 
     /// Notes a frame to tell of: when something touches, and once when nothing does any more.
     pub fn note(&mut self, frame: u32, time: Micros, touched: bool) {
-        if !self.fits || !(touched || self.told) {
+        if !self.is_worn() || !(touched || self.told) {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {
