@@ -218,10 +218,12 @@ impl FoldState {
             let cells = table.knot(fold, start, knot).unwrap_or(&[]);
             Around { cells, corrections: start.correction + knot * fold.quads(), weight: weight.into() }
         };
-        let passes = self.passes.get(start.knot + usize::from(bend.nearest())).copied().unwrap_or(0);
+        let there = bend.corners.iter().filter(|corner| corner.weight > 0);
+        let passes = there.filter_map(|corner| self.passes.get(start.knot + usize::from(corner.knot)));
+        let fewest = passes.min().copied().unwrap_or(0);
         Corners {
             around: bend.corners.map(|corner| at(corner.knot, corner.weight)),
-            nearest: at(bend.nearest(), SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE)),
+            nearest: at(bend.nearest(), SHARES.get(usize::from(fewest)).copied().unwrap_or(WHOLE)),
         }
     }
 
@@ -342,7 +344,7 @@ struct Around<'a> {
 /// The knots around the present posture.
 struct Corners<'a> {
     around: [Around<'a>; 4],
-    /// The nearest of them. Its weight is what is left of the doubt of days.
+    /// The nearest of them. Its weight is what is left of the doubt of days, where fewest were compared.
     nearest: Around<'a>,
 }
 
@@ -358,15 +360,14 @@ impl Corners<'_> {
     /// Expectations and doubts of some quads of a fold, units.
     #[inline(never)] // own registers
     fn felt(&self, corrections: &[u32], quads: Range<usize>, felt: &mut [[u32; 2]; AT_ONCE]) {
-        let mut means = [LaneSums::NONE; AT_ONCE];
+        let mut means = [(LaneSums::NONE, 0); AT_ONCE];
         for corner in self.around.iter().filter(|corner| corner.weight > 0) {
             add_means(&mut means, corner.of(corrections, &quads), corner.weight);
         }
-        let (cells, corrections) = self.nearest.of(corrections, &quads);
-        let nearest = cells.iter().zip(corrections);
-        for ((felt, means), ([_, spread, days], correction)) in felt.iter_mut().zip(means).zip(nearest) {
-            // The doubt of days is whole where nothing was compared.
-            let whole = days & whole_bytes(zeros(*correction));
+        let (cells, _) = self.nearest.of(corrections, &quads);
+        for ((felt, (means, new)), [_, spread, days]) in felt.iter_mut().zip(means).zip(cells) {
+            // The doubt of days is whole where a knot around was not compared yet.
+            let whole = days & whole_bytes(new);
             let mut doubt = LaneSums::ALMOST;
             doubt.add_both([*spread, whole], WHOLE.into());
             doubt.add(days ^ whole, self.nearest.weight);
@@ -375,12 +376,15 @@ impl Corners<'_> {
     }
 }
 
-/// Adds a knot's part to the expectations of quads.
+/// Adds a knot's part to the expectations of quads, and notes the taxels that were not compared there, by the
+/// highest bits of their bytes.
 #[inline(never)] // own registers
-fn add_means(means: &mut [LaneSums], (cells, corrections): (&[[u32; 3]], &[u32]), weight: u32) {
-    for ((sums, [mean, ..]), correction) in means.iter_mut().zip(cells).zip(corrections) {
+fn add_means(means: &mut [(LaneSums, u32)], (cells, corrections): (&[[u32; 3]], &[u32]), weight: u32) {
+    for (((sums, new), [mean, ..]), correction) in means.iter_mut().zip(cells).zip(corrections) {
+        let none = zeros(*correction);
+        *new |= none;
         // 128 stands for a correction of 0.
-        sums.add_both([*mean, correction | zeros(*correction)], weight);
+        sums.add_both([*mean, correction | none], weight);
     }
 }
 
