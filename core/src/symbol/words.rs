@@ -18,6 +18,18 @@ pub enum Strength {
     Hard,
 }
 
+impl Strength {
+    /// Name in lower case.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Strength::Faint => "faint",
+            Strength::Light => "light",
+            Strength::Firm => "firm",
+            Strength::Hard => "hard",
+        }
+    }
+}
+
 /// Extent: touched area. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -38,6 +50,16 @@ pub enum Extent {
 pub const SHARP: u16 = 3_000;
 
 impl Extent {
+    /// Name in lower case.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Extent::Point => "point",
+            Extent::Patch => "patch",
+            Extent::Wide => "wide",
+            Extent::Sharp => "sharp",
+        }
+    }
+
     /// Rank of the size.
     pub(super) const fn size(self) -> usize {
         match self {
@@ -59,6 +81,17 @@ pub enum Span {
     Short,
     /// From the second limit on.
     Long,
+}
+
+impl Span {
+    /// Name in lower case.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Span::Brief => "brief",
+            Span::Short => "short",
+            Span::Long => "long",
+        }
+    }
 }
 
 /// The words for one contact.

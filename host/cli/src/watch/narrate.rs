@@ -6,7 +6,7 @@ use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
 use taxel_core::surface::{BodyDirection, RegionPhase, RegionSymbol};
-use taxel_core::symbol::{Extent, Strength, Symbol};
+use taxel_core::symbol::{Extent, Symbol};
 use taxel_core::wire::{GestureReport, RegionsReport};
 
 /// Turns events into sentences.
@@ -116,31 +116,13 @@ fn felt(client: &Client, region: &RegionSymbol) -> Option<String> {
     Some(match region.phase {
         RegionPhase::Free => return None,
         RegionPhase::Onset => {
-            let words = [strength(region.strength), extent(region.extent)];
+            let words = [region.strength.as_str(), region.extent.as_str()];
             format!("touched ({}, {})", words.join(" "), client.shape_name(region.class))
         }
         RegionPhase::Held => "held".into(),
         RegionPhase::Moving => format!("moves {}", direction(region.way)),
         RegionPhase::Released => "released".into(),
     })
-}
-
-fn strength(strength: Strength) -> &'static str {
-    match strength {
-        Strength::Faint => "faint",
-        Strength::Light => "light",
-        Strength::Firm => "firm",
-        Strength::Hard => "hard",
-    }
-}
-
-fn extent(extent: Extent) -> &'static str {
-    match extent {
-        Extent::Point => "point",
-        Extent::Patch => "patch",
-        Extent::Wide => "wide",
-        Extent::Sharp => "sharp",
-    }
 }
 
 fn direction(way: BodyDirection) -> &'static str {
@@ -179,8 +161,8 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
     if symbol.phase != Phase::Released {
         return format!("contact {} on the {region} begins", symbol.contact);
     }
-    let strength = strength(symbol.words.strength);
-    let extent = extent(symbol.words.extent);
+    let strength = symbol.words.strength.as_str();
+    let extent = symbol.words.extent.as_str();
     let moving = if symbol.words.moving { ", sliding" } else { "" };
     let feels = match client.hardness(symbol.contact).map(Hardness::of) {
         None | Some(Hardness::Firm) => String::new(),
@@ -209,7 +191,7 @@ pub fn force(total: u32, counts_per_newton: Option<f32>) -> String {
 mod tests {
     use super::*;
     use taxel_core::shape::Class;
-    use taxel_core::symbol::{Span, Words};
+    use taxel_core::symbol::{Span, Strength, Words};
 
     #[test]
     fn what_fills_a_taxel_is_told_as_at_least_so_much() {

@@ -11,7 +11,7 @@ use taxel_core::format::{Name, Q15};
 use taxel_core::garment::Area;
 use taxel_core::intent::Outcome;
 use taxel_core::shape::Class;
-use taxel_core::symbol::{Extent, RegionState, Span, Strength, Symbol};
+use taxel_core::symbol::{RegionState, Symbol};
 use taxel_core::wire::{Health, IntentReport, ReactionReport, SymbolList};
 
 /// Metres per 0.1 mm, and per micrometre.
@@ -122,9 +122,9 @@ pub fn symbols(us: u64, client: &Client, list: &SymbolList) -> Vec<u8> {
         cdr.u32(symbol.contact)
             .u8(phase(symbol.phase))
             .text(client.region_name(symbol.region))
-            .text(strength(words.strength))
-            .text(extent(words.extent))
-            .text(span(words.span))
+            .text(words.strength.as_str())
+            .text(words.extent.as_str())
+            .text(words.span.as_str())
             .u8(words.moving.into())
             .text(&client.shape_name(Class(words.class.0)))
             .u32(symbol.peak_total)
@@ -139,32 +139,6 @@ pub fn symbols(us: u64, client: &Client, list: &SymbolList) -> Vec<u8> {
             .f64(region.since.0 as f64 / 1e6)
     };
     head(us).u32(list.frame).list(&list.events, symbol).list(&list.regions, region).finish()
-}
-
-fn strength(strength: Strength) -> &'static str {
-    match strength {
-        Strength::Faint => "faint",
-        Strength::Light => "light",
-        Strength::Firm => "firm",
-        Strength::Hard => "hard",
-    }
-}
-
-fn extent(extent: Extent) -> &'static str {
-    match extent {
-        Extent::Point => "point",
-        Extent::Patch => "patch",
-        Extent::Wide => "wide",
-        Extent::Sharp => "sharp",
-    }
-}
-
-fn span(span: Span) -> &'static str {
-    match span {
-        Span::Brief => "brief",
-        Span::Short => "short",
-        Span::Long => "long",
-    }
 }
 
 /// `taxel_msgs/msg/Reaction`
