@@ -92,6 +92,27 @@ def vector(point, told, scale=1.0):
         assert math.isclose(own, other / scale, rel_tol=1e-12, abs_tol=1e-12), (point, told)
 
 
+def uncertain(message, told, per_newton):
+    """What is unknown: nothing if the line has none."""
+    told = told or dict.fromkeys(["saturated", "faulty", "less", "more", "off_m"], 0)
+    assert [message.saturated, message.faulty] == [told["saturated"], told["faulty"]]
+    assert [message.less, message.more] == [told["less"] / per_newton, told["more"] / per_newton]
+    assert metres(message.off, told["off_m"] * 1000)
+
+
+BODY_PHASES = ["free", "onset", "held", "moving", "released"]
+WAYS = ["none", "forward", "back", "left", "right", "up", "down"]
+
+
+def body_regions(message, line):
+    """All fields of BodyRegions.msg."""
+    assert message.frame == line["frame"] and len(message.regions) == len(line["regions"])
+    for one, told in zip(message.regions, line["regions"]):
+        own = [one.region, BODY_PHASES[one.phase], WAYS[one.way], one.contacts, one.strength, one.extent, one.shape]
+        assert own == [told[key] for key in ["region", "phase", "way", "contacts", "strength", "extent", "class"]]
+        assert one.since == told["since"] / 1e6
+
+
 def pressing(message, line, per_newton=1000.0):
     """All fields of Pressing.msg."""
     assert message.frame == line["frame"] and message.newtons
@@ -110,8 +131,10 @@ def pressing(message, line, per_newton=1000.0):
             vector(one.base_position, told["base"]["at_m"])
             vector(one.base_normal, told["base"]["normal"])
             vector(one.base_force, told["base"]["force"], per_newton)
+        uncertain(one.uncertain, told["uncertain"], per_newton)
     for one, told in zip(message.links, line["links"]):
         assert [one.link, one.pressed] == [told["link"], told["pressed"] / per_newton]
         vector(one.force, told["force"], per_newton)
         vector(one.moment, told["moment"], per_newton)
         vector(one.center, told["center_m"])
+        uncertain(one.uncertain, told["uncertain"], per_newton)

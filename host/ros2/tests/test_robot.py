@@ -15,7 +15,7 @@ from joints import FASTNESS, SWING, waist
 from rcl_interfaces.msg import Log
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import String
-from taxel_msgs.msg import Contacts, Pressing
+from taxel_msgs.msg import BodyRegion, BodyRegions, Contacts, Pressing
 
 BODY = ("--body", "reference")
 ROBOT = (*BODY, "--robot", "reference")
@@ -79,6 +79,24 @@ def test_what_presses_on_a_robot_that_moves(listener):
                 assert math.isclose(math.hypot(*place(contact.link_force)), contact.force, rel_tol=1e-9)
                 seen += 1
     assert seen > 300
+
+
+def test_regions_of_the_body_say_what_json_says(listener, tmp_path):
+    body = tmp_path / "body.toml"
+    region = '\n[[regions]]\nname = "torso"\nlink = "torso"\nwithin.box = { from = [-1, -1, -1], to = [1, 1, 1] }\n'
+    reference = Path(__file__).parents[2] / "taxel/bodies/reference.toml"
+    body.write_text(reference.read_text() + region)
+    regions = listener.hear(BodyRegions, "/taxel/regions")
+    told = listener.hear(String, "/taxel/json")
+    phases = lambda: {one.regions[0].phase for one in regions.messages}
+    with taxel("--source", "sim:pat", "--body", str(body)):
+        listener.spin(lambda: phases() >= {BodyRegion.ONSET, BodyRegion.RELEASED}, 30)
+        listener.rest(0.5)
+    lines = by_frame(told, "regions")
+    compared = [one for one in regions.messages if one.frame in lines]
+    assert len(compared) > 3
+    for one in compared:
+        fields.body_regions(one, lines[one.frame])
 
 
 def test_forces_by_link_and_points_in_its_frame(listener):

@@ -5,10 +5,10 @@ use anyhow::Result;
 use std::sync::Arc;
 use taxel::body::{ReadBody, Surface};
 use taxel::client::Client;
-use taxel::ros2::topics::{LINK_COUNTS, LINK_WRENCH, PRESSING, RosTopic};
+use taxel::ros2::topics::{LINK_COUNTS, LINK_WRENCH, PRESSING, REGIONS, RosTopic};
 use taxel::ros2::{pressing, topic_part};
 use taxel_core::garment::Garment;
-use taxel_core::wire::PressingReport;
+use taxel_core::wire::{PressingReport, RegionsReport};
 
 /// The links that wear the garment.
 #[derive(Debug)]
@@ -52,11 +52,27 @@ impl Links {
             .collect();
         node.withdraw(|name| gone.iter().any(|gone| gone == name));
         node.offer(&PRESSING, "")?;
+        node.offer(&REGIONS, "")?;
         for link in surface.links() {
             node.offer(&topic, &topic_part(link))?;
         }
         self.worn = Some((board.garment.clone(), surface));
         Ok(())
+    }
+
+    /// Publishes what the regions of the surface feel.
+    pub fn regions(
+        &self,
+        node: &mut RosNode,
+        client: &Client,
+        report: &RegionsReport,
+        us: u64,
+    ) -> Result<()> {
+        // The board may have a body that nobody has named here.
+        if self.worn.is_none() {
+            return Ok(());
+        }
+        node.publish(&REGIONS, "", pressing::regions(us, client, report))
     }
 
     /// Publishes a report of the board. `base` is the frame of the robot's base, or empty.

@@ -94,6 +94,7 @@ impl RosShow {
                 node.publish(&CONTACTS, "", message)
             }
             Event::Pressing(report) => self.links.report(node, client, report, us, &self.base),
+            Event::Regions(report) => self.links.regions(node, client, report, us),
             Event::Symbols(list) => node.publish(&SYMBOLS, "", own::symbols(us, client, list)),
             Event::Reaction(report) => node.publish(&REACTIONS, "", own::reaction(us, report)),
             Event::Intent(report) => node.publish(&INTENT, "", own::intent(us, client, report)),

@@ -7,8 +7,8 @@ use crate::body::{Surface, TaxelPlace};
 use crate::client::Client;
 use taxel_core::format::Micros;
 use taxel_core::garment::Area;
-use taxel_core::surface::{InBase, Landed, Micrometres, ONE, UnitVector, Wrench};
-use taxel_core::wire::PressingReport;
+use taxel_core::surface::{InBase, Landed, Micrometres, ONE, Uncertainty, UnitVector, Wrench};
+use taxel_core::wire::{PressingReport, RegionsReport};
 
 /// Fields of a point.
 const FIELDS: [&str; 7] = ["x", "y", "z", "normal_x", "normal_y", "normal_z", "pressure"];
@@ -25,6 +25,7 @@ pub fn pressing(
     let scale = scale(per_newton);
     let age = |posed: Micros| report.time.0.wrapping_sub(posed.0) as i64 as f64 * 1e-6;
     let error = client.pose_error(report.frame).filter(|_| report.posed.is_some());
+    let bounds = client.bounds(report.frame);
     let name =
         |link: u8| report.links.iter().find(|one| one.link == link).map_or("", |one| one.name.as_str());
     Cdr::default()
@@ -34,8 +35,14 @@ pub fn pressing(
         .u8(per_newton.is_some().into())
         .f64(report.posed.map_or(f64::NAN, age))
         .f64(error.unwrap_or(f64::NAN))
-        .list(&report.contacts, |cdr, contact| landed(cdr, contact, name(contact.spot.link), scale))
-        .list(&report.links, |cdr, link| link_wrench(cdr, link, scale))
+        .list(&report.contacts, |cdr, contact| {
+            let cdr = landed(cdr, contact, name(contact.spot.link), scale);
+            uncertain(cdr, bounds.map(|bounds| &bounds.contacts[..]), &contact.id, scale)
+        })
+        .list(&report.links, |cdr, link| {
+            let cdr = link_wrench(cdr, link, scale);
+            uncertain(cdr, bounds.map(|bounds| &bounds.links[..]), &link.link, scale)
+        })
         .finish()
 }
 
@@ -44,7 +51,7 @@ fn scale(per_newton: Option<f32>) -> f64 {
     per_newton.map_or(1.0, f64::from)
 }
 
-/// `taxel_msgs/msg/Landed`
+/// `taxel_msgs/msg/Landed`, but for what is uncertain of it.
 fn landed(cdr: Cdr, contact: &Landed, link: &str, scale: f64) -> Cdr {
     let cdr = cdr.u32(contact.id).text(link);
     let cdr = push(cdr, contact.spot.at, contact.spot.normal, contact.force, scale);
@@ -60,11 +67,20 @@ fn push(cdr: Cdr, at: Micrometres, normal: UnitVector, force: [i32; 3], scale: f
     cdr.f64s(metres(at)).f64s(normal).f64s(force.map(|part| f64::from(part) / scale))
 }
 
-/// `taxel_msgs/msg/LinkWrench`
+/// `taxel_msgs/msg/LinkWrench`, but for what is uncertain of it.
 fn link_wrench(cdr: Cdr, wrench: &Wrench, scale: f64) -> Cdr {
     let [force, moment] = vectors(wrench, scale);
     let cdr = cdr.text(&wrench.name).f64s(force).f64s(moment);
     cdr.f64(f64::from(wrench.pressed) / scale).f64s(metres(wrench.center))
+}
+
+/// `taxel_msgs/msg/Uncertain` of a contact or of a link.
+fn uncertain<T: PartialEq>(cdr: Cdr, all: Option<&[(T, Uncertainty)]>, of: &T, scale: f64) -> Cdr {
+    let told = all.unwrap_or_default().iter().find(|(named, _)| named == of);
+    let Uncertainty { saturated, faulty, less, more, off } =
+        told.map_or_else(Default::default, |(_, it)| *it);
+    let [less, more] = [less, more].map(|counts| f64::from(counts) / scale);
+    cdr.u16(saturated).u16(faulty).f64s([less, more, f64::from(off) / 1e6])
 }
 
 /// Force and moment.
@@ -81,6 +97,26 @@ fn metres(at: Micrometres) -> [f64; 3] {
 pub fn wrench(us: u64, link: &str, wrench: Option<&Wrench>, per_newton: Option<f32>) -> Vec<u8> {
     let parts = wrench.map_or([[0.0; 3]; 2], |wrench| vectors(wrench, scale(per_newton)));
     Cdr::default().time(us).text(link).f64s(parts.concat()).finish()
+}
+
+/// `taxel_msgs/msg/BodyRegions`
+pub fn regions(us: u64, client: &Client, report: &RegionsReport) -> Vec<u8> {
+    let named: Vec<_> = report.regions.iter().enumerate().collect();
+    Cdr::default()
+        .time(us)
+        .text("")
+        .u32(report.frame)
+        .list(&named, |cdr, (number, region)| {
+            cdr.text(client.surface_region(*number))
+                .u8(region.phase as u8)
+                .u8(region.way as u8)
+                .u8(region.contacts)
+                .text(region.strength.as_str())
+                .text(region.extent.as_str())
+                .text(&client.shape_name(region.class))
+                .f64(region.since.0 as f64 / 1e6)
+        })
+        .finish()
 }
 
 /// `sensor_msgs/msg/PointCloud2` of a panel in the frame of the link that it lies on: place and normal of

@@ -57,6 +57,8 @@ pub const POINTS: RosTopic = topic("tactile/PANEL/points", "sensor_msgs", "Point
 pub const WRENCH: RosTopic = topic("tactile/PANEL/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
 /// What presses on the robot, with a body.
 pub const PRESSING: RosTopic = topic("~/pressing", "taxel_msgs", "Pressing", EVERY);
+/// What the regions of the robot's surface feel, with a body.
+pub const REGIONS: RosTopic = topic("~/regions", "taxel_msgs", "BodyRegions", EVERY);
 /// Force and moment on a link, with a body and a calibration.
 pub const LINK_WRENCH: RosTopic =
     topic("tactile/links/LINK/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
@@ -71,7 +73,7 @@ pub const DIAGNOSTICS: RosTopic = topic("/diagnostics", "diagnostic_msgs", "Diag
 pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
 
 /// What the node publishes.
-pub const PUBLISHED: [RosTopic; 16] = [
+pub const PUBLISHED: [RosTopic; 17] = [
     CONTACTS,
     SYMBOLS,
     REACTIONS,
@@ -83,6 +85,7 @@ pub const PUBLISHED: [RosTopic; 16] = [
     POINTS,
     WRENCH,
     PRESSING,
+    REGIONS,
     LINK_WRENCH,
     LINK_COUNTS,
     FRAMES,

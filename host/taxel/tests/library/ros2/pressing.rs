@@ -2,22 +2,64 @@
 
 use super::definitions::Definitions;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::path::Path;
 use taxel::body::{self, Surface};
 use taxel::client::{Client, Event};
 use taxel::json::message;
 use taxel::ros2::{messages, own, pressing, schemas};
 use taxel::session::{Session, setting};
 use taxel::source::{self, SourceOptions};
-use taxel_core::wire::{PressingReport, Request};
+use taxel_core::wire::{PressingReport, RegionsReport, Request};
 
 const US: u64 = 1_700_000_000_000_123;
 const SCALE: f32 = 1000.0;
+/// A region that holds all of the torso.
+const REGION: &str = "\n[[regions]]\nname = \"torso\"\nlink = \"torso\"\n\
+                      within.box = { from = [-1, -1, -1], to = [1, 1, 1] }\n";
 
 /// Fails unless a point or vector has these parts.
 fn same(read: &Value, want: &Value, scale: f64) {
     for (axis, part) in ["x", "y", "z"].into_iter().zip(want.as_array().unwrap()) {
         let (own, told) = (read[axis].as_f64().unwrap(), part.as_f64().unwrap() / scale);
         assert!((own - told).abs() <= 1e-9 * told.abs().max(1e-3), "{read} is not {want} / {scale}");
+    }
+}
+
+/// Fails unless a message tells of a contact or a link what its line leaves uncertain.
+fn same_uncertain(read: &Value, line: &Value, scale: f64) {
+    let of = |key: &str| line["uncertain"][key].as_f64().unwrap_or(0.0);
+    let told = [of("saturated"), of("faulty"), of("less") / scale, of("more") / scale, of("off_m")];
+    let own =
+        ["saturated", "faulty", "less", "more", "off"].map(|key| read["uncertain"][key].as_f64().unwrap());
+    assert_eq!(own, told, "{line}");
+}
+
+/// Fails unless the message of the surface's regions says what their line says.
+fn same_regions(all: &Definitions, client: &Client, report: &RegionsReport) {
+    const PHASES: [&str; 5] = ["free", "onset", "held", "moving", "released"];
+    const WAYS: [&str; 7] = ["none", "forward", "back", "left", "right", "up", "down"];
+    let line = message(client, &Event::Regions(Box::new(report.clone())));
+    let read = all.read("BodyRegions", &pressing::regions(US, client, report));
+    assert_eq!(read["frame"], line["frame"]);
+    let [own, told] = [&read, &line].map(|of| of["regions"].as_array().unwrap());
+    assert_eq!(own.len(), told.len());
+    for (own, told) in own.iter().zip(told) {
+        let named = |key: &str, names: &[&str]| json!(names[own[key].as_u64().unwrap() as usize]);
+        assert_eq!(
+            [named("phase", &PHASES), named("way", &WAYS)],
+            [&told["phase"], &told["way"]].map(Value::clone)
+        );
+        for (key, other) in [
+            ("region", "region"),
+            ("contacts", "contacts"),
+            ("strength", "strength"),
+            ("extent", "extent"),
+            ("shape", "class"),
+        ] {
+            assert_eq!(own[key], told[other]);
+        }
+        assert_eq!(own["since"], json!(told["since"].as_f64().unwrap() / 1e6));
     }
 }
 
@@ -40,6 +82,7 @@ fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_
         same(&read["position"], &line["at_m"], 1.0);
         same(&read["normal"], &line["normal"], 1.0);
         same(&read["force"], &line["force"], scale);
+        same_uncertain(&read, &line, scale);
         if line["base"].is_null() {
             assert_eq!([&read["base_position"]["x"], &read["base_force"]["z"]], [&Value::Null; 2]);
         } else {
@@ -50,6 +93,7 @@ fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_
     }
     for ((read, line), wrench) in links.iter().zip(&report.links) {
         assert_eq!(read["link"], line["link"]);
+        same_uncertain(read, line, scale);
         same(&read["center"], &line["center_m"], 1.0);
         assert_eq!(read["pressed"], json!(line["pressed"].as_f64().unwrap() / scale));
         let told = pressing::wrench(US, &wrench.name, Some(wrench), per_newton);
@@ -114,10 +158,13 @@ fn same_points(client: &Client, surface: &Surface) {
 #[test]
 fn places_and_forces_on_links_are_those_of_the_board() {
     let all = Definitions::of_package();
-    let options = SourceOptions { body: Some("reference".into()), ..SourceOptions::default() };
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ros2-regions.toml");
+    std::fs::write(&file, [include_str!("../../../bodies/reference.toml"), REGION].concat()).unwrap();
+    let options = SourceOptions { body: Some(file.display().to_string()), ..SourceOptions::default() };
     let mut session = Session::over(source::open(&"sim:five".parse().unwrap(), &options).unwrap()).unwrap();
     session.request(&Request::SetPressing(u16::MAX)).unwrap();
     let (mut surface, mut reports, mut contacts, mut posed, mut clouds) = (None, 0, 0, 0, 0);
+    let mut phases = BTreeSet::new();
     while let Some(event) = session.wait().unwrap() {
         match &event {
             Event::Hello => {
@@ -138,6 +185,10 @@ fn places_and_forces_on_links_are_those_of_the_board() {
                 posed += report.contacts.iter().filter(|landed| landed.base.is_some()).count();
                 reports += 1;
             }
+            Event::Regions(report) => {
+                same_regions(&all, session.client(), report);
+                phases.insert(report.regions[0].phase as u8);
+            }
             Event::Frame { alone: true, .. } => {
                 same_points(session.client(), surface.as_ref().unwrap());
                 clouds += 1;
@@ -147,6 +198,7 @@ fn places_and_forces_on_links_are_those_of_the_board() {
     }
     println!("{reports} reports, {contacts} contacts, {posed} of them in the base, {clouds} clouds");
     assert!(reports > 100 && contacts > 300 && posed > 100 && clouds > 1);
+    assert!(phases.len() > 2, "{phases:?}");
 }
 
 #[test]
