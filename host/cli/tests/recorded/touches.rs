@@ -92,7 +92,8 @@ fn is_sure_as_it_says(report: &Value) {
     }
 }
 
-fn says(file: &str, words: &str) {
+/// Fails unless a file of the docs contains some words.
+pub fn says(file: &str, words: &str) {
     let text = std::fs::read_to_string(root().join("docs").join(file)).unwrap();
     assert!(text.contains(words), "docs/{file} does not say: {words}");
 }
