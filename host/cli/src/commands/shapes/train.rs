@@ -39,6 +39,10 @@ pub struct RecipeArgs {
     /// images
     #[arg(long, value_name = "SHARE", default_value_t = 0.05, value_parser = share)]
     pub shrinkage: f64,
+    /// Share of the way by which prototypes are moved towards the mean of their class, 0 to 1: more for fewer
+    /// images
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    pub pull: f64,
     /// Use only helpful measures, selected in each fold; for fewer than about 300 images
     #[arg(long)]
     pub select: bool,
@@ -56,6 +60,7 @@ impl RecipeArgs {
         Recipe {
             k: self.k,
             shrinkage: self.shrinkage,
+            pull: self.pull,
             select: self.select,
             prototypes: self.prototypes.into(),
             ..Recipe::default()

@@ -11,8 +11,7 @@ pub fn centres(points: &[Point], count: usize) -> Vec<Point> {
     if points.len() <= count {
         return points.to_vec();
     }
-    let all: Vec<&Point> = points.iter().collect();
-    let mut centres = vec![mean(&all)];
+    let mut centres = vec![mean(points)];
     while centres.len() < count {
         let far =
             points.iter().max_by_key(|point| nearest(&centres, point).1).expect("there are more points");
@@ -20,7 +19,7 @@ pub fn centres(points: &[Point], count: usize) -> Vec<Point> {
     }
     for _ in 0..ROUNDS {
         let mut members = vec![Vec::new(); centres.len()];
-        points.iter().for_each(|point| members[nearest(&centres, point).0].push(point));
+        points.iter().for_each(|point| members[nearest(&centres, point).0].push(*point));
         let moved = centres
             .iter()
             .zip(&members)
@@ -43,7 +42,8 @@ fn nearest(centres: &[Point], point: &Point) -> (usize, u64) {
     all.min_by_key(|(_, distance)| *distance).expect("there is a centre")
 }
 
-fn mean(points: &[&Point]) -> Point {
+/// The mean of points; 0 without any.
+pub fn mean(points: &[Point]) -> Point {
     let mut mean = [0; DIMENSIONS];
     for (i, at) in mean.iter_mut().enumerate() {
         let sum: f64 = points.iter().map(|point| f64::from(point[i])).sum();

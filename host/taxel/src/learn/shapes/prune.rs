@@ -6,7 +6,6 @@ use taxel_core::shape::{Exemplar, Point};
 /// Hart's condensed nearest neighbour rule: starting with the first prototype of each class, keeps only those
 /// that the kept ones would misclassify. From then on one neighbour votes, because the remaining prototypes
 /// lie where classes meet.
-/// classes meet.
 pub fn prune(gallery: &mut Known) {
     let all: Vec<Exemplar> = gallery.prototypes.to_vec();
     let mut kept = vec![false; all.len()];

@@ -1,6 +1,6 @@
 //! Builds a gallery from labelled touches.
 
-use super::cluster::centres;
+use super::cluster::{centres, mean};
 use super::data::Example;
 use super::discriminant::Discriminant;
 use taxel_core::format::name;
@@ -20,6 +20,9 @@ pub struct Recipe {
     pub select: bool,
     /// See [`Discriminant::of`].
     pub shrinkage: f64,
+    /// Share of the way by which prototypes are moved towards the mean of their class, 0 to 1: with few
+    /// examples, a prototype owes much to chance.
+    pub pull: f64,
     /// Number of voting neighbours.
     pub k: u8,
     /// Most prototypes, at most [`GALLERY_PROTOTYPES`].
@@ -32,6 +35,7 @@ impl Default for Recipe {
             measures: (0..MEASURES).collect(),
             select: false,
             shrinkage: 0.05,
+            pull: 0.0,
             k: 3,
             prototypes: GALLERY_PROTOTYPES,
         }
@@ -50,7 +54,7 @@ pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
         let points: Vec<Point> = members.map(|example| space.place(&example.descriptor)).collect();
         let share = (points.len() * recipe.prototypes).div_ceil(examples.len());
         let quota = share.min(recipe.prototypes / names.len()).max(1);
-        for at in centres(&points, quota) {
+        for at in pulled(centres(&points, quota), &points, recipe.pull) {
             let _ = prototypes.push(Exemplar { class: class as u8, at });
         }
     }
@@ -62,6 +66,15 @@ pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
         confidence: ConfidenceTable::default(),
         prototypes,
     }
+}
+
+/// Moves centres towards the mean of all points of their class by a share of the way.
+fn pulled(mut centres: Vec<Point>, points: &[Point], share: f64) -> Vec<Point> {
+    let mean = mean(points);
+    for (at, mean) in centres.iter_mut().flat_map(|centre| centre.iter_mut().zip(mean)) {
+        *at = (f64::from(*at) * (1.0 - share) + f64::from(mean) * share).round() as i16;
+    }
+    centres
 }
 
 /// The projection of a discriminant analysis, in integers.
@@ -84,4 +97,18 @@ fn space(examples: &[&Example], recipe: &Recipe) -> Space {
     let scale = UNITS * f64::from(shift).exp2();
     let weights = found.weights.iter().map(|row| spread(&mut row.iter().map(|weight| weight * scale)));
     Space { origin: spread(&mut found.origin.iter().copied()), weights: weights.collect(), shift }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prototypes_move_towards_the_mean_of_their_class() {
+        let points = [0, 10, 20, 90].map(|x| [x; DIMENSIONS]);
+        let centres = || points[1..].to_vec();
+        assert_eq!(pulled(centres(), &points, 0.0), centres());
+        assert_eq!(pulled(centres(), &points, 0.5), [20, 25, 60].map(|x| [x; DIMENSIONS]));
+        assert_eq!(pulled(centres(), &points, 1.0), [[30; DIMENSIONS]; 3]);
+    }
 }
