@@ -171,39 +171,12 @@ impl<const CONTACTS: usize> Default for UnsureState<CONTACTS> {
 mod tests {
     use super::*;
     use crate::contact::Contact;
-    use crate::format::{Fixed16, Q15};
-    use crate::garment::{Garment, Layout, Place, Rect};
+    use crate::garment::{Garment, Layout};
     use crate::shape::Shape;
 
     fn placed(id: u32, panel: u8, peak: u16) -> Placed {
-        let contact = Contact {
-            id,
-            phase: crate::contact::Phase::Held,
-            panel,
-            total: u32::from(peak) * 9,
-            peak,
-            peak_at: Place { panel, row: 4, column: 4 },
-            area: 9,
-            perimeter: 8,
-            edge: 0,
-            bounds: Rect { panel, top: 3, bottom: 5, left: 3, right: 5 },
-            x: Fixed16(4 << 16),
-            y: Fixed16(4 << 16),
-            azimuth: None,
-            anisotropy: Q15(0),
-            breadth: 300,
-            peak_breadth: 300,
-            dx: Fixed16(0),
-            dy: Fixed16(0),
-            vx: Fixed16(0),
-            vy: Fixed16(0),
-            slip: false,
-            onset: Micros(0),
-            duration_ms: 0,
-            peak_total: 0,
-        };
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
-        Placed::new(&layout, contact, Shape::default())
+        Placed::new(&layout, Contact::of_nine(id, panel, u32::from(peak) * 9), Shape::default())
     }
 
     /// True if a contact with this peak over time, from 40 counts on, is unsure at the end, on a panel that

@@ -375,7 +375,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         // Only a scene without a rate limit keeps pace with the converter.
         let late = self.setup.scene.rate_hz == 0 && self.ledger.is_late();
         self.outbox.enqueue(self.frame, time, &percept, late, &mut self.health);
-        self.surface.note(self.frame, time, touched);
+        self.surface.note(self.frame, time, percept.present, touched);
         if cfg!(feature = "surface") {
             let words = |id| percept.symbols.words(id).unwrap_or_default();
             self.surface.feel((self.frame, time), layout, percept.present, words);

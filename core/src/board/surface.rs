@@ -26,6 +26,8 @@ pub(super) struct Surface {
     bounded: bool,
     /// True if the last report told of something.
     told: bool,
+    /// Number of the last frame to tell of.
+    noted: Option<u32>,
 }
 
 impl Surface {
@@ -39,6 +41,7 @@ impl Surface {
             due: None,
             bounded: false,
             told: false,
+            noted: None,
         }
     }
 
@@ -95,13 +98,18 @@ impl Surface {
         }
     }
 
-    /// Notes a frame to tell of: when something touches, and once when nothing does any more.
-    pub fn note(&mut self, frame: u32, time: Micros, touched: bool) {
-        if !self.is_worn() || !(touched || self.told) {
+    /// Notes a frame to tell of: when something touches, and once when nothing does any more. `present` are
+    /// its contacts.
+    pub fn note(&mut self, frame: u32, time: Micros, present: &[Placed], touched: bool) {
+        if !self.is_worn()
+            || !(touched || self.told)
+            || self.noted == Some(frame.wrapping_sub(1)) && are_many(present)
+        {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {
             (self.due, self.bounded) = (Some((frame, time)), false);
+            self.noted = Some(frame);
         }
     }
 
@@ -144,5 +152,48 @@ impl Surface {
     }
 }
 
+/// Contacts, and taxels under them, that are told of in each frame if this is asked for. More are told of in
+/// every second one: a frame has no time for them beside all else.
+const MOST_CONTACTS: usize = 16;
+const MOST_TAXELS: u32 = 512;
+
+/// True if there are more than can be told of in each frame.
+fn are_many(present: &[Placed]) -> bool {
+    let taxels = || present.iter().map(|placed| u32::from(placed.contact.area)).sum::<u32>();
+    present.len() > MOST_CONTACTS || taxels() > MOST_TAXELS
+}
+
 /// 1 if this build has a surface, else 0.
 const USED: usize = if cfg!(feature = "surface") { 1 } else { 0 };
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use crate::contact::Contact;
+
+    /// Frames that are told of if each of them has so many contacts of nine taxels.
+    fn told(contacts: u32) -> std::vec::Vec<u32> {
+        let present: std::vec::Vec<Placed> =
+            (0..contacts).map(|id| Contact::of_nine(id, 0, 900).into()).collect();
+        let mut surface = Surface { fits: true, rate: Pace::new(u16::MAX), ..Surface::new() };
+        let mut told = |frame: u32| {
+            surface.note(frame, Micros(u64::from(frame) * 5_120), &present, true);
+            surface.due.take().is_some_and(|(noted, _)| noted == frame)
+        };
+        (0..8).filter(|frame| told(*frame)).collect()
+    }
+
+    #[test]
+    fn many_contacts_are_told_of_in_every_second_frame() {
+        assert_eq!(told(16), [0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(told(17), [0, 2, 4, 6]);
+    }
+
+    #[test]
+    fn many_taxels_are_many() {
+        let large = |area| [Placed::from(Contact { area, ..Contact::of_nine(0, 0, 900) })];
+        assert!(!are_many(&large(512)) && are_many(&large(513)));
+    }
+}

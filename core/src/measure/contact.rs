@@ -80,3 +80,36 @@ pub struct Contact {
     /// remainder while it comes or goes.
     pub peak_breadth: u32,
 }
+
+#[cfg(test)]
+impl Contact {
+    /// A contact of 3 x 3 taxels about column 4 of row 4, for tests.
+    pub(crate) fn of_nine(id: u32, panel: u8, total: u32) -> Contact {
+        Contact {
+            id,
+            phase: Phase::Held,
+            panel,
+            total,
+            peak: (total / 9) as u16,
+            peak_at: Place { panel, row: 4, column: 4 },
+            area: 9,
+            perimeter: 8,
+            edge: 0,
+            bounds: Rect { panel, top: 3, bottom: 5, left: 3, right: 5 },
+            x: Fixed16(4 << 16),
+            y: Fixed16(4 << 16),
+            azimuth: None,
+            anisotropy: Q15(0),
+            breadth: 300,
+            peak_breadth: 300,
+            dx: Fixed16(0),
+            dy: Fixed16(0),
+            vx: Fixed16(0),
+            vy: Fixed16(0),
+            slip: false,
+            onset: Micros(0),
+            duration_ms: 0,
+            peak_total: total,
+        }
+    }
+}

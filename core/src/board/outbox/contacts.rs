@@ -243,40 +243,13 @@ mod tests {
     extern crate std;
     use super::*;
     use crate::condition::Tare;
-    use crate::format::{Fixed16, Q15};
-    use crate::garment::{Place, Rect};
     use crate::react::ReactState;
     use crate::symbol::SymbolState;
     use crate::unsure::UnsureState;
     use crate::wire::ContactList;
 
     fn placed(id: u32, phase: Phase, total: u32) -> Placed {
-        let contact = Contact {
-            id,
-            phase,
-            panel: 0,
-            total,
-            peak: 9,
-            peak_at: Place { panel: 0, row: 1, column: 2 },
-            area: 9,
-            perimeter: 8,
-            edge: 0,
-            bounds: Rect { panel: 0, top: 0, bottom: 2, left: 0, right: 2 },
-            x: Fixed16(1 << 16),
-            y: Fixed16(1 << 16),
-            azimuth: None,
-            anisotropy: Q15(0),
-            breadth: 300,
-            peak_breadth: 300,
-            dx: Fixed16(0),
-            dy: Fixed16(0),
-            vx: Fixed16(0),
-            vy: Fixed16(0),
-            slip: false,
-            onset: Micros(0),
-            duration_ms: total / 7,
-            peak_total: total,
-        };
+        let contact = Contact { phase, peak: 9, duration_ms: total / 7, ..Contact::of_nine(id, 0, total) };
         contact.into()
     }
 
