@@ -26,8 +26,8 @@ pub(super) struct Surface {
     bounded: bool,
     /// True if the last report told of something.
     told: bool,
-    /// Number of the last frame to tell of.
-    noted: Option<u32>,
+    /// True if the next frame is not told of, because there was much to tell of this one.
+    pauses: bool,
 }
 
 impl Surface {
@@ -41,7 +41,7 @@ impl Surface {
             due: None,
             bounded: false,
             told: false,
-            noted: None,
+            pauses: false,
         }
     }
 
@@ -101,15 +101,12 @@ impl Surface {
     /// Notes a frame to tell of: when something touches, and once when nothing does any more. `present` are
     /// its contacts.
     pub fn note(&mut self, frame: u32, time: Micros, present: &[Placed], touched: bool) {
-        if !self.is_worn()
-            || !(touched || self.told)
-            || self.noted == Some(frame.wrapping_sub(1)) && are_many(present)
-        {
+        if !self.is_worn() || !(touched || self.told) || core::mem::take(&mut self.pauses) {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {
             (self.due, self.bounded) = (Some((frame, time)), false);
-            self.noted = Some(frame);
+            self.pauses = are_many(present);
         }
     }
 

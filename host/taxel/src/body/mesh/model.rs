@@ -88,7 +88,7 @@ impl Mesh {
         triangle.map(|number| self.points[number])
     }
 
-    /// The point that is nearest to another, the first of equals; none if there are no triangles.
+    /// The point that is nearest to another, ties to the first; none if there are no triangles.
     pub fn nearest(&self, to: DVec3) -> Option<Nearest> {
         let mut best: Option<(usize, DVec3, f64)> = None;
         for (number, triangle) in self.triangles.iter().enumerate() {
