@@ -29,12 +29,17 @@ fn images() -> Vec<(String, Vec<&'static str>)> {
     some.into_iter().chain(ALL.iter().map(|left| (format!("without {left}"), rest(&[left])))).collect()
 }
 
-/// The command that compiles or builds an image with these features.
-fn command(toolchain: &Toolchain, subcommand: &str, features: &[&str]) -> Command {
-    let mut command = toolchain.cargo(subcommand, &paths::firmware());
-    command.args(["--locked", "--bin", "taxel-firmware", "--no-default-features", "--features"]);
-    command.arg(features.join(","));
+/// Adds the features to a command that compiles or builds.
+fn with(mut command: Command, features: &[&str]) -> Command {
+    command.args(["--locked", "--no-default-features", "--features"]).arg(features.join(","));
     command
+}
+
+/// The command that builds an image with these features.
+fn image(toolchain: &Toolchain, features: &[&str]) -> Command {
+    let mut build = toolchain.cargo("build", &paths::firmware());
+    build.args(["--bin", "taxel-firmware"]);
+    with(build, features)
 }
 
 /// A folder of their own, so that the image that ships stays.
@@ -45,7 +50,7 @@ fn folder(toolchain: &Toolchain) -> PathBuf {
 /// Builds an image; returns its flash and RAM, bytes. Error if they exceed its limits.
 fn build(toolchain: &Toolchain, name: &str, features: &[&str], log: &Path) -> Result<[u64; 2], String> {
     let told = |error| format!("{name}: {error}");
-    let mut build = command(toolchain, "build", features);
+    let mut build = image(toolchain, features);
     process::run_into(build.env("CARGO_TARGET_DIR", folder(toolchain)), log).map_err(told)?;
     let elf = folder(toolchain).join(TARGET).join("release/taxel-firmware");
     let [flash, ram] = firmware::sizes_of(&elf).map_err(told)?;
@@ -69,11 +74,12 @@ pub fn table(log: &Path) -> Result<String, String> {
     Ok(text)
 }
 
-/// Compiles the images that leave something out; [`table`] builds them, which takes minutes.
+/// Compiles the core that leaves each of the features out, and their sets; [`table`] builds the images, which
+/// takes minutes. The firmware only hands the features on.
 pub fn check(log: &Path) -> Result<(), String> {
     let toolchain = Toolchain::find()?;
     for (name, features) in images().iter().filter(|(name, _)| name != EVERYTHING) {
-        let compiled = process::run_into(&mut command(&toolchain, "check", features), log);
+        let compiled = process::run_into(&mut with(firmware::core_command(&toolchain), features), log);
         compiled.map_err(|error| format!("{name}: {error}"))?;
     }
     Ok(())

@@ -114,15 +114,16 @@ pub fn image(toolchain: &Toolchain, log: &Path) -> Result<Image, String> {
     process::run_into(command(toolchain).arg("--locked"), log).and_then(|()| measure(toolchain))
 }
 
-/// The command that builds only the core.
+/// The command that compiles only the core, up to its code for the processor: that is what images are built
+/// for.
 pub fn core_command(toolchain: &Toolchain) -> Command {
-    let mut cargo = toolchain.cargo("build", &paths::root());
+    let mut cargo = toolchain.cargo("check", &paths::root());
     cargo.args(["--package", "taxel-core"]);
     cargo
 }
 
-/// Builds only the core.
-pub fn build_core() -> Result<(), String> {
+/// Compiles only the core.
+pub fn check_core() -> Result<(), String> {
     process::run(&mut core_command(&Toolchain::find()?))
 }
 
