@@ -1,0 +1,96 @@
+//! The streams of a robot's boards are those of the boards alone.
+
+use std::path::Path;
+use std::time::Duration;
+use taxel::client::{Client, Event};
+use taxel::json::message;
+use taxel::record::Stamp;
+use taxel::robot::{BoardEvent, ReadRobot, RobotSession, WAITING, WhenFull};
+use taxel::session::Session;
+use taxel::source::{self, SourceOptions};
+
+/// Scripts of three boards, and their garments.
+const BOARDS: [(&str, &str, &str); 3] = [
+    ("chest", "sim:pat", "reference"),
+    ("arm", "sim:press", "block-4x16"),
+    ("back", "sim:lash", "mat-64x32"),
+];
+
+fn robot() -> ReadRobot {
+    let boards = BOARDS.map(|(name, source, garment)| {
+        format!("[[boards]]\nname = \"{name}\"\nsource = \"{source}\"\ngarment = \"{garment}\"\n")
+    });
+    ReadRobot::parse("three.toml".into(), format!("name = \"three\"\n{}", boards.concat()), Path::new("."))
+        .unwrap()
+}
+
+/// Each message of a board; of the host's clock it holds nothing.
+fn line(client: &Client, event: &Event, _: Stamp) -> Option<String> {
+    Some(message(client, event).to_string())
+}
+
+#[test]
+fn each_board_of_a_robot_says_what_it_says_alone() {
+    let mut robot = RobotSession::open(&robot(), WhenFull::Wait, |_| Box::new(line)).unwrap();
+    let mut together = [const { Vec::new() }; 3];
+    let mut states = [const { Vec::new() }; 3];
+    while let Some(event) = robot.wait(Duration::from_secs(30)) {
+        match event.what {
+            BoardEvent::News(line) => together[event.board].push(line),
+            BoardEvent::Met => states[event.board].push("met"),
+            BoardEvent::Over => states[event.board].push("over"),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(robot.is_over());
+    assert_eq!(states, [["met", "over"]; 3]);
+    for ((name, spec, garment), together) in BOARDS.into_iter().zip(together) {
+        let options = SourceOptions { garment: Some(garment.into()), ..SourceOptions::default() };
+        let mut session = Session::over(source::open(&spec.parse().unwrap(), &options).unwrap()).unwrap();
+        let mut alone = Vec::new();
+        while let Some(event) = session.wait().unwrap() {
+            alone.push(message(session.client(), &event).to_string());
+        }
+        let contacts = alone.iter().filter(|line| line.contains("\"contacts\"")).count();
+        assert!(contacts > 100, "{name}: {contacts}");
+        assert_eq!(together.len(), alone.len(), "{name}");
+        assert!(together == alone, "{name}");
+    }
+}
+
+#[test]
+fn a_simulation_waits_for_a_slow_reader_and_nothing_is_dropped() {
+    let mut robot = RobotSession::open(&robot(), WhenFull::DropImages, |_| Box::new(line)).unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    let mut count = [0; 3];
+    while let Some(event) = robot.wait(Duration::from_secs(30)) {
+        assert!(!matches!(event.what, BoardEvent::Dropped { .. }));
+        count[event.board] += 1;
+    }
+    assert!(count[1] > 2 * WAITING, "{count:?}");
+    assert_eq!([0, 1, 2].map(|board| robot.dropped(board)), [0; 3]);
+}
+
+#[test]
+fn a_board_that_refuses_its_scene_fails_and_the_others_go_on() {
+    let mut read = robot();
+    let scene = "[stream]\ncontacts_hz = 20000\n";
+    read.boards[1].scene = Some(taxel::source::SceneFile::named(scene).unwrap());
+    let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(line)).unwrap();
+    let (mut failed, mut over) = (Vec::new(), 0);
+    while let Some(event) = robot.wait(Duration::from_secs(30)) {
+        match event.what {
+            BoardEvent::Failed(error) => failed.push((event.board, error.to_string())),
+            BoardEvent::Over => over += 1,
+            _ => {}
+        }
+    }
+    let [(1, why)] = &failed[..] else { panic!("{failed:?}") };
+    assert!(
+        why.starts_with("sim:press: the board refuses set-scene: scene: stream.contacts_hz must be lower"),
+        "{why}"
+    );
+    assert_eq!(over, 2);
+    let gone = robot.ask(1, |_| Ok(())).unwrap_err();
+    assert_eq!(gone.to_string(), "board arm is over");
+}
