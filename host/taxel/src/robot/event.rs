@@ -3,6 +3,7 @@
 use crate::client::{Client, Event};
 use crate::error::{Error, Result};
 use crate::record::Stamp;
+use crate::source::Source;
 use std::time::Duration;
 
 /// An event of one of a robot's boards.
@@ -58,9 +59,16 @@ pub enum BoardEvent<T> {
 
 /// Makes of a board's events what a robot's stream is to hold, in the board's own thread.
 pub trait Teller<T>: Send {
-    /// Of an event, which the client already includes; none if it is not wanted. Messages of the host about a
-    /// gap come as [`Event::Log`].
+    /// Its source is open, and everything else follows.
+    fn opened(&mut self, _source: &Source) {}
+
+    /// Of an event, which the client already includes; none if it is not wanted.
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<T>>;
+
+    /// Of an [`Event::Log`] of the host itself: the source is lost, or is back.
+    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<T>> {
+        self.event(client, note, stamp)
+    }
 
     /// Of requests that are sent to the board, as bytes.
     fn asked(&mut self, _client: &Client, _bytes: &[u8], _stamp: Stamp) -> Result<Option<T>> {

@@ -119,6 +119,7 @@ impl<T> Follower<T> {
     }
 
     fn run(&mut self, source: Source, begin: Begin, asks: &Receiver<Ask>) -> Result<()> {
+        self.teller.opened(&source);
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
         let mut session = Session::new(source, Returns::Always);
         let (client, source) = session.parts();
@@ -138,7 +139,9 @@ impl<T> Follower<T> {
                 if let Event::Log { text, .. } = &note {
                     self.why.clone_from(text);
                 }
-                self.news(session.client(), &note)?;
+                let (client, stamp) = (session.client(), self.stamps.now(session.client()));
+                let news = self.teller.note(client, &note, stamp)?;
+                self.pass(stamp, news, false);
             }
             self.tell_other();
             match (gap, session.gap()) {
@@ -184,10 +187,8 @@ impl<T> Follower<T> {
     /// Queues what is made of an event.
     fn news(&mut self, client: &Client, event: &Event) -> Result<()> {
         let stamp = self.stamps.of(client, event);
-        if let Some(news) = self.teller.event(client, event, stamp)? {
-            let is_image = matches!(event, Event::Frame { .. } | Event::Raw { .. });
-            self.push(stamp, BoardEvent::News(news), is_image);
-        }
+        let news = self.teller.event(client, event, stamp)?;
+        self.pass(stamp, news, matches!(event, Event::Frame { .. } | Event::Raw { .. }));
         Ok(())
     }
 
@@ -197,10 +198,13 @@ impl<T> Follower<T> {
             return Ok(());
         }
         let stamp = self.stamps.now(client);
-        if let Some(news) = self.teller.asked(client, bytes, stamp)? {
-            self.push(stamp, BoardEvent::News(news), false);
-        }
+        let news = self.teller.asked(client, bytes, stamp)?;
+        self.pass(stamp, news, false);
         Ok(())
+    }
+
+    fn pass(&self, stamp: Stamp, news: Option<T>, is_image: bool) {
+        news.into_iter().for_each(|news| self.push(stamp, BoardEvent::News(news), is_image));
     }
 
     /// Queues how the board is, now.

@@ -13,6 +13,7 @@
 //! | `refused.rs` | refusals of what a board is asked first |
 //! | `follow.rs` | follows one board in a thread of its own |
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
+//! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | how the boards of a file are opened |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
@@ -29,6 +30,7 @@ mod open;
 mod place;
 mod queue;
 mod recognise;
+mod recorder;
 mod refused;
 mod seam;
 mod session;
@@ -39,5 +41,6 @@ pub use file::{BoardGarment, ReadRobot, RobotBoard};
 pub use follow::{Ask, Begin, BoardPlan, Opener};
 pub use identity::Identity;
 pub use queue::{WAITING, WhenFull};
+pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;

@@ -3,3 +3,4 @@
 mod boards;
 mod file;
 mod losses;
+mod recorded;
