@@ -74,6 +74,11 @@ pub trait Teller<T>: Send {
     fn asked(&mut self, _client: &Client, _bytes: &[u8], _stamp: Stamp) -> Result<Option<T>> {
         Ok(None)
     }
+
+    /// Of the end of the stream.
+    fn ended(&mut self, _client: &Client, _stamp: Stamp) -> Result<Option<T>> {
+        Ok(None)
+    }
 }
 
 impl<T, F: FnMut(&Client, &Event, Stamp) -> Option<T> + Send> Teller<T> for F {

@@ -7,7 +7,8 @@ use super::queue::{EventQueue, WhenFull};
 use super::recognise::recognised;
 use super::refused::Required;
 use crate::client::clock::SteadyTime;
-use crate::client::{Client, Event};
+use crate::client::passed::Passed;
+use crate::client::{Client, Event, ImageNews};
 use crate::error::{Error, Result, SourceError};
 use crate::record::{Stamp, Stamps};
 use crate::session::{Returns, Session, Turn};
@@ -19,6 +20,9 @@ use std::time::{Duration, Instant};
 
 /// Time between two attempts to open a source that has not been there yet: first and longest.
 const TRY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(1)];
+
+/// Longest wait for a board whose stream is limited in time.
+pub const PATIENCE: Duration = Duration::from_secs(10);
 
 /// What is asked of a board while it is followed.
 pub type Ask = Box<dyn FnOnce(&mut Client) -> Result<()> + Send>;
@@ -41,6 +45,9 @@ pub struct BoardPlan<T> {
     pub begin: Begin,
     /// What is made of its events.
     pub teller: Box<dyn Teller<T>>,
+    /// Ends after this much of the board's time, which is then waited for [`PATIENCE`] at most; none: goes on until
+    /// its source ends.
+    pub limit: Option<Duration>,
 }
 
 /// A board being followed.
@@ -59,6 +66,11 @@ pub struct Follower<T> {
     is_met: bool,
     restarts: u64,
     required: Required,
+    limit: Option<Duration>,
+    /// The board's time that has passed.
+    passed: Passed,
+    /// The limit is reached.
+    is_done: bool,
     /// Why the link was lost last.
     why: String,
 }
@@ -71,7 +83,7 @@ pub fn follow<T>(
     when_full: WhenFull,
     asks: &Receiver<Ask>,
 ) {
-    let BoardPlan { open, waits, identity, begin, teller, .. } = plan;
+    let BoardPlan { open, waits, identity, begin, teller, limit, .. } = plan;
     let mut follower = Follower {
         board,
         queue,
@@ -85,6 +97,9 @@ pub fn follow<T>(
         is_met: false,
         restarts: 0,
         required: Required::default(),
+        limit,
+        passed: Passed::default(),
+        is_done: false,
         why: String::new(),
     };
     let ended = match follower.open(open, waits) {
@@ -101,11 +116,13 @@ pub fn follow<T>(
 impl<T> Follower<T> {
     /// Waits for the board; none if nobody takes events any longer.
     fn open(&mut self, mut open: Opener, waits: bool) -> Result<Option<Source>> {
-        let (mut pause, mut told) = (TRY[0], false);
+        let (mut pause, mut told, begun) = (TRY[0], false, Instant::now());
         while !self.queue.is_closed() {
             let error = match open().and_then(|source| recognised(source, &self.identity)) {
                 Ok(source) => return Ok(Some(source)),
-                Err(error) if !waits => return Err(error),
+                Err(error) if !waits || self.limit.is_some() && begun.elapsed() > PATIENCE => {
+                    return Err(error);
+                }
                 Err(error) => error,
             };
             self.tell_other();
@@ -121,7 +138,8 @@ impl<T> Follower<T> {
     fn run(&mut self, source: Source, begin: Begin, asks: &Receiver<Ask>) -> Result<()> {
         self.teller.opened(&source);
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
-        let mut session = Session::new(source, Returns::Always);
+        let returns = self.limit.map_or(Returns::Always, |_| Returns::Within(PATIENCE));
+        let mut session = Session::new(source, returns);
         let (client, source) = session.parts();
         begin(client, source)?;
         self.required = if source.listens { Required::of(client) } else { Required::default() };
@@ -129,11 +147,16 @@ impl<T> Follower<T> {
         while !self.queue.is_closed() {
             asks.try_iter().try_for_each(|ask| ask(session.parts().0))?;
             let turn = session.turn::<Error>(&mut |client, bytes| self.asked(client, bytes))?;
-            if turn == Turn::End {
-                return Ok(());
-            }
-            while let Some(event) = session.next_event() {
+            while !self.is_done
+                && let Some(event) = session.next_event()
+            {
                 self.event(&mut session, &event)?;
+            }
+            if turn == Turn::End || self.is_done {
+                let (client, stamp) = (session.client(), self.stamps.now(session.client()));
+                let news = self.teller.ended(client, stamp)?;
+                self.pass(stamp, news, false);
+                return Ok(());
             }
             while let Some(note) = session.note() {
                 if let Event::Log { text, .. } = &note {
@@ -181,6 +204,10 @@ impl<T> Follower<T> {
             return Ok(());
         }
         self.news(session.client(), event)?;
+        if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
+            let passed = Duration::from_micros(self.passed.until(time.0));
+            self.is_done = self.limit.is_some_and(|limit| passed >= limit);
+        }
         Ok(self.required.answered(&session.source().label, event)?)
     }
 

@@ -9,6 +9,7 @@
 //! | `identity.rs` | [`Identity`]: which board is which |
 //! | `recognise.rs` | recognises a board before anything is asked of it |
 //! | `event.rs` | [`RobotEvent`]: what the boards say, and how they are |
+//! | `line.rs` | how a board is, as JSON |
 //! | `queue.rs` | the events that wait, bounded for each board |
 //! | `refused.rs` | refusals of what a board is asked first |
 //! | `follow.rs` | follows one board in a thread of its own |
@@ -26,6 +27,7 @@ mod event;
 mod file;
 mod follow;
 mod identity;
+mod line;
 mod open;
 mod place;
 mod queue;
@@ -38,8 +40,9 @@ mod session;
 pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
 pub use event::{BoardEvent, RobotEvent, Teller};
 pub use file::{BoardGarment, ReadRobot, RobotBoard};
-pub use follow::{Ask, Begin, BoardPlan, Opener};
+pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
 pub use identity::Identity;
+pub use line::BoardLine;
 pub use queue::{WAITING, WhenFull};
 pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
 pub use seam::{RobotEdge, RobotSeam};

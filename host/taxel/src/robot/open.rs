@@ -5,11 +5,13 @@ use super::file::{ReadRobot, RobotBoard};
 use super::follow::BoardPlan;
 use super::identity::Identity;
 use super::queue::WhenFull;
+use super::recognise::recognised;
 use super::session::RobotSession;
 use crate::client::Client;
 use crate::error::Result;
 use crate::session::setting;
 use crate::source::{self, Source, SourceOptions, SourceSpec};
+use std::time::Duration;
 use taxel_core::wire::Request;
 
 impl<T: Send + 'static> RobotSession<T> {
@@ -19,15 +21,17 @@ impl<T: Send + 'static> RobotSession<T> {
         when_full: WhenFull,
         teller: impl FnMut(usize) -> Box<dyn Teller<T>>,
     ) -> Result<RobotSession<T>> {
-        RobotSession::start(robot.plans(&SourceOptions::default(), teller), when_full)
+        RobotSession::start(robot.plans(&SourceOptions::default(), None, teller), when_full)
     }
 }
 
 impl ReadRobot {
-    /// Plans of the boards, in the order of the file; simulations have these options, too.
+    /// Plans of the boards, in the order of the file, each for this much of its time; simulations have these
+    /// options, too.
     pub fn plans<T>(
         &self,
         options: &SourceOptions,
+        limit: Option<Duration>,
         mut teller: impl FnMut(usize) -> Box<dyn Teller<T>>,
     ) -> Vec<BoardPlan<T>> {
         let plan = |(number, board): (usize, &RobotBoard)| {
@@ -40,6 +44,7 @@ impl ReadRobot {
                 identity: board.identity(),
                 begin: Box::new(move |client, source| begins.begin(client, source)),
                 teller: teller(number),
+                limit,
             }
         };
         self.boards.iter().enumerate().map(plan).collect()
@@ -51,6 +56,11 @@ impl RobotBoard {
     pub fn is_real(&self) -> bool {
         use SourceSpec::{Auto, Serial, Tcp, Usb};
         matches!(self.source, Auto | Usb | Serial { .. } | Tcp(_))
+    }
+
+    /// Opens its source, and recognises the board if it is a real one.
+    pub fn open(&self, options: &SourceOptions) -> Result<Source> {
+        recognised(source::open(&self.source, &self.options(options))?, &self.identity())
     }
 
     /// What it is recognised by.

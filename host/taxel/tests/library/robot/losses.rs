@@ -68,6 +68,7 @@ impl Bench {
                     Ok(client.request(&Request::SetRaw { hz: u16::MAX })?)
                 }),
                 teller: Box::new(tell),
+                limit: None,
             }
         };
         RobotSession::start([0, 1, 2].map(plan).into(), WhenFull::Wait).unwrap()
@@ -266,6 +267,7 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
                 Event::Contacts { frame, .. } => Some(("contacts", *frame)),
                 _ => None,
             }),
+            limit: None,
         }
     };
     let mut robot = RobotSession::start(vec![plan(0)], WhenFull::DropImages).unwrap();
