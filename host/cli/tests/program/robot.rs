@@ -54,7 +54,7 @@ fn the_commands_of_the_document_run() {
         assert!(!done.stdout.is_empty() || line.contains("record"), "{line}");
         count += 1;
     }
-    assert_eq!(count, 5);
+    assert_eq!(count, 6);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::body::{
 };
 use crate::error::{Context, FileError, Result};
 use crate::files::garments;
-use crate::source::{SceneFile, SourceSpec};
+use crate::source::{SceneFile, SourceSpec, is_board};
 use crate::tell::verbose;
 use std::path::Path;
 use std::sync::Arc;
@@ -138,8 +138,7 @@ impl BoardReader<'_> {
     fn read(&self, board: &BoardConfig, beside: &mut impl FnMut(&str) -> String) -> Result<RobotBoard> {
         let BoardReader { place, index, .. } = *self;
         let name = board.name.as_str();
-        let is_sign = |sign: char| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-');
-        if name.is_empty() || name.len() > NAME || !name.chars().all(is_sign) {
+        if name.len() > NAME || !is_board(name) {
             let why = format!("a board's name is 1 to {NAME} letters, digits, _ and -, not \"{name}\"");
             return Err(place.error(&format!("boards[{index}].name"), why).into());
         }
@@ -199,8 +198,8 @@ impl BoardReader<'_> {
             SourceSpec::Sim(scene) => SourceSpec::Sim(beside(&scene)),
             SourceSpec::Emulator(scene) => SourceSpec::Emulator(beside(&scene)),
             SourceSpec::File(path) => SourceSpec::File(beside(&path.display().to_string()).into()),
-            SourceSpec::Replay { path, speed } => {
-                SourceSpec::Replay { path: beside(&path.display().to_string()).into(), speed }
+            SourceSpec::Replay { path, board, speed } => {
+                SourceSpec::Replay { path: beside(&path.display().to_string()).into(), board, speed }
             }
             found => found,
         })

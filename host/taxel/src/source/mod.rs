@@ -18,7 +18,7 @@ pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
 pub(crate) use sim::{info as simulated_info, lasting};
-pub use spec::SourceSpec;
+pub use spec::{SourceSpec, is_board};
 
 use crate::error::Result;
 use crate::sim::Script;
@@ -171,6 +171,6 @@ fn of_kind(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
             let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);
             Ok(Source { listens: false, ..saved })
         }
-        SourceSpec::Replay { path, speed } => replay::open(path, *speed, options),
+        SourceSpec::Replay { path, board, speed } => replay::open(path, board.as_deref(), *speed, options),
     }
 }

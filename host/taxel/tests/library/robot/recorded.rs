@@ -9,6 +9,7 @@ use taxel::json::message;
 use taxel::record::{COUNTS, Play, Tally};
 use taxel::recording::{Messages, Overview, boards, scan};
 use taxel::robot::{BoardEvent, RecordTeller, RobotRecorder, RobotSession, WhenFull};
+use taxel::session::Session;
 
 /// Records the three boards to their ends.
 fn record(name: &str) -> PathBuf {
@@ -45,6 +46,13 @@ fn each_board_is_read_back_as_it_is_alone() {
             played.push(message(play.client(), &event).to_string());
         }
         assert!(played == alone, "{name}: {} events of {}", played.len(), alone.len());
+        // As a source it is that board again.
+        let mut session = Session::open(&format!("replay:{}#{name}@max", path.display())).unwrap();
+        let mut replayed = Vec::new();
+        while let Some(event) = session.wait().unwrap() {
+            replayed.push(message(session.client(), &event).to_string());
+        }
+        assert!(replayed == alone, "{name}: {} messages of {}", replayed.len(), alone.len());
         let tally = Tally::of(play.client().counts());
         assert_eq!(overview.words(&format!("{name}/{COUNTS}")).and_then(Tally::read), Some(tally));
         assert_eq!(overview.words(&format!("{name}/taxel")).unwrap()["garment"], board.2);
@@ -59,6 +67,18 @@ fn each_board_is_read_back_as_it_is_alone() {
         }
         assert_eq!(lines.next(), None, "{name}");
     }
+}
+
+#[test]
+fn a_recording_of_a_robot_is_opened_by_the_name_of_a_board() {
+    let path = record("robot-named.mcap");
+    let why = |board: &str| {
+        let error = Session::open(&format!("replay:{}{board}", path.display())).err().unwrap();
+        error.to_string().replace(&path.display().to_string(), "FILE")
+    };
+    assert_eq!(why(""), "FILE is of a robot's boards, chest, arm, back: name one, replay:FILE#chest");
+    let unknown = "FILE: there is no board \"bakc\": did you mean \"back\"? Known are chest, arm, back";
+    assert_eq!(why("#bakc"), unknown);
 }
 
 #[test]
