@@ -9,7 +9,7 @@ use super::refused::Required;
 use crate::client::clock::SteadyTime;
 use crate::client::passed::Passed;
 use crate::client::{Client, Event, ImageNews};
-use crate::error::{Error, Result, SourceError};
+use crate::error::{Error, RecordingError, Result, SourceError};
 use crate::record::{Stamp, Stamps};
 use crate::session::{Returns, Session, Turn};
 use crate::source::Source;
@@ -153,6 +153,7 @@ impl<T> Follower<T> {
                 self.event(&mut session, &event)?;
             }
             if turn == Turn::End || self.is_done {
+                self.check_met(&session)?;
                 let (client, stamp) = (session.client(), self.stamps.now(session.client()));
                 let news = self.teller.ended(client, stamp)?;
                 self.pass(stamp, news, false);
@@ -181,6 +182,17 @@ impl<T> Follower<T> {
         Ok(())
     }
 
+    /// Error if the stream has ended without a board.
+    fn check_met(&self, session: &Session) -> Result<()> {
+        let (label, bytes) = (&session.source().label, session.client().counts().bytes);
+        let why = || format!("{label}: no Hello of a taxel board in {bytes} bytes");
+        match session.source().listens {
+            _ if self.is_met => Ok(()),
+            true => Err(SourceError::Silent(why()).into()),
+            false => Err(RecordingError::Record(why()).into()),
+        }
+    }
+
     /// Handles an event; passes it on if it is the board's.
     fn event(&mut self, session: &mut Session, event: &Event) -> Result<()> {
         let restarts = session.client().counts().restarts;
@@ -199,6 +211,11 @@ impl<T> Follower<T> {
             if !std::mem::replace(&mut self.is_met, true) {
                 self.tell(BoardEvent::Met);
             }
+        }
+        if let Event::Unusable(why) = event {
+            self.is_known = false;
+            let why = format!("{}: {why}", session.source().label);
+            return session.reject(SourceError::NoBoard(why).into());
         }
         if !self.is_known {
             return Ok(());
