@@ -1,5 +1,6 @@
 //! Robots' files, checked.
 
+use super::board::{BoardGarment, RobotBoard};
 use super::config::{BoardConfig, RobotConfig};
 use super::place::RobotText;
 use super::seam::{self, RobotSeam};
@@ -8,12 +9,12 @@ use crate::body::{
     robot::{self, Robot},
 };
 use crate::error::{Context, FileError, Result};
-use crate::files::garments;
+use crate::files::{garments, scripts};
 use crate::source::{SceneFile, SourceSpec, is_board};
 use crate::tell::verbose;
 use std::path::Path;
 use std::sync::Arc;
-use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::garment::{Circuit, Layout, Pins};
 
 /// Longest tare, frames.
 const TARE: u16 = 4096;
@@ -37,38 +38,6 @@ pub struct ReadRobot {
     pub seams: Vec<RobotSeam>,
     /// Every file that was read, which no output may replace.
     pub inputs: Vec<String>,
-}
-
-/// A board of a robot.
-#[derive(Debug, Clone)]
-pub struct RobotBoard {
-    /// Its name.
-    pub name: String,
-    /// Where it is found.
-    pub source: SourceSpec,
-    /// Its serial number on USB; none if any will do.
-    pub usb_serial: Option<String>,
-    /// The garment that it wears; none if any will do.
-    pub garment: Option<BoardGarment>,
-    /// Scene to send to it.
-    pub scene: Option<SceneFile>,
-    /// Frames of the tare; none for that of the source.
-    pub tare: Option<u16>,
-    /// Where its panels lie: path of a file, or name of a preset.
-    pub body: Option<String>,
-    /// Link of the robot that wears the whole garment.
-    pub link: Option<String>,
-}
-
-/// A garment of a board.
-#[derive(Debug, Clone)]
-pub struct BoardGarment {
-    /// Path of its file, or name of the preset.
-    pub name: String,
-    /// What it is.
-    pub garment: Garment,
-    /// Its geometry.
-    pub layout: Layout,
 }
 
 impl ReadRobot {
@@ -195,7 +164,12 @@ impl BoardReader<'_> {
             );
         }
         Ok(match source {
-            SourceSpec::Sim(scene) => SourceSpec::Sim(beside(&scene)),
+            SourceSpec::Sim(scene) => {
+                let scene = beside(&scene);
+                let place = || self.place.place(self.index, &board.name, "source");
+                scripts::load(&scene).with_context(place)?;
+                SourceSpec::Sim(scene)
+            }
             SourceSpec::Emulator(scene) => SourceSpec::Emulator(beside(&scene)),
             SourceSpec::File(path) => SourceSpec::File(beside(&path.display().to_string()).into()),
             SourceSpec::Replay { path, board, speed } => {
@@ -238,17 +212,14 @@ impl BoardReader<'_> {
         if earlier.iter().any(|other| other.name == board.name) {
             return Err(wrong("name", "another board has this name".into()).into());
         }
-        let is_real = matches!(
-            board.source,
-            SourceSpec::Serial { .. } | SourceSpec::Tcp(_) | SourceSpec::Auto | SourceSpec::Usb
-        );
         let place = |board: &RobotBoard| match &board.source {
             SourceSpec::Serial { path, .. } => Some(path.clone()),
             SourceSpec::Tcp(address) => Some(address.clone()),
             _ => board.usb_serial.clone(),
         };
-        let same =
-            earlier.iter().find(|other| is_real && place(other).is_some() && place(other) == place(board));
+        let same = earlier
+            .iter()
+            .find(|other| board.is_real() && place(other).is_some() && place(other) == place(board));
         match same {
             Some(other) => {
                 let key = if board.usb_serial.is_some() { "serial" } else { "source" };

@@ -8,10 +8,10 @@ use taxel_core::garment::Garment;
 
 /// What a board is recognised by. What is not stated is learned from the board that is met first.
 #[derive(Debug, Clone, Default)]
-pub struct Identity(Arc<Mutex<Known>>);
+pub struct Identity(Arc<Mutex<KnownBoard>>);
 
 #[derive(Debug, Default)]
-struct Known {
+struct KnownBoard {
     usb_serial: Option<String>,
     garment: Option<Garment>,
     /// Why the board that answered last is another one, unless told already.
@@ -26,7 +26,7 @@ impl Identity {
             cleaned::garment(&mut garment);
             garment
         });
-        Identity(Arc::new(Mutex::new(Known { usb_serial, garment, other: None })))
+        Identity(Arc::new(Mutex::new(KnownBoard { usb_serial, garment, other: None })))
     }
 
     /// Compares a board with what is known of it. The error says how it differs.
@@ -52,12 +52,12 @@ impl Identity {
         self.lock().other.take()
     }
 
-    fn lock(&self) -> MutexGuard<'_, Known> {
+    fn lock(&self) -> MutexGuard<'_, KnownBoard> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Known {
+impl KnownBoard {
     fn differs(&self, usb_serial: Option<&str>, garment: &Garment) -> Option<String> {
         if let (Some(known), Some(found)) = (self.usb_serial.as_deref(), usb_serial)
             && known != found

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `config.rs` | [`RobotConfig`]: the file `robot.toml` as its author writes it |
 //! | `place.rs` | file, line, board and key of an error |
+//! | `board.rs` | [`RobotBoard`]: how a board is opened and recognised, and what is asked of it first |
 //! | `seam.rs` | [`RobotSeam`]: edges of panels of different boards, sewn together |
 //! | `file.rs` | [`ReadRobot`]: the file and what it names, checked |
 //! | `identity.rs` | [`Identity`]: which board is which |
@@ -15,13 +16,14 @@
 //! | `follow.rs` | follows one board in a thread of its own |
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
-//! | `open.rs` | how the boards of a file are opened |
+//! | `open.rs` | the boards of a file, followed |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
 //! it, at the start and each time that it comes back, its serial number on USB and its garment are compared
 //! with what is known of it: another board under its name is an event ([`BoardEvent::Other`]), and nothing that
 //! it sends is passed on. A board that is lost does not hold up the others.
 
+mod board;
 mod config;
 mod event;
 mod file;
@@ -37,9 +39,10 @@ mod refused;
 mod seam;
 mod session;
 
+pub use board::{BoardGarment, RobotBoard};
 pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
 pub use event::{BoardEvent, RobotEvent, Teller};
-pub use file::{BoardGarment, ReadRobot, RobotBoard};
+pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
 pub use identity::Identity;
 pub use line::BoardLine;

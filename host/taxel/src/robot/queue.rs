@@ -24,10 +24,10 @@ pub enum WhenFull {
 
 /// Events of all boards, in the order of their arrival.
 #[derive(Debug)]
-pub struct EventQueue<T>(Shared<Waiting<T>>);
+pub struct EventQueue<T>(Shared<WaitingEvents<T>>);
 
 #[derive(Debug)]
-struct Waiting<T> {
+struct WaitingEvents<T> {
     events: VecDeque<Waiter<T>>,
     boards: Vec<BoardQueue>,
     /// Nobody takes events any longer.
@@ -50,9 +50,9 @@ struct BoardQueue {
     over: bool,
 }
 
-impl<T> Default for Waiting<T> {
-    fn default() -> Waiting<T> {
-        Waiting { events: VecDeque::new(), boards: Vec::new(), closed: false }
+impl<T> Default for WaitingEvents<T> {
+    fn default() -> WaitingEvents<T> {
+        WaitingEvents { events: VecDeque::new(), boards: Vec::new(), closed: false }
     }
 }
 
@@ -136,7 +136,7 @@ impl<T> EventQueue<T> {
     }
 }
 
-impl<T> Waiting<T> {
+impl<T> WaitingEvents<T> {
     fn are_over(&self) -> bool {
         self.boards.iter().all(|board| board.over)
     }

@@ -1,7 +1,7 @@
 //! Seams between panels of different boards.
 
+use super::board::RobotBoard;
 use super::config::{BoardEdge, BoardSeam};
-use super::file::RobotBoard;
 use super::place::RobotText;
 use crate::error::SettingError;
 use crate::tell::words;

@@ -49,9 +49,9 @@ struct FollowedBoard {
 }
 
 /// Ends a board's part of the queue, also if its thread panics.
-struct End<T>(Arc<EventQueue<T>>, usize);
+struct FollowEnd<T>(Arc<EventQueue<T>>, usize);
 
-impl<T> Drop for End<T> {
+impl<T> Drop for FollowEnd<T> {
     fn drop(&mut self) {
         self.0.end(self.1);
     }
@@ -66,7 +66,7 @@ impl<T: Send + 'static> RobotSession<T> {
             let (asks, asked) = channel();
             let (name, queue) = (plan.name.clone(), queue.clone());
             let thread = Builder::new().name(name.clone()).stack_size(STACK).spawn(move || {
-                let end = End(queue.clone(), board);
+                let end = FollowEnd(queue.clone(), board);
                 follow(board, plan, queue, when_full, &asked);
                 drop(end);
             })?;

@@ -217,6 +217,14 @@ fn mistakes_are_told_with_file_line_key_and_board() {
 }
 
 #[test]
+fn a_script_that_does_not_exist_is_told_before_anything_is_opened() {
+    let error = read(&GOOD.replacen("sim:pat", "sim:pta", 1)).unwrap_err();
+    let why = "robot.toml, line 6, `boards[0].source`: board torso: there is no script of touches \"pta\": did you \
+               mean \"pat\"?";
+    assert!(format!("{error:#}").starts_with(why), "{error:#}");
+}
+
+#[test]
 fn two_seams_have_no_taxel_in_common() {
     let more = "\n[[seams]]\na = { board = \"torso\", panel = \"left arm\", side = \"bottom\", start = 15 }\n\
                 b = { board = \"arm\", panel = \"mat\", side = \"left\" }\nlength = 1\n";

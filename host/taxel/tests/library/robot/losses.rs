@@ -50,16 +50,18 @@ impl Bench {
         Ok(Source { label: format!("place {place}"), usb_serial, returns: Some(Box::new(again)), ..source })
     }
 
-    /// Follows the boards; what is told is the first raw code, which each board has of its own.
+    /// Follows the boards in threads of this name and their number; what is told is the first raw code, which each
+    /// board has of its own.
     fn robot(
         self: &Arc<Bench>,
+        thread: &str,
         identity: impl Fn(usize) -> Identity,
         with_serial: bool,
     ) -> RobotSession<Told> {
         let plan = |number: usize| {
             let bench = self.clone();
             BoardPlan {
-                name: NAMES[number].into(),
+                name: format!("{thread}{number}"),
                 open: Box::new(move || bench.clone().open(number, with_serial)),
                 waits: true,
                 identity: identity(number),
@@ -145,19 +147,19 @@ impl Seen {
     }
 }
 
-/// Threads of this process that follow the boards.
+/// Number of threads of this process whose names begin with this word.
 #[cfg(target_os = "linux")]
-fn threads() -> usize {
+fn threads(word: &str) -> usize {
     let tasks = std::fs::read_dir("/proc/self/task").unwrap().flatten();
     let names = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("comm")).ok());
-    names.filter(|name| NAMES.contains(&name.trim())).count()
+    names.filter(|name| name.starts_with(word)).count()
 }
 
 #[test]
 fn boards_come_back_in_any_order_and_no_wrong_one_has_a_name() {
     let (bench, mut random) = (Bench::new(), Noise(23));
     let garment = |number: usize| Garment { name: name(NAMES[number]), ..Garment::block() };
-    let mut robot = bench.robot(|number| Identity::new(None, Some(garment(number))), false);
+    let mut robot = bench.robot("random", |number| Identity::new(None, Some(garment(number))), false);
     let mut seen = Seen::default();
     seen.until(&mut robot, "the first frames", |seen| seen.news.iter().all(|news| *news > 0));
     let (mut swaps, all) = (0, [Some(0), Some(1), Some(2)]);
@@ -204,12 +206,12 @@ fn boards_come_back_in_any_order_and_no_wrong_one_has_a_name() {
     assert!(swaps > losses() / 40, "{swaps} swaps");
     println!("{lost} losses and returns in random order, {swaps} times two boards in each other's places");
     #[cfg(target_os = "linux")]
-    assert_eq!(threads(), 3);
+    assert_eq!(threads("random"), 3);
     // The test holds one, a board's open link two: itself and the way back to it.
     assert!(bench.rigs.iter().all(|rig| Arc::strong_count(rig) <= 3));
     drop(robot);
     #[cfg(target_os = "linux")]
-    assert_eq!(threads(), 0);
+    assert_eq!(threads("random"), 0);
     assert!(bench.rigs.iter().all(|rig| Arc::strong_count(rig) == 1));
     assert_eq!(Arc::strong_count(&bench), 1);
 }
@@ -218,7 +220,7 @@ fn boards_come_back_in_any_order_and_no_wrong_one_has_a_name() {
 fn boards_of_one_garment_are_told_apart_by_their_serial_numbers() {
     let bench = Bench::new();
     // Nothing is stated: who is met first is known from then on.
-    let mut robot = bench.robot(|_| Identity::default(), true);
+    let mut robot = bench.robot("serial", |_| Identity::default(), true);
     let mut seen = Seen::default();
     seen.until(&mut robot, "the first frames", |seen| seen.news.iter().all(|news| *news > 0));
     bench.plug([Some(1), Some(0), Some(2)]);
@@ -232,7 +234,7 @@ fn boards_of_one_garment_are_told_apart_by_their_serial_numbers() {
 fn a_board_that_is_not_there_at_the_start_is_waited_for() {
     let bench = Bench::new();
     bench.plug([Some(0), None, Some(2)]);
-    let mut robot = bench.robot(|_| Identity::default(), false);
+    let mut robot = bench.robot("absent", |_| Identity::default(), false);
     let (mut absent, mut met, mut news) = (Vec::new(), BTreeSet::new(), [0; 3]);
     let begun = Instant::now();
     while met.len() < 3 || news[1] == 0 {
