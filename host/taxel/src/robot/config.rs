@@ -28,12 +28,13 @@ pub struct BoardConfig {
     pub source: String,
     /// Serial number on USB, for the sources `auto` and `usb`.
     pub serial: Option<String>,
-    /// The garment that it wears: a preset or a TOML file. A board that wears another one is not this board. A
-    /// simulated board is given this one.
+    /// The garment that it wears: a preset or a TOML file. A board that wears another one is not this board.
+    /// A simulated board is given this one.
     pub garment: Option<String>,
     /// Scene to send to it: a TOML file.
     pub scene: Option<String>,
-    /// Number of frames whose mean is the baseline, 0 to 4096; that of a simulated script, else 0, if left out.
+    /// Number of frames whose mean is the baseline, 0 to 4096; that of a simulated script, else 0, if left
+    /// out.
     pub tare: Option<u16>,
     /// Where its panels lie on the robot's links: a TOML file, or `reference`.
     pub body: Option<String>,

@@ -20,8 +20,8 @@
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
 //! it, at the start and each time that it comes back, its serial number on USB and its garment are compared
-//! with what is known of it: another board under its name is an event ([`BoardEvent::Other`]), and nothing that
-//! it sends is passed on. A board that is lost does not hold up the others.
+//! with what is known of it: another board under its name is an event ([`BoardEvent::Other`]), and nothing
+//! that it sends is passed on. A board that is lost does not hold up the others.
 
 mod board;
 mod config;

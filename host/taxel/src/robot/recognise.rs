@@ -1,4 +1,5 @@
-//! Recognises a board before anything is asked of it: its bytes go nowhere until its `Hello` is the right one.
+//! Recognises a board before anything is asked of it: its bytes go nowhere until its `Hello` is the right
+//! one.
 
 use super::identity::Identity;
 use crate::client::{Client, Event};

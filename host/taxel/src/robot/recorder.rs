@@ -2,8 +2,8 @@
 //!
 //! An MCAP file like that of one board, with the topics of each board below its name: `/taxel/BOARD/wire`,
 //! `/taxel/BOARD/frames` and so on, and attachments and metadata such as `BOARD/garment.toml`, `BOARD/taxel`,
-//! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards. Log
-//! time is the host's time, which all boards share.
+//! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards.
+//! Log time is the host's time, which all boards share.
 
 use super::event::Teller;
 use super::file::ReadRobot;

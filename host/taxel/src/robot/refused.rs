@@ -9,8 +9,8 @@ use taxel_core::wire::{self, Request};
 pub struct Required(Vec<u8>);
 
 impl Required {
-    /// The requests that are queued, except a tare: a garment that is touched refuses it, and goes on with the
-    /// baseline that it has.
+    /// The requests that are queued, except a tare: a garment that is touched refuses it, and goes on with
+    /// the baseline that it has.
     pub fn of(client: &Client) -> Required {
         let queued = client.queued();
         let number = |frame: &[u8]| wire::open(&mut frame.to_vec()).ok()?.first().copied();

@@ -75,8 +75,8 @@ impl<T: Send + 'static> RobotSession<T> {
         Ok(session)
     }
 
-    /// Takes the next event; none if there is none within this time, or [no more](RobotSession::is_over). Events
-    /// of a board come in their order, those of several boards as they arrive.
+    /// Takes the next event; none if there is none within this time, or [no more](RobotSession::is_over).
+    /// Events of a board come in their order, those of several boards as they arrive.
     pub fn wait(&mut self, patience: Duration) -> Option<RobotEvent<T>> {
         self.queue.take(patience)
     }
@@ -97,8 +97,8 @@ impl<T: Send + 'static> RobotSession<T> {
     }
 
     /// Asks something of a board, in its thread: its client takes requests, also while the board is lost, and
-    /// lasting settings are sent once it is back. An error ends the board with [`BoardEvent::Failed`](super::BoardEvent::Failed). Error if
-    /// there is no such board or it is over.
+    /// lasting settings are sent once it is back. An error ends the board with
+    /// [`BoardEvent::Failed`](super::BoardEvent::Failed). Error if there is no such board or it is over.
     pub fn ask(
         &self,
         board: usize,

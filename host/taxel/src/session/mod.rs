@@ -198,8 +198,8 @@ impl Session {
         self.heard
     }
 
-    /// Gives up the link as if it were lost, for this reason: what answers is not the board that was meant. Error
-    /// if the source is not waited for.
+    /// Gives up the link as if it were lost, for this reason: what answers is not the board that was meant.
+    /// Error if the source is not waited for.
     pub fn reject(&mut self, why: Error) -> Result<()> {
         self.buffer.clear();
         self.taken = 0;
@@ -235,9 +235,9 @@ impl Session {
         }
     }
 
-    /// Sends queued requests after passing them to `sent`, and reads; requests of the source itself are passed to
-    /// `sent`, too. Error if the source is lost for good,
-    /// or if its board refuses a setting that it had accepted before; `sent` has errors of the caller's own.
+    /// Sends queued requests after passing them to `sent`, and reads; requests of the source itself are
+    /// passed to `sent`, too. Error if the source is lost for good, or if its board refuses a setting that it
+    /// had accepted before; `sent` has errors of the caller's own.
     pub fn turn<E: From<Error>>(&mut self, sent: &mut OnSent<'_, E>) -> Result<Turn, E> {
         self.buffer.clear();
         self.taken = 0;

@@ -65,8 +65,8 @@ pub fn usb() -> Result<Source> {
     }
 }
 
-/// Opens the board with this serial number on USB; with `probes` also the probe with this number that forwards
-/// a board's UART.
+/// Opens the board with this serial number on USB; with `probes` also the probe with this number that
+/// forwards a board's UART.
 pub fn numbered(number: &str, probes: bool) -> Result<Source> {
     let mut ports = known(ports());
     ports.retain(|port| probes || usb_of(port).is_some_and(is_board));

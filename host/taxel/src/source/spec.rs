@@ -94,8 +94,8 @@ fn serial(port: &str) -> Result<SourceSpec, String> {
     }
 }
 
-/// Text behind the last `@` that is not a speed, or behind the last `#` that is not a board, belongs to the file
-/// name.
+/// Text behind the last `@` that is not a speed, or behind the last `#` that is not a board, belongs to the
+/// file name.
 fn replay(text: &str) -> SourceSpec {
     let (path, speed) = match text.rsplit_once('@').map(|(path, speed)| (path, speed.parse())) {
         Some((path, Ok(speed))) if !path.is_empty() => (path, speed),
@@ -108,8 +108,8 @@ fn replay(text: &str) -> SourceSpec {
     SourceSpec::Replay { path: path.into(), board, speed }
 }
 
-/// True if this can be the name of a board of a robot: letters, digits, `_` and `-`. A dot makes it a part of a
-/// file's name.
+/// True if this can be the name of a board of a robot: letters, digits, `_` and `-`. A dot makes it a part of
+/// a file's name.
 pub fn is_board(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|sign| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-'))
 }

@@ -50,8 +50,8 @@ impl Bench {
         Ok(Source { label: format!("place {place}"), usb_serial, returns: Some(Box::new(again)), ..source })
     }
 
-    /// Follows the boards in threads of this name and their number; what is told is the first raw code, which each
-    /// board has of its own.
+    /// Follows the boards in threads of this name and their number; what is told is the first raw code, which
+    /// each board has of its own.
     fn robot(
         self: &Arc<Bench>,
         thread: &str,
