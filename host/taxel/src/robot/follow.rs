@@ -45,8 +45,8 @@ pub struct BoardPlan<T> {
     pub begin: Begin,
     /// What is made of its events.
     pub teller: Box<dyn Teller<T>>,
-    /// Ends after this much of the board's time, and waits for a missing board for [`PATIENCE`] at most; none:
-    /// goes on until its source ends.
+    /// Ends after this much of the board's time, and waits for a missing board for [`PATIENCE`] at most;
+    /// none: goes on until its source ends.
     pub limit: Option<Duration>,
 }
 
