@@ -27,7 +27,8 @@ fn read(data: &[u8]) {
     let _ = (summary(path), footer(path), chunk_indexes(path));
     let messages = count(path, data.len());
     if let Ok(overview) = Overview::of(path) {
-        let _ = (overview.messages("/taxel/wire"), overview.counts_per_newton(), overview.attached("x"));
+        let _ =
+            (overview.messages("/taxel/wire"), overview.counts_per_newton(Some("x")), overview.attached("x"));
     }
     clips(path);
     let Ok(found) = scan(path) else { return };

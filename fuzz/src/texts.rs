@@ -9,6 +9,7 @@ use taxel::files::{garments, scripts};
 use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::labels;
 use taxel::learn::touches::Table;
+use taxel::robot::ReadRobot;
 use taxel::sim::{self, World};
 use taxel::{fcm, source};
 use taxel_cli::commands::board::flash;
@@ -21,7 +22,7 @@ use taxel_core::intent::{CONCEPTS, EDGES};
 /// What reads a file.
 type Reader = fn(&Scratch, &[u8]);
 
-const READERS: [Reader; 12] = [
+const READERS: [Reader; 13] = [
     garment,
     scene,
     script,
@@ -34,6 +35,7 @@ const READERS: [Reader; 12] = [
     |_, text| _ = view::message::wish(&String::from_utf8_lossy(text)),
     |_, bytes| _ = Model::read(bytes).map(|model| model.notes().len()),
     image,
+    robot,
 ];
 
 /// Reads the bytes as the kind of file that the first of them chooses.
@@ -100,5 +102,17 @@ fn image(file: &Scratch, bytes: &[u8]) {
         let nowhere = Path::new("no-such-drive").to_path_buf();
         let args = flash::FlashArgs { file: file.path().into(), drive: Some(nowhere) };
         assert!(flash::run(&args).is_err(), "there is no drive");
+    }
+}
+
+/// A robot: its seams lie on its panels.
+fn robot(_: &Scratch, text: &[u8]) {
+    let (text, folder) = (String::from_utf8_lossy(text).into_owned(), Path::new("no-such-folder"));
+    let Ok(read) = ReadRobot::parse("robot.toml".into(), text, folder) else { return };
+    assert!(!read.boards.is_empty(), "a robot has boards");
+    for (seam, edge) in read.seams.iter().flat_map(|seam| [(seam, seam.a), (seam, seam.b)]) {
+        let worn = read.boards[edge.board].garment.as_ref().expect("its garment is known");
+        let area = &worn.layout.areas()[usize::from(edge.panel)];
+        assert!(u32::from(edge.start) + u32::from(seam.length) <= u32::from(area.rows.max(area.columns)));
     }
 }

@@ -25,6 +25,7 @@ use crate::commands::recordings::info::{self, InfoArgs};
 use crate::commands::recordings::record::{self, RecordArgs};
 use crate::commands::recordings::replay::{self, ReplayArgs};
 use crate::commands::recordings::report::{self, ReportArgs};
+use crate::commands::robot::{self, RobotArgs};
 use crate::commands::shapes::{self, ShapesArgs};
 use crate::commands::touches::gestures::{self, GesturesArgs};
 use crate::commands::touches::intent::{self, IntentArgs};
@@ -140,6 +141,9 @@ enum Command {
     /// Place a garment's taxels on the robot's links
     #[command(after_help = BODY)]
     Body(BodyArgs),
+    /// Check, watch, record and diagnose all boards of a robot at once
+    #[command(after_help = ROBOT)]
+    Robot(RobotArgs),
     /// List the scripts of touches that a simulation plays
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -193,6 +197,7 @@ impl Cli {
             Command::Flash(args) => flash::run(&args),
             Command::Config(args) => config::run(&args),
             Command::Body(args) => body::run(&args),
+            Command::Robot(args) => robot::run(&args),
             Command::Scenes(args) => scenes::run(args),
             Command::Completions(args) => completions::run(&args, Cli::command()),
         }

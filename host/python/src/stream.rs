@@ -200,8 +200,18 @@ impl Stream {
         if seconds.is_some_and(|seconds| !(0.0..=1e9).contains(&seconds)) {
             return Err(crate::error::usage("seconds must be a time of 0 or more"));
         }
-        let options =
-            SourceOptions { seed, realtime, repeat, frames, seconds, raw, garment, body, folds: None };
+        let options = SourceOptions {
+            seed,
+            realtime,
+            repeat,
+            frames,
+            seconds,
+            raw,
+            garment,
+            body,
+            folds: None,
+            usb_serial: None,
+        };
         let returns = if once { Returns::Never } else { Returns::Always };
         let opened = || {
             let posing = posing(options.body.as_deref(), robot.as_deref(), motion.as_deref(), poses_hz)?;

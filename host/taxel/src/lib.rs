@@ -27,6 +27,7 @@
 //! | [`moments`] | moments, NMI and axis of one image |
 //! | [`ros2`] | messages of ROS 2 and their layout |
 //! | [`record`] | recordings of a stream and their topics |
+//! | [`robot`] | a robot of several boards: its file, and all their streams as one |
 //! | [`learn`] | training of what a board recognises |
 //!
 //! Every error is an [`Error`]: sentences for people, and a [kind](Error::kind) that a program can match:
@@ -83,6 +84,8 @@ pub mod moments;
 pub mod ros2;
 
 pub mod record;
+
+pub mod robot;
 
 pub mod learn;
 

@@ -157,6 +157,12 @@ pub(super) const BODY: &str = "Examples:
   taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt
   taxel body fit reference --marks marks.txt -o worn.toml";
 
+pub(super) const ROBOT: &str = "Examples:
+  taxel robot check robot.toml
+  taxel robot live robot.toml --json
+  taxel robot record robot.toml -o touch.mcap
+  taxel robot doctor robot.toml";
+
 pub(super) const SCENES: &str = "Examples:
   taxel scenes
   taxel scenes --json";

@@ -6,6 +6,7 @@ pub mod frames;
 pub mod garment;
 pub mod maps;
 pub mod recordings;
+pub mod robot;
 pub mod shapes;
 pub mod touches;
 pub mod views;

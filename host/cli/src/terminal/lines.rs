@@ -28,6 +28,11 @@ impl<W: Write> Lines<W> {
         }
     }
 
+    /// What it writes to.
+    pub fn output(&mut self) -> &mut W {
+        &mut self.out
+    }
+
     fn summary(&mut self, client: &Client, frame: u32, time: Micros) -> Result<()> {
         let (last, first) = *self.summed.get_or_insert((time, frame));
         let passed = time.since(last);

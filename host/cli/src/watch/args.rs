@@ -15,7 +15,7 @@ use taxel_core::intent::Feed;
 #[derive(Debug, Clone, Args)]
 pub struct BoardArgs {
     /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`,
-    /// `file:FILE` or `replay:FILE[@SPEED]`
+    /// `file:FILE` or `replay:FILE[#BOARD][@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Garment to send to the board, real or simulated: a preset or a TOML file

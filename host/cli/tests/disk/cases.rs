@@ -123,6 +123,7 @@ pub const CASES: &[Case] = &[
     case("export lerobot", "export in.mcap --to lerobot -o set", &[folder("set")]),
     case("report", "report in.mcap -o out.html", &[ends("out.html", "</html>\n")]),
     case("record", "record --source sim:press --seconds 2 -o out.mcap", &[recording("out.mcap")]),
+    case("robot record", "robot record robot.toml --seconds 2 -o out.mcap", &[recording("out.mcap")]),
     case(
         "record ros2",
         "record --source sim:press --seconds 1.5 --ros2 -o out.mcap",

@@ -16,6 +16,11 @@ pub const PRECIOUS: &str = "nobody may write this";
 /// A mesh on which a panel fits.
 const BOARD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\nf 1 2 3 4\n";
 
+/// A robot of two boards.
+const ROBOT: &str = "name = \"two\"\n\
+                     [[boards]]\nname = \"left\"\nsource = \"sim:press\"\n\
+                     [[boards]]\nname = \"right\"\nsource = \"sim:press\"\n";
+
 /// Touches of the chest at places of the torso.
 const KNOWN: &str = "panel,column,row,link,x,y,z\n\
                      chest,7.5,15.5,torso,0.0611,0,0.2\n\
@@ -55,6 +60,7 @@ impl Stage {
         fs::write(folder.join("cut.mcap"), &whole[..whole.len() - 100]).unwrap();
         fs::write(folder.join("touches.csv"), TOUCHES).unwrap();
         fs::write(folder.join("box.toml"), BOX).unwrap();
+        fs::write(folder.join("robot.toml"), ROBOT).unwrap();
         fs::write(folder.join("board.obj"), BOARD).unwrap();
         fs::write(folder.join("known.csv"), KNOWN).unwrap();
         let weights = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes/weights.toml");

@@ -24,6 +24,7 @@ mod random;
 mod recordings;
 mod reference;
 mod repair;
+mod robot;
 #[cfg(feature = "ros2")]
 mod ros2;
 mod schemas;

@@ -34,6 +34,23 @@ impl<W: Write> MessagePrinter<W> {
         MessagePrinter { calibration, ..self }
     }
 
+    /// The message of an event, with the host's time if it is known.
+    pub fn message(&self, client: &Client, event: &Event) -> Result<Value> {
+        let mut line = line(client, event);
+        if let (Some(JsonLine::Frame(frame)), Event::Frame { image: ImageNews::Whole, .. }) =
+            (&mut line, event)
+        {
+            self.complete(client, frame);
+        }
+        let mut line = serde_json::to_value(line)?;
+        let board = line.get("time_us").and_then(Value::as_u64);
+        if let Some(time) = board.and_then(|board| client.host_time(Micros(board))) {
+            line["host_time_us"] = json!(time.us);
+            line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
+        }
+        Ok(line)
+    }
+
     /// Adds what was requested to a frame with an image.
     fn complete<'a>(&self, client: &'a Client, frame: &mut FrameLine<'a>) {
         frame.panels = self.pixels.then(|| pixels(client));
@@ -49,18 +66,7 @@ impl<W: Write> MessagePrinter<W> {
 
 impl<W: Write, E: From<Error>> Show<E> for MessagePrinter<W> {
     fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
-        let mut line = line(client, event);
-        if let (Some(JsonLine::Frame(frame)), Event::Frame { image: ImageNews::Whole, .. }) =
-            (&mut line, event)
-        {
-            self.complete(client, frame);
-        }
-        let mut line = serde_json::to_value(line).map_err(Error::from)?;
-        let board = line.get("time_us").and_then(Value::as_u64);
-        if let Some(time) = board.and_then(|board| client.host_time(Micros(board))) {
-            line["host_time_us"] = json!(time.us);
-            line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
-        }
+        let line = self.message(client, event)?;
         Ok(writeln!(self.out, "{line}").map_err(Error::from)?)
     }
 

@@ -17,6 +17,7 @@
 mod angles;
 mod bag;
 mod counters;
+mod encoded;
 mod file;
 mod limit;
 mod message;
@@ -31,15 +32,16 @@ mod tally;
 mod topics;
 
 pub use angles::Angles;
+pub use encoded::Encoded;
 pub use file::RecordingFile;
 pub use limit::Rotate;
 pub use message::json_message;
 pub use play::Play;
-pub use provenance::{CALIBRATION, Origin};
+pub use provenance::{CALIBRATION, Origin, attach};
 pub use recorder::{Plan, Recorder};
 #[cfg(feature = "schema")]
 pub use schemas::derived;
 pub use schemas::{JSON as TOPICS, JsonTopic};
 pub use stamps::{NS, Stamp, Stamps, time_of};
 pub use tally::{COUNTS, Tally};
-pub use topics::{REQUESTS, of as topic};
+pub use topics::{REQUESTS, RecordTopic, Topics, of as topic};

@@ -14,9 +14,14 @@ pub struct Play {
 }
 
 impl Play {
-    /// Opens a file.
+    /// Opens a file of one board.
     pub fn open(path: &Path) -> Result<Play> {
-        Ok(Play { wire: WireReader::open(path)?, client: Client::new() })
+        Play::of_board(path, None)
+    }
+
+    /// Opens a file for its only board, or for this board of a robot.
+    pub fn of_board(path: &Path, board: Option<&str>) -> Result<Play> {
+        Ok(Play { wire: WireReader::of_board(path, board)?, client: Client::new() })
     }
 
     /// The client after the last event.

@@ -4,7 +4,7 @@ use crate::client::Worn;
 use crate::error::Result;
 use crate::files::calibrate::Calibration;
 use crate::files::garments;
-use crate::recording::{Store, Writer};
+use crate::recording::{Store, Writer, attachment_of};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
@@ -25,17 +25,24 @@ pub struct Origin {
 }
 
 /// Attaches garment, scene, geometry and the calibration in use; writes versions, source, calibration and
-/// scale as metadata.
-pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns: u64) -> Result<()> {
+/// scale as metadata: of the file's only board, or of this one of a robot.
+pub fn attach<S: Store>(
+    writer: &mut Writer<S>,
+    worn: &Worn,
+    origin: &Origin,
+    ns: u64,
+    board: Option<&str>,
+) -> Result<()> {
+    let named = |name: &str| attachment_of(board, name);
     let garment = garments::text(&worn.garment, "the garment of a recording")?;
-    writer.attach("garment.toml", "application/toml", garment.as_bytes(), ns)?;
-    writer.attach("scene.json", "application/json", &serde_json::to_vec_pretty(&worn.scene)?, ns)?;
+    writer.attach(&named("garment.toml"), "application/toml", garment.as_bytes(), ns)?;
+    writer.attach(&named("scene.json"), "application/json", &serde_json::to_vec_pretty(&worn.scene)?, ns)?;
     let geometry = serde_json::to_vec(&geometry(&worn.layout))?;
-    writer.attach("geometry.json", "application/json", &geometry, ns)?;
+    writer.attach(&named("geometry.json"), "application/json", &geometry, ns)?;
     let scale = origin.counts_per_newton.map_or(String::new(), |counts| counts.to_string());
     let calibration = origin.calibration.as_ref().filter(|made| made.is_in_force(&worn.calibration));
     if let Some(made) = calibration {
-        writer.attach(CALIBRATION, "application/toml", made.text()?.as_bytes(), ns)?;
+        writer.attach(&named(CALIBRATION), "application/toml", made.text()?.as_bytes(), ns)?;
     }
     let words = [
         ("program", concat!("taxel ", env!("CARGO_PKG_VERSION")).to_string()),
@@ -50,7 +57,7 @@ pub fn attach<S: Store>(writer: &mut Writer<S>, worn: &Worn, origin: &Origin, ns
     ];
     let words = words.into_iter().chain(calibration.into_iter().flat_map(certified));
     let words: BTreeMap<_, _> = words.map(|(name, value)| (name.to_string(), value)).collect();
-    writer.metadata("taxel", words)
+    writer.metadata(&named("taxel"), words)
 }
 
 /// Author, date, method and fit of a calibration.

@@ -2,6 +2,7 @@
 
 use super::bag::Ros2;
 use super::counters::Counters;
+use super::encoded::Encoded;
 use super::file::RecordingFile;
 use super::limit::Rotate;
 use super::names::{self, beside, numbered};
@@ -20,15 +21,7 @@ use crate::tell::progress::{self, Unit};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel_core::format::Micros;
-use taxel_core::surface::{LINKS, LinkName, MovingPose, Pose};
-use taxel_core::wire::{self, Request};
-
-/// What `SetPoses` holds.
-type SentPoses = heapless::Vec<(LinkName, Pose), LINKS>;
-
-/// What `MovePoses` holds beside the time.
-type MovingPoses = heapless::Vec<MovingPose, LINKS>;
+use taxel_core::wire::Request;
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
@@ -285,38 +278,15 @@ impl<E: From<Error>> Show<E> for Recorder {
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<(), E> {
         let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
         let stamp = self.stamps.now(client);
-        let mut done = file.requests(stamp, bytes);
-        for frame in bytes.split(|byte| *byte == 0) {
-            let mut frame = frame.to_vec();
-            let request = wire::open(&mut frame).and_then(wire::decode::<Request<'_>>);
-            done = done.and_then(|()| match request {
-                // Before the board has told its scene, nobody knows which joints these are.
-                Ok(Request::Posture(posture)) => match client.worn() {
-                    Some(worn) => file.posture(stamp, &posture, &worn.scene.joints),
-                    None => Ok(()),
-                },
-                Ok(Request::SetPoses(poses)) => match wire::decode::<SentPoses>(poses) {
-                    Ok(poses) => file.poses(stamp, &poses),
-                    // A program's own bytes, which the board refuses.
-                    Err(_) => Ok(()),
-                },
-                Ok(Request::MovePoses(poses)) => match wire::decode::<(Micros, MovingPoses)>(poses) {
-                    Ok((_, poses)) => {
-                        let poses: SentPoses =
-                            poses.into_iter().map(|(link, pose, _)| (link, pose)).collect();
-                        file.poses(stamp, &poses)
-                    }
-                    Err(_) => Ok(()),
-                },
-                _ => Ok(()),
-            });
-        }
+        let done = Encoded::requests(client, bytes, stamp)
+            .and_then(|all| all.iter().try_for_each(|message| file.put(message)));
         Ok(self.guard(done)?)
     }
 
     fn joints(&mut self, client: &Client, joints: &JointPositions) -> Result<(), E> {
         let Some(file) = &mut self.file else { return Ok(()) };
-        let done = file.joints(self.stamps.of_time(client, joints.time.0), joints);
+        let stamp = self.stamps.of_time(client, joints.time.0);
+        let done = Encoded::joints(joints, stamp).and_then(|message| file.put(&message));
         Ok(self.guard(done)?)
     }
 

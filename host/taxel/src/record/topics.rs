@@ -3,40 +3,56 @@
 use super::schemas::JSON;
 use crate::client::Event;
 use crate::error::Result;
-use crate::recording::{Format, Store, WIRE, Writer};
+use crate::recording::{Format, Store, WIRE, Writer, of_board};
 
 /// Frames of the wire to the board.
 pub const REQUESTS: &str = "/taxel/requests";
 /// Encoding of both, described in `taxel_core::wire`.
 const WIRE_ENCODING: &str = "taxel-wire";
 
+/// Where a message goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RecordTopic {
+    /// Frames of the wire from the board.
+    Wire,
+    /// Frames of the wire to the board.
+    Requests,
+    /// The JSON topic of this name.
+    Json(&'static str),
+}
+
 /// Channel numbers in one file.
 #[derive(Debug, Clone)]
 pub struct Topics {
     /// Channel of [`WIRE`].
     pub wire: u16,
-    /// Channel of [`REQUESTS`].
-    pub requests: u16,
+    requests: u16,
     json: Vec<(&'static str, u16)>,
 }
 
 impl Topics {
-    /// Declares the channels in a file.
-    pub fn open<S: Store>(writer: &mut Writer<S>) -> Result<Topics> {
+    /// Declares the channels in a file: those of its only board, or of this one of a robot.
+    pub fn open<S: Store>(writer: &mut Writer<S>, board: Option<&str>) -> Result<Topics> {
         let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: "" };
-        let (wire, requests) = (writer.channel(WIRE, &plain)?, writer.channel(REQUESTS, &plain)?);
+        let (wire, requests) = (of_board(board, WIRE), of_board(board, REQUESTS));
+        let (wire, requests) = (writer.channel(&wire, &plain)?, writer.channel(&requests, &plain)?);
         let mut json = Vec::new();
         for (name, text) in JSON {
             let title = format!("taxel.{name}");
             let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text };
-            json.push((name, writer.channel(&format!("/taxel/{name}"), &format)?));
+            let topic = of_board(board, &format!("/taxel/{name}"));
+            json.push((name, writer.channel(&topic, &format)?));
         }
         Ok(Topics { wire, requests, json })
     }
 
-    /// The channel of a JSON topic.
-    pub fn json(&self, name: &str) -> Option<u16> {
-        self.json.iter().find(|(known, _)| *known == name).map(|(_, id)| *id)
+    /// The channel of a message.
+    pub fn channel(&self, topic: RecordTopic) -> Option<u16> {
+        match topic {
+            RecordTopic::Wire => Some(self.wire),
+            RecordTopic::Requests => Some(self.requests),
+            RecordTopic::Json(name) => self.json.iter().find(|(known, _)| *known == name).map(|(_, id)| *id),
+        }
     }
 }
 

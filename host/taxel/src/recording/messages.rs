@@ -31,9 +31,9 @@ pub struct Messages {
     records: Records,
     path: PathBuf,
     /// The only topic to read; none for all.
-    only: Option<&'static str>,
+    only: Option<String>,
     /// Name of the wanted attachment, and the first one of that name once it was passed.
-    wanted: Option<&'static str>,
+    wanted: Option<String>,
     attached: Option<Vec<u8>>,
     channels: BTreeMap<u16, Channel>,
     /// Uncompressed records of the current chunk, and the offset of the next one.
@@ -61,13 +61,13 @@ impl Messages {
     }
 
     /// Opens a file for one topic.
-    pub fn of_topic(path: &Path, topic: &'static str) -> Result<Messages> {
-        Ok(Messages { only: Some(topic), ..Messages::open(path)? })
+    pub fn of_topic(path: &Path, topic: &str) -> Result<Messages> {
+        Ok(Messages { only: Some(topic.into()), ..Messages::open(path)? })
     }
 
     /// Keeps the first attachment of this name that is passed.
-    pub fn wanting(self, name: &'static str) -> Messages {
-        Messages { wanted: Some(name), ..self }
+    pub fn wanting(self, name: &str) -> Messages {
+        Messages { wanted: Some(name.into()), ..self }
     }
 
     /// The wanted attachment; none before it is passed.
@@ -117,7 +117,7 @@ impl Messages {
                 op::MESSAGE => {
                     let Some(header) = message(record.body) else { continue };
                     let topic = self.channels.get(&header.channel_id).map(|channel| channel.topic.as_str());
-                    if self.only.is_none() || self.only == topic {
+                    if self.only.is_none() || self.only.as_deref() == topic {
                         return Some((header, self.next - record.body.len() + MESSAGE..self.next));
                     }
                 }
@@ -174,7 +174,7 @@ impl Messages {
     /// Keeps an attachment if it is the wanted one.
     fn attach(&mut self, head: Head) -> Result<()> {
         let record = self.records.body(head)?;
-        let found = attached(record.body).filter(|(header, ..)| Some(header.name.as_str()) == self.wanted);
+        let found = attached(record.body).filter(|(header, ..)| Some(&header.name) == self.wanted.as_ref());
         self.attached = found.map(|(_, data, _)| data.to_vec());
         Ok(())
     }

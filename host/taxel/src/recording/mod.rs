@@ -25,12 +25,14 @@
 //! | `attached.rs` | one attachment |
 //! | `salvage/` | the records of a file that may be damaged |
 //! | `scan.rs`, `found.rs` | contents of a file, by a scan |
+//! | `board_names.rs` | names of what a recording holds of one board of a robot |
 //! | `wire_reader.rs` | the frames of the wire in a file |
 //! | `renumber.rs` | numbers of the messages in such frames |
 //! | `repair.rs` | rewrites a damaged or truncated file |
 
 mod append;
 mod attached;
+mod board_names;
 mod chunk;
 mod clips;
 mod contents;
@@ -56,6 +58,7 @@ mod written;
 #[cfg(test)]
 mod tests;
 
+pub use board_names::{attachment_of, boards, of_board};
 pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;

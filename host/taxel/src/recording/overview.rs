@@ -1,6 +1,7 @@
 //! Contents of a recording, by the summary at its end, or else by a scan.
 
 use super::attached::attached;
+use super::board_names::attachment_of;
 use super::contents::{ChannelInfo, Stretch};
 use super::records::Records;
 use super::summary::{Summary, summary};
@@ -82,9 +83,10 @@ impl Overview {
         self.metadata.iter().rfind(|words| words.name == name).map(|words| &words.metadata)
     }
 
-    /// Counts per newton of the recording's source, if known.
-    pub fn counts_per_newton(&self) -> Option<f64> {
-        let counts: f64 = self.words("taxel")?.get("counts_per_newton")?.parse().ok()?;
+    /// Counts per newton of the recording's source, or of that of this board of a robot, if known.
+    pub fn counts_per_newton(&self, board: Option<&str>) -> Option<f64> {
+        let counts: f64 =
+            self.words(&attachment_of(board, "taxel"))?.get("counts_per_newton")?.parse().ok()?;
         (counts.is_finite() && counts > 0.0).then_some(counts)
     }
 

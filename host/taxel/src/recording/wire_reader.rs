@@ -1,5 +1,6 @@
 //! Reads the board's frames of the wire from a recording.
 
+use super::board_names::{attachment_of, of_board};
 use super::lost;
 use crate::error::Result;
 use crate::recording::{Message, Messages, Skipped};
@@ -24,9 +25,15 @@ pub struct WireReader {
 }
 
 impl WireReader {
-    /// Opens a file.
+    /// Opens a file of one board.
     pub fn open(path: &Path) -> Result<WireReader> {
-        let messages = Messages::of_topic(path, WIRE)?.wanting(HELLO);
+        WireReader::of_board(path, None)
+    }
+
+    /// Opens a file for its only board, or for this board of a robot.
+    pub fn of_board(path: &Path, board: Option<&str>) -> Result<WireReader> {
+        let messages =
+            Messages::of_topic(path, &of_board(board, WIRE))?.wanting(&attachment_of(board, HELLO));
         Ok(WireReader { messages, begun: false, first: None, given: Vec::new() })
     }
 

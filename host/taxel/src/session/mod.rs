@@ -188,6 +188,24 @@ impl Session {
         self.absence.is_some()
     }
 
+    /// Since when the stream has a gap: until the source is back and its board's settings are restored.
+    pub fn gap(&self) -> Option<Instant> {
+        self.gap
+    }
+
+    /// When bytes were last received, or the link was opened.
+    pub fn heard(&self) -> Instant {
+        self.heard
+    }
+
+    /// Gives up the link as if it were lost, for this reason: what answers is not the board that was meant.
+    /// Error if the source is not waited for.
+    pub fn reject(&mut self, why: Error) -> Result<()> {
+        self.buffer.clear();
+        self.taken = 0;
+        self.lose(why).map(drop)
+    }
+
     /// Queues a request to the board; the answer is an [`Event::Answer`].
     pub fn request(&mut self, request: &Request<'_>) -> Result<()> {
         Ok(self.client.request(request)?)
@@ -217,9 +235,9 @@ impl Session {
         }
     }
 
-    /// Sends queued requests after passing them to `sent`, and reads; requests of the source itself are passed to
-    /// `sent`, too. Error if the source is lost for good,
-    /// or if its board refuses a setting that it had accepted before; `sent` has errors of the caller's own.
+    /// Sends queued requests after passing them to `sent`, and reads; requests of the source itself are
+    /// passed to `sent`, too. Error if the source is lost for good, or if its board refuses a setting that it
+    /// had accepted before; `sent` has errors of the caller's own.
     pub fn turn<E: From<Error>>(&mut self, sent: &mut OnSent<'_, E>) -> Result<Turn, E> {
         self.buffer.clear();
         self.taken = 0;

@@ -65,6 +65,26 @@ pub fn usb() -> Result<Source> {
     }
 }
 
+/// Opens the board with this serial number on USB; with `probes` also the probe with this number that
+/// forwards a board's UART.
+pub fn numbered(number: &str, probes: bool) -> Result<Source> {
+    let mut ports = known(ports());
+    ports.retain(|port| probes || usb_of(port).is_some_and(is_board));
+    let of = |port: &SerialPortInfo| usb_of(port).and_then(|usb| usb.serial_number.clone());
+    let Some(port) = ports.iter().find(|port| of(port).as_deref() == Some(number)) else {
+        let there = ports.iter().map(|port| {
+            let its = of(port).map_or("without a number".into(), |number| printable(&number).into_owned());
+            format!("{} on {}", its, port.port_name)
+        });
+        let there = match ports.len() {
+            0 => "none is plugged in".into(),
+            _ => format!("there are {}", there.collect::<Vec<_>>().join(", ")),
+        };
+        fail!(SourceError::NoBoard, "no board on USB has the serial number {number}: {there}");
+    };
+    Ok(real(port, Serial::open(&port.port_name, BAUD)?, BAUD))
+}
+
 /// Opens a serial port by name.
 pub fn port(path: &str, baud: u32) -> Result<Source> {
     let serial = Serial::open(path, baud)?;
@@ -85,7 +105,8 @@ fn real(port: &SerialPortInfo, serial: Serial, baud: u32) -> Source {
 
 /// A board on this port with this label, which changes if it comes back on another port.
 fn named(label: String, port: SerialPortInfo, serial: Serial, baud: u32) -> Source {
-    Source::real(label, serial, move || returned(&port, ports(), baud))
+    let usb_serial = usb_of(&port).and_then(|usb| usb.serial_number.clone());
+    Source { usb_serial, ..Source::real(label, serial, move || returned(&port, ports(), baud)) }
 }
 
 /// Opens the port of an unplugged board: the port with the same USB description under any name, or the port

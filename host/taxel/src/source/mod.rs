@@ -18,7 +18,7 @@ pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
 pub(crate) use sim::{info as simulated_info, lasting};
-pub use spec::SourceSpec;
+pub use spec::{SourceSpec, is_board};
 
 use crate::error::Result;
 use crate::sim::Script;
@@ -67,6 +67,9 @@ pub struct SourceOptions {
     pub body: Option<String>,
     /// Table of folds that a simulated board has in its flash from the start.
     pub folds: Option<PathBuf>,
+    /// Serial number on USB of the only board that `auto` and `usb` may open: its own or, for `auto`, that of
+    /// the probe that forwards its UART.
+    pub usb_serial: Option<String>,
 }
 
 /// Opens a lost source again.
@@ -90,6 +93,8 @@ pub struct Source {
     pub has_body: bool,
     /// Its board already has the requested table of folds.
     pub has_folds: bool,
+    /// Serial number on USB of its board, or of the probe before it; none if its link has none.
+    pub usb_serial: Option<String>,
     /// It has a board that receives requests; false for recordings.
     pub listens: bool,
     /// Opens it again when it is lost; none if it ends for good.
@@ -108,6 +113,7 @@ impl Source {
             wears_asked: false,
             has_body: false,
             has_folds: false,
+            usb_serial: None,
             listens: true,
             returns: None,
         }
@@ -145,6 +151,15 @@ pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
 }
 
 fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
+    match (spec, &options.usb_serial) {
+        (SourceSpec::Auto | SourceSpec::Usb, Some(number)) => {
+            auto::numbered(number, *spec == SourceSpec::Auto)
+        }
+        (spec, _) => of_kind(spec, options),
+    }
+}
+
+fn of_kind(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
     match spec {
         SourceSpec::Auto => auto::open(options),
         SourceSpec::Usb => auto::usb(),
@@ -156,6 +171,6 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
             let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);
             Ok(Source { listens: false, ..saved })
         }
-        SourceSpec::Replay { path, speed } => replay::open(path, *speed, options),
+        SourceSpec::Replay { path, board, speed } => replay::open(path, board.as_deref(), *speed, options),
     }
 }

@@ -36,6 +36,8 @@ pub enum SourceSpec {
     Replay {
         /// The file.
         path: PathBuf,
+        /// The board to play, of the recording of a robot.
+        board: Option<String>,
         /// Speed of the replay.
         speed: Speed,
     },
@@ -75,7 +77,7 @@ impl FromStr for SourceSpec {
             ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
             _ => Err(
                 "known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:TOUCHES], \
-                      file:FILE, replay:FILE[@SPEED]"
+                      file:FILE, replay:FILE[#BOARD][@SPEED]"
                     .into(),
             ),
         }
@@ -92,13 +94,24 @@ fn serial(port: &str) -> Result<SourceSpec, String> {
     }
 }
 
-/// Text behind the last `@` that is not a speed belongs to the file name.
+/// Text behind the last `@` that is not a speed, or behind the last `#` that is not a board, belongs to the
+/// file name.
 fn replay(text: &str) -> SourceSpec {
     let (path, speed) = match text.rsplit_once('@').map(|(path, speed)| (path, speed.parse())) {
         Some((path, Ok(speed))) if !path.is_empty() => (path, speed),
         _ => (text, Speed::AsAsked),
     };
-    SourceSpec::Replay { path: path.into(), speed }
+    let (path, board) = match path.rsplit_once('#') {
+        Some((path, board)) if !path.is_empty() && is_board(board) => (path, Some(board.into())),
+        _ => (path, None),
+    };
+    SourceSpec::Replay { path: path.into(), board, speed }
+}
+
+/// True if this can be the name of a board of a robot: letters, digits, `_` and `-`. A dot makes it a part of
+/// a file's name.
+pub fn is_board(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|sign| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-'))
 }
 
 fn tcp(address: &str) -> Result<SourceSpec, String> {
@@ -120,7 +133,10 @@ impl fmt::Display for SourceSpec {
             SourceSpec::Tcp(address) => write!(f, "tcp:{address}"),
             SourceSpec::Emulator(scene) => write!(f, "emulator:{scene}"),
             SourceSpec::File(path) => write!(f, "file:{}", path.display()),
-            SourceSpec::Replay { path, speed } => write!(f, "replay:{}{speed}", path.display()),
+            SourceSpec::Replay { path, board, speed } => {
+                let board = board.as_ref().map_or(String::new(), |board| format!("#{board}"));
+                write!(f, "replay:{}{board}{speed}", path.display())
+            }
         }
     }
 }
@@ -142,10 +158,15 @@ mod tests {
             "replay:a@b.mcap",
             "replay:a.mcap@2.5",
             "replay:a.mcap@max",
+            "replay:a.mcap#left-arm@2",
+            "replay:a#b.mcap",
         ] {
             assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
         }
         let read = |text: &str| text.parse::<SourceSpec>();
+        let robot = SourceSpec::Replay { path: "a".into(), board: Some("b".into()), speed: Speed::Max };
+        assert_eq!(read("replay:a#b@max").unwrap(), robot);
+        assert_eq!(robot.file(), Some("a".into()));
         assert_eq!(read("sim").unwrap(), SourceSpec::simulation());
         assert_eq!(read("emulator").unwrap(), SourceSpec::Emulator("pat".into()));
         assert_eq!(read("serial:COM3").unwrap().to_string(), "serial:COM3@921600");

@@ -21,6 +21,7 @@ mod points;
 mod pressing;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
+mod robot;
 mod ros2;
 mod scan;
 #[cfg(feature = "schema")]

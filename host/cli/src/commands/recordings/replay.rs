@@ -31,7 +31,7 @@ pub struct ReplayArgs {
 /// Runs the command.
 pub fn run(args: ReplayArgs) -> Result<()> {
     let speed = args.speed.unwrap_or_default();
-    let source = SourceSpec::Replay { path: args.file, speed };
+    let source = SourceSpec::Replay { path: args.file, board: None, speed };
     live::run(LiveArgs {
         frames: args.frames,
         json: args.json,

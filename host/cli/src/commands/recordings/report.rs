@@ -92,7 +92,7 @@ fn recorded(
     let mut play = Play::open(path)?;
     let mut progress =
         Progress::of(format!("reading {}", path.display()), Unit::Bytes, Some(play.passed()[1]));
-    let scale = overview.counts_per_newton().map(|counts| counts as f32);
+    let scale = overview.counts_per_newton(None).map(|counts| counts as f32);
     let mut seen = Seen::new(path.display().to_string(), scale).on(wearer).folding(folding);
     let mut began = None;
     while let Some((_, event)) = play.next_event()? {

@@ -43,7 +43,7 @@ impl ViewArgs {
     fn recording(&self) -> Option<(PathBuf, f64)> {
         match (&self.file, &self.board.source) {
             (Some(file), _) => Some((file.clone(), 1.0)),
-            (None, SourceSpec::Replay { path, speed }) => {
+            (None, SourceSpec::Replay { path, board: None, speed }) => {
                 let times = match speed {
                     Speed::AsAsked => 1.0,
                     Speed::Times(times) => *times,

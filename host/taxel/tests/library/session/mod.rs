@@ -5,4 +5,4 @@ mod links;
 mod lost;
 mod posing;
 mod restored;
-mod rig;
+pub mod rig;

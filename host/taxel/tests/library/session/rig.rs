@@ -40,14 +40,21 @@ pub struct Rig {
     pub deaf: bool,
     /// Codes of its converter.
     pub codes: [Code; 64],
+    /// Garment at its start.
+    wears: Garment,
 }
 
 impl Rig {
     /// A board just after power-up.
     pub fn new() -> Rig {
+        Rig::wearing(Garment::block())
+    }
+
+    /// A board of 64 taxels that ships with this garment, just after power-up.
+    pub fn wearing(garment: Garment) -> Rig {
         let now = Instant::now();
         Rig {
-            board: board(Pins::ANY),
+            board: board(Pins::ANY, &garment),
             booted: now,
             scanned: now,
             to_host: VecDeque::new(),
@@ -58,12 +65,13 @@ impl Rig {
             pins: Pins::ANY,
             deaf: false,
             codes: [Code(100); 64],
+            wears: garment,
         }
     }
 
     /// Cycles the power.
     pub fn restart(&mut self) {
-        self.board = board(self.pins);
+        self.board = board(self.pins, &self.wears);
         self.booted = Instant::now();
         self.to_host.clear();
         self.receiver = Receiver::new();
@@ -152,8 +160,8 @@ impl Rig {
     }
 }
 
-fn board(pins: Pins) -> Box<Board<64, 32>> {
-    Box::new(Board::new(BoardInfo { pins, ..INFO }, Garment::block(), Scene::shipped()).unwrap())
+fn board(pins: Pins, garment: &Garment) -> Box<Board<64, 32>> {
+    Box::new(Board::new(BoardInfo { pins, ..INFO }, garment.clone(), Scene::shipped()).unwrap())
 }
 
 /// A link in memory.
@@ -194,7 +202,8 @@ pub fn source(rig: &Arc<Mutex<Rig>>) -> Source {
     open(rig).unwrap()
 }
 
-fn open(rig: &Arc<Mutex<Rig>>) -> taxel::Result<Source> {
+/// Opens its link, if it is plugged in.
+pub fn open(rig: &Arc<Mutex<Rig>>) -> taxel::Result<Source> {
     let known = rig.lock().unwrap();
     if !known.plugged {
         return Err(taxel::Error::other("nothing is plugged in"));

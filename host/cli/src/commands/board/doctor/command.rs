@@ -8,7 +8,7 @@ use crate::watch::{self, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
-use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::source::{self, Source, SourceOptions, SourceSpec};
 use taxel::tell::date;
 
 /// Arguments of `taxel doctor`.
@@ -32,11 +32,8 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
     let source = source::open(&args.source, &options)
         .context("no link (`taxel ports` lists what is plugged in; docs/troubleshooting.md says more)")?;
     let label = source.label.clone();
-    let mut facts = Facts::of(&label);
-    let live = LiveArgs { seconds: Some(args.seconds), ..LiveArgs::of(args.source.clone()) };
-    let heard = watch::watch(&live, source, &mut facts);
-    let found = judge(&facts, env!("CARGO_PKG_VERSION"), &date::today());
-    let worst = found.iter().map(|finding| finding.grade).max().unwrap_or(Grade::Good);
+    let (found, heard) = examine(&args.source, source, args.seconds);
+    let worst = worst(&found);
     if args.json {
         println!("{}", json!({ "type": "doctor", "source": label, "verdict": worst, "findings": found }));
     } else {
@@ -55,7 +52,21 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
     Ok(())
 }
 
-fn line(finding: &Finding) -> String {
+/// Watches a board for some seconds. Returns what was found, and the error that ended the watch.
+pub fn examine(spec: &SourceSpec, source: Source, seconds: f64) -> (Vec<Finding>, Result<()>) {
+    let mut facts = Facts::of(&source.label);
+    let live = LiveArgs { seconds: Some(seconds), ..LiveArgs::of(spec.clone()) };
+    let heard = watch::watch(&live, source, &mut facts);
+    (judge(&facts, env!("CARGO_PKG_VERSION"), &date::today()), heard)
+}
+
+/// The worst of the findings.
+pub fn worst(found: &[Finding]) -> Grade {
+    found.iter().map(|finding| finding.grade).max().unwrap_or(Grade::Good)
+}
+
+/// A finding and its remedy in a line.
+pub fn line(finding: &Finding) -> String {
     let mark = match finding.grade {
         Grade::Good => ' ',
         Grade::Weak => '!',
@@ -65,6 +76,7 @@ fn line(finding: &Finding) -> String {
     format!("{mark} {:<12} {}{cure}", finding.of, finding.what)
 }
 
-fn first_cure(found: &[Finding]) -> &str {
+/// Remedy of the first finding of what does not work.
+pub fn first_cure(found: &[Finding]) -> &str {
     found.iter().find(|finding| finding.grade == Grade::Bad).map_or("", |finding| finding.cure)
 }

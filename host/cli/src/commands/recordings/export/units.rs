@@ -23,7 +23,7 @@ impl Scale {
             let text = String::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
             anyhow::Ok(Calibration::parse(&text, &name)?)
         });
-        Ok(Scale { calibration: parsed.transpose()?, counts_per_newton: overview.counts_per_newton() })
+        Ok(Scale { calibration: parsed.transpose()?, counts_per_newton: overview.counts_per_newton(None) })
     }
 
     /// Units for a garment whose board reports this calibration.

@@ -1,0 +1,111 @@
+//! `taxel robot check`: a robot's boards and seams.
+
+use anyhow::Result;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+use taxel::robot::{ReadRobot, RobotBoard, RobotEdge, RobotSeam};
+use taxel_core::garment::Side;
+
+/// Runs the command.
+pub fn run(file: &Path, is_json: bool) -> Result<()> {
+    let robot = ReadRobot::read(file)?;
+    match is_json {
+        true => println!("{}", report(&robot)),
+        false => print!("{}", table(&robot)),
+    }
+    Ok(())
+}
+
+/// A line for the robot, for each board and for each seam.
+fn table(robot: &ReadRobot) -> String {
+    let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let (boards, seams) = (count(robot.boards.len(), "board"), count(robot.seams.len(), "seam"));
+    let mut text = format!("robot {}: {boards}, {seams} between them", robot.name);
+    if let Some(described) = &robot.robot {
+        let base = described.links().first().map_or("", |base| base.name.as_str());
+        let _ = write!(text, "; {}: {} links, base {base}", described.file(), described.links().len());
+    }
+    text += "\n";
+    let head = ["board", "source", "garment", "taxels", "lies on", "scene", "tare"].map(String::from);
+    let rows: Vec<[String; 7]> = [head].into_iter().chain(robot.boards.iter().map(row)).collect();
+    let wide = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let wide: Vec<usize> = (0..7).map(wide).collect();
+    for row in &rows {
+        let cells: String = row.iter().zip(&wide).map(|(cell, wide)| format!("{cell:wide$}  ")).collect();
+        let _ = writeln!(text, "{}", cells.trim_end());
+    }
+    for RobotSeam { a, b, length, reversed } in &robot.seams {
+        let way = if *reversed { ", in opposite directions" } else { "" };
+        let _ = writeln!(text, "seam: {} - {}, {length} taxels{way}", edge(robot, a), edge(robot, b));
+    }
+    text
+}
+
+fn row(board: &RobotBoard) -> [String; 7] {
+    let RobotBoard { name, source, usb_serial, garment, scene, tare, body, link } = board;
+    let number = usb_serial.as_ref().map_or(String::new(), |number| format!(" {number}"));
+    [
+        name.clone(),
+        format!("{source}{number}"),
+        garment.as_ref().map_or("any".into(), |worn| worn.garment.name.to_string()),
+        garment.as_ref().map_or("-".into(), |worn| worn.layout.taxels().to_string()),
+        match (body, link) {
+            (Some(body), _) => format!("body {body}"),
+            (None, Some(link)) => link.clone(),
+            (None, None) => "-".into(),
+        },
+        scene.as_ref().map_or("-".into(), |scene| scene.scene.name.to_string()),
+        tare.map_or("-".into(), |frames| frames.to_string()),
+    ]
+}
+
+fn edge(robot: &ReadRobot, edge: &RobotEdge) -> String {
+    let board = &robot.boards[edge.board];
+    format!("{} {}, {} from {}", board.name, panel(board, edge), side(edge.side), edge.start)
+}
+
+fn panel<'a>(board: &'a RobotBoard, edge: &RobotEdge) -> &'a str {
+    let areas = board.garment.as_ref().map_or(&[][..], |worn| worn.layout.areas());
+    areas.get(usize::from(edge.panel)).map_or("?", |area| area.name.as_str())
+}
+
+fn side(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+        Side::Top => "top",
+        Side::Bottom => "bottom",
+    }
+}
+
+fn report(robot: &ReadRobot) -> Value {
+    let board = |board: &RobotBoard| {
+        let worn = board.garment.as_ref();
+        let areas = worn.map(|worn| worn.layout.areas());
+        let panels = areas.map(|areas| areas.iter().map(|area| area.name.as_str()).collect::<Vec<_>>());
+        json!({
+            "name": board.name,
+            "source": board.source.to_string(),
+            "serial": board.usb_serial,
+            "garment": worn.map(|worn| worn.garment.name.as_str()),
+            "taxels": worn.map(|worn| worn.layout.taxels()),
+            "panels": panels,
+            "scene": board.scene.as_ref().map(|scene| scene.scene.name.as_str()),
+            "tare": board.tare,
+            "body": board.body,
+            "link": board.link,
+        })
+    };
+    let end = |edge: &RobotEdge| {
+        let board = &robot.boards[edge.board];
+        json!({ "board": board.name, "panel": panel(board, edge), "side": side(edge.side), "start": edge.start })
+    };
+    let seam = |seam: &RobotSeam| json!({ "a": end(&seam.a), "b": end(&seam.b), "length": seam.length, "reversed": seam.reversed });
+    json!({
+        "robot": robot.name,
+        "urdf": robot.robot.as_ref().map(|described| described.file()),
+        "boards": robot.boards.iter().map(board).collect::<Vec<_>>(),
+        "seams": robot.seams.iter().map(seam).collect::<Vec<_>>(),
+    })
+}

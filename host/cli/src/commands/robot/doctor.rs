@@ -1,0 +1,83 @@
+//! `taxel robot doctor`: the diagnosis of each board.
+
+use crate::commands::board::doctor::{Finding, Grade, examine, first_cure, line, worst};
+use crate::fault::Fault;
+use anyhow::{Result, bail, ensure};
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::thread;
+use taxel::robot::{ReadRobot, RobotBoard};
+use taxel::source::SourceOptions;
+use taxel::tell::words;
+
+/// Arguments of `taxel robot doctor`.
+#[derive(Debug, Clone, Args)]
+pub struct RobotDoctorArgs {
+    /// The robot's file: robot.toml
+    file: PathBuf,
+    /// Seconds of each board to listen
+    #[arg(long, value_name = "S", default_value_t = 5.0, allow_negative_numbers = true)]
+    seconds: f64,
+    /// Print JSON instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command: all boards at once. Error if one does not work.
+pub fn run(args: &RobotDoctorArgs) -> Result<()> {
+    ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
+    let robot = ReadRobot::read(&args.file)?;
+    let all: Vec<Vec<Finding>> = thread::scope(|scope| {
+        let begin = |board| scope.spawn(move || diagnosed(board, args.seconds));
+        let begun: Vec<_> = robot.boards.iter().map(begin).collect();
+        begun.into_iter().map(|thread| thread.join().unwrap_or_default()).collect()
+    });
+    let worst_of_all = all.iter().map(|found| worst(found)).max().unwrap_or(Grade::Good);
+    let boards = || robot.boards.iter().zip(&all);
+    if args.json {
+        let told = boards().map(|(board, found)| {
+            json!({
+                "board": board.name, "source": board.source.to_string(), "verdict": worst(found), "findings": found,
+            })
+        });
+        let told: Value = told.collect();
+        println!(
+            "{}",
+            json!({ "type": "doctor", "robot": robot.name, "verdict": worst_of_all, "boards": told })
+        );
+    } else {
+        for (board, found) in boards() {
+            println!("{}: {}", board.name, board.source);
+            found.iter().for_each(|finding| println!("{}", line(finding)));
+        }
+    }
+    if let Some((board, found)) = boards().find(|(_, found)| worst(found) == Grade::Bad) {
+        let name = &board.name;
+        bail!(Fault::board(format!("board {name} does not work as it should: {}", first_cure(found))));
+    }
+    match worst_of_all {
+        _ if args.json => {}
+        Grade::Good => println!("All is well."),
+        Grade::Weak | Grade::Bad => println!("They work. What could be better is marked with !"),
+    }
+    Ok(())
+}
+
+/// What is found of a board.
+fn diagnosed(board: &RobotBoard, seconds: f64) -> Vec<Finding> {
+    let options = SourceOptions { seconds: Some(seconds), ..SourceOptions::default() };
+    let source = match board.open(&options) {
+        Ok(source) => source,
+        Err(error) => {
+            let cure = "`taxel ports` lists what is plugged in; docs/troubleshooting.md says more";
+            return vec![Finding::bad("link", words::sentence(&error), cure)];
+        }
+    };
+    let (mut found, heard) = examine(&board.source, source, seconds);
+    if let Err(error) = heard {
+        let cure = "`taxel doctor` with this source says more";
+        found.push(Finding::bad("link", words::sentence(error.as_ref()), cure));
+    }
+    found
+}

@@ -1,0 +1,56 @@
+//! `taxel robot`: all boards of a robot at once.
+
+mod args;
+mod check;
+mod doctor;
+mod live;
+mod record;
+mod tellers;
+
+use anyhow::Result;
+use clap::{Args, Subcommand};
+use doctor::RobotDoctorArgs;
+use live::RobotLiveArgs;
+use record::RobotRecordArgs;
+use std::path::PathBuf;
+
+/// Arguments of `taxel robot`.
+#[derive(Debug, Clone, Args)]
+pub struct RobotArgs {
+    #[command(subcommand)]
+    what: RobotTask,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum RobotTask {
+    /// Check a robot's file, and list its boards and seams; errors name line, board and key
+    #[command(after_help = "Example:\n  taxel robot check robot.toml")]
+    Check {
+        /// The robot's file: robot.toml
+        file: PathBuf,
+        /// Print JSON instead of tables
+        #[arg(long)]
+        json: bool,
+    },
+    /// Watch all boards: the lines of `taxel live`, each with its board
+    #[command(
+        after_help = "Examples:\n  taxel robot live robot.toml\n  taxel robot live robot.toml --json --tare arm=32"
+    )]
+    Live(RobotLiveArgs),
+    /// Record all boards in one file
+    #[command(after_help = "Example:\n  taxel robot record robot.toml -o touch.mcap --seconds 60")]
+    Record(RobotRecordArgs),
+    /// Diagnose all boards: what is wrong, and what to do about it
+    #[command(after_help = "Example:\n  taxel robot doctor robot.toml --json")]
+    Doctor(RobotDoctorArgs),
+}
+
+/// Runs the command.
+pub fn run(args: &RobotArgs) -> Result<()> {
+    match &args.what {
+        RobotTask::Check { file, json } => check::run(file, *json),
+        RobotTask::Live(args) => live::run(args),
+        RobotTask::Record(args) => record::run(args),
+        RobotTask::Doctor(args) => doctor::run(args),
+    }
+}

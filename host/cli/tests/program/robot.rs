@@ -1,0 +1,316 @@
+//! `taxel robot`: all boards of a robot, from outside.
+
+use crate::start::{root, taxel};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+use taxel::source::{self, SourceOptions};
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    Command::new(taxel()).current_dir(folder).args(args).stdin(Stdio::null()).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// A folder with this robot's file.
+fn folder(name: &str, robot: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("robot-{name}"));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("robot.toml"), robot).unwrap();
+    folder
+}
+
+/// The blocks of the document in this language.
+fn blocks(language: &str) -> Vec<String> {
+    let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
+    let begin = format!("```{language}\n");
+    let blocks = document.split(&begin).skip(1).map(|rest| rest.split("```").next().unwrap().to_string());
+    blocks.collect()
+}
+
+fn two() -> String {
+    let [two] = &blocks("toml")[..] else { panic!("the document has one file") };
+    two.clone()
+}
+
+#[test]
+fn the_commands_of_the_document_run() {
+    let folder = folder("document", &two());
+    _ = std::fs::remove_file(folder.join("touch.mcap"));
+    let commands = blocks("sh").concat();
+    let lines = commands.lines().map(|line| line.split(" # ").next().unwrap().trim());
+    let mut count = 0;
+    for line in lines.filter(|line| !line.is_empty()) {
+        let words: Vec<&str> = line.split(' ').collect();
+        let done = run(&folder, &words[1..]);
+        assert!(words[0] == "taxel" && done.status.success(), "{line}: {}", text(&done.stderr));
+        assert!(!done.stdout.is_empty() || line.contains("record"), "{line}");
+        count += 1;
+    }
+    assert_eq!(count, 6);
+}
+
+#[test]
+fn the_document_names_every_key_and_state() {
+    let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
+    let keys = "name urdf boards boards.name boards.source boards.serial boards.garment boards.scene boards.tare \
+                boards.body boards.link seams seams.a seams.b seams.length seams.reversed";
+    let states = "absent met lost back other dropped over failed";
+    for word in keys.split(' ').chain(states.split(' ')) {
+        assert!(
+            document.contains(&format!("| `{word}`")) || document.contains(&format!(", `{word}` |")),
+            "{word}"
+        );
+    }
+}
+
+#[test]
+fn check_lists_boards_and_seams_or_says_what_is_wrong() {
+    let good = folder("good", &two());
+    let done = run(&good, &["robot", "check", "robot.toml"]);
+    let table = "\
+robot two: 2 boards, 1 seam between them; reference: 12 links, base base_link
+board  source     garment     taxels  lies on         scene  tare
+torso  sim:five   reference   2048    body reference  -      -
+hand   sim:press  block-4x16  64      left_hand       -      32
+seam: torso left arm, bottom from 0 - hand mat, top from 0, 16 taxels
+";
+    assert_eq!(text(&done.stdout), table, "{}", text(&done.stderr));
+    let told = run(&good, &["robot", "check", "robot.toml", "--json"]);
+    let told: Value = serde_json::from_slice(&told.stdout).unwrap();
+    assert_eq!(
+        (&told["boards"][1]["panels"], &told["seams"][0]["a"]["board"]),
+        (&json!(["mat"]), &json!("torso"))
+    );
+    let bad = folder("bad", &two().replace("block-4x16", "block-4x61"));
+    let done = run(&bad, &["robot", "check", "robot.toml"]);
+    assert_eq!(done.status.code(), Some(2), "{}", text(&done.stderr));
+    let why = "error: robot.toml, line 13, `boards[1].garment`: board hand: there is no garment \"block-4x61\": did \
+               you mean \"block-4x16\"?";
+    assert!(text(&done.stderr).starts_with(why), "{}", text(&done.stderr));
+    let none = run(&good, &["robot", "check", "no-such.toml"]);
+    assert_eq!(none.status.code(), Some(1));
+    let unknown = run(&good, &["robot", "live", "robot.toml", "--tare", "hnad=3"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(text(&unknown.stderr).contains("--tare: there is no board \"hnad\": did you mean \"hand\"?"));
+}
+
+/// JSON lines by board, in order, without the board's name and the messages about boards.
+fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
+    let mut boards: BTreeMap<String, Vec<Value>> = BTreeMap::new();
+    for line in text(output).lines() {
+        let mut line: Value = serde_json::from_str(line).unwrap();
+        let board = line.as_object_mut().unwrap().remove("board").unwrap();
+        if line["type"] != "board" {
+            boards.entry(board.as_str().unwrap().into()).or_default().push(line);
+        }
+    }
+    boards
+}
+
+#[test]
+fn live_prints_of_each_board_what_live_prints_of_it_alone() {
+    let folder = folder("live", &two());
+    let done = run(&folder, &["robot", "live", "robot.toml", "--json", "--pixels", "--seconds", "1"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let together = by_board(&done.stdout);
+    let asked = [
+        ("torso", ["sim:five", "--garment", "reference", "--body", "reference"]),
+        ("hand", ["sim:press", "--garment", "block-4x16", "--tare", "32"]),
+    ];
+    for (name, asked) in asked {
+        let args = [&["live", "--source"][..], &asked, &["--json", "--pixels", "--seconds", "1"]].concat();
+        let alone = run(&folder, &args);
+        let alone: Vec<Value> =
+            text(&alone.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        assert!(
+            alone.len() > 300 && together[name] == alone,
+            "{name}: {} of {}",
+            together[name].len(),
+            alone.len()
+        );
+    }
+    let lines = run(&folder, &["robot", "live", "robot.toml", "--seconds", "1", "--tare", "hand=16"]);
+    let lines = text(&lines.stdout);
+    assert!(lines.lines().all(|line| line.starts_with("torso ") || line.starts_with("hand  ")), "{lines}");
+    assert!(lines.contains("hand  tare: done\n"), "{lines}");
+    assert_eq!(lines.matches(" end: ").count(), 2, "{lines}");
+}
+
+#[test]
+fn record_and_doctor_tell_of_all_boards() {
+    let folder = folder("record", &two());
+    let done =
+        run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let summary = text(&done.stderr);
+    assert!(summary.contains("\ntorso  1.0 s, 19") && summary.contains("\nhand   1.0 s, "), "{summary}");
+    let info = run(&folder, &["info", "touch.mcap", "--json"]);
+    let told: Value = serde_json::from_slice(&info.stdout).unwrap();
+    assert_eq!(told["whole"], true);
+    let again = run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1"]);
+    assert_eq!(again.status.code(), Some(1));
+    assert!(text(&again.stderr).contains("touch.mcap already exists"));
+    let over = run(&folder, &["robot", "record", "robot.toml", "-o", "robot.toml", "--force"]);
+    assert!(!over.status.success() && std::fs::read_to_string(folder.join("robot.toml")).unwrap() == two());
+    let doctor = run(&folder, &["robot", "doctor", "robot.toml", "--seconds", "1", "--json"]);
+    assert!(doctor.status.success(), "{}", text(&doctor.stderr));
+    let told: Value = serde_json::from_slice(&doctor.stdout).unwrap();
+    let boards = told["boards"].as_array().unwrap();
+    assert_eq!((boards[0]["board"].as_str(), boards[1]["board"].as_str()), (Some("torso"), Some("hand")));
+    let tested =
+        |board: &Value| board["findings"].as_array().unwrap().iter().any(|it| it["of"] == "self-test");
+    assert!(boards.iter().all(tested), "{told}");
+    let gone = two().replace("sim:press", "tcp:127.0.0.1:1");
+    std::fs::write(folder.join("gone.toml"), gone).unwrap();
+    let doctor = run(&folder, &["robot", "doctor", "gone.toml", "--seconds", "1"]);
+    assert_eq!(doctor.status.code(), Some(3), "{}", text(&doctor.stderr));
+    assert!(text(&doctor.stdout).contains("X link         tcp:127.0.0.1:1 cannot be reached"));
+}
+
+/// A place behind TCP into which a simulated board of any garment can be plugged; each connection finds it just
+/// after power-up.
+struct Socket {
+    address: String,
+    plugged: Arc<Mutex<Plugged>>,
+}
+
+#[derive(Default)]
+struct Plugged {
+    garment: Option<&'static str>,
+    /// Number of times that something was plugged in or out: older connections are cut.
+    times: u64,
+}
+
+impl Socket {
+    fn new(garment: &'static str) -> Socket {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap().to_string();
+        let plugged = Arc::new(Mutex::new(Plugged { garment: Some(garment), times: 0 }));
+        let known = plugged.clone();
+        std::thread::spawn(move || {
+            for stream in listener.incoming() {
+                serve(stream.unwrap(), &known);
+            }
+        });
+        Socket { address, plugged }
+    }
+
+    fn plug(&self, garment: Option<&'static str>) {
+        let mut plugged = self.plugged.lock().unwrap();
+        (plugged.garment, plugged.times) = (garment, plugged.times + 1);
+    }
+}
+
+/// Passes bytes between a connection and a simulated board until the board is unplugged.
+fn serve(mut stream: TcpStream, plugged: &Mutex<Plugged>) {
+    let (garment, times) = {
+        let plugged = plugged.lock().unwrap();
+        (plugged.garment, plugged.times)
+    };
+    let Some(garment) = garment else { return };
+    let options = SourceOptions {
+        garment: Some(garment.into()),
+        realtime: true,
+        repeat: true,
+        ..SourceOptions::default()
+    };
+    let mut board = source::open(&"sim:press".parse().unwrap(), &options).unwrap();
+    stream.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
+    let mut buffer = [0; 4096];
+    while plugged.lock().unwrap().times == times {
+        match stream.read(&mut buffer) {
+            Ok(0) => return,
+            Ok(count) => drop(board.port.write(&buffer[..count]).unwrap()),
+            Err(_) => {}
+        }
+        let Ok(Some(count)) = board.port.read(&mut buffer) else { return };
+        if stream.write_all(&buffer[..count]).is_err() {
+            return;
+        }
+    }
+}
+
+#[test]
+fn boards_that_are_pulled_come_back_in_another_order_and_never_under_another_name() {
+    const GARMENTS: [(&str, &str); 3] = [("a", "reference"), ("b", "block-4x16"), ("c", "mat-64x32")];
+    let sockets = GARMENTS.map(|(_, garment)| Socket::new(garment));
+    let boards: String = GARMENTS
+        .iter()
+        .zip(&sockets)
+        .map(|((name, garment), socket)| {
+            format!(
+                "[[boards]]\nname = \"{name}\"\nsource = \"tcp:{}\"\ngarment = \"{garment}\"\n",
+                socket.address
+            )
+        })
+        .collect();
+    let folder = folder("pulled", &format!("name = \"three\"\n{boards}"));
+    let mut program = Command::new(taxel())
+        .current_dir(&folder)
+        .args(["robot", "live", "robot.toml", "--json"])
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(program.stdout.take().unwrap()).lines();
+    let mut frames: BTreeMap<String, usize> = BTreeMap::new();
+    // Reads until each of these boards is in this state, and returns the messages about boards.
+    let mut until = |state: &str, boards: &[&str]| {
+        let mut missing = boards.to_vec();
+        let mut states = Vec::new();
+        while !missing.is_empty() {
+            let line: Value = serde_json::from_str(&lines.next().expect("it goes on").unwrap()).unwrap();
+            let board = line["board"].as_str().unwrap().to_string();
+            let garment = GARMENTS.iter().find(|(name, _)| *name == board).unwrap().1;
+            match line["type"].as_str().unwrap() {
+                "board" => {
+                    if line["state"] == state {
+                        missing.retain(|name| *name != board);
+                    }
+                    states.push(line);
+                }
+                "hello" => assert_eq!(line["garment"], garment),
+                "frame" => *frames.entry(board).or_default() += 1,
+                _ => {}
+            }
+        }
+        states
+    };
+    until("met", &["a", "b", "c"]);
+    sockets[0].plug(None);
+    sockets[1].plug(None);
+    let lost = until("lost", &["a", "b"]);
+    let since = |line: &Value| line["host_time_us"].as_u64().unwrap() - line["since_us"].as_u64().unwrap();
+    assert!(
+        lost.iter().filter(|line| line["state"] == "lost").all(|line| since(line) < 6_000_000),
+        "{lost:?}"
+    );
+    // The boards come back in each other's place, then in their own, the second one first.
+    sockets[0].plug(Some("block-4x16"));
+    sockets[1].plug(Some("reference"));
+    let others = until("other", &["a", "b"]);
+    assert!(others.iter().all(|line| line["state"] != "back"), "{others:?}");
+    let why =
+        others.iter().find(|line| line["state"] == "other" && line["board"] == "a").unwrap()["why"].clone();
+    let address = &sockets[0].address;
+    assert_eq!(
+        why,
+        format!("tcp:{address} answers with another board: it wears the garment block-4x16, not reference")
+    );
+    sockets[1].plug(Some("block-4x16"));
+    until("back", &["b"]);
+    sockets[0].plug(Some("reference"));
+    let back = until("back", &["a"]);
+    assert!(back.iter().all(|line| line["board"] != "c"), "{back:?}");
+    program.kill().unwrap();
+    program.wait().unwrap();
+    assert!(frames["c"] > frames["a"] && frames["c"] > 20, "{frames:?}");
+}

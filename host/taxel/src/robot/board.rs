@@ -1,0 +1,89 @@
+//! A board of a robot: how it is opened and recognised, and what is asked of it first.
+
+use super::identity::Identity;
+use super::recognise::recognised;
+use crate::client::Client;
+use crate::error::Result;
+use crate::session::setting;
+use crate::source::{self, SceneFile, Source, SourceOptions, SourceSpec};
+use taxel_core::garment::{Garment, Layout};
+use taxel_core::wire::Request;
+
+/// A board of a robot.
+#[derive(Debug, Clone)]
+pub struct RobotBoard {
+    /// Its name.
+    pub name: String,
+    /// Where it is found.
+    pub source: SourceSpec,
+    /// Its serial number on USB; none if any will do.
+    pub usb_serial: Option<String>,
+    /// The garment that it wears; none if any will do.
+    pub garment: Option<BoardGarment>,
+    /// Scene to send to it.
+    pub scene: Option<SceneFile>,
+    /// Frames of the tare; none for that of the source.
+    pub tare: Option<u16>,
+    /// Where its panels lie: path of a file, or name of a preset.
+    pub body: Option<String>,
+    /// Link of the robot that wears the whole garment.
+    pub link: Option<String>,
+}
+
+/// A garment of a board.
+#[derive(Debug, Clone)]
+pub struct BoardGarment {
+    /// Path of its file, or name of the preset.
+    pub name: String,
+    /// What it is.
+    pub garment: Garment,
+    /// Its geometry.
+    pub layout: Layout,
+}
+
+impl RobotBoard {
+    /// True if its source is a board that may be plugged in later.
+    pub fn is_real(&self) -> bool {
+        use SourceSpec::{Auto, Serial, Tcp, Usb};
+        matches!(self.source, Auto | Usb | Serial { .. } | Tcp(_))
+    }
+
+    /// Opens its source, and recognises the board if it is a real one.
+    pub fn open(&self, options: &SourceOptions) -> Result<Source> {
+        recognised(source::open(&self.source, &self.options(options))?, &self.identity())
+    }
+
+    /// What it is recognised by.
+    pub fn identity(&self) -> Identity {
+        Identity::new(self.usb_serial.clone(), self.garment.as_ref().map(|worn| worn.garment.clone()))
+    }
+
+    /// Options with which its source is opened.
+    pub fn options(&self, options: &SourceOptions) -> SourceOptions {
+        SourceOptions {
+            garment: self.garment.as_ref().map(|worn| worn.name.clone()),
+            body: self.body.clone(),
+            usb_serial: self.usb_serial.clone(),
+            ..options.clone()
+        }
+    }
+
+    /// Queues what is asked of it first: scene, body, stream, tare, and what presses on each link if it has a
+    /// body.
+    pub fn begin(&self, client: &mut Client, source: &Source) -> Result<()> {
+        if let Some(scene) = &self.scene {
+            setting::set_scene(client, scene)?;
+        }
+        // Before the tare, during which the board stores nothing.
+        if let Some((body, worn)) = self.body.as_ref().zip(self.garment.as_ref())
+            && !source.has_body
+        {
+            setting::set_body(client, body, &worn.name)?;
+        }
+        client.start(self.tare.unwrap_or(source.tare))?;
+        if self.body.is_some() {
+            client.request(&Request::SetPressing(u16::MAX))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,74 @@
+//! A robot's file as its author writes it.
+
+use serde::Deserialize;
+use taxel_core::garment::Side;
+
+/// A robot of several boards: `robot.toml`. Paths are relative to the folder of the file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotConfig {
+    /// Name of the robot.
+    pub name: String,
+    /// Its description: a URDF file, or `reference`.
+    pub urdf: Option<String>,
+    /// Its boards.
+    pub boards: Vec<BoardConfig>,
+    /// Edges of panels of different boards that are sewn together.
+    #[serde(default)]
+    pub seams: Vec<BoardSeam>,
+}
+
+/// A board of a robot.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoardConfig {
+    /// Its name: 1 to 32 letters, digits, `_` and `-`.
+    pub name: String,
+    /// Where it is found, as for `--source`.
+    pub source: String,
+    /// Serial number on USB, for the sources `auto` and `usb`.
+    pub serial: Option<String>,
+    /// The garment that it wears: a preset or a TOML file. A board that wears another one is not this board.
+    /// A simulated board is given this one.
+    pub garment: Option<String>,
+    /// Scene to send to it: a TOML file.
+    pub scene: Option<String>,
+    /// Number of frames whose mean is the baseline, 0 to 4096; that of a simulated script, else 0, if left
+    /// out.
+    pub tare: Option<u16>,
+    /// Where its panels lie on the robot's links: a TOML file, or `reference`.
+    pub body: Option<String>,
+    /// Link of the robot that wears the whole garment, if there is no body.
+    pub link: Option<String>,
+}
+
+/// Two edges of the same length, of panels of two boards, that are sewn together: taxel `i` of `a` adjoins
+/// taxel `i` of `b`, or `length - 1 - i` if `reversed`.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoardSeam {
+    /// First edge.
+    pub a: BoardEdge,
+    /// Second edge.
+    pub b: BoardEdge,
+    /// Taxels along the seam.
+    pub length: u16,
+    /// True if the two run in opposite directions.
+    #[serde(default)]
+    pub reversed: bool,
+}
+
+/// Part of a side of a panel, from taxel `start`.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoardEdge {
+    /// Name of the board.
+    pub board: String,
+    /// Name of the panel.
+    pub panel: String,
+    /// Side of the panel.
+    pub side: Side,
+    /// First taxel along that side.
+    #[serde(default)]
+    pub start: u16,
+}

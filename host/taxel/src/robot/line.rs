@@ -1,0 +1,53 @@
+//! How a board of a robot is, as JSON.
+
+use super::event::BoardEvent;
+use crate::tell::words;
+use serde::Serialize;
+
+/// Message about how a board is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "type", rename = "board")]
+pub struct BoardLine<'a> {
+    /// Name of the board.
+    pub board: &'a str,
+    /// `absent`, `met`, `lost`, `back`, `other`, `dropped`, `over` or `failed`, as [`BoardEvent`].
+    pub state: &'static str,
+    /// The host's time, us since 1970.
+    pub host_time_us: u64,
+    /// When a lost board was last heard, the host's time, us since 1970.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub since_us: Option<u64>,
+    /// How long a board was gone that is back, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after_s: Option<f64>,
+    /// Images dropped so far.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub images: Option<u64>,
+    /// Why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+impl<'a> BoardLine<'a> {
+    /// The message of an event at a host time; none for what the board itself says.
+    pub fn of<T>(board: &'a str, host_time_us: u64, event: &BoardEvent<T>) -> Option<BoardLine<'a>> {
+        let state = |state| {
+            let (since_us, after_s, images, why) = (None, None, None, None);
+            BoardLine { board, state, host_time_us, since_us, after_s, images, why }
+        };
+        let because = |line: BoardLine<'a>, why: &str| BoardLine { why: Some(why.into()), ..line };
+        Some(match event {
+            BoardEvent::News(_) => return None,
+            BoardEvent::Absent { why } => because(state("absent"), why),
+            BoardEvent::Met => state("met"),
+            BoardEvent::Lost { since_us, why } => {
+                because(BoardLine { since_us: Some(*since_us), ..state("lost") }, why)
+            }
+            BoardEvent::Back { after } => BoardLine { after_s: Some(after.as_secs_f64()), ..state("back") },
+            BoardEvent::Other { why } => because(state("other"), why),
+            BoardEvent::Dropped { images } => BoardLine { images: Some(*images), ..state("dropped") },
+            BoardEvent::Over => state("over"),
+            BoardEvent::Failed(error) => because(state("failed"), &words::sentence(error)),
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! A robot of several boards: its file, and all their streams as one.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `config.rs` | [`RobotConfig`]: the file `robot.toml` as its author writes it |
+//! | `place.rs` | file, line, board and key of an error |
+//! | `board.rs` | [`RobotBoard`]: how a board is opened and recognised, and what is asked of it first |
+//! | `seam.rs` | [`RobotSeam`]: edges of panels of different boards, sewn together |
+//! | `file.rs` | [`ReadRobot`]: the file and what it names, checked |
+//! | `identity.rs` | [`Identity`]: which board is which |
+//! | `recognise.rs` | recognises a board before anything is asked of it |
+//! | `event.rs` | [`RobotEvent`]: what the boards say, and how they are |
+//! | `line.rs` | how a board is, as JSON |
+//! | `queue.rs` | the events that wait, bounded for each board |
+//! | `refused.rs` | refusals of what a board is asked first |
+//! | `follow.rs` | follows one board in a thread of its own |
+//! | `session.rs` | [`RobotSession`]: all boards as one stream |
+//! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
+//! | `open.rs` | the boards of a file, followed |
+//!
+//! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
+//! it, at the start and each time that it comes back, its serial number on USB and its garment are compared
+//! with what is known of it: another board under its name is an event ([`BoardEvent::Other`]), and nothing
+//! that it sends is passed on. A board that is lost does not hold up the others.
+
+mod board;
+mod config;
+mod event;
+mod file;
+mod follow;
+mod identity;
+mod line;
+mod open;
+mod place;
+mod queue;
+mod recognise;
+mod recorder;
+mod refused;
+mod seam;
+mod session;
+
+pub use board::{BoardGarment, RobotBoard};
+pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
+pub use event::{BoardEvent, RobotEvent, Teller};
+pub use file::ReadRobot;
+pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
+pub use identity::Identity;
+pub use line::BoardLine;
+pub use queue::{WAITING, WhenFull};
+pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
+pub use seam::{RobotEdge, RobotSeam};
+pub use session::RobotSession;

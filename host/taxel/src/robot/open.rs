@@ -1,0 +1,48 @@
+//! The boards of a robot's file, followed.
+
+use super::board::RobotBoard;
+use super::event::Teller;
+use super::file::ReadRobot;
+use super::follow::BoardPlan;
+use super::queue::WhenFull;
+use super::session::RobotSession;
+use crate::error::Result;
+use crate::source::{self, SourceOptions};
+use std::time::Duration;
+
+impl<T: Send + 'static> RobotSession<T> {
+    /// Follows the boards of a robot's file; `teller` is asked for that of each board, by its number.
+    pub fn open(
+        robot: &ReadRobot,
+        when_full: WhenFull,
+        teller: impl FnMut(usize) -> Box<dyn Teller<T>>,
+    ) -> Result<RobotSession<T>> {
+        RobotSession::start(robot.plans(&SourceOptions::default(), None, teller), when_full)
+    }
+}
+
+impl ReadRobot {
+    /// Plans of the boards, in the order of the file, each for this much of its time; simulations have these
+    /// options, too.
+    pub fn plans<T>(
+        &self,
+        options: &SourceOptions,
+        limit: Option<Duration>,
+        mut teller: impl FnMut(usize) -> Box<dyn Teller<T>>,
+    ) -> Vec<BoardPlan<T>> {
+        let plan = |(number, board): (usize, &RobotBoard)| {
+            let (options, begins) = (board.options(options), board.clone());
+            let spec = board.source.clone();
+            BoardPlan {
+                name: board.name.clone(),
+                open: Box::new(move || source::open(&spec, &options)),
+                waits: board.is_real(),
+                identity: board.identity(),
+                begin: Box::new(move |client, source| begins.begin(client, source)),
+                teller: teller(number),
+                limit,
+            }
+        };
+        self.boards.iter().enumerate().map(plan).collect()
+    }
+}

@@ -1,0 +1,227 @@
+//! One recording of all boards of a robot.
+//!
+//! An MCAP file like that of one board, with the topics of each board below its name: `/taxel/BOARD/wire`,
+//! `/taxel/BOARD/frames` and so on, and attachments and metadata such as `BOARD/garment.toml`, `BOARD/taxel`,
+//! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards.
+//! Log time is the host's time, which all boards share.
+
+use super::event::Teller;
+use super::file::ReadRobot;
+use crate::client::clock::SteadyTime;
+use crate::client::{Client, Event, Worn};
+use crate::error::{Context, Result};
+use crate::files::output::{Force, Output};
+use crate::record::{COUNTS, Encoded, NS, Origin, RecordTopic, Stamp, Tally, Topics, attach};
+use crate::recording::{HELLO, Writer, attachment_of};
+use crate::source::Source;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
+const CHUNK: Duration = Duration::from_millis(500);
+/// Most time of a board between two chunks, us, so that readers can seek to any second.
+const CHUNK_US: u64 = 1_000_000;
+
+/// What a recording holds of an event of a board.
+#[derive(Debug)]
+pub struct BoardRecord {
+    messages: Vec<Encoded>,
+    /// The board's description, if it is new, and the frame of its `Hello`.
+    described: Option<Box<Described>>,
+    tally: Tally,
+}
+
+#[derive(Debug)]
+struct Described {
+    worn: Worn,
+    hello: Vec<u8>,
+    origin: Origin,
+}
+
+/// Encodes a board's events for a recording.
+#[derive(Debug, Default)]
+pub struct RecordTeller {
+    origin: Origin,
+    worn: Option<Worn>,
+}
+
+impl Teller<BoardRecord> for RecordTeller {
+    fn opened(&mut self, source: &Source) {
+        self.origin.label.clone_from(&source.label);
+        self.origin.counts_per_newton = source.counts_per_newton;
+    }
+
+    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
+        let mut messages = vec![Encoded::frame(client, stamp)];
+        messages.extend(Encoded::event(client, event, stamp)?);
+        let mut described = None;
+        if *event == Event::Hello && client.worn() != self.worn.as_ref() {
+            self.worn = client.worn().cloned();
+            described = self.worn.clone().map(|worn| {
+                let (hello, origin) = (client.line().to_vec(), self.origin.clone());
+                Box::new(Described { worn, hello, origin })
+            });
+        }
+        Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()) }))
+    }
+
+    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
+        let messages = Encoded::event(client, note, stamp)?.into_iter().collect();
+        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()) }))
+    }
+
+    fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<BoardRecord>> {
+        let messages = Encoded::requests(client, bytes, stamp)?;
+        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()) }))
+    }
+}
+
+/// A recording of a robot in progress.
+#[derive(Debug)]
+pub struct RobotRecorder {
+    path: PathBuf,
+    writer: Option<Writer<File>>,
+    boards: Vec<RecordedBoard>,
+    kept: Instant,
+    /// Bytes of the file.
+    bytes: u64,
+}
+
+/// What is recorded of a board.
+#[derive(Debug)]
+struct RecordedBoard {
+    name: String,
+    topics: Topics,
+    says_what: bool,
+    tally: Tally,
+    /// Host time of its first message in the chunk, us.
+    chunk_us: Option<u64>,
+    /// Host times of its first and last image, us.
+    frames_us: Option<[u64; 2]>,
+}
+
+impl RobotRecorder {
+    /// Creates the file. It gets its name once it is readable.
+    pub fn create(robot: &ReadRobot, path: &Path, force: Force) -> Result<RobotRecorder> {
+        let inputs = robot.inputs.iter().map(PathBuf::from);
+        let (file, begun) = Output::file(path, force, inputs)?.begin()?;
+        let what = || format!("{} cannot be written", path.display());
+        let mut writer = Writer::create(file, "").with_context(what)?;
+        let mut boards = Vec::new();
+        for board in &robot.boards {
+            boards.push(RecordedBoard {
+                topics: Topics::open(&mut writer, Some(&board.name)).with_context(what)?,
+                name: board.name.clone(),
+                says_what: false,
+                tally: Tally::default(),
+                chunk_us: None,
+                frames_us: None,
+            });
+        }
+        let names: Vec<&str> = robot.boards.iter().map(|board| board.name.as_str()).collect();
+        let words = [("name", robot.name.clone()), ("boards", names.join(","))];
+        let words: BTreeMap<_, _> = words.map(|(name, value)| (name.to_string(), value)).into();
+        writer.metadata("robot", words).with_context(what)?;
+        let now = SteadyTime::start().now_us().saturating_mul(NS);
+        writer.attach("robot.toml", "application/toml", robot.text.as_bytes(), now).with_context(what)?;
+        begun.name()?;
+        Ok(RobotRecorder { path: path.into(), writer: Some(writer), boards, kept: Instant::now(), bytes: 0 })
+    }
+
+    /// Writes what is recorded of an event of a board. On error the recording ends: what was recorded before
+    /// stays, and the file is completed.
+    pub fn take(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
+        let done = self.write(board, record);
+        self.guard(done)
+    }
+
+    /// Flushes to the disk what is due. Error as of [`RobotRecorder::take`].
+    pub fn keep(&mut self) -> Result<()> {
+        if self.kept.elapsed() < CHUNK {
+            return Ok(());
+        }
+        self.kept = Instant::now();
+        self.boards.iter_mut().for_each(|board| board.chunk_us = None);
+        let done = self.writer.as_mut().map_or(Ok(()), Writer::flush);
+        self.guard(done)
+    }
+
+    /// Writes the end of the file, unless written already.
+    pub fn finish(&mut self) -> Result<()> {
+        let Some(mut writer) = self.writer.take() else { return Ok(()) };
+        let path = self.path.display().to_string();
+        let incomplete = || format!("{path} could not be completed: `taxel info --repair` completes it");
+        let mut counted = Ok(());
+        for board in &self.boards {
+            let words = board.tally.words(Tally::default());
+            counted = counted.and(writer.metadata(&attachment_of(Some(&board.name), COUNTS), words));
+        }
+        let ended = writer.finish().map(|bytes| self.bytes = bytes);
+        ended.and(counted).with_context(incomplete)
+    }
+
+    /// A line for each board: images, their time, losses; and the size of the file.
+    pub fn summary(&self) -> String {
+        let wide = self.boards.iter().map(|board| board.name.len()).max().unwrap_or(0);
+        let mut text = String::new();
+        for RecordedBoard { name, tally, frames_us, .. } in &self.boards {
+            let seconds = frames_us.map_or(0.0, |[first, last]| last.saturating_sub(first) as f64 / 1e6);
+            text += &format!(
+                "{name:wide$}  {seconds:.1} s, {} frames, {} lost, {} thinned\n",
+                tally.frames, tally.lost, tally.thinned
+            );
+        }
+        let bytes = self.writer.as_ref().map_or(self.bytes, Writer::bytes);
+        text + &format!("{}: {:.2} MB\n", self.path.display(), bytes as f64 / 1e6)
+    }
+
+    fn write(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
+        let (Some(writer), Some(recorded)) = (&mut self.writer, self.boards.get_mut(board)) else {
+            return Ok(());
+        };
+        recorded.tally = record.tally;
+        if let Some(described) = &record.described {
+            let Described { worn, hello, origin } = &**described;
+            let ns = record.messages.first().map_or(0, |message| message.stamp.host_ns());
+            if !std::mem::replace(&mut recorded.says_what, true) {
+                let name = attachment_of(Some(&recorded.name), HELLO);
+                writer.attach(&name, "application/octet-stream", hello, ns)?;
+            }
+            attach(writer, worn, origin, ns, Some(&recorded.name))?;
+        }
+        for Encoded { topic, stamp, bytes } in &record.messages {
+            if *topic == RecordTopic::Json("frames") {
+                let first = recorded.frames_us.map_or(stamp.host_us, |[first, _]| first);
+                recorded.frames_us = Some([first, stamp.host_us]);
+            }
+            let Some(channel) = recorded.topics.channel(*topic) else { continue };
+            writer.message(channel, stamp.host_ns(), stamp.board_ns(), bytes)?;
+            recorded.chunk_us.get_or_insert(stamp.host_us);
+        }
+        let last = record.messages.last().map(|message| message.stamp.host_us);
+        // By each board's own course: simulations run ahead of each other.
+        if let Some((began, last)) = recorded.chunk_us.zip(last)
+            && last.abs_diff(began) >= CHUNK_US
+        {
+            writer.close()?;
+            self.boards.iter_mut().for_each(|board| board.chunk_us = None);
+        }
+        Ok(())
+    }
+
+    /// Ends the recording on a write error.
+    fn guard(&mut self, done: Result<()>) -> Result<()> {
+        let Err(error) = done else { return Ok(()) };
+        // The first of two errors is reported.
+        let kept = match self.writer.take().map(Writer::finish) {
+            Some(Ok(bytes)) => {
+                self.bytes = bytes;
+                "what was recorded before is whole"
+            }
+            _ => "its end is missing: `taxel info --repair` completes it",
+        };
+        Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
+    }
+}

@@ -1,0 +1,123 @@
+//! All boards of a robot, each followed in a thread of its own, as one stream.
+
+use super::event::RobotEvent;
+use super::follow::{Ask, BoardPlan, follow};
+use super::queue::{EventQueue, WhenFull};
+use crate::client::Client;
+use crate::error::{Result, UsageError};
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::thread::{Builder, JoinHandle};
+use std::time::Duration;
+
+/// Stack of a board's thread: what a `Hello` holds is decoded on it.
+const STACK: usize = 8 << 20;
+
+/// A robot's boards as one stream. Dropping it closes all connections.
+///
+/// ```
+/// use std::path::Path;
+/// use std::time::Duration;
+/// use taxel::client::Event;
+/// use taxel::robot::{BoardEvent, ReadRobot, RobotSession, WhenFull};
+///
+/// let text = "name = \"two\"\n[[boards]]\nname = \"left\"\nsource = \"sim:pat\"\n\
+///             [[boards]]\nname = \"right\"\nsource = \"sim:pat\"\n";
+/// let read = ReadRobot::parse("two.toml".into(), text.into(), Path::new("."))?;
+/// let contacts = |client: &taxel::client::Client, event: &Event, _| {
+///     matches!(event, Event::Contacts { .. }).then(|| client.contacts().len())
+/// };
+/// let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(contacts))?;
+/// let mut most = [0, 0];
+/// while let Some(event) = robot.wait(Duration::from_secs(1)) {
+///     if let BoardEvent::News(contacts) = event.what {
+///         most[event.board] = contacts.max(most[event.board]);
+///     }
+/// }
+/// assert!(robot.is_over() && most[0] > 0 && most[0] == most[1]);
+/// # Ok::<(), taxel::Error>(())
+/// ```
+pub struct RobotSession<T> {
+    queue: Arc<EventQueue<T>>,
+    boards: Vec<FollowedBoard>,
+}
+
+struct FollowedBoard {
+    name: String,
+    asks: Sender<Ask>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// Ends a board's part of the queue, also if its thread panics.
+struct FollowEnd<T>(Arc<EventQueue<T>>, usize);
+
+impl<T> Drop for FollowEnd<T> {
+    fn drop(&mut self) {
+        self.0.end(self.1);
+    }
+}
+
+impl<T: Send + 'static> RobotSession<T> {
+    /// Follows these boards.
+    pub fn start(plans: Vec<BoardPlan<T>>, when_full: WhenFull) -> Result<RobotSession<T>> {
+        let queue = Arc::new(EventQueue::new(plans.len()));
+        let mut session = RobotSession { queue: queue.clone(), boards: Vec::new() };
+        for (board, plan) in plans.into_iter().enumerate() {
+            let (asks, asked) = channel();
+            let (name, queue) = (plan.name.clone(), queue.clone());
+            let thread = Builder::new().name(name.clone()).stack_size(STACK).spawn(move || {
+                let end = FollowEnd(queue.clone(), board);
+                follow(board, plan, queue, when_full, &asked);
+                drop(end);
+            })?;
+            session.boards.push(FollowedBoard { name, asks, thread: Some(thread) });
+        }
+        Ok(session)
+    }
+
+    /// Takes the next event; none if there is none within this time, or [no more](RobotSession::is_over).
+    /// Events of a board come in their order, those of several boards as they arrive.
+    pub fn wait(&mut self, patience: Duration) -> Option<RobotEvent<T>> {
+        self.queue.take(patience)
+    }
+
+    /// True once every board is over and all events are taken.
+    pub fn is_over(&self) -> bool {
+        self.queue.is_over()
+    }
+
+    /// Names of the boards.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.boards.iter().map(|board| board.name.as_str())
+    }
+
+    /// Images of a board that were dropped so far, because events were not taken in time.
+    pub fn dropped(&self, board: usize) -> u64 {
+        self.queue.dropped(board)
+    }
+
+    /// Asks something of a board, in its thread: its client takes requests, also while the board is lost, and
+    /// lasting settings are sent once it is back. An error ends the board with
+    /// [`BoardEvent::Failed`](super::BoardEvent::Failed). Error if there is no such board or it is over.
+    pub fn ask(
+        &self,
+        board: usize,
+        ask: impl FnOnce(&mut Client) -> Result<()> + Send + 'static,
+    ) -> Result<()> {
+        let Some(followed) = self.boards.get(board) else {
+            fail!(UsageError::Argument, "the robot has no board number {board}");
+        };
+        let over = |_| UsageError::Argument(format!("board {} is over", followed.name));
+        Ok(followed.asks.send(Box::new(ask)).map_err(over)?)
+    }
+}
+
+impl<T> Drop for RobotSession<T> {
+    fn drop(&mut self) {
+        self.queue.close();
+        for board in &mut self.boards {
+            // A panic has been printed.
+            board.thread.take().map(JoinHandle::join);
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! A robot of several boards: its file, boards that are lost and come back, and other boards in their place.
+
+mod boards;
+mod file;
+mod losses;
+mod recorded;

@@ -1,0 +1,95 @@
+//! One recording of all boards holds of each what a recording of the board alone holds.
+
+use super::boards::{BOARDS, alone, robot};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use taxel::files::output::Force;
+use taxel::json::message;
+use taxel::record::{COUNTS, Play, Tally};
+use taxel::recording::{Messages, Overview, boards, scan};
+use taxel::robot::{BoardEvent, RecordTeller, RobotRecorder, RobotSession, WhenFull};
+use taxel::session::Session;
+
+/// Records the three boards to their ends.
+fn record(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let read = robot();
+    let mut recorder = RobotRecorder::create(&read, &path, Force { force: true }).unwrap();
+    let mut session =
+        RobotSession::open(&read, WhenFull::Wait, |_| Box::new(RecordTeller::default())).unwrap();
+    while let Some(event) = session.wait(Duration::from_secs(30)) {
+        if let BoardEvent::News(record) = event.what {
+            recorder.take(event.board, &record).unwrap();
+        }
+        recorder.keep().unwrap();
+    }
+    recorder.finish().unwrap();
+    path
+}
+
+#[test]
+fn each_board_is_read_back_as_it_is_alone() {
+    let path = record("robot.mcap");
+    assert!(scan(&path).unwrap().whole);
+    let overview = Overview::of(&path).unwrap();
+    let topics = overview.channels.iter().map(|info| info.channel.topic.as_str());
+    assert_eq!(boards(topics), BOARDS.map(|(name, ..)| name));
+    let words = overview.words("robot").unwrap();
+    assert_eq!((words["name"].as_str(), words["boards"].as_str()), ("three", "chest,arm,back"));
+    assert_eq!(overview.attached("robot.toml").unwrap().unwrap(), robot().text.as_bytes());
+    for board in BOARDS {
+        let (name, alone) = (board.0, alone(board));
+        let mut play = Play::of_board(&path, Some(name)).unwrap();
+        let mut played = Vec::new();
+        while let Some((_, event)) = play.next_event().unwrap() {
+            played.push(message(play.client(), &event).to_string());
+        }
+        assert!(played == alone, "{name}: {} events of {}", played.len(), alone.len());
+        // As a source it is that board again.
+        let mut session = Session::open(&format!("replay:{}#{name}@max", path.display())).unwrap();
+        let mut replayed = Vec::new();
+        while let Some(event) = session.wait().unwrap() {
+            replayed.push(message(session.client(), &event).to_string());
+        }
+        assert!(replayed == alone, "{name}: {} messages of {}", replayed.len(), alone.len());
+        let tally = Tally::of(play.client().counts());
+        assert_eq!(overview.words(&format!("{name}/{COUNTS}")).and_then(Tally::read), Some(tally));
+        assert_eq!(overview.words(&format!("{name}/taxel")).unwrap()["garment"], board.2);
+        // The JSON of a topic is that of the line, with the host's time.
+        let mut contacts = Messages::of_topic(&path, &format!("/taxel/{name}/contacts")).unwrap();
+        let mut lines = alone.iter().filter(|line| line.contains("\"type\":\"contacts\""));
+        while let Some(message) = contacts.next_message().unwrap() {
+            let mut told: Value = serde_json::from_slice(message.data).unwrap();
+            let host_us = told.as_object_mut().unwrap().remove("host_time_us").unwrap();
+            assert_eq!(host_us.as_u64().unwrap() * 1000, message.header.log_time);
+            assert_eq!(Some(&told), lines.next().map(|line| serde_json::from_str(line).unwrap()).as_ref());
+        }
+        assert_eq!(lines.next(), None, "{name}");
+    }
+}
+
+#[test]
+fn a_recording_of_a_robot_is_opened_by_the_name_of_a_board() {
+    let path = record("robot-named.mcap");
+    let why = |board: &str| {
+        let error = Session::open(&format!("replay:{}{board}", path.display())).err().unwrap();
+        error.to_string().replace(&path.display().to_string(), "FILE")
+    };
+    assert_eq!(why(""), "FILE is of a robot's boards, chest, arm, back: name one, replay:FILE#chest");
+    let unknown = "FILE: there is no board \"bakc\": did you mean \"back\"? Known are chest, arm, back";
+    assert_eq!(why("#bakc"), unknown);
+}
+
+#[test]
+fn a_recording_is_not_replaced_unless_asked() {
+    let path = record("robot-kept.mcap");
+    let before = std::fs::read(&path).unwrap();
+    let error = RobotRecorder::create(&robot(), &path, Force { force: false }).unwrap_err();
+    assert!(error.to_string().contains("robot-kept.mcap already exists"), "{error}");
+    assert_eq!(std::fs::read(&path).unwrap(), before);
+    let mut read = robot();
+    read.inputs.push(path.display().to_string());
+    let error = RobotRecorder::create(&read, &path, Force { force: true }).unwrap_err();
+    assert_eq!(std::fs::read(&path).unwrap(), before, "{error}");
+}
