@@ -55,7 +55,7 @@ fn early_intentions_with_and_without_touches_of_the_same_day() {
     let alone = touches::TrainSettings { early: [None; touches::EARLY], ..intent::SETTINGS };
     let early = |data: &touches::Data, settings: &touches::TrainSettings| {
         let report = touches::cross(data, settings, &intent::times()).unwrap().json();
-        // Decisions after 3 frames, after 10, and of the whole.
+        // Decisions after 3, 10 and 80 frames, or at the end of shorter touches.
         [2, 7, 11].map(|step| share(&report, &format!("/over_time/{step}/accuracy")))
     };
     let rows = [("touches, in eight parts", &parts), ("days", &days)].map(|(apart, data)| {
