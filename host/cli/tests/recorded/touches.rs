@@ -42,6 +42,35 @@ fn intentions_on_days_that_were_kept_apart() {
     assert!(share(&report, "/accuracy") > 0.75 && share(&report, "/recall/attack") > 0.75);
 }
 
+/// Decisions after 3 frames need the early expert, and touches of the same day in training: docs/models.md.
+#[test]
+fn early_intentions_with_and_without_touches_of_the_same_day() {
+    let files = touches::Files {
+        frames: data("social_touch/frames.npz"),
+        labels: Some(data("social_touch/labels.csv")),
+    };
+    let days = intent::load(&files, intent::Apart::Day).unwrap();
+    let mut parts = days.clone();
+    parts.touches.iter_mut().enumerate().for_each(|(n, touch)| touch.group = (n % 8).to_string());
+    let alone = touches::TrainSettings { early: [None; touches::EARLY], ..intent::SETTINGS };
+    let early = |data: &touches::Data, settings: &touches::TrainSettings| {
+        let report = touches::cross(data, settings, &intent::times()).unwrap().json();
+        // Decisions after 3, 10 and 80 frames, or at the end of shorter touches.
+        [2, 7, 11].map(|step| share(&report, &format!("/over_time/{step}/accuracy")))
+    };
+    let rows = [("touches, in eight parts", &parts), ("days", &days)].map(|(apart, data)| {
+        let [shipped, alone] = [&intent::SETTINGS, &alone].map(|settings| early(data, settings));
+        let cells = shipped.iter().chain(&alone).map(|share| format!("{:.0} %", 100.0 * share));
+        let row = format!("| {apart} | {} |", cells.collect::<Vec<_>>().join(" | "));
+        println!("{row}");
+        (shipped[0], alone[0], row)
+    });
+    for ((shipped, alone, row), least) in rows.iter().zip([0.65, 0.5]) {
+        says("models.md", row);
+        assert!(*shipped >= least && *shipped > alone + 0.05, "{row}");
+    }
+}
+
 /// Settings by which the shipped base `objects` was trained.
 const RECIPE: [&str; 6] = ["--shrinkage", "0.01", "--pull", "0.25", "--k", "2"];
 
