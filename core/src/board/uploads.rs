@@ -10,9 +10,9 @@ use heapless::Vec;
 /// What a table in flash holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableKind {
-    /// Where the taxels lie, see [`Table`].
+    /// Where the taxels lie, see [`Table`](crate::surface::Table).
     Surface,
-    /// What the garment's folds press, see [`FoldTable`].
+    /// What the garment's folds press, see [`FoldTable`](crate::fold::FoldTable).
     Folds,
 }
 
