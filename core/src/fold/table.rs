@@ -15,7 +15,7 @@
 //! | 20 .. 24 | sum of the garment's layout, see [`Layout::sum`] |
 //! | 24 .. 280 | names of the joints, 16 bytes each, filled with zeros |
 //! | 280 .. | a [`FoldRecord`] for each fold |
-//! | | numbers of the taxels of each fold, 2 bytes each, ascending, filled up with [`NO_TAXEL`]; no taxel is in two folds |
+//! | | taxels of each fold, 2 bytes each, ascending, filled up with [`NO_TAXEL`]; none is in two folds |
 //! | | for each fold: its cells, knot by knot, then the most that each of its taxels may feel at any knot |
 //!
 //! The cells of a knot are 12 bytes for each four taxels: their means, their spreads, their days (see

@@ -8,10 +8,15 @@ mod glvq;
 use crate::shape::kinds::{GENERATORS, Quality};
 use examples::{ExampleSet, GRIDS, drawn};
 use glvq::{Learned, learn};
+use std::sync::LazyLock;
 use taxel_core::shape::Base;
 
 /// Images of each generator, grid and quality.
 const EACH: usize = 900;
+
+/// What the base is learned from, and that base: for all tests.
+static DRAWN: LazyLock<Vec<ExampleSet>> = LazyLock::new(|| drawn(EACH, 1));
+static ALL: LazyLock<Learned> = LazyLock::new(|| learned(DRAWN.iter()));
 
 /// What is learned from some sets, each of which counts as much.
 fn learned<'a>(sets: impl Iterator<Item = &'a ExampleSet>) -> Learned {
@@ -25,18 +30,16 @@ fn learned<'a>(sets: impl Iterator<Item = &'a ExampleSet>) -> Learned {
 
 #[test]
 fn the_built_in_base_is_what_three_generators_give() {
-    let base = learned(drawn(EACH, 1).iter());
-    base.print();
+    ALL.print();
     let built_in = Base::BUILT_IN;
     let held: Vec<_> = built_in.prototypes.iter().map(|known| (known.class, known.features)).collect();
-    assert_eq!(base.prototypes(), held);
+    assert_eq!(ALL.prototypes(), held);
 }
 
 #[test]
 fn a_generator_that_was_left_out_is_known() {
-    let (sets, others) = (drawn(EACH, 1), drawn(600, 2));
-    let all = learned(sets.iter());
-    let left_out = GENERATORS.map(|kind| learned(sets.iter().filter(|set| set.kind != kind)));
+    let others = drawn(600, 2);
+    let left_out = GENERATORS.map(|kind| learned(DRAWN.iter().filter(|set| set.kind != kind)));
     println!("grid, quality: all generators learned, each left out");
     for grid in GRIDS {
         for (quality, least) in [Quality::Clean, Quality::Noisy, Quality::Hard].into_iter().zip(least(grid)) {
@@ -45,7 +48,7 @@ fn a_generator_that_was_left_out_is_known() {
                     others.iter().find(|set| (set.kind, set.quality, set.grid) == (kind, quality, grid));
                 &set.expect("there is one of each").examples
             };
-            let known = GENERATORS.map(|kind| all.percent(own(kind)));
+            let known = GENERATORS.map(|kind| ALL.percent(own(kind)));
             let unknown = [0, 1, 2].map(|i| left_out[i].percent(own(GENERATORS[i])));
             println!("{} x {} {quality:?}: {known:.1?}, {unknown:.1?}", grid[0], grid[1]);
             for (known, unknown) in known.into_iter().zip(unknown) {
