@@ -4,7 +4,7 @@ use super::outputs::Outputs;
 use super::rebuilds::Rebuilds;
 use super::refusal::Refusal;
 use super::uploads::TableKind;
-use super::work::Work;
+use super::work::{FULL, Work};
 use super::{Board, reading};
 use crate::condition::Certificate;
 use crate::contact::Forms;
@@ -296,7 +296,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     fn start(&mut self, work: Work) {
         if self.works.push_back(work).is_err() {
-            self.outbox.answer(work.request(), Some(Refusal::of("too much is waiting to be done")));
+            self.outbox.answer(work.request(), Some(Refusal::of(FULL)));
         }
     }
 }

@@ -2,15 +2,12 @@
 
 use super::refusal::Refusal;
 use super::uploads::{PieceToStore, TableKind, Upload};
-use super::work::Work;
+use super::work::{FULL, Work};
 use super::{Board, reading};
 use crate::fold::FoldTable;
 use crate::format::{Invalid, Micros};
 use crate::surface::Table;
 use crate::wire::{TABLE_PIECE, TablePiece};
-
-/// Refusal of work.
-const FULL: &str = "too much is waiting to be done";
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Gives the board a table that its flash holds, after its garment and scene.

@@ -3,6 +3,9 @@
 use super::uploads::TableKind;
 use crate::wire::Request;
 
+/// Refusal of work.
+pub const FULL: &str = "too much is waiting to be done";
+
 /// Number of `Tare`, which is answered when it is done.
 pub(super) const TARE: u8 = 2;
 

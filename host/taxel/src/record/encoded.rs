@@ -87,6 +87,7 @@ impl Encoded {
         let line = PosesLine { time_us: stamp.board_us, links: links.collect() };
         Ok(Encoded { topic: RecordTopic::Json("poses"), stamp, bytes: message::with_times(line, stamp)? })
     }
+
     /// A posture sent to the board; `names` are the scene's joints.
     fn posture(posture: &Posture, names: &[Name], stamp: Stamp) -> Result<Encoded> {
         let joint = |told: &JointAngle| {
