@@ -10,6 +10,7 @@
 //! from 0).
 
 mod csv;
+mod header;
 mod npy;
 mod npz;
 mod room;
@@ -125,7 +126,7 @@ fn open(path: &Path) -> Result<OpenFile> {
     let file = File::open(path).map_err(unread).context("cannot be read")?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
-        _ if start.starts_with(npy::MAGIC) => Ok(OpenFile::Array(file, size)),
+        _ if start.starts_with(header::MAGIC) => Ok(OpenFile::Array(file, size)),
         _ if start.starts_with(b"PK") => npz::Archive::open(file).map(OpenFile::Archive),
         "csv" | "txt" => Ok(OpenFile::Text(file)),
         "npy" => fail!(ArrayError::NotAnArray, "not a NumPy array"),
