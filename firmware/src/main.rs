@@ -6,6 +6,7 @@
 mod adc;
 mod board;
 mod copy;
+mod divide;
 mod guard;
 mod led;
 mod levels;

@@ -1,7 +1,7 @@
 //! The images of a frame, cleared where they may be non-zero.
 //!
-//! Rows that are calibrated and filtered as a whole are not cleared first, but overwritten. Those that are no
-//! longer active are cleared once that is known, before the filter reads them.
+//! Rows that are calibrated as a whole are not cleared first, but overwritten; nor are those that are filtered
+//! as a whole. Those that are no longer active are cleared once that is known, before the filter reads them.
 
 use super::row_set::RowSet;
 use super::row16::ROW16;
@@ -45,32 +45,35 @@ impl<const TAXELS: usize> Images<TAXELS> {
 
     /// Clears both images; returns the rows left for overwriting, none if no panel was active. These are no
     /// longer [held](Rows), and may still be non-zero. `overwritten`: the filter writes whole rows of
-    /// sixteen.
+    /// sixteen; without that, only the image before the filter is left for overwriting.
     pub fn clear(&mut self, layout: &Layout, codes: usize, overwritten: bool) -> Option<RowSet> {
         if self.active == 0 {
             return None;
         }
-        // Consecutive rows are cleared together, which is faster than finding their columns.
-        let mut held = 0..0;
         for (_, area) in areas_of(layout, self.active) {
-            if overwritten && self.are_overwritten(area, codes) {
+            let calibrated = self.are_overwritten(area, codes);
+            if calibrated && overwritten {
                 continue;
             }
+            // Consecutive rows are cleared together, which is faster than finding their columns.
+            let mut held = 0..0;
             let columns = usize::from(area.columns);
             let end = area.first_row.saturating_add(area.rows);
             let mut row = area.first_row;
             while let Some(number) = self.rows.next(row..end) {
                 row = number + 1;
-                self.rows.set(number, 0);
+                if !calibrated {
+                    self.rows.set(number, 0);
+                }
                 let start = usize::from(area.base) + usize::from(number - area.first_row) * columns;
                 if start != held.end {
-                    self.clear_taxels(&held);
+                    self.clear_taxels(&held, calibrated);
                     held.start = start;
                 }
                 held.end = start + columns;
             }
+            self.clear_taxels(&held, calibrated);
         }
-        self.clear_taxels(&held);
         self.rows.forget_shared();
         self.active = 0;
         Some(self.rows.release())
@@ -102,8 +105,10 @@ impl<const TAXELS: usize> Images<TAXELS> {
         }
     }
 
-    fn clear_taxels(&mut self, taxels: &Range<usize>) {
-        for image in [&mut self.calibrated, &mut self.filtered] {
+    /// Clears some taxels of the filtered image, and of the other one if it is not `calibrated` anew.
+    fn clear_taxels(&mut self, taxels: &Range<usize>, calibrated: bool) {
+        let before = (!calibrated).then_some(&mut self.calibrated);
+        for image in before.into_iter().chain([&mut self.filtered]) {
             if let Some(held) = image.get_mut(taxels.clone()) {
                 held.fill(0);
             }

@@ -7,6 +7,8 @@
 
 #[path = "../copy.rs"]
 mod copy;
+#[path = "../divide.rs"]
+mod divide;
 #[path = "../mark.rs"]
 mod mark;
 
