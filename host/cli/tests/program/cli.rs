@@ -196,7 +196,7 @@ fn maps_are_made_of_maps() {
     let attack = |value: &Value| value["activations"]["attack"].as_f64().unwrap();
     assert!(attack(&why) > 0.9 && attack(&why["what_if"]) < 0.5, "{why}");
     let touches =
-        file("touches.csv", b"blow,location,label\n0.9,0.1,attack\n0.1,0.9,none\n0.8,0,attack\n0,0,none\n");
+        file("blows.csv", b"blow,location,label\n0.9,0.1,attack\n0.1,0.9,none\n0.8,0,attack\n0,0,none\n");
     let learned = json(&[
         "fcm",
         "learn",
