@@ -1,6 +1,8 @@
 //! Tests of the program and its examples from outside.
 
+mod bodies;
 mod builds;
+mod called;
 mod cli;
 mod commands;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
@@ -28,6 +30,7 @@ mod robot;
 #[cfg(feature = "ros2")]
 mod ros2;
 mod schemas;
+mod set_up;
 #[path = "../commands/sink.rs"]
 mod sink;
 mod start;
