@@ -2,7 +2,7 @@
 //! robot, and what is felt where the garment folds, is what the same core says on this machine, also while the
 //! robot moves. `cargo xtask test --only emulator-surface`.
 
-mod moving;
+pub mod moving;
 
 use crate::board::Emulated;
 use crate::twin::{Course, DWELL, RATE_HZ, same, scene};
@@ -23,7 +23,7 @@ const REST: u16 = 130;
 const FRAMES: usize = 40;
 
 /// The reference body's table.
-fn table() -> (&'static [u8], Surface) {
+pub fn table() -> (&'static [u8], Surface) {
     let garment = Garment::reference();
     let layout = Layout::build(&garment, TAXELS, 4095).unwrap();
     let surface = body::read("reference").unwrap().surface(&garment, &layout).unwrap();
@@ -65,6 +65,13 @@ fn storing(
         board
     };
     let mut board = start();
+    store(&mut board, tables);
+    board.end();
+    start()
+}
+
+/// Sends a board these tables, piece by piece.
+pub fn store(board: &mut Emulated, tables: &[(TableKind, &'static [u8])]) {
     for (kind, table) in tables {
         for (index, bytes) in table.chunks(TABLE_PIECE).enumerate() {
             let (length, offset) = (table.len() as u32, (index * TABLE_PIECE) as u32);
@@ -75,8 +82,6 @@ fn storing(
             });
         }
     }
-    board.end();
-    start()
 }
 
 /// Codes of five contacts, a frame in each 50 ms. Without a tare what rests is to read as no pressure.

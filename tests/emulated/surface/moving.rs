@@ -31,13 +31,13 @@ fn elbow(us: u64) -> f64 {
 }
 
 /// A robot in a garment.
-struct Moving {
+pub struct Moving {
     robot: Arc<Robot>,
     surface: RobotSurface,
 }
 
 impl Moving {
-    fn new(garment: &Garment, layout: &Layout) -> Moving {
+    pub fn new(garment: &Garment, layout: &Layout) -> Moving {
         let robot = Arc::new(robot::read("reference").unwrap());
         let body = body::read("reference").unwrap();
         Moving { surface: body.on_robot(garment, layout, robot.clone()).unwrap(), robot }
@@ -57,7 +57,7 @@ impl Moving {
     }
 
     /// What is told of the robot after so many us.
-    fn told(&self, us: u64) -> Told {
+    pub fn told(&self, us: u64) -> Told {
         let bent = JointAngle { joint: 0, centidegrees: (100.0 * elbow(us)) as i16 };
         Told {
             us,
@@ -69,11 +69,17 @@ impl Moving {
 
 /// Codes of five contacts, and of what the elbow presses, scan by scan.
 fn codes(garment: &Garment, layout: &Layout) -> Vec<u16> {
-    let table = FoldTable::check(&FOLDS.0, layout).unwrap();
-    let (fold, unit) = (table.folds()[0], f64::from(table.unit()));
     let script = scale_rate(&load("five").unwrap(), 0.6);
     let mut codes = frame_codes(&script, garment, SCAN_US, SCANS).unwrap();
     codes.iter_mut().for_each(|code| *code = code.saturating_sub(REST));
+    bend(&mut codes, layout);
+    codes
+}
+
+/// Adds what the elbow presses to codes, scan by scan.
+pub fn bend(codes: &mut [u16], layout: &Layout) {
+    let table = FoldTable::check(&FOLDS.0, layout).unwrap();
+    let (fold, unit) = (table.folds()[0], f64::from(table.unit()));
     for (scan, frame) in codes.chunks_mut(TAXELS).enumerate() {
         let along = 100.0 * elbow(scan as u64 * SCAN_US) / f64::from(fold.step[0]);
         let (knot, share) = (along as usize, along.fract());
@@ -83,7 +89,6 @@ fn codes(garment: &Garment, layout: &Layout) -> Vec<u16> {
             frame[usize::from(*taxel)] += (unit * (below + (above - below) * share)) as u16;
         }
     }
-    codes
 }
 
 fn metres(um: [i32; 3]) -> DVec3 {
