@@ -91,7 +91,7 @@ struct ListedBoard {
     scans_us: Option<[u64; 2]>,
     /// Time between two scans, us.
     interval_us: u64,
-    contacts: Vec<Listed>,
+    contacts: Vec<ListedContact>,
 }
 
 impl Default for ListedBoard {
@@ -120,7 +120,7 @@ impl ListedBoard {
 
 /// A contact of a list, and the robot's contact that it belongs to.
 #[derive(Debug, Clone)]
-struct Listed {
+struct ListedContact {
     carried: CarriedContact,
     id: Option<u32>,
     /// It has ended with the last scan; before that it was there.
@@ -135,10 +135,10 @@ struct PresentContact {
 }
 
 /// Two contacts that meet: their indices, and the seam.
-type Link = (usize, usize, usize);
+type SeamLink = (usize, usize, usize);
 /// Index of a contact, and the way to it: place of the one through which it was found, and the sides that its
 /// points pass on the way back.
-type Linked<'a> = (usize, Option<(usize, &'a PlaneSide, &'a PlaneSide)>);
+type SeamWay<'a> = (usize, Option<(usize, &'a PlaneSide, &'a PlaneSide)>);
 
 impl RobotContacts {
     /// No contacts yet.
@@ -164,22 +164,23 @@ impl RobotContacts {
         let interval_us = listed.scanned(host_us);
         let before = std::mem::take(&mut listed.contacts);
         let list = |contact: &Contact| {
-            let is_it = |old: &&Listed| old.carried.contact.id == contact.id;
+            let is_it = |old: &&ListedContact| old.carried.contact.id == contact.id;
             let old = before.iter().find(is_it).filter(|_| contact.phase != Phase::Onset);
             let last = old.map(|old| &old.carried);
             let carried = CarriedContact::new(board, contact.clone(), host_us, interval_us, last);
-            Listed { carried, id: old.and_then(|old| old.id), has_ended: false }
+            ListedContact { carried, id: old.and_then(|old| old.id), has_ended: false }
         };
         listed.contacts = contacts.iter().map(list).collect();
-        let is_here = |old: &Listed| contacts.iter().any(|here| here.id == old.carried.contact.id);
-        let ended: Vec<Listed> = before.into_iter().filter(|old| !old.has_ended && !is_here(old)).collect();
+        let is_here = |old: &ListedContact| contacts.iter().any(|here| here.id == old.carried.contact.id);
+        let ended: Vec<ListedContact> =
+            before.into_iter().filter(|old| !old.has_ended && !is_here(old)).collect();
         for old in &ended {
             self.wait(old, host_us);
         }
-        let end = |old: Listed| {
+        let end = |old: ListedContact| {
             let contact = Contact { total: 0, ..old.carried.contact.clone() };
             let carried = CarriedContact::new(board, contact, host_us, interval_us, Some(&old.carried));
-            Listed { carried, has_ended: true, ..old }
+            ListedContact { carried, has_ended: true, ..old }
         };
         self.boards[board].contacts.extend(ended.into_iter().map(end));
         self.join(host_us)
@@ -208,7 +209,7 @@ impl RobotContacts {
     }
 
     /// Lets the contact of a part that has ended wait, if it was its last one and is near a seam.
-    fn wait(&mut self, old: &Listed, host_us: u64) {
+    fn wait(&mut self, old: &ListedContact, host_us: u64) {
         let Some(id) = old.id else { return };
         if self.listed().any(|listed| listed.id == Some(id) && !listed.has_ended) {
             return;
@@ -229,13 +230,13 @@ impl RobotContacts {
         }
     }
 
-    fn listed(&self) -> impl Iterator<Item = &Listed> {
+    fn listed(&self) -> impl Iterator<Item = &ListedContact> {
         self.boards.iter().flat_map(|board| &board.contacts)
     }
 
     /// Joins what meets, and gives each group its id.
     fn join(&mut self, host_us: u64) -> Vec<RobotContact> {
-        let all: Vec<Listed> = self.listed().cloned().collect();
+        let all: Vec<ListedContact> = self.listed().cloned().collect();
         let links = self.links(&all, host_us);
         let groups = groups(all.len(), &links);
         // Of an id that has come apart, the greater part keeps it.
@@ -283,7 +284,7 @@ impl RobotContacts {
     }
 
     /// The pairs that meet at a seam.
-    fn links(&self, all: &[Listed], host_us: u64) -> Vec<Link> {
+    fn links(&self, all: &[ListedContact], host_us: u64) -> Vec<SeamLink> {
         let mut links = Vec::new();
         for (number, plane) in self.planes.iter().enumerate() {
             let boxes = |side: &PlaneSide| -> Vec<(usize, PlaneBox)> {
@@ -326,9 +327,9 @@ impl RobotContacts {
     fn show(
         &mut self,
         id: u32,
-        all: &[Listed],
+        all: &[ListedContact],
         members: &[usize],
-        links: &[Link],
+        links: &[SeamLink],
         host_us: u64,
     ) -> RobotContact {
         let at_us = self.told_by_all(members.iter().map(|index| all[*index].carried.board), host_us);
@@ -379,8 +380,14 @@ impl RobotContacts {
     }
 
     /// What is linked to a contact, itself included: index, and centroid in taxels of its panel.
-    fn seen_from(&self, home: usize, all: &[Listed], links: &[Link], host_us: u64) -> Vec<(usize, [f64; 2])> {
-        let mut found: Vec<Linked<'_>> = vec![(home, None)];
+    fn seen_from(
+        &self,
+        home: usize,
+        all: &[ListedContact],
+        links: &[SeamLink],
+        host_us: u64,
+    ) -> Vec<(usize, [f64; 2])> {
+        let mut found: Vec<SeamWay<'_>> = vec![(home, None)];
         let mut next = 0;
         while let Some((at, _)) = found.get(next).copied() {
             for (a, b, plane) in links {
@@ -393,7 +400,7 @@ impl RobotContacts {
             }
             next += 1;
         }
-        let centroid = |(index, _): &Linked<'_>| {
+        let centroid = |(index, _): &SeamWay<'_>| {
             let mut point = all[*index].carried.centroid(host_us);
             let mut way = found.iter().find(|(at, _)| at == index).and_then(|(_, way)| *way);
             while let Some((through, from, to)) = way {
@@ -450,7 +457,7 @@ fn meet(plane: &SeamPlane, a: &PlaneBox, b: &PlaneBox, slack: f64) -> bool {
 }
 
 /// Number of the group of each of so many contacts: the least index in it.
-fn groups(count: usize, links: &[Link]) -> Vec<usize> {
+fn groups(count: usize, links: &[SeamLink]) -> Vec<usize> {
     let mut groups: Vec<usize> = (0..count).collect();
     for (a, b, _) in links {
         let (kept, joined) = (groups[*a].min(groups[*b]), groups[*a].max(groups[*b]));
