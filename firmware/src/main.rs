@@ -18,6 +18,7 @@ mod pins;
 mod platform;
 mod remains;
 mod scan;
+mod serial_number;
 mod store;
 mod supply;
 mod watchdog;

@@ -129,3 +129,19 @@ fn a_request_or_a_grounded_pin_leads_to_what_ships_and_back() {
     assert_eq!(started(&mut board, |_| true), (name("saved"), boot));
     board.end();
 }
+
+#[test]
+fn the_serial_number_on_usb_is_the_unique_id_of_the_flash() {
+    let number = |options: &[&str]| {
+        let options = [&["--link", "usb"], options].concat();
+        let mut board = Emulated::start(&Garment::reference(), &[100; TAXELS], 100, &options);
+        let known = board.wait_for("usb");
+        board.end();
+        known["usb"]["number"].clone()
+    };
+    assert_eq!(number(&[]), "E6605838832F5C29");
+    assert_eq!(number(&["--unique-id", "00d1a30907f0be00"]), "00D1A30907F0BE00");
+    // A chip that knows no such command answers nothing.
+    assert_eq!(number(&["--unique-id", "ffffffffffffffff"]), serde_json::Value::Null);
+    assert_eq!(number(&["--unique-id", "0000000000000000"]), serde_json::Value::Null);
+}

@@ -31,7 +31,7 @@ const { values: options } = parseArgs({
     every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
     flash: { type: 'string' }, cut: { type: 'string' }, restarts: { type: 'boolean', default: false },
     ground: { type: 'string', default: '' }, clock: { type: 'string', default: '0' }, 'reset-by': { type: 'string', default: 'power' },
-    race: { type: 'string' },
+    race: { type: 'string' }, 'unique-id': { type: 'string' },
   },
 });
 
@@ -130,6 +130,7 @@ async function main() {
         allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
         onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after, browned, micros: Number(options.clock),
         onLockUp: (us) => say({ lockup: us }),
+        uniqueId: options['unique-id'] === undefined ? undefined : Buffer.from(options['unique-id'], 'hex'),
       });
       machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));
       board.machine = machine;

@@ -4,6 +4,7 @@ import { RP2040 } from 'rp2040js';
 import { Adc } from './adc.mjs';
 import { CHIP_RESET_BASE, ChipReset } from './chip_reset.mjs';
 import { mendDma } from './dma.mjs';
+import { FlashChip } from './flash_chip.mjs';
 import { Marks } from './marks.mjs';
 import { Mpu } from './mpu.mjs';
 import { Pads } from './pads.mjs';
@@ -19,9 +20,10 @@ const VECTOR_TABLE = 0x10000100;
 const NANOS_PER_CYCLE = 8; // 125 MHz
 const RAM_START = 0x20000000, RAM_END = 0x20042000;
 const UART0_IRQ = 20, UART0_DREQ = { tx: 20, rx: 21 };
-const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058, USB_BASE = 0x50110, PIO_BASES = [0x50200, 0x50300];
+const UART0_BASE = 0x40034, ADC_BASE = 0x4004c, WATCHDOG_BASE = 0x40058, USB_BASE = 0x50110, SSI_BASE = 0x18000, PIO_BASES = [0x50200, 0x50300];
 const PIO_IRQS = [7, 9];
 const WATCHDOG_FORCED = 2;
+const UNIQUE_ID = [0xe6, 0x60, 0x58, 0x38, 0x83, 0x2f, 0x5c, 0x29];
 
 /** Stops a run; the message says what the firmware or the emulator did wrong. */
 export class BoardError extends Error {}
@@ -40,11 +42,12 @@ export class Machine {
    * `onKnown`: what the board said on USB that it is. `restarts`: a reset by the watchdog is a `WatchdogReset`,
    * and no mistake. `cause`: what reset the chip as a whole. `after`: the machine that has been reset, whose flash
    * this one has, and its scratch registers unless `browned`; all else begins anew, its memory and its time included, which is
-   * `micros` then. `onLockUp(us)`: the core has met memory that nobody may access, and does nothing more.
+   * `micros` then. `onLockUp(us)`: the core has met memory that nobody may access, and does nothing more. `uniqueId`: that of the
+   * flash chip.
    */
   constructor(
     { flash, symbols },
-    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, browned = false, micros = 0, onLockUp = () => {} } = {},
+    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, browned = false, micros = 0, onLockUp = () => {}, uniqueId = UNIQUE_ID } = {},
   ) {
     const chip = new RP2040();
     Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols, restarts, onLockUp });
@@ -75,6 +78,7 @@ export class Machine {
     else chip.flash.set(after.chip.flash);
     if (after !== undefined && !browned) this.follow(after.chip);
     this.rom = new Rom(chip);
+    new FlashChip(chip.peripherals[SSI_BASE], uniqueId);
     this.guard();
     this.tapMemory();
     this.boot();

@@ -151,12 +151,13 @@ export class UsbHost {
     const device = yield* this.descriptor(DEVICE, 0, 18);
     const short = yield* this.descriptor(CONFIGURATION, 0, 9);
     const configuration = yield* this.descriptor(CONFIGURATION, 0, short.getUint16(2, true));
-    const name = yield* this.descriptor(STRING, device.getUint8(15), 255);
+    const name = yield* this.text(device.getUint8(15));
+    const number = yield* this.text(device.getUint8(16));
     yield* this.write(0, SET_CONFIGURATION, configuration.getUint8(5), 0);
     this.pipes = pipesOf(configuration);
     this.odd = { in: false, out: false };
     const hex = (value) => value.toString(16).padStart(4, '0');
-    this.onKnown({ id: `${hex(device.getUint16(8, true))}:${hex(device.getUint16(10, true))}`, name: textOf(name), ...this.pipes });
+    this.onKnown({ id: `${hex(device.getUint16(8, true))}:${hex(device.getUint16(10, true))}`, name, number, ...this.pipes });
     yield* this.setLines();
   }
 
@@ -172,6 +173,11 @@ export class UsbHost {
     yield { setup: packet(type, request, value, index, data.length) };
     if (data.length > 0) yield { out: Uint8Array.from(data), odd: true };
     yield {};
+  }
+
+  /** A text of the device; null if it has none. */
+  *text(index) {
+    return index === 0 ? null : textOf(yield* this.descriptor(STRING, index, 255));
   }
 
   *descriptor(kind, index, length) {

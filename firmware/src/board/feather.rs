@@ -18,6 +18,7 @@ use crate::{
     link::{PacketHandler, Uart, Usb, Wire, uart},
     pins::LinePin,
     scan::{DmaChain, FrameBegin},
+    serial_number,
     store::Flash,
 };
 use embassy_rp::{
@@ -48,6 +49,9 @@ pub fn take() -> BoardParts {
     let p = embassy_rp::init(Default::default());
     // `init` has reset the pads.
     levels::drive();
+    let mut flash = Flash::new_blocking(p.FLASH);
+    // Before USB, whose interrupts run from the flash.
+    let number = serial_number::read(&mut flash);
     BoardParts {
         lines: lines!(p:
             PIN_2 = 2,
@@ -84,7 +88,7 @@ pub fn take() -> BoardParts {
             ),
             Interrupts,
         ),
-        wire: Wire::new(Usb::start(usb::Driver::new(p.USB, Interrupts)), {
+        wire: Wire::new(Usb::start(usb::Driver::new(p.USB, Interrupts), number), {
             static TX: ConstStaticCell<[u8; uart::RING]> = ConstStaticCell::new([0; uart::RING]);
             static RX: ConstStaticCell<[u8; uart::RING]> = ConstStaticCell::new([0; uart::RING]);
             let mut config = port::Config::default();
@@ -101,6 +105,6 @@ pub fn take() -> BoardParts {
         }),
         led: Led::new(Flex::new(p.PIN_13)),
         watchdog: Watchdog::new(p.WATCHDOG),
-        flash: Flash::new_blocking(p.FLASH),
+        flash,
     }
 }

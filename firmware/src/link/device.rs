@@ -8,7 +8,7 @@ use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};
 use embassy_rp::interrupt::{self, InterruptExt, Priority};
 use embassy_rp::{bind_interrupts, peripherals::USB, usb::Driver};
 use embassy_usb::class::cdc_acm::{CdcAcmClass, ControlChanged, Receiver, State};
-use embassy_usb::{Builder, Config};
+use embassy_usb::{Builder, Config, UsbDevice};
 use static_cell::{ConstStaticCell, StaticCell};
 
 /// Vendor and product by which a host finds the board, from the test range of <https://pid.codes>; so the
@@ -38,10 +38,10 @@ impl Handler<SWI_IRQ_1> for TaskInterrupt {
     }
 }
 
-/// Attaches the board to the bus. Must be called once.
-pub fn start(driver: Bus) {
+/// Attaches the board to the bus, with its serial number if it has one. Must be called once.
+pub fn start(driver: Bus, number: Option<&'static str>) {
     interrupt::SWI_IRQ_1.set_priority(Priority::P3);
-    EXECUTOR.start(interrupt::SWI_IRQ_1).spawn(once(attach(driver)));
+    EXECUTOR.start(interrupt::SWI_IRQ_1).spawn(once(attach(driver, number)));
 }
 
 /// Token of a task with a single instance.
@@ -51,7 +51,22 @@ fn once<S>(token: Result<SpawnToken<S>, SpawnError>) -> SpawnToken<S> {
 
 /// Runs the device and spawns its other tasks at this priority.
 #[embassy_executor::task]
-async fn attach(driver: Bus) {
+async fn attach(driver: Bus, number: Option<&'static str>) {
+    #[allow(unsafe_code)]
+    // SAFETY: this future is a task of an executor of embassy.
+    let spawner = unsafe { Spawner::for_current_executor() }.await;
+    let (mut device, port) = device(driver, number);
+    packets::start();
+    let (_, receiver, control) = port.split_with_control();
+    spawner.spawn(once(watch(control)));
+    spawner.spawn(once(receive(receiver)));
+    device.run().await;
+}
+
+/// The device and its serial port. A function of its own: otherwise the task would keep what it builds them
+/// from.
+#[inline(never)]
+fn device(driver: Bus, number: Option<&'static str>) -> (UsbDevice<'static, Bus>, CdcAcmClass<'static, Bus>) {
     static DESCRIPTORS: ConstStaticCell<[u8; 128]> = ConstStaticCell::new([0; 128]);
     static CAPABILITIES: ConstStaticCell<[u8; 16]> = ConstStaticCell::new([0; 16]);
     static CONTROL: ConstStaticCell<[u8; PACKET]> = ConstStaticCell::new([0; PACKET]);
@@ -60,19 +75,13 @@ async fn attach(driver: Bus) {
     let mut config = Config::new(ID.0, ID.1);
     config.manufacturer = Some(PRODUCT);
     config.product = Some(PRODUCT);
+    config.serial_number = number;
     config.max_power = MILLIAMPERES;
     let mut builder =
         Builder::new(driver, config, DESCRIPTORS.take(), CAPABILITIES.take(), &mut [], CONTROL.take());
     builder.handler(SLEEP.init(Sleep));
     let port = CdcAcmClass::new(&mut builder, PORT.init(State::new()), PACKET as u16);
-    packets::start();
-    let (_, receiver, control) = port.split_with_control();
-    #[allow(unsafe_code)]
-    // SAFETY: this future is a task of an executor of embassy.
-    let spawner = unsafe { Spawner::for_current_executor() }.await;
-    spawner.spawn(once(watch(control)));
-    spawner.spawn(once(receive(receiver)));
-    builder.build().run().await;
+    (builder.build(), port)
 }
 
 /// Watches for suspension of the bus.

@@ -22,9 +22,9 @@ pub struct Usb {
 }
 
 impl Usb {
-    /// Attaches the board to the bus. Must be called once.
-    pub fn start(driver: usb::Driver<'static, USB>) -> Usb {
-        device::start(driver);
+    /// Attaches the board to the bus, with its serial number if it has one. Must be called once.
+    pub fn start(driver: usb::Driver<'static, USB>, number: Option<&'static str>) -> Usb {
+        device::start(driver, number);
         Usb { packets: 0, moved: Instant::now() }
     }
 

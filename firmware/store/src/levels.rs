@@ -52,8 +52,9 @@ fn is_whole(record: &Record) -> bool {
     sum_of([number, pins, high]) == sum
 }
 
-/// Bitwise CRC: loading a table from a flash that has just been powered takes time.
-#[inline]
+/// Bitwise CRC: loading a table from a flash that has just been powered takes time. Out of line: three places
+/// need it.
+#[inline(never)]
 fn sum_of(words: [u32; 3]) -> u32 {
     let mut crc = u32::MAX;
     for word in words {

@@ -1,5 +1,6 @@
 //! `taxel robot`: all boards of a robot, from outside.
 
+use super::validator::wrong;
 use crate::start::{root, taxel};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -9,6 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
+use taxel::recording::Messages;
+use taxel::robot::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA};
 use taxel::source::{self, SourceOptions};
 
 fn run(folder: &Path, args: &[&str]) -> Output {
@@ -102,11 +105,14 @@ seam: torso left arm, bottom from 0 - hand mat, top from 0, 16 taxels
     assert!(text(&unknown.stderr).contains("--tare: there is no board \"hnad\": did you mean \"hand\"?"));
 }
 
-/// JSON lines by board, in order, without the board's name and the messages about boards.
+/// JSON lines by board, in order, without the board's name and the messages about boards and of the robot.
 fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
     let mut boards: BTreeMap<String, Vec<Value>> = BTreeMap::new();
     for line in text(output).lines() {
         let mut line: Value = serde_json::from_str(line).unwrap();
+        if line["type"] == ROBOT_CONTACTS {
+            continue;
+        }
         let board = line.as_object_mut().unwrap().remove("board").unwrap();
         if line["type"] != "board" {
             boards.entry(board.as_str().unwrap().into()).or_default().push(line);
@@ -137,6 +143,15 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
             alone.len()
         );
     }
+    let schema: Value = serde_json::from_str(ROBOT_CONTACTS_SCHEMA).unwrap();
+    let lines = text(&done.stdout).lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let of_robot: Vec<Value> = lines.filter(|line| line["type"] == ROBOT_CONTACTS).collect();
+    assert!(of_robot.iter().all(|line| wrong(line, &schema).is_none()));
+    for name in ["torso", "hand"] {
+        let has_part = |contact: &Value| contact["parts"][0]["board"] == name;
+        let of_board = |line: &&Value| line["contacts"].as_array().unwrap().iter().any(has_part);
+        assert!(of_robot.iter().filter(of_board).count() > 10, "{name}");
+    }
     let lines = run(&folder, &["robot", "live", "robot.toml", "--seconds", "1", "--tare", "hand=16"]);
     let lines = text(&lines.stdout);
     assert!(lines.lines().all(|line| line.starts_with("torso ") || line.starts_with("hand  ")), "{lines}");
@@ -155,6 +170,13 @@ fn record_and_doctor_tell_of_all_boards() {
     let info = run(&folder, &["info", "touch.mcap", "--json"]);
     let told: Value = serde_json::from_slice(&info.stdout).unwrap();
     assert_eq!(told["whole"], true);
+    let topic = format!("/taxel/{ROBOT_CONTACTS}");
+    let mut joined = Messages::of_topic(&folder.join("touch.mcap"), &topic).unwrap();
+    let mut count = 0;
+    while joined.next_message().unwrap().is_some() {
+        count += 1;
+    }
+    assert!(count > 100, "{count}");
     let again = run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1"]);
     assert_eq!(again.status.code(), Some(1));
     assert!(text(&again.stderr).contains("touch.mcap already exists"));

@@ -17,6 +17,11 @@
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
+//! | `plane.rs` | the plane of a seam, on which both panels lie |
+//! | `carried.rs` | a contact of a board, carried on to the time of another board's list |
+//! | `scan.rs` | [`BoardScan`]: what that needs of a board's scan |
+//! | `contacts_line.rs` | the robot's contacts as JSON |
+//! | `contacts.rs` | [`RobotContacts`]: what touches both sides of a seam is one contact with one id |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
 //! it, at the start and each time that it comes back, its serial number on USB and its garment are compared
@@ -24,7 +29,10 @@
 //! that it sends is passed on. A board that is lost does not hold up the others.
 
 mod board;
+mod carried;
 mod config;
+mod contacts;
+mod contacts_line;
 mod event;
 mod file;
 mod follow;
@@ -32,15 +40,21 @@ mod identity;
 mod line;
 mod open;
 mod place;
+mod plane;
 mod queue;
 mod recognise;
 mod recorder;
 mod refused;
+mod scan;
 mod seam;
 mod session;
 
 pub use board::{BoardGarment, RobotBoard};
 pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
+pub use contacts::{CROSSING_US, RobotContact, RobotContactPart, RobotContacts};
+#[cfg(feature = "schema")]
+pub use contacts_line::robot_contacts_schema;
+pub use contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
 pub use event::{BoardEvent, RobotEvent, Teller};
 pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
@@ -48,5 +62,6 @@ pub use identity::Identity;
 pub use line::BoardLine;
 pub use queue::{WAITING, WhenFull};
 pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
+pub use scan::BoardScan;
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;

@@ -3,16 +3,20 @@
 //! An MCAP file like that of one board, with the topics of each board below its name: `/taxel/BOARD/wire`,
 //! `/taxel/BOARD/frames` and so on, and attachments and metadata such as `BOARD/garment.toml`, `BOARD/taxel`,
 //! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards.
-//! Log time is the host's time, which all boards share.
+//! If boards are sewn together, `/taxel/robot_contacts` has the robot's contacts. Log time is the host's time,
+//! which all boards share.
 
+use super::contacts::{RobotContact, RobotContacts};
+use super::contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
 use super::event::Teller;
 use super::file::ReadRobot;
+use super::scan::BoardScan;
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Worn};
 use crate::error::{Context, Result};
 use crate::files::output::{Force, Output};
 use crate::record::{COUNTS, Encoded, NS, Origin, RecordTopic, Stamp, Tally, Topics, attach};
-use crate::recording::{HELLO, Writer, attachment_of};
+use crate::recording::{Format, HELLO, Writer, attachment_of};
 use crate::source::Source;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -31,6 +35,7 @@ pub struct BoardRecord {
     /// The board's description, if it is new, and the frame of its `Hello`.
     described: Option<Box<Described>>,
     tally: Tally,
+    scan: Option<BoardScan>,
 }
 
 #[derive(Debug)]
@@ -64,17 +69,18 @@ impl Teller<BoardRecord> for RecordTeller {
                 Box::new(Described { worn, hello, origin })
             });
         }
-        Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()) }))
+        let scan = BoardScan::of(client, event);
+        Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()), scan }))
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
         let messages = Encoded::event(client, note, stamp)?.into_iter().collect();
-        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()) }))
+        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()), scan: None }))
     }
 
     fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<BoardRecord>> {
         let messages = Encoded::requests(client, bytes, stamp)?;
-        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()) }))
+        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()), scan: None }))
     }
 }
 
@@ -84,6 +90,10 @@ pub struct RobotRecorder {
     path: PathBuf,
     writer: Option<Writer<File>>,
     boards: Vec<RecordedBoard>,
+    robot: ReadRobot,
+    contacts: RobotContacts,
+    /// Channel of the robot's contacts; none if no boards are sewn together.
+    joined: Option<u16>,
     kept: Instant,
     /// Bytes of the file.
     bytes: u64,
@@ -120,6 +130,12 @@ impl RobotRecorder {
                 frames_us: None,
             });
         }
+        let title = format!("taxel.{ROBOT_CONTACTS}");
+        let text = ROBOT_CONTACTS_SCHEMA;
+        let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text };
+        let topic = format!("/taxel/{ROBOT_CONTACTS}");
+        let sewn = (!robot.seams.is_empty()).then(|| writer.channel(&topic, &format));
+        let joined = sewn.transpose().with_context(what)?;
         let names: Vec<&str> = robot.boards.iter().map(|board| board.name.as_str()).collect();
         let words = [("name", robot.name.clone()), ("boards", names.join(","))];
         let words: BTreeMap<_, _> = words.map(|(name, value)| (name.to_string(), value)).into();
@@ -127,13 +143,29 @@ impl RobotRecorder {
         let now = SteadyTime::start().now_us().saturating_mul(NS);
         writer.attach("robot.toml", "application/toml", robot.text.as_bytes(), now).with_context(what)?;
         begun.name()?;
-        Ok(RobotRecorder { path: path.into(), writer: Some(writer), boards, kept: Instant::now(), bytes: 0 })
+        Ok(RobotRecorder {
+            path: path.into(),
+            writer: Some(writer),
+            boards,
+            robot: robot.clone(),
+            contacts: RobotContacts::new(robot),
+            joined,
+            kept: Instant::now(),
+            bytes: 0,
+        })
     }
 
     /// Writes what is recorded of an event of a board. On error the recording ends: what was recorded before
     /// stays, and the file is completed.
     pub fn take(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
         let done = self.write(board, record);
+        self.guard(done)
+    }
+
+    /// A board is lost: its part in the robot's contacts is over. Error as of [`RobotRecorder::take`].
+    pub fn lost(&mut self, board: usize, host_us: u64) -> Result<()> {
+        let contacts = self.contacts.forget(board, host_us);
+        let done = self.write_contacts(host_us, &contacts);
         self.guard(done)
     }
 
@@ -177,6 +209,17 @@ impl RobotRecorder {
         text + &format!("{}: {:.2} MB\n", self.path.display(), bytes as f64 / 1e6)
     }
 
+    /// Writes the robot's contacts, if there are any.
+    fn write_contacts(&mut self, host_us: u64, contacts: &[RobotContact]) -> Result<()> {
+        let (Some(writer), Some(channel)) = (&mut self.writer, self.joined) else { return Ok(()) };
+        if contacts.is_empty() {
+            return Ok(());
+        }
+        let line = serde_json::to_vec(&RobotContactsLine::of(&self.robot, host_us, contacts))?;
+        let ns = host_us.saturating_mul(NS);
+        writer.message(channel, ns, ns, &line)
+    }
+
     fn write(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
         let (Some(writer), Some(recorded)) = (&mut self.writer, self.boards.get_mut(board)) else {
             return Ok(());
@@ -208,7 +251,10 @@ impl RobotRecorder {
             writer.close()?;
             self.boards.iter_mut().for_each(|board| board.chunk_us = None);
         }
-        Ok(())
+        let stamp = record.messages.first().map(|message| message.stamp.host_us);
+        let Some((scan, host_us)) = record.scan.as_ref().zip(stamp) else { return Ok(()) };
+        let contacts = self.contacts.scan(board, scan, host_us);
+        self.write_contacts(host_us, &contacts)
     }
 
     /// Ends the recording on a write error.

@@ -164,7 +164,7 @@ impl PortKind {
     }
 }
 
-/// Serial ports of this machine: name, kind, and USB description.
+/// Serial ports of this machine: name, kind, and USB description with the serial number.
 pub fn listed() -> Vec<(String, PortKind, String)> {
     let describe = |port: SerialPortInfo| {
         let Some(usb) = usb_of(&port) else { return (port.port_name, PortKind::Other, String::new()) };
@@ -173,11 +173,16 @@ pub fn listed() -> Vec<(String, PortKind, String)> {
             false if PROBES.contains(&usb.vid) => PortKind::Probe,
             false => PortKind::Other,
         };
-        let product = printable(usb.product.as_deref().unwrap_or_default());
-        let told = format!("{:04x}:{:04x} {product}", usb.vid, usb.pid);
+        let told = described(usb);
         (port.port_name, kind, told)
     };
     ports().into_iter().map(describe).collect()
+}
+
+/// Id, name and serial number of a device, as far as it has them.
+fn described(usb: &UsbPortInfo) -> String {
+    let told = [&usb.product, &usb.serial_number].into_iter().flatten().map(|text| printable(text));
+    told.fold(format!("{:04x}:{:04x}", usb.vid, usb.pid), |line, text| format!("{line} {text}"))
 }
 
 /// All serial ports of this machine.
@@ -259,6 +264,7 @@ mod tests {
             back(lost, ports).map(|port| port.port_name.clone())
         };
         let lost = with(board("ttyACM0"), "A1");
+        assert_eq!(usb_of(&lost).map(described).as_deref(), Some("1209:0001 taxel A1"));
         let other = with(board("ttyACM0"), "B2");
         assert_eq!(found(&lost, std::slice::from_ref(&other)), None, "another board has taken its name");
         assert_eq!(found(&lost, &[other, with(board("ttyACM3"), "A1")]).as_deref(), Some("ttyACM3"));

@@ -1,13 +1,13 @@
 //! `taxel robot live`: all boards as lines of text or JSON.
 
 use super::args::RobotFileArgs;
-use super::tellers::{JsonTeller, TextTeller};
+use super::tellers::{BoardNews, JsonTeller, TextTeller};
 use crate::watch::{seconds, stop};
 use anyhow::{Context, Error, Result};
 use clap::Args;
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
-use taxel::robot::{BoardEvent, BoardLine, RobotSession, Teller, WhenFull};
+use taxel::robot::{BoardEvent, BoardLine, RobotContacts, RobotContactsLine, RobotSession, Teller, WhenFull};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 
@@ -41,7 +41,7 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
     let wide = robot.boards.iter().map(|board| board.name.len()).max().unwrap_or(0);
-    let teller = |number: usize| -> Box<dyn Teller<String>> {
+    let teller = |number: usize| -> Box<dyn Teller<BoardNews>> {
         let name = &robot.boards[number].name;
         match args.json {
             true => Box::new(JsonTeller::new(name, args.pixels)),
@@ -51,6 +51,7 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let plans = robot.plans(&options, limit(args.seconds), teller);
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
     let mut out = BufWriter::new(stdout());
+    let mut contacts = (args.json && !robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
         let Some(event) = session.wait(LOOK) else {
@@ -59,9 +60,21 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
         };
         let name = &robot.boards[event.board].name;
         match (BoardLine::of(name, event.stamp.host_us, &event.what), &event.what) {
-            (_, BoardEvent::News(lines)) => write!(out, "{lines}")?,
+            (_, BoardEvent::News(news)) => write!(out, "{}", news.lines)?,
             (Some(line), _) if args.json => writeln!(out, "{}", serde_json::to_string(&line)?)?,
             (_, what) => said(what).map_or(Ok(()), |said| writeln!(out, "{name:wide$} {said}"))?,
+        }
+        let host_us = event.stamp.host_us;
+        let joined = contacts.as_mut().map(|contacts| match &event.what {
+            BoardEvent::News(BoardNews { scan: Some(scan), .. }) => contacts.scan(event.board, scan, host_us),
+            BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
+                contacts.forget(event.board, host_us)
+            }
+            _ => Vec::new(),
+        });
+        if let Some(joined) = joined.filter(|joined| !joined.is_empty()) {
+            let line = RobotContactsLine::of(&robot, host_us, &joined);
+            writeln!(out, "{}", serde_json::to_string(&line)?)?;
         }
         ended = ended.and(failed(name, event.what));
     }
@@ -70,7 +83,7 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
 }
 
 /// How a board is, in words; none if its lines say it: it is met, lost, back, over.
-fn said(what: &BoardEvent<String>) -> Option<String> {
+fn said(what: &BoardEvent<BoardNews>) -> Option<String> {
     Some(match what {
         BoardEvent::Absent { why } => format!("absent: {why}; waiting for it"),
         BoardEvent::Other { why } => format!("refused: {why}"),

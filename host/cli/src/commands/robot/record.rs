@@ -59,6 +59,9 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
             }
             _ => {}
         }
+        if let BoardEvent::Lost { .. } = event.what {
+            written = written.and_then(|()| recorder.lost(event.board, event.stamp.host_us));
+        }
         ended = ended.and(failed(name, event.what));
     }
     drop(session);

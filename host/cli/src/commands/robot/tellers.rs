@@ -4,10 +4,18 @@ use crate::terminal::Lines;
 use taxel::client::{Client, Event};
 use taxel::json::MessagePrinter;
 use taxel::record::Stamp;
-use taxel::robot::Teller;
+use taxel::robot::{BoardScan, Teller};
 use taxel::session::Show;
 use taxel::source::Source;
 use taxel::{Error, Result};
+
+/// What is made of an event of a board.
+pub struct BoardNews {
+    /// Lines, each with its end.
+    pub lines: String,
+    /// The scan that it is about.
+    pub scan: Option<BoardScan>,
+}
 
 /// Makes JSON of a board's events.
 pub struct JsonTeller {
@@ -22,11 +30,11 @@ impl JsonTeller {
     }
 }
 
-impl Teller<String> for JsonTeller {
-    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<String>> {
+impl Teller<BoardNews> for JsonTeller {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardNews>> {
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
-        Ok(Some(format!("{line}\n")))
+        Ok(Some(BoardNews { lines: format!("{line}\n"), scan: BoardScan::of(client, event) }))
     }
 }
 
@@ -46,25 +54,25 @@ impl TextTeller {
     }
 
     /// What has been written since, with the board before each line.
-    fn told(&mut self) -> Option<String> {
+    fn told(&mut self) -> Option<BoardNews> {
         let written = std::mem::take(self.lines.as_mut()?.output());
         let text = String::from_utf8_lossy(&written);
-        let told: String = text.lines().map(|line| format!("{}{line}\n", self.head)).collect();
-        (!told.is_empty()).then_some(told)
+        let lines: String = text.lines().map(|line| format!("{}{line}\n", self.head)).collect();
+        (!lines.is_empty()).then_some(BoardNews { lines, scan: None })
     }
 }
 
-impl Teller<String> for TextTeller {
+impl Teller<BoardNews> for TextTeller {
     fn opened(&mut self, source: &Source) {
         self.lines = Some(Lines::new(source, Vec::new()));
     }
 
-    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<String>> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.event(client, event)).map_err(other)?;
         Ok(self.told())
     }
 
-    fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<String>> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.end(client)).map_err(other)?;
         Ok(self.told())
     }

@@ -1,6 +1,8 @@
 //! A robot of several boards: its file, boards that are lost and come back, and other boards in their place.
 
 mod boards;
+mod contacts_schema;
+mod crossing;
 mod file;
 mod losses;
 mod recorded;

@@ -1,0 +1,110 @@
+//! A contact of a board, carried on to a time between two of the board's lists.
+
+use super::plane::{PlanePoint, PlaneSide};
+use taxel_core::contact::Contact;
+
+/// A contact of a board as it was reported last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CarriedContact {
+    /// Number of the board.
+    pub board: usize,
+    /// What the board says of it.
+    pub contact: Contact,
+    /// The host's time of that, us.
+    pub host_us: u64,
+    /// Change of the total, counts per second.
+    rate: f64,
+    /// Time between the board's lists, us: it is not carried further than that.
+    interval_us: u64,
+}
+
+/// The box around a contact in the plane of a seam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneBox {
+    /// First and last along the seam, taxels, borders included.
+    pub along: [f64; 2],
+    /// Distance from the line of the seam, mm; below 0 beyond it.
+    pub away: f64,
+    /// How far it was carried across the seam, mm.
+    pub carried: f64,
+}
+
+impl PlaneBox {
+    /// True if it lies beside a seam of this length, or at most `slack` taxels from its ends.
+    pub fn is_along(&self, length: f64, slack: f64) -> bool {
+        self.along[0] <= length - 0.5 + slack && self.along[1] >= -0.5 - slack
+    }
+}
+
+impl CarriedContact {
+    /// A contact of a list; `before` is the same one in the list before, `interval_us` earlier.
+    pub fn new(
+        board: usize,
+        contact: Contact,
+        host_us: u64,
+        interval_us: u64,
+        before: Option<&CarriedContact>,
+    ) -> CarriedContact {
+        let before = before.map_or(0, |before| before.contact.total);
+        let grown = f64::from(contact.total) - f64::from(before);
+        let rate = if interval_us == 0 { 0.0 } else { grown / seconds(interval_us as i64) };
+        CarriedContact { board, contact, host_us, rate, interval_us }
+    }
+
+    /// The same, carried on for that long.
+    pub fn lasting(self, interval_us: u64) -> CarriedContact {
+        CarriedContact { interval_us, ..self }
+    }
+
+    /// Time between the board's lists, us.
+    pub fn interval_us(&self) -> u64 {
+        self.interval_us
+    }
+
+    /// Its age at a time of the host, us; below 0 if it is newer.
+    pub fn age_us(&self, host_us: u64) -> i64 {
+        host_us.wrapping_sub(self.host_us) as i64
+    }
+
+    /// Time by which it is carried on, s.
+    fn carried(&self, host_us: u64) -> f64 {
+        let most = self.interval_us as i64;
+        seconds(self.age_us(host_us).clamp(-most, most))
+    }
+
+    /// Its total then, counts.
+    pub fn total(&self, host_us: u64) -> f64 {
+        (f64::from(self.contact.total) + self.rate * self.carried(host_us)).max(0.0)
+    }
+
+    /// Its centroid then, `[x, y]` in taxels of its panel.
+    pub fn centroid(&self, host_us: u64) -> [f64; 2] {
+        let [x, y] = self.moved(host_us);
+        [self.contact.x.to_f64() + x, self.contact.y.to_f64() + y]
+    }
+
+    fn moved(&self, host_us: u64) -> [f64; 2] {
+        [self.contact.vx, self.contact.vy].map(|speed| speed.to_f64() * self.carried(host_us))
+    }
+
+    /// The box around it then, in the plane of a seam of its panel.
+    pub fn bounds(&self, side: &PlaneSide, host_us: u64) -> PlaneBox {
+        let (bounds, [x, y]) = (self.contact.bounds, self.moved(host_us));
+        let corner = |column: f64, row: f64| side.in_plane([column + x, row + y]);
+        let (left, right) = (f64::from(bounds.left) - 0.5, f64::from(bounds.right) + 0.5);
+        let (top, bottom) = (f64::from(bounds.top) - 0.5, f64::from(bounds.bottom) + 0.5);
+        let [a, b]: [PlanePoint; 2] = [corner(left, top), corner(right, bottom)];
+        let still = side.in_plane([left, top]);
+        // Of a panel across the line, the other sign is inside.
+        let away = if side.is_first() { -a.across.max(b.across) } else { a.across.min(b.across) };
+        PlaneBox {
+            along: [a.along.min(b.along), a.along.max(b.along)],
+            away,
+            carried: (a.across - still.across).abs(),
+        }
+    }
+}
+
+fn seconds(us: i64) -> f64 {
+    us as f64 / 1e6
+}
