@@ -16,7 +16,7 @@ pub struct Header {
     /// Number of bytes before the values.
     pub bytes: u64,
     /// Type of the values; none for records.
-    pub kind: Option<Kind>,
+    pub dtype: Option<Dtype>,
     /// True if the first index runs fastest.
     pub fortran: bool,
     /// The dimensions.
@@ -25,7 +25,7 @@ pub struct Header {
 
 /// Type of the values of an array.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Kind {
+pub struct Dtype {
     /// As NumPy calls it, for example `<u2`.
     name: String,
     /// What a value is: `u` and `i` are integers, `f` floating-point numbers, `U` texts.
@@ -36,17 +36,17 @@ pub struct Kind {
     pub big_endian: bool,
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for Dtype {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.name)
     }
 }
 
-impl Kind {
+impl Dtype {
     /// Bytes of a character of a text.
     const CHARACTER: usize = 4;
 
-    fn of(name: &str) -> Option<Kind> {
+    fn of(name: &str) -> Option<Dtype> {
         let big_endian = match name.chars().next()? {
             '<' | '|' => false,
             '>' => true,
@@ -54,8 +54,8 @@ impl Kind {
         };
         let class = name[1..].chars().next()?;
         let size = name[1 + class.len_utf8()..].parse().unwrap_or(0usize);
-        let width = if class == 'U' { size.checked_mul(Kind::CHARACTER)? } else { size };
-        Some(Kind { name: name.to_string(), class, width, big_endian })
+        let width = if class == 'U' { size.checked_mul(Dtype::CHARACTER)? } else { size };
+        Some(Dtype { name: name.to_string(), class, width, big_endian })
     }
 }
 
@@ -93,13 +93,13 @@ impl Header {
     /// Reads the dictionary of three keys, each once, in any order.
     fn of(text: &str) -> Option<Header> {
         let mut literal = Literal(text);
-        let (mut kind, mut fortran, mut shape) = (None, None, None);
+        let (mut dtype, mut fortran, mut shape) = (None, None, None);
         literal.sign('{')?;
         while literal.sign('}').is_none() {
             let key = literal.text()?;
             literal.sign(':')?;
             let is_new = match key {
-                "descr" => kind.replace(literal.kind()?).is_none(),
+                "descr" => dtype.replace(literal.dtype()?).is_none(),
                 "fortran_order" => fortran.replace(literal.truth()?).is_none(),
                 "shape" => shape.replace(literal.sizes()?).is_none(),
                 _ => false,
@@ -109,12 +109,12 @@ impl Header {
             }
         }
         let is_all = literal.0.trim().is_empty();
-        is_all.then_some(Header { bytes: 0, kind: kind?, fortran: fortran?, shape: shape? })
+        is_all.then_some(Header { bytes: 0, dtype: dtype?, fortran: fortran?, shape: shape? })
     }
 
     /// Bytes of the values; none if there is no such number.
     pub fn body(&self) -> Option<u64> {
-        let width = self.kind.as_ref().map_or(0, |kind| kind.width as u64);
+        let width = self.dtype.as_ref().map_or(0, |dtype| dtype.width as u64);
         self.shape.iter().try_fold(width, |product, size| product.checked_mul(*size))
     }
 }
@@ -177,9 +177,9 @@ impl<'a> Literal<'a> {
     }
 
     /// Takes a type: a name, or the list of a record's fields, which is passed over.
-    fn kind(&mut self) -> Option<Option<Kind>> {
+    fn dtype(&mut self) -> Option<Option<Dtype>> {
         if self.sign('[').is_none() {
-            return Some(Some(Kind::of(self.text()?)?));
+            return Some(Some(Dtype::of(self.text()?)?));
         }
         let mut depth = 1;
         while depth > 0 {
@@ -202,20 +202,23 @@ mod tests {
 
     #[test]
     fn a_dictionary_is_read_as_numpy_writes_it() {
-        let kind = |name: &str, class, width, big_endian| {
-            Some(Kind { name: name.to_string(), class, width, big_endian })
+        let dtype = |name: &str, class, width, big_endian| {
+            Some(Dtype { name: name.to_string(), class, width, big_endian })
         };
         for (text, want) in [
-            ("{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3), }  \n", kind("<u2", 'u', 2, false)),
-            ("{\"shape\":(2,3),\"descr\":\">f8\",\"fortran_order\":False}", kind(">f8", 'f', 8, true)),
-            ("{'descr': '<U7', 'fortran_order': False, 'shape': (2, 3)}", kind("<U7", 'U', 28, false)),
-            ("{'descr': '<M8[ns]', 'fortran_order': False, 'shape': (2, 3)}", kind("<M8[ns]", 'M', 0, false)),
+            ("{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3), }  \n", dtype("<u2", 'u', 2, false)),
+            ("{\"shape\":(2,3),\"descr\":\">f8\",\"fortran_order\":False}", dtype(">f8", 'f', 8, true)),
+            ("{'descr': '<U7', 'fortran_order': False, 'shape': (2, 3)}", dtype("<U7", 'U', 28, false)),
+            (
+                "{'descr': '<M8[ns]', 'fortran_order': False, 'shape': (2, 3)}",
+                dtype("<M8[ns]", 'M', 0, false),
+            ),
             (
                 "{'descr': [('a]', '<u2', (3,)), ('b', [('c', '|u1')])], 'fortran_order': False, 'shape': (2, 3), }",
                 None,
             ),
         ] {
-            let want = Header { bytes: 0, kind: want, fortran: false, shape: vec![2, 3] };
+            let want = Header { bytes: 0, dtype: want, fortran: false, shape: vec![2, 3] };
             assert_eq!(Header::of(text), Some(want), "{text}");
         }
         let one = Header::of("{'descr': '|b1', 'fortran_order': True, 'shape': (5,), }").unwrap();

@@ -24,21 +24,21 @@ pub fn list(source: impl Read, size: u64) -> Result<Vec<u16>> {
 
 /// Texts of a one-dimensional array in NumPy's encoding: four bytes per character, padded with 0.
 pub fn texts(mut source: impl Read) -> Result<Vec<String>> {
-    let Some(kind) = Header::read(&mut source)?.kind else {
+    let Some(dtype) = Header::read(&mut source)?.dtype else {
         fail!(ArrayError::Unfit, "holds records, expected texts")
     };
     require!(
-        kind.class == 'U' && kind.width > 0,
+        dtype.class == 'U' && dtype.width > 0,
         ArrayError::Unfit,
-        "holds values of type {kind}, expected texts"
+        "holds values of type {dtype}, expected texts"
     );
     let mut body = Vec::new();
     source.take(LONGEST_TEXTS).read_to_end(&mut body).context("damaged")?;
     let text = |cell: &[u8]| -> Option<String> {
-        let codes = cell.chunks_exact(4).map(|word| u32::of(word, kind.big_endian));
+        let codes = cell.chunks_exact(4).map(|word| u32::of(word, dtype.big_endian));
         codes.take_while(|code| *code != 0).map(char::from_u32).collect()
     };
-    body.chunks_exact(kind.width)
+    body.chunks_exact(dtype.width)
         .map(|cell| text(cell).ok_or_else(|| error!(ArrayError::Unfit, "holds something that is not text")))
         .collect()
 }
@@ -52,7 +52,7 @@ fn read_as(
 ) -> Result<Frames> {
     let header = Header::read(&mut source)?;
     let shape = shape_of(&header.shape)?;
-    let Some(kind) = &header.kind else { fail!(ArrayError::Unfit, "holds records, expected numbers") };
+    let Some(dtype) = &header.dtype else { fail!(ArrayError::Unfit, "holds records, expected numbers") };
     let claimed = header.body().unwrap_or(u64::MAX);
     check_size(&header.shape, claimed, size.saturating_sub(header.bytes))?;
     room.take(shape.values() as u64)?;
@@ -60,11 +60,11 @@ fn read_as(
     let mut body = Counted { source: source.take(claimed.saturating_add(1)), bytes: 0 };
     let values = Values {
         source: BufReader::with_capacity(PIECE, &mut body),
-        big_endian: kind.big_endian,
+        big_endian: dtype.big_endian,
         fortran: header.fortran,
         shape,
     };
-    let frames = match (kind.class, kind.width) {
+    let frames = match (dtype.class, dtype.width) {
         ('u', 1) => values.counts::<u8>(),
         ('u', 2) => values.counts::<u16>(),
         ('u', 4) => values.counts::<u32>(),
@@ -75,7 +75,7 @@ fn read_as(
         ('i', 8) => values.counts::<i64>(),
         ('f', 4) => values.counts::<f32>(),
         ('f', 8) => values.counts::<f64>(),
-        _ => fail!(ArrayError::Unfit, "holds values of type {kind}, expected integers, f32 or f64"),
+        _ => fail!(ArrayError::Unfit, "holds values of type {dtype}, expected integers, f32 or f64"),
     };
     if frames.as_ref().is_err_and(|error| !is_end(error)) {
         return frames;
