@@ -169,7 +169,7 @@ const ELSEWHERE: [&str; 5] = ["drift", "breath", "drops", "hug", "stroke by fing
 
 /// Compared properties, with the least percentages of agreement: as they are, and typically.
 const COMPARED: [(&str, [usize; 2]); 5] = [
-    ("onset", [97, 98]),
+    ("onset", [96, 97]),
     ("duration", [96, 99]),
     ("force", [99, 99]),
     ("words", [99, 99]),
