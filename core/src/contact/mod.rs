@@ -15,9 +15,9 @@
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
 //! taxel of the component, in its panel or across a seam. A component is a contact if its peak reaches the
-//! high threshold, which is a pressure ([`ContactConfig::high`]). A fainter component is one only if it comes
-//! within one taxel of a contact of the previous frame and continues it: it never begins a contact. A contact
-//! keeps its id from onset to release.
+//! high threshold, which is a pressure ([`ContactConfig::high`]). A fainter component is one only if it has at
+//! least half of that pressure, comes within one taxel of a contact of the previous frame and continues it: it
+//! never begins a contact. A contact keeps its id from onset to release.
 //!
 //! Contacts and components are paired by distance, the nearest first, from where each contact should be by
 //! its velocity. When two contacts merge, the one with the greater total goes on and the other is released;

@@ -38,13 +38,13 @@ impl Area {
     /// the same pressure, within 1 %. At most twice as many: on larger taxels a touch is mostly smaller than
     /// a taxel, and its force counts. The same counts if the pitch is unknown.
     #[inline(never)] // M0+: out of line
-    pub(crate) fn counts_of(&self, usual: u16) -> u32 {
+    pub(crate) fn counts_of(&self, usual: u32) -> u32 {
         if self.pitch_um[0] == 0 {
-            return usual.into();
+            return usual;
         }
         // Q7, without a division: 137 / 2^14 is 1 / 120, and exact at 120 and 240 mm2.
         let scale = (self.cell_mm2.min(240) * 137) >> 7;
-        (u32::from(usual) * scale) >> 7
+        (usual * scale) >> 7
     }
 }
 

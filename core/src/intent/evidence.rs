@@ -13,7 +13,7 @@
 //! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
 //! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
 //!
-//! A touch **still comes** while its load, at the rate of that time, would double within 60 ms: what it will
+//! A touch **still comes** while its load, at the rate of that time, would double within 55 ms: what it will
 //! be cannot be known yet.
 
 use super::felt::Felt;
@@ -25,7 +25,7 @@ use core::num::NonZeroU32;
 pub const WINDOW_US: u64 = 9_000;
 /// Time within which a load that still comes would double at its present rate, us. Pokes and pushes grow
 /// faster until they are harder than a kind touch; what leans, holds or strokes grows more slowly.
-const COMING_US: u32 = 60_000;
+const COMING_US: u32 = 55_000;
 /// Shortest time between two beats of a hand, us.
 const FASTEST_BEAT_US: u64 = 120_000;
 /// Time without a beat after which the rhythm is over, us.
@@ -150,8 +150,10 @@ impl Evidence {
         let gain = region.min(felt.whole().saturating_sub(anchor.felt.whole()));
         let passed = u32::try_from(now.since(anchor.at)).unwrap_or(u32::MAX);
         let growth = felt.load.saturating_sub(anchor.felt.load);
+        // Of an exponential, the growth over the mean load says its rate however far apart the frames are.
+        let mean = felt.load.saturating_sub(growth / 2);
         // What comes grows by a seventh within WINDOW_US; what grows by less needs no long product.
-        self.comes = growth > felt.load / 8 && wide(growth, COMING_US) > wide(felt.load, passed);
+        self.comes = growth > felt.load / 8 && wide(growth, COMING_US) > wide(mean, passed);
         let rise = match NonZeroU32::new(passed) {
             Some(passed) if gain > 0 => Inverse::of(passed.get()).quotient(wide(gain, 1_000)),
             _ => 0,
@@ -269,7 +271,7 @@ mod tests {
             }
             evidence.comes
         };
-        for period_us in [640, 2_500, 5_128, 9_000] {
+        for period_us in [640, 2_500, 5_128, 9_000, 20_000, 40_000] {
             for (fold_ms, wanted) in [(20.0, true), (40.0, true), (80.0, false), (270.0, false)] {
                 assert_eq!(comes(period_us, fold_ms, 200), wanted, "{fold_ms} ms at {period_us} us");
                 assert!(!comes(period_us, fold_ms, 240), "{fold_ms} ms at {period_us} us, at rest");

@@ -90,9 +90,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         self.beyond.clear();
         (self.dropped, self.faint) = (0, 0);
         let mut least = None;
-        let clear = config.clear_peak(self.drifting);
         for (index, label) in labeller.roots().filter(|(index, label)| label.group == *index) {
-            let (total, peak, area, held) = if label.joined {
+            let (total, peak, area, mut held) = if label.joined {
                 weigh(labeller, index)
             } else {
                 (label.mass, label.peak as u16, label.area, label.held)
@@ -102,8 +101,9 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             let mut begins = u32::from(peak) >= least_peak;
             if !begins {
                 let Some(panel) = layout.areas().get(usize::from(label.panel)) else { continue };
-                least_peak = panel.counts_of(config.high).max(clear);
+                least_peak = config.least_peak(panel, self.drifting);
                 begins = u32::from(peak) >= least_peak;
+                held &= config.goes_on(peak.into(), least_peak);
             }
             if area < config.min_area || !(begins || held) {
                 if u32::from(peak) >= least_peak - least_peak / 4 {
@@ -508,34 +508,42 @@ mod tests {
     }
 
     #[test]
-    fn a_contact_begins_at_the_same_pressure_on_every_pitch() {
+    fn a_contact_begins_and_ends_at_the_same_pressure_on_every_pitch() {
         let config = ContactConfig { low: 16, high: 40, ..Default::default() };
-        for (mm, least) in [
-            ([0, 0], 40),
-            ([12, 10], 40),
-            ([10, 10], 33),
-            ([9, 9], 26),
-            ([6, 6], 24),
-            ([14, 14], 65),
-            ([30, 30], 80),
+        for (mm, least, last) in [
+            ([0, 0], 40, 24),
+            ([12, 10], 40, 24),
+            ([10, 10], 34, 21),
+            ([9, 9], 29, 19),
+            ([6, 6], 24, 16),
+            ([14, 14], 60, 34),
+            ([30, 30], 72, 40),
         ] {
             let mut garment = Garment::recorded(12, 16);
             garment.panels[0].pitch_um = mm.map(|mm| 1_000 * mm);
             let layout = Layout::build(&garment, 3072, 4095).unwrap();
-            for (peak, area, drifting) in (16..100)
+            let mut felt = Feedback::<4>::new();
+            let rect = Rect { panel: 0, top: 1, bottom: 1, left: 4, right: 5 };
+            felt.home.push(Pressed { rect, peak: 100 }).unwrap();
+            for (peak, area, drifting, goes_on) in (16..100)
                 .flat_map(|peak| [1, 2].map(|area| (peak, area)))
                 .flat_map(|(peak, area)| [false, true].map(|drifting| (peak, area, drifting)))
+                .flat_map(|(peak, area, drifting)| [false, true].map(|on| (peak, area, drifting, on)))
             {
                 let mut values = vec![0; layout.taxels()];
                 values[20..][..area].fill(peak);
                 let rows = Rows::of(&layout, &values);
                 let mut labeller = Labeller::<64, 64>::new();
                 labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
+                if goes_on {
+                    labeller.mark_held(&layout, &felt, config.high);
+                }
                 let mut components = Components::<4>::new();
                 components.drifting = drifting;
                 components.select(&config, &labeller, &layout);
-                let begins = peak >= if drifting { least.max(40) } else { least };
-                assert_eq!(components.list.len(), usize::from(begins), "{area} of {peak} at {mm:?} mm");
+                let (least, last) = if drifting { (least.max(40), last.max(24)) } else { (least, last) };
+                let is_one = peak >= if goes_on { last } else { least };
+                assert_eq!(components.list.len(), usize::from(is_one), "{area} of {peak} at {mm:?} mm");
             }
         }
     }

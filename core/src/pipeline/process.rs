@@ -118,16 +118,16 @@ impl Pipeline {
     fn felt<'p>(&self, layout: &Layout, sure: impl Iterator<Item = &'p Placed>, drifting: bool) -> Felt {
         let mut felt = Felt::default();
         let config = self.contact.config();
-        let clear = config.clear_peak(drifting);
-        let mut least = clear;
+        let mut least = config.high;
         let mut panel = (u8::MAX, 0);
         for Placed { contact, region, .. } in sure {
             if contact.panel != panel.0 {
                 let area = layout.areas().get(usize::from(contact.panel));
                 panel = (contact.panel, area.map_or(0, |area| area.cell_mm2));
-                least = area.map_or(clear, |area| area.counts_of(config.high).max(clear)).min(0xffff);
+                let peak = area.map_or(0, |area| config.least_peak(area, drifting));
+                least = peak.min(u16::MAX.into()) as u16;
             }
-            felt.add(*region, contact.total, contact.peak, contact.area, panel.1, least as u16);
+            felt.add(*region, contact.total, contact.peak, contact.area, panel.1, least);
         }
         felt
     }

@@ -1,5 +1,6 @@
 //! Settings of the stage.
 
+use crate::garment::Area;
 use serde::{Deserialize, Serialize};
 
 /// Thresholds of contacts, and limits of tracking and slip.
@@ -8,9 +9,10 @@ use serde::{Deserialize, Serialize};
 pub struct ContactConfig {
     /// Threshold of a component's taxels, counts; at least 1.
     pub low: u16,
-    /// Peak at which a component becomes a contact, counts; not below `low`. It stays one while its peak is
-    /// at least `low`. The value is that of a taxel of 120 mm2, or of one whose pitch is unknown; on others
-    /// the peak is that of the same pressure, but at least 1.5 `low`, and at most twice the value.
+    /// Peak at which a component becomes a contact, counts; not below `low`. Half of `low` in it is noise,
+    /// the rest is pressure on a taxel of 120 mm2, or on one whose pitch is unknown. On others the pressure
+    /// is the same up to 240 mm2, and the noise too, but the peak at least 1.5 `low`. A contact goes on down
+    /// to half of that pressure, with the same noise.
     pub high: u16,
     /// Smallest area of a contact, taxels.
     pub min_area: u16,
@@ -32,11 +34,24 @@ pub const NO_SLIP: u16 = u16::MAX;
 const SLIP: u16 = if cfg!(feature = "slip") { 64 } else { NO_SLIP };
 
 impl ContactConfig {
-    /// Returns the peak from which on a contact may begin on any panel, however small its taxels are. While
-    /// the baseline drifts fast, what is left of the drift is no contact.
-    pub(crate) fn clear_peak(&self, drifting: bool) -> u32 {
-        let high = u32::from(self.high);
-        if drifting { high } else { high.min(u32::from(self.low) * 3 / 2) }
+    /// Returns the peak from which on a contact begins on a panel. However small its taxels are, it is clear
+    /// of noise and, while the baseline drifts fast, of what is left of the drift.
+    pub(crate) fn least_peak(&self, area: &Area, drifting: bool) -> u32 {
+        let (high, noise) = (u32::from(self.high), self.noise());
+        let clear = if drifting { high } else { high.min(u32::from(self.low) + noise) };
+        (area.counts_of(high - noise) + noise).max(clear)
+    }
+
+    /// Returns true if a contact goes on with this peak, where the least peak to begin is that: half of its
+    /// pressure. A pressure, too: otherwise a touch would end earlier on smaller taxels.
+    #[inline(always)]
+    pub(crate) fn goes_on(&self, peak: u32, least_peak: u32) -> bool {
+        2 * peak >= least_peak + self.noise()
+    }
+
+    /// Part of a peak that is noise, whatever the area of a taxel, counts.
+    fn noise(&self) -> u32 {
+        u32::from(self.low) / 2
     }
 
     /// True if the scene looks for slip.

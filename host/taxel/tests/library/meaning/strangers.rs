@@ -92,6 +92,26 @@ pub enum Make {
     Worn,
 }
 
+/// Where a touch lands between the taxels, when between two frames, and in which noise: what nobody chooses.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+pub struct Landing {
+    /// Shares of the pitch by which it lies farther along x and y.
+    taxels: [f64; 2],
+    /// Share of the frame period by which it begins later.
+    frames: f64,
+    /// Number of its noise.
+    noise: usize,
+}
+
+impl Landing {
+    /// Landing `number`, spread evenly over a taxel and a frame (an additive recurrence by the plastic ratio,
+    /// and by the golden one); 0 leaves the touch as it is.
+    pub fn nth(number: usize) -> Landing {
+        let share = |step: f64| (number as f64 * step).fract();
+        Landing { taxels: [share(0.7549), share(0.5698)], frames: share(0.6180), noise: number }
+    }
+}
+
 /// Touch `number` of a family.
 pub fn act(family: usize, number: u64) -> Act {
     let garment = if number.is_multiple_of(2) { Garment::reference() } else { sheet() };
@@ -99,22 +119,38 @@ pub fn act(family: usize, number: u64) -> Act {
 }
 
 /// The touch on any garment, with this frame period (us).
-pub fn worn(family: usize, number: u64, (garment, make): (Garment, Make), period_us: Option<u64>) -> Act {
+pub fn worn(family: usize, number: u64, wearing: (Garment, Make), period_us: Option<u64>) -> Act {
+    landed(family, number, wearing, period_us, Landing::default())
+}
+
+/// The touch on any garment, with this frame period (us), as it lands.
+pub fn landed(
+    family: usize,
+    number: u64,
+    (garment, make): (Garment, Make),
+    period_us: Option<u64>,
+    landing: Landing,
+) -> Act {
     let mut rng = Rng::with_seed(0x5742_0000 ^ (family as u64) << 8 ^ number);
     let Family { name, .. } = FAMILIES[family];
     let patches = Stranger { rng: rng.fork() }.does(name);
-    let end_s = BEGIN_S + patches.iter().map(|patch| patch.force.end_s()).fold(0.0, f64::max);
     let note =
         patches.first().map(|patch| format!("half axes {:.0?} mm, {}", patch.half, told(&patch.force)));
     let drift = if name == "drift" { 1.5 } else { 0.0 };
-    let mut cloth = Cloth::new(&garment, make, drift, rng.fork());
+    let mut noise = rng.fork();
+    let period_us = period_us.unwrap_or([5_128, 4_000, 12_500][rng.usize(..3)]);
+    (0..landing.noise).for_each(|_| noise = rng.fork());
+    let mut cloth = Cloth::new(&garment, make, drift, noise);
+    cloth.landing = landing.taxels;
+    let begin_s = BEGIN_S + landing.frames * period_us as f64 / 1e6;
+    let end_s = begin_s + patches.iter().map(|patch| patch.force.end_s()).fold(0.0, f64::max);
     let codes = move |start_us: u64, codes: &mut [u16]| {
-        cloth.scan(start_us as f64 / 1e6 - BEGIN_S, &patches, codes);
+        cloth.scan(start_us as f64 / 1e6 - begin_s, &patches, codes);
     };
     Act {
         family: FAMILIES[family],
-        span: ((BEGIN_S * 1e6) as u64, (end_s * 1e6) as u64),
-        period_us: period_us.unwrap_or([5_128, 4_000, 12_500][rng.usize(..3)]),
+        span: ((begin_s * 1e6) as u64, (end_s * 1e6) as u64),
+        period_us,
         garment,
         note: note.unwrap_or_default(),
         codes: Box::new(codes),
@@ -310,6 +346,8 @@ struct Cloth {
     /// Share of a force by which a taxel creeps.
     memory: f64,
     drift: f64,
+    /// Shares of the pitch by which every touch lies farther along x and y.
+    landing: [f64; 2],
     newtons: Vec<f64>,
     rng: Rng,
     before_s: f64,
@@ -338,6 +376,7 @@ impl Cloth {
             creep,
             memory: worn * 0.04,
             drift,
+            landing: [0.0; 2],
             newtons: vec![0.0; count],
             rng,
             before_s: 0.0,
@@ -365,7 +404,10 @@ impl Cloth {
     fn press(&mut self, patch: &Patch, start_s: f64) {
         let (first, columns, rows, pitch) = self.panels[patch.panel % self.panels.len()];
         let side = [columns as f64 * pitch[0], rows as f64 * pitch[1]];
-        let centre = [0, 1].map(|axis| patch.at[axis] * side[axis] + patch.speed[axis] * start_s.max(0.0));
+        let centre = [0, 1].map(|axis| {
+            let way = self.landing[axis] * pitch[axis] + patch.speed[axis] * start_s.max(0.0);
+            patch.at[axis] * side[axis] + way
+        });
         // The integral of 1 - r^4 over the ellipse is two thirds of its area.
         let whole = std::f64::consts::PI * patch.half[0] * patch.half[1] * 2.0 / 3.0;
         let (sin, cos) = patch.angle.sin_cos();
