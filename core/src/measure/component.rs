@@ -90,21 +90,21 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         self.beyond.clear();
         (self.dropped, self.faint) = (0, 0);
         let mut least = None;
+        // The last label's panel, and its least peak.
+        let mut of = (None, 0);
         for (index, label) in labeller.roots().filter(|(index, label)| label.group == *index) {
-            let (total, peak, area, mut held) = if label.joined {
+            let (total, peak, area, held) = if label.joined {
                 weigh(labeller, index)
             } else {
                 (label.mass, label.peak as u16, label.area, label.held)
             };
-            // Beyond twice the threshold it begins anywhere.
-            let mut least_peak = 2 * u32::from(config.high);
-            let mut begins = u32::from(peak) >= least_peak;
-            if !begins {
-                let Some(panel) = layout.areas().get(usize::from(label.panel)) else { continue };
-                least_peak = config.least_peak(panel, self.drifting);
-                begins = u32::from(peak) >= least_peak;
-                held &= config.goes_on(peak.into(), least_peak);
+            if of.0 != Some(label.panel) {
+                let Some(area) = layout.areas().get(usize::from(label.panel)) else { continue };
+                of = (Some(label.panel), config.least_peak(area, self.drifting));
             }
+            let least_peak = of.1;
+            let begins = u32::from(peak) >= least_peak;
+            let held = held && config.goes_on(peak.into(), least_peak);
             if area < config.min_area || !(begins || held) {
                 if u32::from(peak) >= least_peak - least_peak / 4 {
                     self.faint |= 1u8.checked_shl(label.panel.into()).unwrap_or(0);

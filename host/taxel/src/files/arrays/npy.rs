@@ -53,30 +53,30 @@ fn read_as(
     let header = Header::read(&mut source)?;
     let shape = shape_of(&header.shape)?;
     let Some(dtype) = &header.dtype else { fail!(ArrayError::Unfit, "holds records, expected numbers") };
+    let counts: fn(Values<_>) -> Result<Frames> = match (dtype.class, dtype.width) {
+        ('u', 1) => Values::counts::<u8>,
+        ('u', 2) => Values::counts::<u16>,
+        ('u', 4) => Values::counts::<u32>,
+        ('u', 8) => Values::counts::<u64>,
+        ('i', 1) => Values::counts::<i8>,
+        ('i', 2) => Values::counts::<i16>,
+        ('i', 4) => Values::counts::<i32>,
+        ('i', 8) => Values::counts::<i64>,
+        ('f', 4) => Values::counts::<f32>,
+        ('f', 8) => Values::counts::<f64>,
+        _ => fail!(ArrayError::Unfit, "holds values of type {dtype}, expected integers, f32 or f64"),
+    };
     let claimed = header.body().unwrap_or(u64::MAX);
     check_size(&header.shape, claimed, size.saturating_sub(header.bytes))?;
     room.take(shape.values() as u64)?;
     // `size` may be wrong as well, so the bytes read are counted.
     let mut body = Counted { source: source.take(claimed.saturating_add(1)), bytes: 0 };
-    let values = Values {
+    let frames = counts(Values {
         source: BufReader::with_capacity(PIECE, &mut body),
         big_endian: dtype.big_endian,
         fortran: header.fortran,
         shape,
-    };
-    let frames = match (dtype.class, dtype.width) {
-        ('u', 1) => values.counts::<u8>(),
-        ('u', 2) => values.counts::<u16>(),
-        ('u', 4) => values.counts::<u32>(),
-        ('u', 8) => values.counts::<u64>(),
-        ('i', 1) => values.counts::<i8>(),
-        ('i', 2) => values.counts::<i16>(),
-        ('i', 4) => values.counts::<i32>(),
-        ('i', 8) => values.counts::<i64>(),
-        ('f', 4) => values.counts::<f32>(),
-        ('f', 8) => values.counts::<f64>(),
-        _ => fail!(ArrayError::Unfit, "holds values of type {dtype}, expected integers, f32 or f64"),
-    };
+    });
     if frames.as_ref().is_err_and(|error| !is_end(error)) {
         return frames;
     }

@@ -48,6 +48,21 @@ fn error(name: &str, bytes: &[u8], array: Option<&str>) -> String {
 }
 
 #[test]
+fn a_type_that_is_no_number_is_named_before_its_size() {
+    for (name, width) in
+        [("<M8[ns]", 8), ("|O", 8), ("<c16", 16), ("<f2", 2), ("|b1", 1), ("<U3", 12), ("|V5", 5)]
+    {
+        let text = format!("{{'descr': '{name}', 'fortran_order': False, 'shape': (2, 3), }}\n");
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        bytes.extend((text.len() as u16).to_le_bytes());
+        bytes.extend(text.bytes());
+        bytes.resize(bytes.len() + 6 * width, 0);
+        let want = format!("typed.npy: holds values of type {name}, expected integers, f32 or f64");
+        assert_eq!(error("typed.npy", &bytes, None), want);
+    }
+}
+
+#[test]
 fn every_number_type_and_order_is_read() {
     let want = Frames { rows: 3, columns: 4, count: 2, values: numbers() };
     let shape = [2, 3, 4];
