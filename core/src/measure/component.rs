@@ -91,35 +91,27 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         (self.dropped, self.faint) = (0, 0);
         let mut least = None;
         // The last label's panel, and its least peak.
-        let mut of = (None, 0);
+        let mut of = (u8::MAX, 0);
         for (index, label) in labeller.roots().filter(|(index, label)| label.group == *index) {
             let (total, peak, area, held) = if label.joined {
                 weigh(labeller, index)
             } else {
                 (label.mass, label.peak as u16, label.area, label.held)
             };
-            if of.0 != Some(label.panel) {
-                let Some(area) = layout.areas().get(usize::from(label.panel)) else { continue };
-                of = (Some(label.panel), config.least_peak(area, self.drifting));
+            let panel = label.panel;
+            let mut found =
+                Candidate { label: index, joined: label.joined, begins: true, total, peak, area, panel };
+            if panel != of.0 {
+                let Some(area) = layout.areas().get(usize::from(panel)) else { continue };
+                of = (panel, config.least_peak(area, self.drifting));
             }
             let least_peak = of.1;
-            let begins = u32::from(peak) >= least_peak;
-            let held = held && config.goes_on(peak.into(), least_peak);
-            if area < config.min_area || !(begins || held) {
-                if u32::from(peak) >= least_peak - least_peak / 4 {
-                    self.faint |= 1u8.checked_shl(label.panel.into()).unwrap_or(0);
-                }
+            found.begins = u32::from(peak) >= least_peak;
+            let goes_on = found.begins || held && config.goes_on(peak.into(), least_peak);
+            if area < config.min_area || !goes_on {
+                self.miss(&found, least_peak);
                 continue;
             }
-            let found = Candidate {
-                label: index,
-                joined: label.joined,
-                begins,
-                total,
-                peak,
-                area,
-                panel: label.panel,
-            };
             if self.list.is_full() {
                 self.dropped = self.dropped.saturating_add(1);
                 self.replace_least(&mut least, &found);
@@ -128,6 +120,13 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
             {
                 component.begin(&found);
             }
+        }
+    }
+
+    /// Marks its panel if what is no contact is nearly one.
+    fn miss(&mut self, found: &Candidate, least_peak: u32) {
+        if u32::from(found.peak) >= least_peak - least_peak / 4 {
+            self.faint |= 1u8.checked_shl(found.panel.into()).unwrap_or(0);
         }
     }
 
