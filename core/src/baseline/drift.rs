@@ -3,8 +3,10 @@
 //! In each [turn](super::rates::TURN_US), or half of it while a panel drifts fast, every row is visited once,
 //! whatever the frame rate. Its taxels move by the common drift of their panel
 //! ([`Consensus`](super::consensus::Consensus)). Taxels farther than one taxel from any contact then move on
-//! towards their own codes: by as much as taxels may differ from their panel, and by [`OWN`] if they show no
-//! pressure. A held contact is therefore never absorbed by the baseline, nor is a slow one once it shows.
+//! towards their own codes by as much as taxels may differ from their panel. A taxel that shows no pressure
+//! moves on by [`OWN`], beside a contact, too: otherwise the surroundings of a contact that is held for long
+//! would drift apart from their panel and join it. A held contact is therefore never absorbed by the
+//! baseline, nor is a slow one once it shows.
 //! While a panel drifts fast, a taxel with less than a sixteenth of a contact's peak does not belong to the
 //! contact: otherwise the surroundings of a contact would not follow, drift away from the panel, join the
 //! contact, and stop their own surroundings. A taxel on which the garment's fold presses moves by the common
@@ -99,9 +101,11 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         self.follow_row(area, row, common, |column, shown| {
             let least = if fast { shown } else { u16::MAX };
             let is_held = folded && folds.holds(first + usize::from(column));
-            match is_held || touched && feedback.presses(panel, row, column, least) {
-                true => 0,
-                false => beside + if shown == 0 { OWN } else { 0 },
+            let own = if shown == 0 { OWN } else { 0 };
+            match touched && feedback.presses(panel, row, column, least) {
+                _ if is_held => 0,
+                true => own,
+                false => beside + own,
             }
         });
     }

@@ -146,9 +146,9 @@ impl DenseCondition {
             let slow = self.lately[panel] == 0;
             let presses = |held: &Pressed| slow || shown[taxel] >= held.peak / 16;
             let near = held.iter().any(|held| held.rect.holds(panel as u8, row, column, 1) && presses(held));
-            // What is common and a quarter of it, and a count where nothing shows.
-            let beside = (f64::from(common.abs()) * 1.25).floor() as i32 + i32::from(shown[taxel] == 0);
-            let beside = if near { 0 } else { beside };
+            // What is common and a quarter of it, if nothing holds it, and a count where nothing shows.
+            let beside = if near { 0 } else { (f64::from(common.abs()) * 1.25).floor() as i32 };
+            let beside = beside + i32::from(shown[taxel] == 0);
             let off = i32::from(code.0) - i32::from(self.rest[taxel]);
             let step = off.clamp(common - beside, common + beside);
             self.rest[taxel] = (i32::from(self.rest[taxel]) + step).clamp(0, 65535) as u16;

@@ -32,32 +32,29 @@ fn a_touch_is_held_for_a_minute_at_a_count_per_second() {
 }
 
 /// Each taxel under it drifts by up to 600 counts more or less than its panel, which cannot be measured; its
-/// surroundings do not join it.
+/// surroundings do not join it. In the second case the drift turns at the moment the touch begins.
 #[test]
 fn a_touch_is_held_for_a_minute_at_twenty_counts_per_second() {
     for (garment, quickest) in garments() {
-        // In the second case the drift turns at the moment the touch begins: on one of the garments more
-        // joins it, before the drift is known again.
-        for (hz, way, most) in [(quickest.min(400.0), 1_200.0, 1.2), (25.0, 600.0, 4.0)] {
+        for (hz, way) in [(quickest.min(400.0), 1_200.0), (25.0, 600.0)] {
             let part = left(&Trial::new(garment.clone(), hz), Course { rate: 20.0, way }, 60.0);
-            assert!((0.8..most).contains(&part), "{part}");
+            assert!((0.8..1.2).contains(&part), "{part}");
         }
     }
 }
 
 /// Where the drift goes far, each taxel under the touch ends up to 450 counts off its panel, which cannot be
-/// measured: on one garment in four more joins the touch, or less of it is left. It stays on all of them.
+/// measured. Its surroundings follow their own drift and do not join it.
 #[test]
 fn a_touch_is_held_for_an_hour_at_half_a_count_per_second() {
     for garment in [Garment::block(), Garment::recorded(12, 12)] {
-        for (way, seeds, within) in [(60.0, 4, 4), (900.0, 12, 8)] {
+        for (way, seeds) in [(60.0, 4), (900.0, 12)] {
             let part = |seed| {
                 let trial = Trial { seed, ..Trial::new(garment.clone(), 25.0) };
                 left(&trial, Course { rate: 0.5, way }, 3_600.0)
             };
             let parts: Vec<f64> = (0..seeds).map(part).collect();
-            let near = parts.iter().filter(|part| (0.7..1.3).contains(*part)).count();
-            assert!(near >= within, "{near} of {seeds} over {way} counts: {parts:.2?}");
+            assert!(parts.iter().all(|part| (0.8..1.1).contains(part)), "over {way} counts: {parts:.2?}");
         }
     }
 }
