@@ -19,7 +19,7 @@
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
 //! | `touched.rs` | [`BoardTouch`]: what touches a board |
-//! | `faint.rs` | [`FaintFinder`]: what touches a seam and is too faint to be a contact of its board |
+//! | `faint.rs` | what touches a seam and is too faint to be a contact of its board |
 //! | `scan.rs` | [`ScanReader`]: contacts of a board's scan, and what is too faint for that |
 //! | `history.rs` | pressure and place of a touch in its last scans |
 //! | `carried.rs` | a touch of a board, carried on to the time of another board's scan |
