@@ -80,9 +80,9 @@ fn check_lists_boards_and_seams_or_says_what_is_wrong() {
     let done = run(&good, &["robot", "check", "robot.toml"]);
     let table = "\
 robot two: 2 boards, 1 seam between them; reference: 12 links, base base_link
-board  source     garment     taxels  lies on         scene  tare
-torso  sim:five   reference   2048    body reference  -      -
-hand   sim:press  block-4x16  64      left_hand       -      32
+board  source     garment     taxels  lies on         scene  calibration  tare
+torso  sim:five   reference   2048    body reference  -      -            -
+hand   sim:press  block-4x16  64      left_hand       -      -            32
 seam: torso left arm, bottom from 0 - hand mat, top from 0, 16 taxels
 ";
     assert_eq!(text(&done.stdout), table, "{}", text(&done.stderr));

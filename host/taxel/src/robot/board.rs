@@ -4,6 +4,7 @@ use super::identity::Identity;
 use super::recognise::recognised;
 use crate::client::Client;
 use crate::error::Result;
+use crate::files::calibrate::Calibration;
 use crate::session::setting;
 use crate::source::{self, SceneFile, Source, SourceOptions, SourceSpec};
 use taxel_core::garment::{Garment, Layout};
@@ -22,6 +23,8 @@ pub struct RobotBoard {
     pub garment: Option<BoardGarment>,
     /// Scene to send to it.
     pub scene: Option<SceneFile>,
+    /// Its calibration, for forces in newtons.
+    pub calibration: Option<Calibration>,
     /// Frames of the tare; none for that of the source.
     pub tare: Option<u16>,
     /// Where its panels lie: path of a file, or name of a preset.
@@ -68,11 +71,14 @@ impl RobotBoard {
         }
     }
 
-    /// Queues what is asked of it first: scene, body, stream, tare, and what presses on each link if it has a
+    /// Queues what is asked of it first: scene, calibration, body, stream, tare, and what presses on each link if it has a
     /// body.
     pub fn begin(&self, client: &mut Client, source: &Source) -> Result<()> {
         if let Some(scene) = &self.scene {
             setting::set_scene(client, scene)?;
+        }
+        if let Some(calibration) = self.calibration.as_ref().filter(|_| source.listens) {
+            calibration.requests().try_for_each(|request| client.request(&request))?;
         }
         // Before the tare, during which the board stores nothing.
         if let Some((body, worn)) = self.body.as_ref().zip(self.garment.as_ref())

@@ -1,24 +1,24 @@
-//! A contact of a board, carried on to a time between two of the board's lists.
+//! A touch of a board, carried on to a time between two of the board's scans.
 
+use super::history::{TouchHistory, TouchSample};
 use super::plane::{PlanePoint, PlaneSide};
-use taxel_core::contact::Contact;
+use super::touched::BoardTouch;
 
-/// A contact of a board as it was reported last.
+/// A touch of a board as it was reported last.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CarriedContact {
+pub struct CarriedTouch {
     /// Number of the board.
     pub board: usize,
     /// What the board says of it.
-    pub contact: Contact,
+    pub touch: BoardTouch,
     /// The host's time of that, us.
     pub host_us: u64,
-    /// Change of the total, counts per second.
-    rate: f64,
-    /// Time between the board's lists, us: it is not carried further than that.
+    history: TouchHistory,
+    /// Time between the board's scans, us: it is not carried further than that.
     interval_us: u64,
 }
 
-/// The box around a contact in the plane of a seam.
+/// The box around a touch in the plane of a seam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneBox {
     /// First and last along the seam, taxels, borders included.
@@ -36,27 +36,31 @@ impl PlaneBox {
     }
 }
 
-impl CarriedContact {
-    /// A contact of a list; `before` is the same one in the list before, `interval_us` earlier.
+impl CarriedTouch {
+    /// A touch of a scan; `before` is the same one in an earlier scan, without which it was not there
+    /// `interval_us` earlier.
     pub fn new(
         board: usize,
-        contact: Contact,
+        touch: BoardTouch,
         host_us: u64,
         interval_us: u64,
-        before: Option<&CarriedContact>,
-    ) -> CarriedContact {
-        let before = before.map_or(0, |before| before.contact.total);
-        let grown = f64::from(contact.total) - f64::from(before);
-        let rate = if interval_us == 0 { 0.0 } else { grown / seconds(interval_us as i64) };
-        CarriedContact { board, contact, host_us, rate, interval_us }
+        before: Option<&CarriedTouch>,
+    ) -> CarriedTouch {
+        let mut history = before.map_or_else(TouchHistory::default, |before| before.history.clone());
+        let sample = TouchSample { host_us, total: f64::from(touch.total), centroid: touch.centroid };
+        if before.is_none() && interval_us > 0 {
+            history.push(TouchSample { host_us: host_us.saturating_sub(interval_us), total: 0.0, ..sample });
+        }
+        history.push(sample);
+        CarriedTouch { board, touch, host_us, history, interval_us }
     }
 
     /// The same, carried on for that long.
-    pub fn lasting(self, interval_us: u64) -> CarriedContact {
-        CarriedContact { interval_us, ..self }
+    pub fn lasting(self, interval_us: u64) -> CarriedTouch {
+        CarriedTouch { interval_us, ..self }
     }
 
-    /// Time between the board's lists, us.
+    /// Time between the board's scans, us.
     pub fn interval_us(&self) -> u64 {
         self.interval_us
     }
@@ -69,27 +73,33 @@ impl CarriedContact {
     /// Time by which it is carried on, s.
     fn carried(&self, host_us: u64) -> f64 {
         let most = self.interval_us as i64;
-        seconds(self.age_us(host_us).clamp(-most, most))
+        self.age_us(host_us).clamp(-most, most) as f64 / 1e6
     }
 
     /// Its total then, counts.
     pub fn total(&self, host_us: u64) -> f64 {
-        (f64::from(self.contact.total) + self.rate * self.carried(host_us)).max(0.0)
+        match self.history.at(host_us) {
+            Some(sample) => sample.total,
+            None => (f64::from(self.touch.total) + self.history.rate() * self.carried(host_us)).max(0.0),
+        }
     }
 
     /// Its centroid then, `[x, y]` in taxels of its panel.
     pub fn centroid(&self, host_us: u64) -> [f64; 2] {
-        let [x, y] = self.moved(host_us);
-        [self.contact.x.to_f64() + x, self.contact.y.to_f64() + y]
+        if let Some(sample) = self.history.at(host_us) {
+            return sample.centroid;
+        }
+        let ([x, y], [right, down]) = (self.touch.centroid, self.moved(host_us));
+        [x + right, y + down]
     }
 
     fn moved(&self, host_us: u64) -> [f64; 2] {
-        [self.contact.vx, self.contact.vy].map(|speed| speed.to_f64() * self.carried(host_us))
+        self.touch.velocity.map(|speed| speed * self.carried(host_us))
     }
 
     /// The box around it then, in the plane of a seam of its panel.
     pub fn bounds(&self, side: &PlaneSide, host_us: u64) -> PlaneBox {
-        let (bounds, [x, y]) = (self.contact.bounds, self.moved(host_us));
+        let (bounds, [x, y]) = (self.touch.bounds, self.moved(host_us));
         let corner = |column: f64, row: f64| side.in_plane([column + x, row + y]);
         let (left, right) = (f64::from(bounds.left) - 0.5, f64::from(bounds.right) + 0.5);
         let (top, bottom) = (f64::from(bounds.top) - 0.5, f64::from(bounds.bottom) + 0.5);
@@ -103,8 +113,4 @@ impl CarriedContact {
             carried: (a.across - still.across).abs(),
         }
     }
-}
-
-fn seconds(us: i64) -> f64 {
-    us as f64 / 1e6
 }

@@ -33,6 +33,8 @@ pub struct BoardConfig {
     pub garment: Option<String>,
     /// Scene to send to it: a TOML file.
     pub scene: Option<String>,
+    /// Calibration to send to it, for forces in newtons: a file written by `taxel calibrate`.
+    pub calibration: Option<String>,
     /// Number of frames whose mean is the baseline, 0 to 4096; that of a simulated script, else 0, if left
     /// out.
     pub tare: Option<u16>,

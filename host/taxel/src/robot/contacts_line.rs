@@ -1,6 +1,6 @@
 //! The robot's contacts as JSON.
 
-use super::contacts::{RobotContact, RobotContactPart};
+use super::contact::{RobotContact, RobotContactPart};
 use super::file::ReadRobot;
 use super::plane::pitch_mm;
 #[cfg(feature = "schema")]
@@ -48,6 +48,9 @@ pub struct RobotContactLine<'a> {
     pub y_mm: f64,
     /// Sum of the pressure of its taxels on all boards, counts.
     pub total: u32,
+    /// Force by the calibrations in force, N; absent unless all of its boards have one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<f64>,
     /// Greatest pressure of a taxel, counts.
     pub peak: u16,
     /// Number of taxels.
@@ -56,18 +59,18 @@ pub struct RobotContactLine<'a> {
     pub duration: f64,
     /// Age of pressure and place, us: the time until which all of its boards have told theirs.
     pub age_us: u64,
-    /// The boards' contacts that it consists of.
+    /// What it consists of, board by board.
     pub parts: Vec<RobotContactPartLine<'a>>,
 }
 
-/// A board's contact as a part of the robot's.
+/// What a board has of a contact of the robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotContactPartLine<'a> {
     /// Name of the board.
     pub board: &'a str,
-    /// Id of the contact there.
-    pub contact: u32,
+    /// Id of the board's contact; null if it is too faint to be one there.
+    pub contact: Option<u32>,
     /// Its pressure, counts.
     pub total: u32,
     /// Age of what the board has told last, us; below 0 if it is newer.
@@ -106,6 +109,7 @@ impl<'a> RobotContactLine<'a> {
             x_mm: x * x_mm,
             y_mm: y * y_mm,
             total: contact.total,
+            force_n: contact.newtons,
             peak: contact.peak,
             area: contact.area,
             duration: host_time_us.saturating_sub(contact.onset_us) as f64 / 1e6,

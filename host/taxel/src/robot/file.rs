@@ -9,6 +9,7 @@ use crate::body::{
     robot::{self, Robot},
 };
 use crate::error::{Context, FileError, Result};
+use crate::files::calibrate::{Calibration, Forces};
 use crate::files::{garments, scripts};
 use crate::source::{SceneFile, SourceSpec, is_board};
 use crate::tell::verbose;
@@ -117,6 +118,9 @@ impl BoardReader<'_> {
         let garment = garment.transpose().with_context(|| at("garment"))?;
         let scene = board.scene.as_deref().map(|named| SceneFile::read(Path::new(&beside(named))));
         let scene = scene.transpose().with_context(|| at("scene"))?;
+        let calibration =
+            board.calibration.as_deref().map(|named| calibration(&beside(named), garment.as_ref()));
+        let calibration = calibration.transpose().with_context(|| at("calibration"))?;
         if let Some(tare) = board.tare.filter(|tare| *tare > TARE) {
             let why = format!("it is {tare}, and must be 0 to {TARE}");
             return Err(place.of_board(index, name, "tare", why).into());
@@ -130,6 +134,7 @@ impl BoardReader<'_> {
             usb_serial: board.serial.clone(),
             garment,
             scene,
+            calibration,
             tare: board.tare,
             body,
             link: board.link.clone(),
@@ -237,4 +242,11 @@ fn garment(named: &str) -> Result<BoardGarment> {
         Layout::build(&read.garment, usize::from(u16::MAX), 4095).map_err(|error| read.error(&error))?;
     Circuit::build(&read.garment, &layout, Pins::ANY).map_err(|error| read.error(&error))?;
     Ok(BoardGarment { name: read.name, garment: read.garment, layout })
+}
+
+/// Reads a calibration, and checks that it is of this garment.
+fn calibration(path: &str, worn: Option<&BoardGarment>) -> Result<Calibration> {
+    let calibration = Calibration::read(Path::new(path))?;
+    worn.map_or(Ok(()), |worn| Forces::new(&calibration, &worn.layout).map(drop))?;
+    Ok(calibration)
 }

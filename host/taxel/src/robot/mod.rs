@@ -18,8 +18,14 @@
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
-//! | `carried.rs` | a contact of a board, carried on to the time of another board's list |
-//! | `scan.rs` | [`BoardScan`]: what that needs of a board's scan |
+//! | `touched.rs` | [`BoardTouch`]: what touches a board |
+//! | `faint.rs` | [`FaintFinder`]: what touches a seam and is too faint to be a contact of its board |
+//! | `scan.rs` | [`ScanReader`]: contacts of a board's scan, and what is too faint for that |
+//! | `history.rs` | pressure and place of a touch in its last scans |
+//! | `carried.rs` | a touch of a board, carried on to the time of another board's scan |
+//! | `listed.rs` | what a board has told last of what touches it |
+//! | `joined.rs` | which touches meet at the seams, and what they are together |
+//! | `contact.rs` | [`RobotContact`]: a contact of the robot, on one board or on several |
 //! | `contacts_line.rs` | the robot's contacts as JSON |
 //! | `contacts.rs` | [`RobotContacts`]: what touches both sides of a seam is one contact with one id |
 //!
@@ -31,13 +37,18 @@
 mod board;
 mod carried;
 mod config;
+mod contact;
 mod contacts;
 mod contacts_line;
 mod event;
+mod faint;
 mod file;
 mod follow;
+mod history;
 mod identity;
+mod joined;
 mod line;
+mod listed;
 mod open;
 mod place;
 mod plane;
@@ -48,10 +59,12 @@ mod refused;
 mod scan;
 mod seam;
 mod session;
+mod touched;
 
 pub use board::{BoardGarment, RobotBoard};
 pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
-pub use contacts::{CROSSING_US, RobotContact, RobotContactPart, RobotContacts};
+pub use contact::{RobotContact, RobotContactPart};
+pub use contacts::{CROSSING_US, RobotContacts};
 #[cfg(feature = "schema")]
 pub use contacts_line::robot_contacts_schema;
 pub use contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
@@ -62,6 +75,7 @@ pub use identity::Identity;
 pub use line::BoardLine;
 pub use queue::{WAITING, WhenFull};
 pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
-pub use scan::BoardScan;
+pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;
+pub use touched::BoardTouch;

@@ -6,14 +6,16 @@
 //! If boards are sewn together, `/taxel/robot_contacts` has the robot's contacts. Log time is the host's time,
 //! which all boards share.
 
-use super::contacts::{RobotContact, RobotContacts};
+use super::contact::RobotContact;
+use super::contacts::RobotContacts;
 use super::contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
 use super::event::Teller;
 use super::file::ReadRobot;
-use super::scan::BoardScan;
+use super::scan::{BoardScan, ScanReader};
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Worn};
 use crate::error::{Context, Result};
+use crate::files::calibrate::Calibration;
 use crate::files::output::{Force, Output};
 use crate::record::{COUNTS, Encoded, NS, Origin, RecordTopic, Stamp, Tally, Topics, attach};
 use crate::recording::{Format, HELLO, Writer, attachment_of};
@@ -46,16 +48,27 @@ struct Described {
 }
 
 /// Encodes a board's events for a recording.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct RecordTeller {
     origin: Origin,
     worn: Option<Worn>,
+    reader: ScanReader,
+}
+
+impl RecordTeller {
+    /// Of a board of a robot.
+    pub fn new(robot: &ReadRobot, board: usize) -> RecordTeller {
+        let calibration = robot.boards.get(board).and_then(|board| board.calibration.clone());
+        let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton);
+        let origin = Origin { calibration, counts_per_newton, ..Origin::default() };
+        RecordTeller { origin, worn: None, reader: ScanReader::new(robot, board) }
+    }
 }
 
 impl Teller<BoardRecord> for RecordTeller {
     fn opened(&mut self, source: &Source) {
         self.origin.label.clone_from(&source.label);
-        self.origin.counts_per_newton = source.counts_per_newton;
+        self.origin.counts_per_newton = self.origin.counts_per_newton.or(source.counts_per_newton);
     }
 
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
@@ -69,7 +82,7 @@ impl Teller<BoardRecord> for RecordTeller {
                 Box::new(Described { worn, hello, origin })
             });
         }
-        let scan = BoardScan::of(client, event);
+        let scan = self.reader.scan(client, event);
         Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()), scan }))
     }
 

@@ -5,7 +5,7 @@ use super::config::{BoardEdge, BoardSeam};
 use super::place::RobotText;
 use crate::error::SettingError;
 use crate::tell::words;
-use taxel_core::garment::Side;
+use taxel_core::garment::{Layout, Place, Side};
 
 /// A seam, checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +31,25 @@ pub struct RobotEdge {
     pub side: Side,
     /// First taxel along that side.
     pub start: u16,
+}
+
+impl RobotEdge {
+    /// The taxels of a seam of this length, in the panel's own order.
+    pub(super) fn places(self, layout: &Layout, length: u16) -> impl Iterator<Item = Place> {
+        let RobotEdge { panel, side, start, .. } = self;
+        let area = layout.areas().get(usize::from(panel)).map(|area| [area.rows - 1, area.columns - 1]);
+        area.into_iter().flat_map(move |[bottom, right]| {
+            (start..start + length).map(move |at| {
+                let (row, column) = match side {
+                    Side::Left => (at, 0),
+                    Side::Right => (at, right),
+                    Side::Top => (0, at),
+                    Side::Bottom => (bottom, at),
+                };
+                Place { panel, row, column }
+            })
+        })
+    }
 }
 
 /// Checks the seams of a file against the garments of its boards.

@@ -27,10 +27,11 @@ fn table(robot: &ReadRobot) -> String {
         let _ = write!(text, "; {}: {} links, base {base}", described.file(), described.links().len());
     }
     text += "\n";
-    let head = ["board", "source", "garment", "taxels", "lies on", "scene", "tare"].map(String::from);
-    let rows: Vec<[String; 7]> = [head].into_iter().chain(robot.boards.iter().map(row)).collect();
+    let head =
+        ["board", "source", "garment", "taxels", "lies on", "scene", "calibration", "tare"].map(String::from);
+    let rows: Vec<[String; 8]> = [head].into_iter().chain(robot.boards.iter().map(row)).collect();
     let wide = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let wide: Vec<usize> = (0..7).map(wide).collect();
+    let wide: Vec<usize> = (0..8).map(wide).collect();
     for row in &rows {
         let cells: String = row.iter().zip(&wide).map(|(cell, wide)| format!("{cell:wide$}  ")).collect();
         let _ = writeln!(text, "{}", cells.trim_end());
@@ -42,8 +43,8 @@ fn table(robot: &ReadRobot) -> String {
     text
 }
 
-fn row(board: &RobotBoard) -> [String; 7] {
-    let RobotBoard { name, source, usb_serial, garment, scene, tare, body, link } = board;
+fn row(board: &RobotBoard) -> [String; 8] {
+    let RobotBoard { name, source, usb_serial, garment, scene, calibration, tare, body, link } = board;
     let number = usb_serial.as_ref().map_or(String::new(), |number| format!(" {number}"));
     [
         name.clone(),
@@ -56,6 +57,7 @@ fn row(board: &RobotBoard) -> [String; 7] {
             (None, None) => "-".into(),
         },
         scene.as_ref().map_or("-".into(), |scene| scene.scene.name.to_string()),
+        calibration.as_ref().map_or("-".into(), |calibration| calibration.id.clone()),
         tare.map_or("-".into(), |frames| frames.to_string()),
     ]
 }
@@ -92,6 +94,7 @@ fn report(robot: &ReadRobot) -> Value {
             "taxels": worn.map(|worn| worn.layout.taxels()),
             "panels": panels,
             "scene": board.scene.as_ref().map(|scene| scene.scene.name.as_str()),
+            "calibration": board.calibration.as_ref().map(|calibration| calibration.id.as_str()),
             "tare": board.tare,
             "body": board.body,
             "link": board.link,

@@ -44,7 +44,7 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let teller = |number: usize| -> Box<dyn Teller<BoardNews>> {
         let name = &robot.boards[number].name;
         match args.json {
-            true => Box::new(JsonTeller::new(name, args.pixels)),
+            true => Box::new(JsonTeller::new(&robot, number, args.pixels)),
             false => Box::new(TextTeller::new(format!("{name:wide$} "))),
         }
     };

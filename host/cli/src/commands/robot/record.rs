@@ -41,7 +41,8 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     let mut recorder = RobotRecorder::create(&robot, &args.output, args.force.into())?;
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
-    let plans = robot.plans(&options, limit(args.seconds), |_| Box::new(RecordTeller::default()));
+    let plans =
+        robot.plans(&options, limit(args.seconds), |number| Box::new(RecordTeller::new(&robot, number)));
     let mut session = RobotSession::start(plans, WhenFull::Wait)?;
     let mut ended = Ok(());
     let mut written = Ok(());

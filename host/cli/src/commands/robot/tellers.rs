@@ -4,7 +4,7 @@ use crate::terminal::Lines;
 use taxel::client::{Client, Event};
 use taxel::json::MessagePrinter;
 use taxel::record::Stamp;
-use taxel::robot::{BoardScan, Teller};
+use taxel::robot::{BoardScan, ReadRobot, ScanReader, Teller};
 use taxel::session::Show;
 use taxel::source::Source;
 use taxel::{Error, Result};
@@ -21,12 +21,18 @@ pub struct BoardNews {
 pub struct JsonTeller {
     board: String,
     printer: MessagePrinter<std::io::Empty>,
+    reader: ScanReader,
 }
 
 impl JsonTeller {
-    /// Of this board, with or without the pressure of every taxel.
-    pub fn new(board: &str, pixels: bool) -> JsonTeller {
-        JsonTeller { board: board.into(), printer: MessagePrinter::new(pixels, std::io::empty()) }
+    /// Of a board of a robot, with or without the pressure of every taxel.
+    pub fn new(robot: &ReadRobot, number: usize, pixels: bool) -> JsonTeller {
+        let board = &robot.boards[number];
+        JsonTeller {
+            board: board.name.clone(),
+            printer: MessagePrinter::new(pixels, std::io::empty()).calibrated(board.calibration.clone()),
+            reader: ScanReader::new(robot, number),
+        }
     }
 }
 
@@ -34,7 +40,8 @@ impl Teller<BoardNews> for JsonTeller {
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardNews>> {
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
-        Ok(Some(BoardNews { lines: format!("{line}\n"), scan: BoardScan::of(client, event) }))
+        let scan = self.reader.scan(client, event);
+        Ok(Some(BoardNews { lines: format!("{line}\n"), scan }))
     }
 }
 

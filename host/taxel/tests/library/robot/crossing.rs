@@ -1,20 +1,19 @@
 //! Touches that move over a seam between two boards: one simulated object laid across both panels, which two
 //! boards of any rate scan at times of their own.
 //!
-//! A thousand passes with TAXEL_CAMPAIGN=1.
+//! A thousand passes with TAXEL_CAMPAIGN=1, others than the usual ones from TAXEL_SEED on.
 
+use super::scanning::{self, BEGAN_US, Scanning};
 use fastrand::Rng;
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use taxel::client::Event;
-use taxel::robot::{BoardScan, ReadRobot, RobotContact, RobotContacts};
-use taxel::stepped::Stepped;
-use taxel_core::contact::{Contact, Phase};
-use taxel_core::format::{Micros, name};
+use taxel::robot::{BoardTouch, ReadRobot, RobotContact, RobotContacts, ScanReader};
+use taxel_core::condition::Filter;
+use taxel_core::contact::Phase;
+use taxel_core::format::name;
 use taxel_core::garment::{Garment, Seam, SeamEdge, Side};
-use taxel_core::scene::Scene;
-use taxel_core::wire::Request;
 use taxel_sim::{Script, World};
 
 /// Rows and columns of each panel.
@@ -26,12 +25,12 @@ const TAXELS: usize = WIDE as usize * WIDE as usize;
 const PASSES: [u64; 2] = [24, 1000];
 /// Begin of a touch, s: until then the boards tare.
 const START_S: f64 = 0.25;
+/// Greatest difference of the force on a seam.
+const BAR: f64 = 0.05;
 /// Time in which a touch reaches its force, s.
 const RISE_S: f64 = 0.05;
 /// Way from scan to scan, taxels, up to which a touch is slow.
 const SLOW: f64 = 0.3;
-/// Host time at which both boards begin, us.
-const BEGAN_US: u64 = 1_000_000;
 const SIDES: [Side; 4] = [Side::Left, Side::Right, Side::Top, Side::Bottom];
 
 /// The folder with a garment for each pitch.
@@ -47,26 +46,7 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
 
 /// A garment of one panel.
 fn panel(pitch_um: u32) -> Garment {
-    let blocks: Vec<String> = (0..16u16)
-        .map(|block| {
-            let (input, select) = (block / 4, block % 4);
-            let (row, column) = (8 * input + 4 * (select / 2), 16 * (select % 2));
-            format!(
-                "{{ panel = 0, row = {row}, column = {column}, rows = 4, columns = 16, input = {}, select = {select} }}",
-                26 + input
-            )
-        })
-        .collect();
-    let text = format!(
-        "name = \"panel\"\nblocks = [{}]\n[wiring]\nsettle_ns = 3000\n\
-         block = {{ coding = \"binary\", lines = [{{ pin = 2 }}, {{ pin = 3 }}, {{ pin = 6 }}] }}\n\
-         row = {{ coding = \"binary\", lines = [{{ pin = 7 }}, {{ pin = 8 }}] }}\n\
-         column = {{ coding = \"binary\", lines = [{{ pin = 9 }}, {{ pin = 10 }}, {{ pin = 11 }}, {{ pin = 12 }}] }}\n\
-         [[panels]]\nname = \"mat\"\nlink = \"base\"\nregion = \"mat\"\nrows = {WIDE}\ncolumns = {WIDE}\n\
-         pitch_um = [{pitch_um}, {pitch_um}]\n",
-        blocks.join(", ")
-    );
-    toml::from_str(&text).unwrap()
+    scanning::panel([WIDE, WIDE], [pitch_um; 2])
 }
 
 /// Where the panels of two boards are sewn together.
@@ -218,85 +198,56 @@ impl Pass {
     }
 }
 
-/// A board that scans one of the panels of a world.
-struct Scanning<'a> {
-    board: Stepped,
-    world: &'a World,
-    first: usize,
-    period_us: u64,
-    next_us: u64,
-}
-
-impl<'a> Scanning<'a> {
-    fn new(world: &'a World, panel_of: usize, pass: &Pass, number: usize) -> Scanning<'a> {
-        let mut board = Stepped::new(panel(pass.pitch_um), Scene::shipped()).unwrap();
-        board.client().request(&Request::Tare { frames: 8 }).unwrap();
-        Scanning {
-            board,
-            world,
-            first: panel_of * TAXELS,
-            period_us: pass.periods_us[number],
-            next_us: pass.first_us[number],
-        }
-    }
-
-    /// The next scan: its time, and the contacts, if they were reported.
-    fn scan(&mut self) -> (u64, Option<Vec<Contact>>) {
-        let time = self.next_us;
-        let codes: Vec<u16> =
-            (0..TAXELS).map(|taxel| self.world.code(self.first + taxel, time * 1000)).collect();
-        let mut contacts = None;
-        let mut told = |client: &taxel::client::Client, event: &Event| {
-            if matches!(event, Event::Contacts { .. }) {
-                contacts = Some(client.contacts().iter().map(|placed| placed.contact.clone()).collect());
-            }
-            Ok(())
-        };
-        self.board.step(&codes, Micros(time), &mut told).unwrap();
-        self.next_us += self.period_us;
-        (time, contacts)
-    }
-}
-
 /// What was told in the course of a pass: the host's time, us, and the contacts.
 type Told = Vec<(u64, Vec<RobotContact>)>;
 
-fn told(pass: &Pass) -> Told {
+/// A board that scans a panel of a world.
+fn scans<'a>(world: &'a World, panel_of: usize, pass: &Pass, number: usize, filter: Filter) -> Scanning<'a> {
+    let reader = ScanReader::new(&pass.sewn.robot(pass.pitch_um), number);
+    let times_us = [pass.first_us[number], pass.periods_us[number]];
+    Scanning::new(world, panel_of * TAXELS, panel(pass.pitch_um), reader, filter, times_us)
+}
+
+fn told(pass: &Pass, filter: Filter) -> Told {
     let world =
         World::build(&pass.script(["one", "two"][pass.from], 0.0), &pass.sewn.together(pass.pitch_um));
     let world = world.unwrap();
-    let mut boards = [0, 1].map(|number| Scanning::new(&world, number, pass, number));
+    let mut boards = [0, 1].map(|number| scans(&world, number, pass, number, filter));
     let mut contacts = RobotContacts::new(&pass.sewn.robot(pass.pitch_um));
     let end_us = ((pass.end_s() + 0.2) * 1e6) as u64;
     let mut told = Vec::new();
     loop {
         let number = usize::from(boards[1].next_us < boards[0].next_us);
-        let (time, list) = boards[number].scan();
+        let (time, scans) = boards[number].scan();
         if time > end_us {
             return told;
         }
         let now = BEGAN_US + time;
-        told.push((now, contacts.scan(number, &BoardScan { contacts: list }, now)));
+        told.extend(scans.iter().map(|scan| (now, contacts.scan(number, scan, now))));
     }
 }
 
 /// Totals of the same touch wholly inside a panel, by time, us.
-fn inside(pass: &Pass) -> Vec<(u64, f64)> {
+fn inside(pass: &Pass, filter: Filter) -> Vec<(u64, f64)> {
     let garment = panel(pass.pitch_um);
     // In the middle of its panel when it would be on the seam.
     let world = World::build(&pass.script("mat", f64::from(WIDE) / 2.0 - 1.0), &garment).unwrap();
-    let mut board = Scanning::new(&world, 0, pass, pass.from);
+    let mut board = scans(&world, 0, pass, pass.from, filter);
     let mut totals = Vec::new();
     while board.next_us < (pass.end_s() * 1e6) as u64 {
-        let (time, list) = board.scan();
-        let sum = |list: Vec<Contact>| list.iter().map(|contact| f64::from(contact.total)).sum();
-        totals.extend(list.map(|list| (BEGAN_US + time, sum(list))));
+        let (time, scans) = board.scan();
+        let sum = |list: Vec<BoardTouch>| list.iter().map(|contact| f64::from(contact.total)).sum();
+        let lists = scans.into_iter().filter_map(|scan| scan.contacts);
+        totals.extend(lists.map(|list| (BEGAN_US + time, sum(list))));
     }
     totals
 }
 
-fn campaign() -> bool {
-    std::env::var_os("TAXEL_CAMPAIGN").is_some()
+/// Seeds of the passes.
+fn seeds() -> Range<u64> {
+    let campaign = std::env::var_os("TAXEL_CAMPAIGN").is_some();
+    let first = std::env::var("TAXEL_SEED").map_or(0, |seed| seed.parse().unwrap());
+    first..first + PASSES[usize::from(campaign)]
 }
 
 /// Ids that were told, and those that were released.
@@ -309,10 +260,10 @@ fn ids(told: &Told) -> [BTreeSet<u32>; 2] {
 #[test]
 fn a_touch_keeps_its_id_over_a_seam_between_boards() {
     let mut kept = 0;
-    let passes = PASSES[usize::from(campaign())];
-    for seed in 0..passes {
+    let passes = seeds().count() as u64;
+    for seed in seeds() {
         let pass = Pass::random(seed);
-        let told = told(&pass);
+        let told = told(&pass, Filter::default());
         let [all, released] = ids(&told);
         let boards: BTreeSet<usize> =
             told.iter().flat_map(|(_, c)| c).flat_map(|c| &c.parts).map(|part| part.board).collect();
@@ -331,14 +282,16 @@ fn share(sorted: &[f64], part: f64) -> f64 {
     100.0 * sorted[((sorted.len() - 1) as f64 * part) as usize]
 }
 
-#[test]
-fn the_force_on_a_seam_is_that_inside_a_panel() {
-    let (mut means, mut moments, mut slow) = (Vec::new(), Vec::new(), Vec::new());
-    for seed in 0..PASSES[usize::from(campaign())] {
+/// How far the force on a seam differs from that inside a panel, sorted: means of the passes, and single lists
+/// of all touches and of slow ones.
+fn differences(filter: Filter) -> [Vec<f64>; 3] {
+    let mut found = [Vec::new(), Vec::new(), Vec::new()];
+    let [means, moments, slow] = &mut found;
+    for seed in seeds() {
         let pass = Pass::random(seed);
-        let inside = inside(&pass);
+        let inside = inside(&pass, filter);
         let [mut sum, mut want_sum, mut count] = [0.0; 3];
-        for (_, contacts) in told(&pass) {
+        for (_, contacts) in told(&pass, filter) {
             let on_seam: Vec<&RobotContact> = contacts.iter().filter(|c| c.parts.len() == 2).collect();
             let [contact] = on_seam[..] else { continue };
             let time = contact.host_us;
@@ -355,15 +308,37 @@ fn the_force_on_a_seam_is_that_inside_a_panel() {
             }
         }
         if count > 0.0 {
-            means.push((sum / want_sum - 1.0_f64).abs());
+            let difference = (sum / want_sum - 1.0_f64).abs();
+            if difference > BAR {
+                println!("seed {seed}: {:.1} %, {count} lists, {pass:?}", 100.0 * (sum / want_sum - 1.0));
+            }
+            means.push(difference);
         }
     }
-    for (what, values) in [("passes", &mut means), ("lists", &mut moments), ("slow lists", &mut slow)] {
+    for (what, values) in ["passes", "lists", "slow lists"].iter().zip(&mut found) {
         values.sort_by(f64::total_cmp);
         let [median, most, worst] = [0.5, 0.99, 1.0].map(|part| share(values, part));
-        println!("{} {what}: median {median:.2} %, 99 % {most:.2} %, worst {worst:.2} %", values.len());
+        let above = values.iter().filter(|difference| **difference > BAR).count();
+        let all = values.len();
+        println!(
+            "{filter:?}, {all} {what}: median {median:.2} %, 99 % {most:.2} %, worst {worst:.2} %, {above} above 5 %"
+        );
     }
-    // All should be within 5 %. What is missing are slivers too faint to begin a contact on their own board,
-    // and what a fast touch changes from scan to scan.
-    assert!(share(&means, 0.5) <= 1.0 && share(&slow, 0.95) <= 5.0);
+    found
+}
+
+#[test]
+fn the_force_on_a_seam_is_that_inside_a_panel() {
+    let [means, _, slow] = differences(Filter::Off);
+    assert!(means.iter().all(|difference| *difference <= BAR));
+    assert!(share(&means, 0.5) <= 0.1 && share(&slow, 0.99) <= 2.0);
+}
+
+/// To a board's filter a panel ends at the seam: a taxel there that exceeds its neighbours on the panel is an
+/// impulse until it lasts, and of a touch that is small and fast, none does.
+#[test]
+fn a_filter_takes_little_of_a_touch_on_a_seam() {
+    let [means, _, slow] = differences(Filter::default());
+    let above = means.iter().filter(|difference| **difference > BAR).count();
+    assert!(above * 20 <= means.len() && share(&means, 0.5) <= 0.5 && share(&slow, 0.99) <= 5.0);
 }

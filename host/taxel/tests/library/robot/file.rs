@@ -80,7 +80,7 @@ const MISTAKES: [(&str, &str, &str); 31] = [
     (
         "tare = 32",
         "tares = 32",
-        "robot.toml, line 15: `tares` is not a known key, did you mean `tare`? Known are `name`, `source`, `serial`, `garment`, `scene`, `tare`, `body`, `link` (board arm)",
+        "robot.toml, line 15: `tares` is not a known key, did you mean `tare`? Known are `name`, `source`, `serial`, `garment`, `scene`, `calibration`, `tare`, `body`, `link` (board arm)",
     ),
     ("source = \"sim:pat\"\n", "", "robot.toml, line 4, `boards`: `source` is missing (board torso)"),
     (

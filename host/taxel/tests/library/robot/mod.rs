@@ -1,8 +1,11 @@
 //! A robot of several boards: its file, boards that are lost and come back, and other boards in their place.
 
 mod boards;
+mod chain;
 mod contacts_schema;
 mod crossing;
 mod file;
 mod losses;
+mod newtons;
 mod recorded;
+mod scanning;

@@ -17,7 +17,8 @@ fn record(name: &str) -> PathBuf {
     let read = robot();
     let mut recorder = RobotRecorder::create(&read, &path, Force { force: true }).unwrap();
     let mut session =
-        RobotSession::open(&read, WhenFull::Wait, |_| Box::new(RecordTeller::default())).unwrap();
+        RobotSession::open(&read, WhenFull::Wait, |number| Box::new(RecordTeller::new(&read, number)))
+            .unwrap();
     while let Some(event) = session.wait(Duration::from_secs(30)) {
         if let BoardEvent::News(record) = event.what {
             recorder.take(event.board, &record).unwrap();

@@ -1,0 +1,58 @@
+//! What touches a board: a contact, or what is too faint to be one.
+
+use taxel_core::contact::{Contact, Phase};
+use taxel_core::garment::Rect;
+
+/// Connected taxels of a board that are touched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoardTouch {
+    /// Id of the contact; none if it is too faint to be one on its board.
+    pub contact: Option<u32>,
+    /// The contact has just begun.
+    pub begins: bool,
+    /// Index of the panel.
+    pub panel: u8,
+    /// Sum of the pressure, counts.
+    pub total: u32,
+    /// Greatest pressure of a taxel, counts.
+    pub peak: u16,
+    /// Number of taxels.
+    pub area: u16,
+    /// Box of its taxels on the panel.
+    pub bounds: Rect,
+    /// Centroid, `[x, y]` in taxels of the panel.
+    pub centroid: [f64; 2],
+    /// Velocity of the centroid, taxels per second.
+    pub velocity: [f64; 2],
+    /// Newtons per count of the total; none without a calibration in force.
+    pub newtons_per_count: Option<f64>,
+}
+
+impl From<&Contact> for BoardTouch {
+    fn from(contact: &Contact) -> BoardTouch {
+        BoardTouch {
+            contact: Some(contact.id),
+            begins: contact.phase == Phase::Onset,
+            panel: contact.panel,
+            total: contact.total,
+            peak: contact.peak,
+            area: contact.area,
+            bounds: contact.bounds,
+            centroid: [contact.x, contact.y].map(|place| place.to_f64()),
+            velocity: [contact.vx, contact.vy].map(|speed| speed.to_f64()),
+            newtons_per_count: None,
+        }
+    }
+}
+
+impl BoardTouch {
+    /// True if at most one taxel lies between the boxes of the two, which are on the same board.
+    pub fn is_beside(&self, other: &BoardTouch) -> bool {
+        let (a, b) = (self.bounds, other.bounds);
+        self.panel == other.panel
+            && a.top <= b.bottom + 2
+            && b.top <= a.bottom + 2
+            && a.left <= b.right + 2
+            && b.left <= a.right + 2
+    }
+}
