@@ -80,9 +80,9 @@ fn check_lists_boards_and_seams_or_says_what_is_wrong() {
     let done = run(&good, &["robot", "check", "robot.toml"]);
     let table = "\
 robot two: 2 boards, 1 seam between them; reference: 12 links, base base_link
-board  source     garment     taxels  lies on         scene  tare
-torso  sim:five   reference   2048    body reference  -      -
-hand   sim:press  block-4x16  64      left_hand       -      32
+board  source     garment     taxels  lies on         scene  calibration  tare
+torso  sim:five   reference   2048    body reference  -      -            -
+hand   sim:press  block-4x16  64      left_hand       -      -            32
 seam: torso left arm, bottom from 0 - hand mat, top from 0, 16 taxels
 ";
     assert_eq!(text(&done.stdout), table, "{}", text(&done.stderr));
@@ -335,4 +335,45 @@ fn boards_that_are_pulled_come_back_in_another_order_and_never_under_another_nam
     program.kill().unwrap();
     program.wait().unwrap();
     assert!(frames["c"] > frames["a"] && frames["c"] > 20, "{frames:?}");
+}
+
+#[test]
+fn boards_are_asked_by_lines_while_they_are_followed() {
+    let robot = "name = \"two\"\n[[boards]]\nname = \"hand\"\nsource = \"sim:idle\"\ntare = 0\ngarment = \"block-4x16\"\n\
+                 [[boards]]\nname = \"gone\"\nsource = \"serial:nowhere\"\n\
+                 [[boards]]\nname = \"foot\"\nsource = \"sim:idle\"\ntare = 0\ngarment = \"block-4x16\"\n";
+    let folder = folder("requests", robot);
+    std::fs::write(folder.join("calm.toml"), "name = \"calm\"\n[contact]\nlow = 70\nhigh = 140\n").unwrap();
+    let lines = "tare hand 8\n\ntare gone\nscene foot calm.toml\nself-test\nself-test hnad\ntare foot many\n\
+                 tare 5000\ndance\nscene gone none.toml\n";
+    std::fs::write(folder.join("lines.txt"), lines).unwrap();
+    let args =
+        ["robot", "live", "robot.toml", "--json", "--realtime", "--seconds", "2", "--requests", "lines.txt"];
+    let done = run(&folder, &args);
+    // The board that is gone does not come in time; the others have done what they were asked.
+    assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
+    let answers: Vec<String> = text(&done.stdout)
+        .lines()
+        .map(|line| serde_json::from_str::<Value>(line).unwrap())
+        .filter(|line| line["type"] == "answer")
+        .map(|line| format!("{} {} {}", line["board"], line["request"], line["refusal"]))
+        .collect();
+    let count = |board: &str, what: &str| {
+        answers
+            .iter()
+            .filter(|line| line.contains(board) && line.contains(what) && line.ends_with("null"))
+            .count()
+    };
+    assert_eq!([count("hand", "tare"), count("foot", "tare")], [1, 0]);
+    assert_eq!([count("hand", "set-scene"), count("foot", "set-scene")], [0, 1]);
+    assert_eq!([count("hand", "self-test"), count("foot", "self-test")], [1, 1]);
+    for why in [
+        "lines.txt, line 6: there is no board \"hnad\": did you mean \"hand\"? Known are hand, gone, foot",
+        "lines.txt, line 7: board foot: tare over \"many\"",
+        "lines.txt, line 8: a tare takes 1 to 4096 frames, not 5000",
+        "lines.txt, line 9: \"dance\": must be tare [BOARD] [N], scene [BOARD] FILE or self-test [BOARD]",
+        "lines.txt, line 10: board gone: ",
+    ] {
+        assert!(text(&done.stderr).contains(why), "{why}\n{}", text(&done.stderr));
+    }
 }

@@ -51,6 +51,11 @@ impl RobotBoard {
         matches!(self.source, Auto | Usb | Serial { .. } | Tcp(_))
     }
 
+    /// True unless its source is a recording, whose board takes no requests.
+    pub fn listens(&self) -> bool {
+        !matches!(self.source, SourceSpec::File(_) | SourceSpec::Replay { .. })
+    }
+
     /// Opens its source, and recognises the board if it is a real one.
     pub fn open(&self, options: &SourceOptions) -> Result<Source> {
         recognised(source::open(&self.source, &self.options(options))?, &self.identity())

@@ -39,6 +39,8 @@ pub struct BoardPlan<T> {
     pub open: Opener,
     /// A source that cannot be opened is tried again: a board that may be plugged in later, not a file.
     pub waits: bool,
+    /// It takes requests: it is not a recording.
+    pub listens: bool,
     /// What it is recognised by.
     pub identity: Identity,
     /// Its first requests.

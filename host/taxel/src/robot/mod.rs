@@ -14,6 +14,7 @@
 //! | `queue.rs` | the events that wait, bounded for each board |
 //! | `refused.rs` | refusals of what a board is asked first |
 //! | `follow.rs` | follows one board in a thread of its own |
+//! | `order.rs` | [`BoardOrder`]: what boards are asked while they are followed |
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
@@ -50,6 +51,7 @@ mod joined;
 mod line;
 mod listed;
 mod open;
+mod order;
 mod place;
 mod plane;
 mod queue;
@@ -73,6 +75,7 @@ pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
 pub use identity::Identity;
 pub use line::BoardLine;
+pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
 pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
 pub use scan::{BoardScan, ScanReader};

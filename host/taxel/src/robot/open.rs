@@ -37,6 +37,7 @@ impl ReadRobot {
                 name: board.name.clone(),
                 open: Box::new(move || source::open(&spec, &options)),
                 waits: board.is_real(),
+                listens: board.listens(),
                 identity: board.identity(),
                 begin: Box::new(move |client, source| begins.begin(client, source)),
                 teller: teller(number),

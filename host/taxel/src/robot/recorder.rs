@@ -13,7 +13,7 @@ use super::event::Teller;
 use super::file::ReadRobot;
 use super::scan::{BoardScan, ScanReader};
 use crate::client::clock::SteadyTime;
-use crate::client::{Client, Event, Worn};
+use crate::client::{Client, Event, Worn, request_name};
 use crate::error::{Context, Result};
 use crate::files::calibrate::Calibration;
 use crate::files::output::{Force, Output};
@@ -31,13 +31,15 @@ const CHUNK: Duration = Duration::from_millis(500);
 const CHUNK_US: u64 = 1_000_000;
 
 /// What a recording holds of an event of a board.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct BoardRecord {
     messages: Vec<Encoded>,
     /// The board's description, if it is new, and the frame of its `Hello`.
     described: Option<Box<Described>>,
     tally: Tally,
     scan: Option<BoardScan>,
+    /// Why the board refuses a request.
+    pub refusal: Option<String>,
 }
 
 #[derive(Debug)]
@@ -83,17 +85,23 @@ impl Teller<BoardRecord> for RecordTeller {
             });
         }
         let scan = self.reader.scan(client, event);
-        Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()), scan }))
+        let refusal = match event {
+            Event::Answer { request, refusal: Some(why) } => {
+                Some(format!("the board refuses {}: {why}", request_name(*request)))
+            }
+            _ => None,
+        };
+        Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()), scan, refusal }))
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
         let messages = Encoded::event(client, note, stamp)?.into_iter().collect();
-        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()), scan: None }))
+        Ok(Some(BoardRecord { messages, tally: Tally::of(client.counts()), ..BoardRecord::default() }))
     }
 
     fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<BoardRecord>> {
         let messages = Encoded::requests(client, bytes, stamp)?;
-        Ok(Some(BoardRecord { messages, described: None, tally: Tally::of(client.counts()), scan: None }))
+        Ok(Some(BoardRecord { messages, tally: Tally::of(client.counts()), ..BoardRecord::default() }))
     }
 }
 

@@ -2,9 +2,11 @@
 
 use super::event::RobotEvent;
 use super::follow::{Ask, BoardPlan, follow};
+use super::order::BoardOrder;
 use super::queue::{EventQueue, WhenFull};
 use crate::client::Client;
 use crate::error::{Result, UsageError};
+use crate::tell::words;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{Builder, JoinHandle};
@@ -44,6 +46,8 @@ pub struct RobotSession<T> {
 
 struct FollowedBoard {
     name: String,
+    /// It takes requests: it is not a recording.
+    listens: bool,
     asks: Sender<Ask>,
     thread: Option<JoinHandle<()>>,
 }
@@ -64,13 +68,15 @@ impl<T: Send + 'static> RobotSession<T> {
         let mut session = RobotSession { queue: queue.clone(), boards: Vec::new() };
         for (board, plan) in plans.into_iter().enumerate() {
             let (asks, asked) = channel();
-            let (name, queue) = (plan.name.clone(), queue.clone());
+            let (name, listens, queue) = (plan.name.clone(), plan.listens, queue.clone());
             let thread = Builder::new().name(name.clone()).stack_size(STACK).spawn(move || {
                 let end = FollowEnd(queue.clone(), board);
                 follow(board, plan, queue, when_full, &asked);
+                // Whoever hears that the board is over can no longer ask anything of it.
+                drop(asked);
                 drop(end);
             })?;
-            session.boards.push(FollowedBoard { name, asks, thread: Some(thread) });
+            session.boards.push(FollowedBoard { name, listens, asks, thread: Some(thread) });
         }
         Ok(session)
     }
@@ -109,6 +115,34 @@ impl<T: Send + 'static> RobotSession<T> {
         };
         let over = |_| UsageError::Argument(format!("board {} is over", followed.name));
         Ok(followed.asks.send(Box::new(ask)).map_err(over)?)
+    }
+
+    /// Gives an order to the board of this name, or to all boards that listen and are not over. Returns the
+    /// numbers of these boards; a board that is lost gets the order once it is back. Error if there is none,
+    /// the one of this name does not listen or is over, or the scene is invalid.
+    pub fn order(&self, board: Option<&str>, order: &BoardOrder) -> Result<Vec<usize>> {
+        // What cannot be asked of any board is an error here: in a board's thread it would end the board.
+        order.ask(&mut Client::new())?;
+        let ask = |number: usize| {
+            let order = order.clone();
+            self.ask(number, move |client| order.ask(client))
+        };
+        let Some(name) = board else {
+            let listening = (0..self.boards.len()).filter(|number| self.boards[*number].listens);
+            let asked: Vec<usize> = listening.filter(|number| ask(*number).is_ok()).collect();
+            require!(!asked.is_empty(), UsageError::Argument, "no board listens any longer");
+            return Ok(asked);
+        };
+        let Some(number) = self.boards.iter().position(|board| board.name == name) else {
+            fail!(UsageError::Argument, "{}", words::unknown("board", name, self.names()));
+        };
+        require!(
+            self.boards[number].listens,
+            UsageError::Argument,
+            "board {name} is a recording, whose board does not listen"
+        );
+        ask(number)?;
+        Ok(vec![number])
     }
 }
 

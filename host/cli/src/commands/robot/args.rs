@@ -1,12 +1,13 @@
 //! The robot of a command, and what its boards are asked instead of what its file says.
 
+use super::requests::RequestLines;
 use crate::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use std::str::FromStr;
 use taxel::robot::{ReadRobot, RobotBoard};
-use taxel::source::{SceneFile, SourceSpec};
+use taxel::source::SceneFile;
 use taxel::tell::words;
 
 /// A robot, and what is asked of its boards.
@@ -21,6 +22,10 @@ pub struct RobotFileArgs {
     /// Scene to send to all boards, or to this one: a TOML file
     #[arg(long, value_name = "[BOARD=]FILE")]
     pub scene: Vec<ForBoards<PathBuf>>,
+    /// Ask boards while they are followed, by lines: tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD];
+    /// - is the standard input
+    #[arg(long, value_name = "FILE")]
+    pub requests: Option<PathBuf>,
 }
 
 /// A value for all boards, or for one.
@@ -45,14 +50,14 @@ impl<T> ForBoards<T> {
     /// The boards that are meant. Error if there is no board of this name, or it does not listen.
     fn of<'a>(&self, option: &str, robot: &'a mut ReadRobot) -> Result<Vec<&'a mut RobotBoard>> {
         let Some(name) = &self.board else {
-            return Ok(robot.boards.iter_mut().filter(|board| listens(board)).collect());
+            return Ok(robot.boards.iter_mut().filter(|board| board.listens()).collect());
         };
         let Some(number) = robot.board(name) else {
             let names = robot.boards.iter().map(|board| board.name.as_str());
             bail!(Fault::usage(format!("{option}: {}", words::unknown("board", name, names))));
         };
         let board = &mut robot.boards[number];
-        if !listens(board) {
+        if !board.listens() {
             let source = &board.source;
             bail!(Fault::usage(format!(
                 "{option}: board {name}: {source} is a recording, whose board does not listen"
@@ -62,11 +67,12 @@ impl<T> ForBoards<T> {
     }
 }
 
-fn listens(board: &RobotBoard) -> bool {
-    !matches!(board.source, SourceSpec::File(_) | SourceSpec::Replay { .. })
-}
-
 impl RobotFileArgs {
+    /// Opens the lines with which boards are asked later.
+    pub fn requests(&self) -> Result<Option<RequestLines>> {
+        self.requests.as_deref().map(RequestLines::open).transpose()
+    }
+
     /// Reads the file, with what is asked instead.
     pub fn read(&self) -> Result<ReadRobot> {
         let mut robot = ReadRobot::read(&self.file)?;
@@ -81,6 +87,8 @@ impl RobotFileArgs {
             scene.of("--scene", &mut robot)?.into_iter().for_each(|board| board.scene = Some(file.clone()));
             robot.inputs.push(scene.value.display().to_string());
         }
+        let requests = self.requests.iter().filter(|path| path.as_os_str() != "-");
+        robot.inputs.extend(requests.map(|path| path.display().to_string()));
         Ok(robot)
     }
 }

@@ -38,6 +38,7 @@ pub struct RobotLiveArgs {
 /// Runs the command. Error if a board cannot be followed, once all are over.
 pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let robot = args.robot.read()?;
+    let mut requests = args.robot.requests()?;
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
     let wide = robot.boards.iter().map(|board| board.name.len()).max().unwrap_or(0);
@@ -54,6 +55,7 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let mut contacts = (args.json && !robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
+        requests.iter_mut().for_each(|requests| requests.ask(&session));
         let Some(event) = session.wait(LOOK) else {
             out.flush()?;
             continue;

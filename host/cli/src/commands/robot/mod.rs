@@ -5,6 +5,7 @@ mod check;
 mod doctor;
 mod live;
 mod record;
+mod requests;
 mod tellers;
 
 use anyhow::Result;

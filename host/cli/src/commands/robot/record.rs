@@ -37,6 +37,7 @@ pub struct RobotRecordArgs {
 /// Runs the command. Error if a board cannot be followed, once all are over: the others are recorded.
 pub fn run(args: &RobotRecordArgs) -> Result<()> {
     let robot = args.robot.read()?;
+    let mut requests = args.robot.requests()?;
     stop::catch()?;
     let mut recorder = RobotRecorder::create(&robot, &args.output, args.force.into())?;
     let options =
@@ -48,10 +49,14 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     let mut written = Ok(());
     while written.is_ok() && !session.is_over() && !stop::asked() {
         written = recorder.keep();
+        requests.iter_mut().for_each(|requests| requests.ask(&session));
         let Some(event) = session.wait(LOOK) else { continue };
         let name = &robot.boards[event.board].name;
         match &event.what {
-            BoardEvent::News(record) => written = written.and_then(|()| recorder.take(event.board, record)),
+            BoardEvent::News(record) => {
+                record.refusal.iter().for_each(|why| eprintln!("board {name}: {why}"));
+                written = written.and_then(|()| recorder.take(event.board, record));
+            }
             // A recording may not be looked at for days.
             BoardEvent::Absent { why } => eprintln!("board {name} is not there: {why}; waiting for it"),
             BoardEvent::Lost { why, .. } | BoardEvent::Other { why } => eprintln!("board {name}: {why}"),

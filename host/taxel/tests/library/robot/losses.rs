@@ -64,6 +64,7 @@ impl Bench {
                 name: format!("{thread}{number}"),
                 open: Box::new(move || bench.clone().open(number, with_serial)),
                 waits: true,
+                listens: true,
                 identity: identity(number),
                 begin: Box::new(|client, _| {
                     client.start(0)?;
@@ -262,6 +263,7 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
             name: NAMES[number].into(),
             open: Box::new(move || bench.clone().open(number, false)),
             waits: true,
+            listens: true,
             identity: Identity::default(),
             begin: Box::new(|client, _| Ok(client.start(0)?)),
             teller: Box::new(|_: &Client, event: &Event, _: Stamp| match event {

@@ -7,5 +7,6 @@ mod crossing;
 mod file;
 mod losses;
 mod newtons;
+mod orders;
 mod recorded;
 mod scanning;

@@ -1,0 +1,98 @@
+//! What boards are asked while they are followed, as lines of a file or of the standard input.
+
+use anyhow::{Context, Result, bail, ensure};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, stdin};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::thread;
+use taxel::robot::{BoardOrder, RobotSession};
+use taxel::source::SceneFile;
+use taxel::tell::words;
+
+/// Frames of a tare for which no number is given: those of `taxel view`.
+const TARE: u16 = 32;
+/// Lines that wait.
+const WAITING: usize = 64;
+/// Longest line, bytes.
+const LONGEST: u64 = 4096;
+
+/// The lines.
+pub struct RequestLines {
+    name: String,
+    lines: Receiver<std::io::Result<String>>,
+    /// Lines read so far.
+    count: usize,
+}
+
+impl RequestLines {
+    /// Reads a file, or `-`, the standard input.
+    pub fn open(path: &Path) -> Result<RequestLines> {
+        let (name, input): (_, Box<dyn Read + Send>) = match path.as_os_str() == "-" {
+            true => ("standard input".into(), Box::new(stdin())),
+            false => {
+                let name = path.display().to_string();
+                let file = File::open(path).with_context(|| format!("{name} cannot be read"))?;
+                (name, Box::new(file))
+            }
+        };
+        let (sender, lines) = sync_channel(WAITING);
+        // It ends with the input, or with the program.
+        thread::Builder::new().name("requests".into()).spawn(move || {
+            let mut input = BufReader::new(input);
+            loop {
+                let mut line = String::new();
+                let read = input.by_ref().take(LONGEST).read_line(&mut line);
+                if matches!(read, Ok(0)) {
+                    break;
+                }
+                let is_last = read.is_err();
+                if sender.send(read.map(|_| line)).is_err() || is_last {
+                    break;
+                }
+            }
+        })?;
+        Ok(RequestLines { name, lines, count: 0 })
+    }
+
+    /// Asks what the lines say that have come since. What cannot be asked is told, and the rest goes on.
+    pub fn ask<T: Send + 'static>(&mut self, session: &RobotSession<T>) {
+        while let Ok(line) = self.lines.try_recv() {
+            self.count += 1;
+            let asked = line.map_err(anyhow::Error::from).and_then(|line| ask(line.trim(), session));
+            if let Err(error) = asked {
+                eprintln!("{}, line {}: {}", self.name, self.count, words::sentence(error.as_ref()));
+            }
+        }
+    }
+}
+
+/// Asks what a line says: `tare [BOARD] [N]`, `scene [BOARD] FILE`, `self-test [BOARD]`.
+fn ask<T: Send + 'static>(line: &str, session: &RobotSession<T>) -> Result<()> {
+    let parts: Vec<&str> = line.split_whitespace().collect();
+    let Some((what, rest)) = parts.split_first() else { return Ok(()) };
+    let (board, order) = match (*what, rest) {
+        ("tare", []) => (None, BoardOrder::Tare(TARE)),
+        ("tare", [one]) => match one.parse() {
+            Ok(frames) => (None, BoardOrder::Tare(frames)),
+            Err(_) => (Some(*one), BoardOrder::Tare(TARE)),
+        },
+        ("tare", [board, frames]) => {
+            let frames = frames.parse().with_context(|| format!("board {board}: tare over \"{frames}\""))?;
+            (Some(*board), BoardOrder::Tare(frames))
+        }
+        ("scene", [file]) => (None, BoardOrder::Scene(Box::new(SceneFile::read(Path::new(file))?))),
+        ("scene", [board, file]) => {
+            let scene = SceneFile::read(Path::new(file)).with_context(|| format!("board {board}"))?;
+            (Some(*board), BoardOrder::Scene(Box::new(scene)))
+        }
+        ("self-test", []) => (None, BoardOrder::SelfTest),
+        ("self-test", [board]) => (Some(*board), BoardOrder::SelfTest),
+        _ => bail!("\"{line}\": must be tare [BOARD] [N], scene [BOARD] FILE or self-test [BOARD]"),
+    };
+    if let BoardOrder::Tare(frames) = &order {
+        ensure!((1..=4096).contains(frames), "a tare takes 1 to 4096 frames, not {frames}");
+    }
+    session.order(board, &order)?;
+    Ok(())
+}
