@@ -11,6 +11,7 @@
 //! | `event` | events as Python objects |
 //! | `request` | requests to a board |
 //! | `stream` | `Stream`: a board's stream |
+//! | `robot` | `Robot`: all boards of a robot as one stream |
 //! | `board` | `Board`: the very board, stepped by hand |
 //! | `recording` | recordings: contents, events, messages |
 //! | `features` | features of a touch, moments of an image |
@@ -32,6 +33,8 @@ mod event;
 mod request;
 
 mod stream;
+
+mod robot;
 
 mod board;
 
@@ -58,6 +61,7 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(program::run_program, module)?)?;
     module.add_class::<stream::Stream>()?;
+    module.add_class::<robot::Robot>()?;
     module.add_class::<board::Board>()?;
     module.add_class::<recording::RecordedEvents>()?;
     module.add_class::<recording::RecordedMessages>()?;

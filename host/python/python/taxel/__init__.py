@@ -28,6 +28,7 @@ from ._taxel import (
     Answer,
     Back,
     BoardError,
+    BoardState,
     Boot,
     Budget,
     Confidence,
@@ -50,6 +51,7 @@ from ._taxel import (
     Reflex,
     Regions,
     Refused,
+    RobotTouch,
     SelfTest,
     Shapes,
     Symbols,
@@ -67,6 +69,7 @@ __all__ = [
     "Back",
     "Board",
     "BoardError",
+    "BoardState",
     "Boot",
     "Budget",
     "Confidence",
@@ -93,6 +96,8 @@ __all__ = [
     "Regions",
     "Refused",
     "Requests",
+    "Robot",
+    "RobotTouch",
     "SelfTest",
     "Shapes",
     "Stream",
@@ -108,6 +113,7 @@ __all__ = [
     "features",
     "moments",
     "open",
+    "open_robot",
     "read",
 ]
 
@@ -128,6 +134,26 @@ class Stream(_taxel.Stream, Requests):
         super()._set_joints(told, host_ns, time_us)
 
     def __enter__(self) -> Stream:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+class Robot(_taxel.Robot):
+    """An open robot: an iterator over the events of all its boards, to be used with ``with``.
+
+    Each event has the name of its ``board``. ``tare``, ``set_scene`` and ``self_test`` are for all boards, or for the
+    one of this name; a board that is lost gets them once it is back.
+    """
+
+    def set_scene(self, path_or_text: str | os.PathLike[str], *, board: str | None = None) -> None:
+        """Sends a scene: a TOML file, or its text. Missing keys have the shipped scene's values."""
+        super()._set_scene(os.fspath(path_or_text), board=board)
+
+    def __enter__(self) -> Robot:
         return self
 
     def __exit__(
@@ -232,3 +258,18 @@ def open(
         tare=tare,
         once=once,
     )
+
+
+def open_robot(
+    path: str | os.PathLike[str], *, realtime: bool = False, seconds: float | None = None
+) -> Robot:
+    """Opens all boards of a robot's file, ``robot.toml``, and iterates over their events.
+
+    - ``realtime``: simulations take their time; else they are as fast as they are read
+    - ``seconds``: end after so much of each board's time
+
+    A board that is lost does not hold up the others: ``BoardState`` events say how each board is, and ``RobotTouch``
+    events what touches the robot, over the seams between boards. Of a program that is too slow for real boards,
+    images are dropped and counted.
+    """
+    return Robot(path, realtime=realtime, seconds=seconds)

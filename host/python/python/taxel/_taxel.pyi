@@ -1,12 +1,14 @@
 """The part of the package that is written in Rust."""
 
 from collections.abc import Sequence
+from os import PathLike
 from typing import Any, TypeVar, final
 
 import numpy as np
 import numpy.typing as npt
 
 _B = TypeVar("_B", bound=Board)
+_R = TypeVar("_R", bound=Robot)
 
 __version__: str
 
@@ -27,6 +29,8 @@ class Event:
 
     @property
     def type(self) -> str: ...
+    @property
+    def board(self) -> str | None: ...
     @property
     def time_us(self) -> int | None: ...
     @property
@@ -366,11 +370,44 @@ class Answer(Event):
     def refusal(self) -> str | None: ...
 
 @final
+class BoardState(Event):
+    """How a board of a robot is: absent, met, lost, back, other, dropped, over or failed."""
+
+    @property
+    def board(self) -> str: ...
+    @property
+    def state(self) -> str: ...
+    @property
+    def host_time_us(self) -> int: ...
+
+@final
+class RobotTouch(Event):
+    """What touches a robot; what lies over a seam between boards is one contact with one id."""
+
+    @property
+    def host_time_us(self) -> int: ...
+    @property
+    def contacts(self) -> list[dict[str, Any]]: ...
+
+@final
 class Refused(Event):
     """Bytes that are not a message."""
 
     @property
     def why(self) -> str: ...
+
+class Robot:
+    def __new__(
+        cls: type[_R], path: str | PathLike[str], *, realtime: bool = False, seconds: float | None = None
+    ) -> _R: ...
+    def __iter__(self: _R) -> _R: ...
+    def __next__(self) -> Event: ...
+    def close(self) -> None: ...
+    @property
+    def boards(self) -> list[str]: ...
+    def tare(self, frames: int = 64, *, board: str | None = None) -> None: ...
+    def _set_scene(self, path_or_text: str, *, board: str | None = None) -> None: ...
+    def self_test(self, *, board: str | None = None) -> None: ...
 
 class Stream:
     def __init__(

@@ -33,6 +33,12 @@ impl Event {
         self.value("type").as_str().unwrap_or_default()
     }
 
+    /// Name of the board of a robot; None of a board that is opened alone, and of the whole robot.
+    #[getter]
+    fn board(&self) -> Option<&str> {
+        self.value("board").as_str()
+    }
+
     /// The board's time, microseconds since its start; None for events without one.
     #[getter]
     fn time_us(&self) -> Option<u64> {

@@ -30,6 +30,13 @@ pub struct Fact {
     pub panels: Panels,
 }
 
+impl Fact {
+    /// A line at a time of the host, without an image.
+    pub fn alone(line: Value, host_ns: u64) -> Fact {
+        Fact { line, host_ns, note: None, values: None, panels: Panels::from([]) }
+    }
+}
+
 /// Tells facts about a client's events.
 #[derive(Debug)]
 pub struct Teller {

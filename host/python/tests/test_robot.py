@@ -1,0 +1,81 @@
+"""`taxel.open_robot`: all boards of a robot as one stream."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+import taxel
+from conftest import program
+
+ROBOT = """name = "two"
+[[boards]]
+name = "torso"
+source = "sim:five"
+garment = "reference"
+[[boards]]
+name = "hand"
+source = "sim:press"
+garment = "block-4x16"
+tare = 32
+[[seams]]
+a = { board = "torso", panel = "left arm", side = "bottom" }
+b = { board = "hand", panel = "mat", side = "top" }
+length = 16
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "robot.toml"
+    path.write_text(ROBOT)
+    return path
+
+
+def test_events_of_each_board_are_the_lines_of_the_program(file: Path) -> None:
+    lines = program("robot", "live", str(file), "--seconds", "1", "--json").splitlines()
+    told = [line for line in map(json.loads, lines) if line["type"] not in ("board", "robot_contacts")]
+    with taxel.open_robot(file, seconds=1) as robot:
+        assert robot.boards == ["torso", "hand"]
+        events = list(robot)
+    for name in ("torso", "hand"):
+        own = [event for event in events if event.board == name and not isinstance(event, taxel.BoardState)]
+        assert [event.to_dict() for event in own] == [line for line in told if line["board"] == name]
+        states = [event.state for event in events if isinstance(event, taxel.BoardState) and event.board == name]
+        assert states == ["met", "over"]
+        images = [event.image for event in own if isinstance(event, taxel.Frame)]
+        assert len(images) > 50 and all(image is not None for image in images)
+
+
+def test_contacts_are_those_of_the_robot(file: Path) -> None:
+    with taxel.open_robot(file, seconds=2) as robot:
+        touches = [event for event in robot if isinstance(event, taxel.RobotTouch)]
+    contacts = [contact for touch in touches for contact in touch.contacts]
+    assert {contact["board"] for contact in contacts} == {"torso", "hand"}
+    assert {part["board"] for contact in contacts for part in contact["parts"]} == {"torso", "hand"}
+    phases = [contact["phase"] for contact in contacts if contact["id"] == contacts[0]["id"]]
+    assert phases[0] == "onset" and phases.count("onset") == 1
+    assert all(touch.board is None and touch.host_ns == touch.host_time_us * 1000 for touch in touches)
+
+
+def test_a_board_is_asked_by_its_name(file: Path) -> None:
+    file.write_text(ROBOT.replace("sim:five", "sim:idle").replace("sim:press", "sim:idle").replace("32", "0"))
+    answers = []
+    with taxel.open_robot(file, realtime=True, seconds=2) as robot:
+        with pytest.raises(taxel.UsageError, match='there is no board "hnad": did you mean "hand"'):
+            robot.tare(board="hnad")
+        with pytest.raises(taxel.UsageError, match="from 1 to 4096"):
+            robot.tare(5000)
+        with pytest.raises(taxel.Error, match="contact.high must not be below"):
+            robot.set_scene("name = \"wrong\"\n[contact]\nlow = 900\n")
+        robot.self_test(board="hand")
+        robot.set_scene("name = \"calm\"\n[contact]\nlow = 70\nhigh = 140\n", board="torso")
+        for event in robot:
+            if isinstance(event, taxel.Answer):
+                assert event.refusal is None
+                answers.append((event.board, event.request))
+    assert ("hand", "self-test") in answers and ("torso", "self-test") not in answers
+    assert ("torso", "set-scene") in answers and ("hand", "set-scene") not in answers
+    with pytest.raises(taxel.UsageError, match="the robot is closed"):
+        robot.tare()
