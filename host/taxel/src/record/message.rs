@@ -1,5 +1,6 @@
 //! Events as JSON messages.
 
+use super::panel_image::{self, PanelImage};
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
 use crate::error::Result;
@@ -16,7 +17,7 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
     };
     let decoded = *image == ImageNews::Whole;
     let panels = if decoded { panels(client) } else { Vec::new() };
-    Ok(serde_json::to_vec(&FrameMessage {
+    let mut message = serde_json::to_vec(&FrameMessage {
         frame: *frame,
         time_us: stamp.board_us,
         times: times(stamp),
@@ -25,8 +26,13 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
         lost: client.counts().lost,
         thinned: client.counts().thinned,
         total: panels.iter().map(|panel| panel.total).sum(),
-        panels,
-    })?)
+        panels: Vec::new(),
+    })?;
+    // The panels are the last key: their text goes before the ends of the list and of the message.
+    message.truncate(message.len() - 2);
+    panel_image::append(&mut message, &panels)?;
+    message.extend_from_slice(b"]}");
+    Ok(message)
 }
 
 /// Encodes a message with the host's time.
@@ -63,18 +69,6 @@ pub struct FrameMessage<'a> {
     total: u32,
     /// The panels; empty if the image could not be decoded.
     panels: Vec<PanelImage<'a>>,
-}
-
-/// Pressure of a panel.
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct PanelImage<'a> {
-    /// Name of the panel.
-    name: &'a str,
-    /// Sum of its pressure, counts.
-    total: u32,
-    /// Pressure of each taxel by row, counts.
-    rows: Vec<&'a [u16]>,
 }
 
 /// A posture sent to the board.

@@ -22,6 +22,7 @@ mod file;
 mod limit;
 mod message;
 mod names;
+mod panel_image;
 mod play;
 mod provenance;
 mod recorder;

@@ -2,14 +2,12 @@
 
 use super::event::{BoardEvent, RobotEvent};
 use crate::record::Stamp;
-use crate::source::shared::Shared;
 use std::collections::VecDeque;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Most events of a board that wait.
 pub const WAITING: usize = 256;
-/// Time between two looks at a queue that is full.
-const LOOK: Duration = Duration::from_millis(100);
 
 /// What happens to a board's images while its events wait to be taken and there is no room for more. All
 /// other events wait for room: the link then holds the board back, which leaves out images itself and counts
@@ -22,9 +20,18 @@ pub enum WhenFull {
     DropImages,
 }
 
-/// Events of all boards, in the order of their arrival.
+/// Events of all boards, in the order of their arrival. Each board waits for its own room: of many, an event
+/// that is taken wakes one.
 #[derive(Debug)]
-pub struct EventQueue<T>(Shared<WaitingEvents<T>>);
+pub struct EventQueue<T> {
+    waiting: Mutex<WaitingEvents<T>>,
+    /// An event has come, or a board is over.
+    came: Condvar,
+    /// There is room for events of a board, by its number.
+    room: Vec<Condvar>,
+    /// Nobody takes events any longer.
+    closed: Condvar,
+}
 
 #[derive(Debug)]
 struct WaitingEvents<T> {
@@ -44,6 +51,8 @@ struct Waiter<T> {
 #[derive(Debug, Default, Clone, Copy)]
 struct BoardQueue {
     waiting: usize,
+    /// Images among them that may be dropped.
+    images: usize,
     dropped: u64,
     /// `dropped` when it was told last.
     told: u64,
@@ -59,15 +68,21 @@ impl<T> Default for WaitingEvents<T> {
 impl<T> EventQueue<T> {
     /// An empty queue for this number of boards.
     pub fn new(boards: usize) -> EventQueue<T> {
-        let queue = EventQueue(Shared::default());
-        queue.0.lock().boards = vec![BoardQueue::default(); boards];
-        queue
+        let waiting =
+            WaitingEvents { boards: vec![BoardQueue::default(); boards], ..WaitingEvents::default() };
+        let room = (0..boards).map(|_| Condvar::new()).collect();
+        EventQueue { waiting: Mutex::new(waiting), came: Condvar::new(), room, closed: Condvar::new() }
+    }
+
+    /// What waits. A panic of another thread does not poison it.
+    fn lock(&self) -> MutexGuard<'_, WaitingEvents<T>> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Adds an event once there is room. `droppable`: an image that may be dropped instead of waiting.
     pub fn push(&self, event: RobotEvent<T>, droppable: bool) {
         let board = event.board;
-        let mut waiting = self.0.lock();
+        let mut waiting = self.lock();
         while waiting.boards[board].waiting >= WAITING && !waiting.closed {
             if waiting.drop_image(board) {
                 continue;
@@ -76,62 +91,70 @@ impl<T> EventQueue<T> {
                 waiting.boards[board].dropped += 1;
                 return;
             }
-            waiting = self.0.wait(waiting, LOOK);
+            waiting = self.room[board].wait(waiting).unwrap_or_else(PoisonError::into_inner);
         }
         waiting.boards[board].waiting += 1;
+        waiting.boards[board].images += usize::from(droppable);
         waiting.events.push_back(Waiter { event, is_image: droppable });
-        self.0.wake();
+        self.came.notify_all();
     }
 
     /// Takes the next event; none if there is none within this time.
     pub fn take(&self, patience: Duration) -> Option<RobotEvent<T>> {
         let until = Instant::now() + patience;
-        let mut waiting = self.0.lock();
+        let mut waiting = self.lock();
         loop {
             if let Some(event) = waiting.take() {
-                self.0.wake();
+                // Not for each event: a board then does more at a time.
+                if waiting.boards[event.board].waiting <= WAITING / 2 {
+                    self.room[event.board].notify_all();
+                }
                 return Some(event);
             }
             let left = until.saturating_duration_since(Instant::now());
             if left.is_zero() || waiting.are_over() {
                 return None;
             }
-            waiting = self.0.wait(waiting, left);
+            waiting = self.came.wait_timeout(waiting, left).unwrap_or_else(PoisonError::into_inner).0;
         }
     }
 
     /// True once every board is over and all events are taken.
     pub fn is_over(&self) -> bool {
-        let waiting = self.0.lock();
+        let waiting = self.lock();
         waiting.events.is_empty() && waiting.are_over()
     }
 
     /// Images of a board dropped so far.
     pub fn dropped(&self, board: usize) -> u64 {
-        self.0.lock().boards.get(board).map_or(0, |board| board.dropped)
+        self.lock().boards.get(board).map_or(0, |board| board.dropped)
     }
 
     /// A board's thread has ended.
     pub fn end(&self, board: usize) {
-        self.0.change(|waiting| waiting.boards[board].over = true);
+        self.lock().boards[board].over = true;
+        self.came.notify_all();
     }
 
     /// Nobody takes events any longer: nothing waits for room.
     pub fn close(&self) {
-        self.0.change(|waiting| waiting.closed = true);
+        self.lock().closed = true;
+        self.closed.notify_all();
+        self.room.iter().for_each(Condvar::notify_all);
     }
 
     /// True once nobody takes events any longer.
     pub fn is_closed(&self) -> bool {
-        self.0.lock().closed
+        self.lock().closed
     }
 
     /// Waits until the queue is closed, or for this time.
     pub fn pause(&self, time: Duration) {
         let until = Instant::now() + time;
-        let mut waiting = self.0.lock();
+        let mut waiting = self.lock();
         while !waiting.closed && Instant::now() < until {
-            waiting = self.0.wait(waiting, until.saturating_duration_since(Instant::now()));
+            let left = until.saturating_duration_since(Instant::now());
+            waiting = self.closed.wait_timeout(waiting, left).unwrap_or_else(PoisonError::into_inner).0;
         }
     }
 }
@@ -143,10 +166,15 @@ impl<T> WaitingEvents<T> {
 
     /// Drops the oldest image of a board that waits. Returns false if there is none.
     fn drop_image(&mut self, board: usize) -> bool {
+        // Most have none, and the queue of many boards is long.
+        if self.boards[board].images == 0 {
+            return false;
+        }
         let is_one = |waiter: &Waiter<T>| waiter.is_image && waiter.event.board == board;
         let Some(at) = self.events.iter().position(is_one) else { return false };
         self.events.remove(at);
         self.boards[board].waiting -= 1;
+        self.boards[board].images -= 1;
         self.boards[board].dropped += 1;
         true
     }
@@ -157,8 +185,10 @@ impl<T> WaitingEvents<T> {
         if let Some(told) = self.drops(board, stamp) {
             return Some(told);
         }
+        let Waiter { event, is_image } = self.events.pop_front()?;
         self.boards[board].waiting -= 1;
-        self.events.pop_front().map(|waiter| waiter.event)
+        self.boards[board].images -= usize::from(is_image);
+        Some(event)
     }
 
     /// The event about images of a board that were dropped since the last one.

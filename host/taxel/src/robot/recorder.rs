@@ -273,7 +273,9 @@ impl RobotRecorder {
             self.boards.iter_mut().for_each(|board| board.chunk_us = None);
         }
         let stamp = record.messages.first().map(|message| message.stamp.host_us);
-        let Some((scan, host_us)) = record.scan.as_ref().zip(stamp) else { return Ok(()) };
+        let Some((scan, host_us)) = record.scan.as_ref().zip(stamp).filter(|_| self.joined.is_some()) else {
+            return Ok(());
+        };
         let contacts = self.contacts.scan(board, scan, host_us);
         self.write_contacts(host_us, &contacts)
     }
