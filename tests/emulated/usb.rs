@@ -21,9 +21,8 @@ use taxel_suite::pattern::TouchPattern;
 const SCAN_US: u64 = 5_120;
 /// Scans at rest: the board is told to tare and to stream meanwhile.
 const REST: usize = 100;
-/// Scans of a scene's beginning that are not looked at: up to 32 contacts end and as many begin, their lists are
-/// long, and what they leave is sent for some scans more.
-const BEGIN: usize = 12;
+/// Scans of a scene's beginning that are not looked at: contacts begin, and lists are long.
+const BEGIN: usize = 8;
 /// Cycles that chain, link and interrupts may take together of the 640,000 from any scan to the next; and
 /// with the check of each sub-field of an interlaced scan.
 const MOST_CYCLES: u64 = 600_000;
