@@ -5,8 +5,8 @@ use crate::format::{Code, Micros};
 use crate::reflex::{Agree, Early, ROWS, Recent, Reflexes};
 use heapless::{Deque, Vec};
 
-/// Codes per iteration of the loop, which the compiler unrolls.
-const CHUNK: usize = 4;
+/// Codes per iteration of the loops, which the compiler unrolls.
+const CHUNK: usize = 8;
 /// Most taxels judged per sub-field and input: the first that are beyond their limits.
 const JUDGED: usize = 8;
 /// Limits updated per frame: once all have been set, and before.
@@ -93,12 +93,12 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
             return;
         }
         let flip = if self.falling { u16::MAX } else { 0 };
+        let entries = self.fields.before(self.fields.count()) * self.fields.inputs().len();
         for _ in 0..if self.armed { RENEWED } else { FILLED } {
             let Some(entry) = self.entries.get_mut(usize::from(self.next)) else { break };
             entry.limit = limit(entry.taxel).map_or(u16::MAX, |code| code ^ flip);
             self.next += 1;
-            if usize::from(self.next) >= self.fields.before(self.fields.count()) * self.fields.inputs().len()
-            {
+            if usize::from(self.next) >= entries {
                 (self.next, self.armed) = (0, true);
                 break;
             }
@@ -120,14 +120,15 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         for (input, codes) in codes.chunks(addresses).enumerate() {
             let at = first + input * addresses;
             let Some(entries) = self.entries.get(at..at + codes.len()) else { break };
-            let mut active = ActiveCodes::new();
-            let watches = self.armed && self.reflexes.rows().iter().any(|row| self.begun & row.bit() == 0);
-            match (watches, self.falling) {
-                (true, false) => place_and_find::<false>(codes, entries, frame, &mut active),
-                (true, true) => place_and_find::<true>(codes, entries, frame, &mut active),
-                (false, _) => codes.iter().zip(entries).for_each(|(code, entry)| put(*code, *entry, frame)),
+            place(codes, entries, frame);
+            if self.armed && self.reflexes.rows().iter().any(|row| self.begun & row.bit() == 0) {
+                let mut active = ActiveCodes::new();
+                match self.falling {
+                    false => find::<false>(codes, entries, &mut active),
+                    true => find::<true>(codes, entries, &mut active),
+                }
+                active.into_iter().for_each(|(taxel, code)| self.judge(field, taxel, code, now));
             }
-            active.into_iter().for_each(|(taxel, code)| self.judge(field, taxel, code, now));
         }
         self.begun & !before
     }
@@ -178,40 +179,49 @@ impl<const TAXELS: usize> Default for Reflex<TAXELS> {
 /// Numbers and codes of the taxels beyond their limits.
 type ActiveCodes = Vec<(u16, Code), JUDGED>;
 
-/// Stores codes in `frame`, and collects those beyond their limits in `active`.
+/// Stores the codes of taxels in `frame`.
+///
+/// Apart from [`find`]: one loop for both needs more registers than an M0+ has, and takes two cycles a taxel
+/// more.
 #[inline(never)] // M0+: out of line
-fn place_and_find<const FALLING: bool>(
-    codes: &[Code],
-    entries: &[WatchedTaxel],
-    frame: &mut [Code],
-    active: &mut ActiveCodes,
-) {
-    let mut take = |code: &Code, entry: &WatchedTaxel| {
-        put(*code, *entry, frame);
-        let pressed = if FALLING { !code.0 } else { code.0 };
-        if pressed > entry.limit {
-            find(active, entry.taxel, *code);
+fn place(codes: &[Code], entries: &[WatchedTaxel], frame: &mut [Code]) {
+    let mut put = |(code, entry): (&Code, &WatchedTaxel)| {
+        if let Some(slot) = frame.get_mut(usize::from(entry.taxel)) {
+            *slot = *code;
         }
     };
     let (chunks, rest) = codes.as_chunks::<CHUNK>();
     let (entry_chunks, entry_rest) = entries.as_chunks::<CHUNK>();
-    for (codes, entries) in chunks.iter().zip(entry_chunks) {
-        codes.iter().zip(entries).for_each(|(code, entry)| take(code, entry));
-    }
-    rest.iter().zip(entry_rest).for_each(|(code, entry)| take(code, entry));
+    chunks.iter().zip(entry_chunks).for_each(|(codes, entries)| codes.iter().zip(entries).for_each(&mut put));
+    rest.iter().zip(entry_rest).for_each(&mut put);
 }
 
-/// Stores a code in `frame` if the entry has a taxel.
+/// Collects the taxels beyond their limits in `active`.
+#[inline(never)] // M0+: out of line
+fn find<const FALLING: bool>(codes: &[Code], entries: &[WatchedTaxel], active: &mut ActiveCodes) {
+    let mut look = |codes: &[Code], entries: &[WatchedTaxel]| {
+        if codes.iter().zip(entries).any(is_beyond::<FALLING>) {
+            take_active::<FALLING>(codes, entries, active);
+        }
+    };
+    let (chunks, rest) = codes.as_chunks::<CHUNK>();
+    let (entry_chunks, entry_rest) = entries.as_chunks::<CHUNK>();
+    chunks.iter().zip(entry_chunks).for_each(|(codes, entries)| look(codes, entries));
+    look(rest, entry_rest);
+}
+
+/// True if a code is beyond the limit of its taxel.
 #[inline(always)]
-fn put(code: Code, entry: WatchedTaxel, frame: &mut [Code]) {
-    if let Some(slot) = frame.get_mut(usize::from(entry.taxel)) {
-        *slot = code;
-    }
+fn is_beyond<const FALLING: bool>((code, entry): (&Code, &WatchedTaxel)) -> bool {
+    let pressed = if FALLING { !code.0 } else { code.0 };
+    pressed > entry.limit
 }
 
-/// Adds a taxel beyond its limit; those past the last place are not judged.
+/// Adds the taxels beyond their limits; those past the last place are not judged.
 #[cold]
 #[inline(never)] // M0+: out of line
-fn find(active: &mut ActiveCodes, taxel: u16, code: Code) {
-    let _ = active.push((taxel, code));
+fn take_active<const FALLING: bool>(codes: &[Code], entries: &[WatchedTaxel], active: &mut ActiveCodes) {
+    for (code, entry) in codes.iter().zip(entries).filter(|pair| is_beyond::<FALLING>(*pair)) {
+        let _ = active.push((entry.taxel, *code));
+    }
 }

@@ -2,7 +2,7 @@
 //! packet, where a task of the device that is woken for each takes 1,200.
 
 use super::rings::{OPENED, PACKETS, SENT};
-use core::cell::RefCell;
+use core::cell::Cell;
 use core::sync::atomic::Ordering;
 use embassy_rp::interrupt::typelevel::{Handler, USBCTRL_IRQ};
 use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
@@ -14,16 +14,9 @@ const ENDPOINT: usize = 2;
 /// Number of bytes of a packet.
 pub(super) const PACKET: usize = 64;
 
-/// The last packet.
-struct Last {
-    /// Kept, because one on the stack would be cleared each time.
-    bytes: [u8; PACKET],
-    /// True if it was full. A transfer ends with a packet that is not full: an empty one after a full one.
-    is_full: bool,
-}
-
-static LAST: Mutex<CriticalSectionRawMutex, RefCell<Last>> =
-    Mutex::new(RefCell::new(Last { bytes: [0; PACKET], is_full: false }));
+/// True if the last packet was full. A transfer ends with a packet that is not full: an empty one after a full
+/// one.
+static WAS_FULL: Mutex<CriticalSectionRawMutex, Cell<bool>> = Mutex::new(Cell::new(false));
 
 /// Handles the interrupt before the driver does, and leaves to it what is not of this endpoint.
 pub struct PacketHandler;
@@ -52,24 +45,23 @@ pub(super) fn start() {
 pub(super) fn begin() {
     // While a packet waits for the host, the interrupt comes when it has been taken.
     if !USB_DPRAM.ep_in_buffer_control(ENDPOINT).read().available(0) {
-        LAST.lock(|last| send_next(&mut last.borrow_mut()));
+        WAS_FULL.lock(send_next);
     }
 }
 
 /// Gives the controller the next packet, if it has none, the port is open, and there is something to send.
-fn send_next(last: &mut Last) {
+fn send_next(was_full: &Cell<bool>) {
     let control = USB_DPRAM.ep_in_buffer_control(ENDPOINT);
     let (mut next, endpoint) = (control.read(), USB_DPRAM.ep_in_control(ENDPOINT - 1).read());
     // Asked again: the interrupt may have come since.
     if next.available(0) || !endpoint.enable() || !OPENED.get() {
         return;
     }
-    let count = SENT.try_read(&mut last.bytes).unwrap_or(0);
-    if count == 0 && !last.is_full {
+    let count = fill(usize::from(endpoint.buffer_address()));
+    if count == 0 && !was_full.get() {
         return;
     }
-    last.is_full = count == PACKET;
-    fill(usize::from(endpoint.buffer_address()), &last.bytes);
+    was_full.set(count == PACKET);
     // The first packet after a connection is DATA0: the driver has left the other one there.
     next.set_pid(0, !next.pid(0));
     next.set_length(0, count as u16);
@@ -82,14 +74,13 @@ fn send_next(last: &mut Last) {
     control.write_value(next);
 }
 
-/// Copies a packet to the controller's memory.
-fn fill(offset: usize, packet: &[u8; PACKET]) {
+/// Moves the next bytes of the ring to the controller's memory, at most a packet, and returns their number.
+fn fill(offset: usize) -> usize {
     #[allow(unsafe_code)]
     // SAFETY: the driver has set aside 64 bytes of the controller's 4 KiB for this endpoint alone, and gives
-    // their offset, below 4 KiB by its 64 units of 64. The controller does not read them while no packet is
-    // available.
-    unsafe {
-        let memory = USB_DPRAM.as_ptr().cast::<u8>().add(offset);
-        memory.copy_from_nonoverlapping(packet.as_ptr(), PACKET);
-    }
+    // their offset, below 4 KiB by its 64 units of 64. No other slice of them lives: this function runs with
+    // interrupts off. The controller does not read them while no packet is available.
+    let packet =
+        unsafe { core::slice::from_raw_parts_mut(USB_DPRAM.as_ptr().cast::<u8>().add(offset), PACKET) };
+    SENT.try_read(packet).unwrap_or(0)
 }
