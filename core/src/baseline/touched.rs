@@ -4,8 +4,8 @@ use super::feedback::{Feedback, Pressed};
 use crate::capacity::TAXELS;
 use crate::garment::Layout;
 
-/// Words of a bit for each taxel.
-const WORDS: usize = TAXELS.div_ceil(32);
+/// Words of a bit for each taxel, and one behind them.
+const WORDS: usize = TAXELS.div_ceil(32) + 1;
 
 /// A bit for each taxel within some taxels of a contact.
 pub(crate) struct Touched {
@@ -26,26 +26,24 @@ impl Touched {
             let bottom = rect.bottom.saturating_add(beside + 1).min(area.rows);
             for row in top..bottom {
                 let first = usize::from(area.base) + usize::from(row) * usize::from(area.columns);
-                touched.mark(first + usize::from(left), first + usize::from(right));
+                touched.mark(first + usize::from(left), right.saturating_sub(left));
             }
         }
         touched
     }
 
-    /// Marks the taxels from `first` to before `end`.
-    fn mark(&mut self, first: usize, end: usize) {
-        let (first_word, last_word) = (first / 32, end.saturating_sub(1) / 32);
-        for at in first_word..=last_word {
-            let mut bits = u32::MAX;
-            if at == first_word {
-                bits <<= first % 32;
+    /// Marks `count` taxels from `first` on.
+    fn mark(&mut self, mut first: usize, mut count: u16) {
+        while count > 0 {
+            let bits = u32::MAX >> 32u16.saturating_sub(count);
+            let (word, bit) = (first / 32, first % 32);
+            if let Some([word, next]) = self.taxels.get_mut(word..).and_then(|words| words.first_chunk_mut())
+            {
+                *word |= bits << bit;
+                // In two steps: by 32 nothing can be shifted.
+                *next |= bits >> 1 >> (31 - bit);
             }
-            if at == last_word {
-                bits &= u32::MAX >> (31 - end.saturating_sub(1) % 32);
-            }
-            if let Some(word) = self.taxels.get_mut(at) {
-                *word |= bits;
-            }
+            (first, count) = (first + 32, count.saturating_sub(32));
         }
     }
 

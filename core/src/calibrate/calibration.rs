@@ -125,19 +125,25 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     }
 
     /// Pressure of a taxel at a code, counts.
+    #[inline(always)] // M0+: called for taxels that fold
     pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {
-        let mut value = [0];
-        if let Some((rest, gain)) = self.baseline.get(taxel).zip(self.gain.get(taxel)) {
-            if *gain == UNITY {
-                // The same, without a call.
-                return if falling { rest.saturating_sub(code.0) } else { code.0.saturating_sub(*rest) };
-            }
-            let scale = if falling { scale::<1, true> } else { scale::<1, false> };
-            scale(&[code], &[*rest], &[*rest], &[*gain], &mut value);
+        match self.baseline.get(taxel).zip(self.gain.get(taxel)) {
+            Some((rest, &UNITY)) if falling => rest.saturating_sub(code.0),
+            Some((rest, &UNITY)) => code.0.saturating_sub(*rest),
+            Some((rest, gain)) => scaled(code, *rest, *gain, falling),
+            None => 0,
         }
-        let [value] = value;
-        value
     }
+}
+
+/// Pressure of a taxel with any gain, counts.
+#[inline(never)] // M0+: out of line
+fn scaled(code: Code, rest: u16, gain: u16, falling: bool) -> u16 {
+    let scale = if falling { scale::<1, true> } else { scale::<1, false> };
+    let mut value = [0];
+    scale(&[code], &[rest], &[rest], &[gain], &mut value);
+    let [value] = value;
+    value
 }
 
 fn is_unity(gain: &u16) -> bool {

@@ -110,13 +110,9 @@ impl Condition {
             images.clear_left(layout, &before);
         }
         if images.active != 0 {
-            // A held taxel is beyond all that its fold may press.
-            folds.each(|taxel, expected| {
-                if let Some((value, code)) = images.calibrated.get_mut(taxel).zip(codes.get(taxel))
-                    && *value > 0
-                {
-                    *value = calibration.pressure(taxel, *code, falling).saturating_sub(expected);
-                }
+            // A taxel that presses is beyond all that its fold may press.
+            folds.subtract(&mut images.calibrated, |taxel| {
+                codes.get(taxel).map_or(0, |code| calibration.pressure(taxel, *code, falling))
             });
         }
         for (_, area) in areas_of(layout, images.active) {
@@ -139,9 +135,10 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
 ) {
     let touched = Touched::of(layout, feedback, BESIDE);
     folds.learn(|taxel| {
-        let is_read = layout.place(taxel).is_some_and(|place| sampled.panels >> place.panel & 1 == 1);
         let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
-        let code = sampled.codes.get(taxel).filter(|_| is_read && is_quiet)?;
+        // M0+: the place needs a division.
+        let is_read = || layout.place(taxel).is_some_and(|place| sampled.panels >> place.panel & 1 == 1);
+        let code = sampled.codes.get(taxel).filter(|_| is_quiet && is_read())?;
         Some(calibration.pressure(taxel, *code, sampled.falling))
     });
 }

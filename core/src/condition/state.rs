@@ -117,15 +117,22 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
     /// taxel. Folds press, too: a level is beyond what they may.
     pub fn inactive_code(&self, taxel: usize, level: u16, falling: bool) -> u16 {
-        let folds = u16::try_from(taxel).ok().and_then(|taxel| self.folds.of(taxel));
+        let folds = self.folded(taxel);
         let level =
             folds.map_or(level, |[expected, doubt]| level.saturating_add(expected).saturating_add(doubt));
         self.calibration.inactive_code(taxel, level, falling)
     }
 
+    /// What folds are expected to press on a taxel and its doubt, counts; none where nothing is expected. A bit
+    /// says so sooner than the search for the taxel.
+    fn folded(&self, taxel: usize) -> Option<[u16; 2]> {
+        let taxel = u16::try_from(taxel).ok().filter(|_| self.folds.holds(taxel))?;
+        self.folds.of(taxel)
+    }
+
     /// Pressure of a taxel at a code, counts, beyond what its folds are expected to press.
     pub(crate) fn felt(&self, taxel: usize, code: Code, falling: bool) -> u16 {
-        let folds = u16::try_from(taxel).ok().and_then(|taxel| self.folds.of(taxel));
+        let folds = self.folded(taxel);
         let expected = folds.map_or(0, |[expected, _]| expected);
         self.pressure(taxel, code, falling).saturating_sub(expected)
     }

@@ -244,6 +244,29 @@ impl FoldState {
         }
     }
 
+    /// Subtracts from the taxels that press what is expected of them, counts. `pressure` gives what such a taxel
+    /// feels: its value holds only where every taxel begins to press at the same level.
+    #[inline(never)] // own registers
+    pub(crate) fn subtract(&self, values: &mut [u16], pressure: impl Fn(usize) -> u16) {
+        let Some(table) = self.table() else { return };
+        let unit = table.unit();
+        for (taxels, [expected, doubt]) in table.taxels().iter().zip(&self.felt) {
+            if expected | doubt == 0 {
+                continue;
+            }
+            let mut expected = *expected;
+            for taxel in taxels {
+                let taxel = usize::from(*taxel);
+                if let Some(value) = values.get_mut(taxel)
+                    && *value > 0
+                {
+                    *value = pressure(taxel).saturating_sub((expected as u8 as u16).saturating_mul(unit));
+                }
+                expected >>= 8;
+            }
+        }
+    }
+
     /// True if taxels are to be compared with what is expected of them.
     pub(crate) fn compares(&self) -> bool {
         self.table().is_some() && self.bends.iter().any(|bend| bend.is_known && bend.left > 0)
