@@ -432,7 +432,12 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         let full = Code(if falling { 0 } else { setup.scene.plan.depth.keep(info.full_scale) });
         let senses = (monitor.faulty(), full, falling);
         let pressing = surface.is_due().then_some(|tx_frame: &mut TxFrame| {
-            surface.put(tx_frame, |sums, table| state.press(sums, table, &setup.layout, image.values, senses))
+            let (layout, values) = (&setup.layout, image.values);
+            surface.put(
+                tx_frame,
+                |pressing, table| state.doubt(pressing, table, layout, values, senses),
+                |pressing, table| state.press(pressing, table, layout, values),
+            )
         });
         #[cfg(feature = "folds")]
         let folding = folds

@@ -111,13 +111,14 @@ impl Surface {
     }
 
     /// Encodes what is due: the regions' states, else what is unknown of a
-    /// [`PressingReport`](crate::wire::PressingReport), else that. `press` sums up by a table. Returns
-    /// `false` if it does not fit. Own frame: it needs much stack.
+    /// [`PressingReport`](crate::wire::PressingReport), else that. `doubt` finds what is unknown, `sum` sums up,
+    /// both by a table. Returns `false` if it does not fit. Own frame: it needs much stack.
     #[inline(never)]
     pub fn put(
         &mut self,
         tx_frame: &mut TxFrame,
-        press: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
+        doubt: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
+        sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
     ) -> bool {
         let Some(table) = self.table() else {
             self.regions.iter_mut().for_each(RegionReports::skip);
@@ -129,15 +130,22 @@ impl Surface {
         }
         let Some((frame, time)) = self.due.take() else { return true };
         let mut pressing = Pressing::new();
-        press(&mut pressing, &table);
         let frames = self.poses.at(time);
-        if !self.bounded && (pressing.is_in_doubt() || frames.errors().next().is_some()) {
-            // What it bounds follows.
-            (self.due, self.bounded) = (Some((frame, time)), true);
-            let contacts = Each(pressing.doubts_of_contacts(&table));
-            let links = Each(pressing.doubts_of_links(&table));
-            return tx_frame.put(Report::BOUNDS, &(frame, contacts, links, Each(frames.errors())));
+        if !self.bounded {
+            doubt(&mut pressing, &table);
+            if pressing.is_in_doubt() || frames.errors().next().is_some() {
+                // What it bounds follows.
+                (self.due, self.bounded) = (Some((frame, time)), true);
+                // Poses that are carried on are in doubt in most frames, taxels in few, which alone need sums.
+                if pressing.is_in_doubt() {
+                    sum(&mut pressing, &table);
+                }
+                let contacts = Each(pressing.doubts_of_contacts(&table));
+                let links = Each(pressing.doubts_of_links(&table));
+                return tx_frame.put(Report::BOUNDS, &(frame, contacts, links, Each(frames.errors())));
+            }
         }
+        sum(&mut pressing, &table);
         let (contacts, links) = (pressing.contacts(&frames), pressing.links(&table));
         self.told = contacts.len() > 0;
         tx_frame.put(Report::PRESSING, &(frame, time, self.poses.told(), Each(contacts), Each(links)))

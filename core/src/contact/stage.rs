@@ -19,6 +19,7 @@ use crate::track::assign::Matching;
 use crate::track::motion::Trail;
 use crate::track::slot::Slot;
 use crate::track::tracks::Tracks;
+use core::ops::Range;
 
 /// Finds and follows contacts; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -47,8 +48,8 @@ pub(crate) struct PressedRun<'a> {
     pub contact: usize,
     /// Index of the panel.
     pub panel: u8,
-    /// Number of the first taxel.
-    pub first: usize,
+    /// Numbers of the taxels from its first column to its last one.
+    pub taxels: Range<usize>,
     /// The run.
     pub run: &'a Run,
 }
@@ -161,7 +162,8 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
             let area = layout.areas().get(usize::from(panel))?;
             let row = usize::from(run.row.checked_sub(area.first_row)?);
             let first = usize::from(area.base) + row * usize::from(area.columns) + usize::from(run.left);
-            Some(PressedRun { contact, panel, first, run })
+            let taxels = first..first + usize::from(run.right - run.left) + 1;
+            Some(PressedRun { contact, panel, taxels, run })
         })
     }
 

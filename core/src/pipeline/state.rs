@@ -124,9 +124,20 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.contact.took_picture()
     }
 
-    /// Places and forces of the contacts of the last frame, whose image has these values. `full` is the code at
-    /// the end of the converter's range.
+    /// Places and forces of the contacts of the last frame, whose image has these values.
     pub(crate) fn press(
+        &self,
+        pressing: &mut Pressing<CONTACTS>,
+        table: &Table<'_>,
+        layout: &Layout,
+        values: &[u16],
+    ) {
+        pressing.sum(table, &self.contact, layout, [self.condition.calibrated(), values]);
+    }
+
+    /// Taxels under those contacts that do not tell what they feel. `full` is the code at the end of the
+    /// converter's range.
+    pub(crate) fn doubt(
         &self,
         pressing: &mut Pressing<CONTACTS>,
         table: &Table<'_>,
@@ -134,10 +145,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         values: &[u16],
         (faulty, full, falling): (&[FaultyTaxel], Code, bool),
     ) {
-        let images = [self.condition.calibrated(), values];
-        pressing.sum(table, &self.contact, layout, images);
-        let ceiling = |taxel| self.condition.felt(taxel, full, falling);
-        pressing.doubt(table, &self.contact, layout, images, &TaxelLimits { faulty, ceiling });
+        let limits = TaxelLimits { faulty, ceiling: |taxel| self.condition.felt(taxel, full, falling) };
+        pressing.doubt(table, &self.contact, layout, [self.condition.calibrated(), values], &limits);
     }
 
     /// By how much the totals of the contacts of the last frame may be off for the folds beneath them.
@@ -147,8 +156,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         let folds = self.condition.folds();
         let mut sums = [0u32; CONTACTS];
         for run in self.contact.pressed(layout) {
-            let last = run.first + usize::from(run.run.right - run.run.left);
-            for taxel in (run.first..=last).filter(|taxel| folds.holds(*taxel)) {
+            for taxel in run.taxels.filter(|taxel| folds.holds(*taxel)) {
                 let doubt = folds.of(taxel as u16).map_or(0, |[_, doubt]| doubt);
                 if let Some(sum) = sums.get_mut(run.contact) {
                     *sum = sum.saturating_add(doubt.into());

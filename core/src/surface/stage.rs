@@ -65,6 +65,8 @@ pub struct Pressing<const CONTACTS: usize> {
     pressed: Vec<u8, LINKS>,
     /// Faulty taxels under contacts or at their edges.
     blind: Vec<BlindTaxel, FAULTY_TAXELS>,
+    /// Number of saturated taxels of each present contact.
+    saturated: [u16; CONTACTS],
 }
 
 /// What is known of the taxels beside their pressure.
@@ -85,7 +87,6 @@ struct Landing {
     total: u32,
     /// Of its taxels on the link of its place.
     sums: PressSums,
-    saturated: u16,
 }
 
 /// Sums of a link.
@@ -114,6 +115,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             sums: [LinkSums::NONE; LINKS],
             pressed: Vec::new(),
             blind: Vec::new(),
+            saturated: [0; CONTACTS],
         }
     }
 
@@ -139,15 +141,13 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
                 spot,
                 total: touch.total,
                 sums: PressSums::NONE,
-                saturated: 0,
             });
         }
         let links = links_of(table, layout);
         for run in contact.pressed(layout) {
             let Some(link) = links.get(usize::from(run.panel)) else { continue };
-            let taxels = run.first..=run.first + usize::from(run.run.right - run.run.left);
-            let values = calibrated.get(taxels.clone()).zip(filtered.get(taxels.clone()));
-            let Some((values, records)) = values.zip(table.taxels().get(taxels)) else { continue };
+            let values = calibrated.get(run.taxels.clone()).zip(filtered.get(run.taxels.clone()));
+            let Some((values, records)) = values.zip(table.taxels().get(run.taxels)) else { continue };
             let landing = placed.get(run.contact).map_or(NONE, |placed| *placed);
             let landing = self.landings.get_mut(usize::from(landing)).filter(|it| it.spot.link == *link);
             let sums = match landing {
@@ -170,8 +170,8 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         }
     }
 
-    /// Finds the taxels of the summed frame that do not tell what they feel: those that are saturated, and
-    /// those that are faulty.
+    /// Finds the taxels of the last frame that do not tell what they feel: those that are saturated, and those
+    /// that are faulty. Needs no sums.
     #[inline(never)] // M0+: out of line
     pub fn doubt<const RUNS: usize, const LABELS: usize, S: Slot>(
         &mut self,
@@ -195,7 +195,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
                 let level = levels.get(run.contact).copied().unwrap_or(u16::MAX);
                 if run.run.peak >= level {
                     let saturated = saturated(&run, level, calibrated, &senses.ceiling);
-                    self.saturate(saturated, run.contact, table.taxels().get(run.first));
+                    self.saturate(saturated, run.contact, table.taxels().get(run.taxels.start));
                 }
             }
         }
@@ -222,9 +222,8 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
 
     /// Counts saturated taxels of a contact, one of which is `taxel`.
     fn saturate(&mut self, count: u16, contact: usize, taxel: Option<&TaxelRecord>) {
-        let is_it = |landing: &&mut Landing| usize::from(landing.contact) == contact;
-        if let Some(landing) = self.landings.iter_mut().find(is_it) {
-            landing.saturated = landing.saturated.saturating_add(count);
+        if let Some(saturated) = self.saturated.get_mut(contact) {
+            *saturated = saturated.saturating_add(count);
         }
         let link = taxel.map_or(NONE.into(), |taxel| usize::from(taxel.link));
         if let Some(sums) = self.sums.get_mut(link) {
@@ -237,7 +236,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         !self.blind.is_empty() || self.sums.iter().any(|sums| sums.saturated > 0)
     }
 
-    /// What is unknown of contacts, by id: of those where something is.
+    /// What is unknown of contacts, by id: of those where something is. A share of the sums.
     pub fn doubts_of_contacts<'a>(
         &'a self,
         table: &'a Table<'_>,
@@ -246,12 +245,13 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             let blind = self.blind.iter().filter(|blind| blind.contact == landing.contact);
             let far = |blind: &BlindTaxel| (*blind, reach(table, blind, landing.spot.at));
             let of = of_faulty(blind.map(far), landing.sums.pressed);
-            (landing.id, Uncertainty { saturated: landing.saturated, ..of })
+            let saturated = self.saturated.get(usize::from(landing.contact)).copied().unwrap_or(0);
+            (landing.id, Uncertainty { saturated, ..of })
         };
         self.landings.iter().map(of).filter(|(_, of)| !of.is_none())
     }
 
-    /// What is unknown of links, by number: of those where something is.
+    /// What is unknown of links, by number: of those where something is. A share of the sums.
     pub fn doubts_of_links<'a>(
         &'a self,
         table: &'a Table<'_>,
@@ -343,9 +343,8 @@ impl LinkSums {
 /// Number of saturated taxels of a run among those of `level` counts and more.
 #[inline(never)] // M0+: out of line
 fn saturated(run: &PressedRun<'_>, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
-    let taxels = run.first..=run.first + usize::from(run.run.right - run.run.left);
     let (mut saturated, mut mask) = (0, run.run.rebased());
-    for (taxel, value) in (run.first..).zip(calibrated.get(taxels).unwrap_or(&[])) {
+    for (taxel, value) in run.taxels.clone().zip(calibrated.get(run.taxels.clone()).unwrap_or(&[])) {
         if *value >= level && mask & 1 == 1 && *value >= ceiling(taxel) {
             saturated += 1;
         }
