@@ -1,5 +1,5 @@
-//! `cargo xtask test`: all checks, two at a time: while one compiles on all cores, the other mostly waits for
-//! cargo; while one runs the emulator, on one core, the other has the rest.
+//! `cargo xtask test`: all checks, three at a time: one compiles, and those that compile in the same folder wait
+//! for cargo meanwhile; one runs the emulator, on one core; one keeps the other core busy.
 
 use crate::cargo::{WHOLE, cargo};
 use crate::counts::Counts;
@@ -29,7 +29,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-units", emulator_units),
     ("firmware-clippy", firmware_clippy),
     ("core-thumb", core_thumb),
-    ("features", build_features),
+    ("features", features::check),
     ("cycles", targets::cycles),
     ("emulator-scan", |log| targets::on_emulator("scan", log)),
     ("emulator-latency", |log| targets::on_emulator("latency", log)),
@@ -58,7 +58,7 @@ const RECORDED: &[(&str, Check)] =
     &[("recorded", targets::recorded), ("emulator-recorded", targets::emulator_recorded)];
 
 /// Checks at a time.
-const AT_ONCE: usize = 2;
+const AT_ONCE: usize = 3;
 
 /// Options of the command line.
 struct Asked {
@@ -193,9 +193,13 @@ fn compare_locks(_: &Path) -> End {
     }))
 }
 
+/// All tests, then those of what a core without features refuses.
 fn test(log: &Path) -> End {
-    let args = [&["test"], WHOLE, &["--no-fail-fast"]].concat();
-    Ok(process::run_into(&mut cargo(&args, paths::root()), log))
+    let all = [&["test"], WHOLE, &["--no-fail-fast"]].concat();
+    let left_out = ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out"];
+    let all = process::run_into(&mut cargo(&all, paths::root()), log);
+    let left_out = process::run_into(&mut cargo(&left_out, paths::root()), log);
+    Ok(all.and(left_out))
 }
 
 fn docs(log: &Path) -> End {
@@ -214,14 +218,6 @@ fn build_firmware(log: &Path) -> End {
 fn compare_sizes(log: &Path) -> End {
     let image = firmware::image(&Toolchain::find()?, log);
     Ok(image.and_then(|image| sizes::check(&image)).map(|beside| print!("{beside}")))
-}
-
-/// Compiles each image that leaves features out, and tests what a core without features refuses: in this
-/// order, because the second waits until the tests are compiled.
-fn build_features(log: &Path) -> End {
-    let args = ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out"];
-    let images = features::check(log);
-    Ok(images.and_then(|()| process::run_into(&mut cargo(&args, paths::root()), log)))
 }
 
 fn firmware_clippy(log: &Path) -> End {

@@ -1,6 +1,7 @@
 //! The images that leave something out: `firmware/Cargo.toml` lists what may be.
 
 use crate::cross::{TARGET, Toolchain};
+use crate::end::End;
 use crate::{firmware, paths, process};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -76,13 +77,12 @@ pub fn table(log: &Path) -> Result<String, String> {
 
 /// Compiles the core that leaves each of the features out, and their sets; [`table`] builds the images, which
 /// takes minutes. The firmware only hands the features on.
-pub fn check(log: &Path) -> Result<(), String> {
+pub fn check(log: &Path) -> End {
     let toolchain = Toolchain::find()?;
-    for (name, features) in images().iter().filter(|(name, _)| name != EVERYTHING) {
-        let compiled = process::run_into(&mut with(firmware::core_command(&toolchain), features), log);
-        compiled.map_err(|error| format!("{name}: {error}"))?;
-    }
-    Ok(())
+    Ok(images().iter().filter(|(name, _)| name != EVERYTHING).try_for_each(|(name, features)| {
+        process::run_into(&mut with(firmware::core_command(&toolchain), features), log)
+            .map_err(|error| format!("{name}: {error}"))
+    }))
 }
 
 /// True if bytes of flash or RAM exceed their limits, KiB.

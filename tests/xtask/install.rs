@@ -15,7 +15,7 @@ pub const NODE: &[&str] = &["nodejs", "npm"];
 /// Debian packages of the browser.
 pub const BROWSER: &[&str] = &["chromium"];
 
-/// Checks run two at a time; only one of them may install.
+/// Checks run side by side; only one of them may install.
 static INSTALLING: Mutex<()> = Mutex::new(());
 
 fn alone() -> MutexGuard<'static, ()> {

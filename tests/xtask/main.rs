@@ -72,7 +72,7 @@ usage: cargo xtask COMMAND
                         dependencies allowed; compare their interfaces with the last tag. Needs a nightly compiler
   docs                  build the pages of docs/ as a book, target/docs/index.html
   test [--recorded] [--only NAME] [--may-miss NAME]
-                        every check, two at a time; one that cannot run fails the run, unless it is named by --may-miss;
+                        every check, three at a time; one that cannot run fails the run, unless it is named by --may-miss;
                         --recorded, or TAXEL_DATA set to folders of recordings: also those that need recordings
 
 TAXEL_CROSS chooses the compiler for the board: rust-src, debian or target
