@@ -26,6 +26,7 @@
 //! | `carried.rs` | a touch of a board, carried on to the time of another board's scan |
 //! | `listed.rs` | what a board has told last of what touches it |
 //! | `joined.rs` | which touches meet at the seams, and what they are together |
+//! | `touch.rs` | [`RobotTouch`]: what touches the robot at a time, on one board or on several |
 //! | `contact.rs` | [`RobotContact`]: a contact of the robot, on one board or on several |
 //! | `contacts_line.rs` | the robot's contacts as JSON |
 //! | `contacts.rs` | [`RobotContacts`]: what touches both sides of a seam is one contact with one id |
@@ -61,11 +62,12 @@ mod refused;
 mod scan;
 mod seam;
 mod session;
+mod touch;
 mod touched;
 
 pub use board::{BoardGarment, RobotBoard};
 pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
-pub use contact::{RobotContact, RobotContactPart};
+pub use contact::RobotContact;
 pub use contacts::{CROSSING_US, RobotContacts};
 #[cfg(feature = "schema")]
 pub use contacts_line::robot_contacts_schema;
@@ -81,4 +83,5 @@ pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
 pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;
+pub use touch::{RobotTouch, RobotTouchPart};
 pub use touched::BoardTouch;
