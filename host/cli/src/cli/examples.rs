@@ -160,6 +160,7 @@ pub(super) const BODY: &str = "Examples:
 pub(super) const ROBOT: &str = "Examples:
   taxel robot check robot.toml
   taxel robot live robot.toml --json
+  taxel robot view robot.toml --open
   taxel robot record robot.toml -o touch.mcap
   taxel robot doctor robot.toml";
 

@@ -27,12 +27,14 @@ mod recordings;
 mod reference;
 mod repair;
 mod robot;
+mod robot_view;
 #[cfg(feature = "ros2")]
 mod ros2;
 mod schemas;
 mod set_up;
 #[path = "../commands/sink.rs"]
 mod sink;
+mod socket;
 mod start;
 mod status;
 mod steps;

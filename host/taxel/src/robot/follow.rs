@@ -169,6 +169,9 @@ impl<T> Follower<T> {
                 let news = self.teller.note(client, &note, stamp)?;
                 self.pass(stamp, news, false);
             }
+            if self.is_known {
+                self.teller.idle(session.parts().0)?;
+            }
             self.tell_other();
             match (gap, session.gap()) {
                 (None, Some(_)) => {

@@ -6,7 +6,9 @@ mod doctor;
 mod live;
 mod record;
 mod requests;
+mod shown;
 mod tellers;
+mod view;
 
 use anyhow::Result;
 use clap::{Args, Subcommand};
@@ -14,6 +16,7 @@ use doctor::RobotDoctorArgs;
 use live::RobotLiveArgs;
 use record::RobotRecordArgs;
 use std::path::PathBuf;
+use view::RobotViewArgs;
 
 /// Arguments of `taxel robot`.
 #[derive(Debug, Clone, Args)]
@@ -38,6 +41,9 @@ enum RobotTask {
         after_help = "Examples:\n  taxel robot live robot.toml\n  taxel robot live robot.toml --json --tare arm=32"
     )]
     Live(RobotLiveArgs),
+    /// Watch all boards in the browser: a page for each, and what touches the robot
+    #[command(after_help = "Example:\n  taxel robot view robot.toml --open")]
+    View(RobotViewArgs),
     /// Record all boards in one file
     #[command(after_help = "Example:\n  taxel robot record robot.toml -o touch.mcap --seconds 60")]
     Record(RobotRecordArgs),
@@ -51,6 +57,7 @@ pub fn run(args: &RobotArgs) -> Result<()> {
     match &args.what {
         RobotTask::Check { file, json } => check::run(file, *json),
         RobotTask::Live(args) => live::run(args),
+        RobotTask::View(args) => view::run(args),
         RobotTask::Record(args) => record::run(args),
         RobotTask::Doctor(args) => doctor::run(args),
     }
