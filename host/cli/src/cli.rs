@@ -2,8 +2,6 @@
 
 mod completions;
 mod examples;
-#[cfg(not(all(feature = "foxglove", feature = "ros2")))]
-mod not_built;
 
 use crate::commands::board::doctor::{self, DoctorArgs};
 use crate::commands::board::flash::{self, FlashArgs};
@@ -20,6 +18,12 @@ use crate::commands::garment::scenes::{self, ScenesArgs};
 use crate::commands::garment::settle::{self, SettleArgs};
 use crate::commands::garment::setup::{self, SetupArgs};
 use crate::commands::maps::{self, FcmArgs};
+#[cfg(not(all(feature = "foxglove", feature = "ros2")))]
+use crate::commands::not_built;
+#[cfg(not(feature = "foxglove"))]
+use crate::commands::not_built::NotBuiltArgs as FoxgloveArgs;
+#[cfg(not(feature = "ros2"))]
+use crate::commands::not_built::NotBuiltArgs as Ros2Args;
 use crate::commands::recordings::export::{self, ExportArgs};
 use crate::commands::recordings::info::{self, InfoArgs};
 use crate::commands::recordings::record::{self, RecordArgs};
@@ -40,10 +44,6 @@ use anyhow::Result;
 use clap::{CommandFactory, Parser, Subcommand};
 use completions::CompletionsArgs;
 use examples::*;
-#[cfg(not(feature = "foxglove"))]
-use not_built::NotBuiltArgs as FoxgloveArgs;
-#[cfg(not(feature = "ros2"))]
-use not_built::NotBuiltArgs as Ros2Args;
 use std::ffi::OsString;
 use taxel::tell::{verbose, words};
 

@@ -29,6 +29,7 @@
 //! | `touch.rs` | [`RobotTouch`]: what touches the robot at a time, on one board or on several |
 //! | `contact.rs` | [`RobotContact`]: a contact of the robot, on one board or on several |
 //! | `contacts_line.rs` | the robot's contacts as JSON |
+//! | `contacts_ros2.rs` | the robot's contacts as a message of ROS 2 |
 //! | `contacts.rs` | [`RobotContacts`]: what touches both sides of a seam is one contact with one id |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
@@ -42,6 +43,7 @@ mod config;
 mod contact;
 mod contacts;
 mod contacts_line;
+mod contacts_ros2;
 mod event;
 mod faint;
 mod file;
@@ -72,6 +74,7 @@ pub use contacts::{CROSSING_US, RobotContacts};
 #[cfg(feature = "schema")]
 pub use contacts_line::robot_contacts_schema;
 pub use contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
+pub use contacts_ros2::robot_contacts_message;
 pub use event::{BoardEvent, RobotEvent, Teller};
 pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
