@@ -110,7 +110,9 @@ fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
         if line["type"] == ROBOT_CONTACTS {
             continue;
         }
-        let board = line.as_object_mut().unwrap().remove("board").unwrap();
+        let fields = line.as_object_mut().unwrap();
+        let board = fields.remove("board").unwrap();
+        assert!(fields.remove("host_time_us").unwrap().as_u64().unwrap() > 1_700_000_000_000_000);
         if line["type"] != "board" {
             boards.entry(board.as_str().unwrap().into()).or_default().push(line);
         }

@@ -16,6 +16,7 @@
 //! | `follow.rs` | follows one board in a thread of its own |
 //! | `order.rs` | [`BoardOrder`]: what boards are asked while they are followed |
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
+//! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
@@ -53,6 +54,7 @@ mod identity;
 mod joined;
 mod line;
 mod listed;
+mod moments;
 mod open;
 mod order;
 mod place;
@@ -80,6 +82,7 @@ pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
 pub use identity::Identity;
 pub use line::BoardLine;
+pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
 pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
