@@ -7,7 +7,7 @@ use crate::commands::views::ros2::RosNodeArgs;
 use crate::fault::Fault;
 use crate::ros2::{RobotNode, RosNode, RosParameters, RosPlace, RosShow};
 use crate::watch::{seconds, stop};
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::time::Duration;
 use taxel::body;
@@ -41,14 +41,18 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     let mut requests = args.robot.requests()?;
     let options =
         SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
-    let parameters = RosParameters { source: robot.file.clone(), image_hz: args.node.image_hz };
+    let image_hz = args.node.image_hz;
+    let open = |place: RosPlace, source: String| RosNode::open(place, &RosParameters { source, image_hz });
     let at =
         format!("robot {} as node {} in domain {}", robot.name, place.absolute(&place.name), place.domain);
-    let mut node = RobotNode::open(RosNode::open(place.clone(), &parameters)?, &robot)?;
+    let mut node = RobotNode::open(open(place.clone(), robot.file.clone())?, &robot)?;
+    // One after the other: of nodes that join the network in the same moment, one may stay unknown to others.
+    let boards = robot.boards.iter();
+    let nodes = boards.map(|board| open(place.of_board(&board.name), board.source.to_string()));
+    let mut nodes = nodes.map(|node| node.map(Some)).collect::<Result<Vec<_>>>()?;
     let teller = |number: usize| -> Box<dyn Teller<BoardScan>> {
-        let (place, image_hz) = (place.of_board(&robot.boards[number].name), args.node.image_hz);
-        let body = robot.boards[number].body.clone();
-        let open = move |source: &Source| shown(source, &place, image_hz, body.as_deref());
+        let (mut node, body) = (nodes[number].take(), robot.boards[number].body.clone());
+        let open = move |source: &Source| shown(node.take(), source, body.as_deref());
         Box::new(ShownTeller::new(&robot, number, open))
     };
     let plans = robot.plans(&options, limit(args.seconds), teller);
@@ -68,11 +72,10 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     ended
 }
 
-/// The node of a board.
-fn shown(source: &Source, place: &RosPlace, image_hz: f64, body: Option<&str>) -> Result<RosShow> {
-    let parameters = RosParameters { source: source.label.clone(), image_hz };
+/// Offers a board on its node.
+fn shown(node: Option<RosNode>, source: &Source, body: Option<&str>) -> Result<RosShow> {
     let body = body.map(body::read).transpose()?;
-    RosShow::open(RosNode::open(place.clone(), &parameters)?, source, false, body)
+    RosShow::open(node.context("the node is in use")?, source, false, body)
 }
 
 /// Error if two boards have one name in ROS, which knows no `-`.

@@ -108,12 +108,12 @@ fn boards_are_on_one_time_within_what_they_state() {
         // All boards as they were 100 ms ago, on one time.
         if board == 0 && started > 2.0 * SECOND {
             let then = started - 100_000.0;
-            for number in 0..BOARDS.len() {
+            for (number, (.., period_us, _)) in BOARDS.iter().enumerate() {
                 let at = moments.contacts(number, (EPOCH + then) as u64).unwrap();
                 let bound_us = at.stamp.uncertainty_us.unwrap() as f64;
                 let error = (at.what[0].centroid[0] - place(then)).abs();
                 // At the turning points half of the way between two scans is left out.
-                let turns = BOARDS[number].4 / SECOND * SPEED;
+                let turns = period_us / SECOND * SPEED;
                 assert!(error <= bound_us / SECOND * SPEED + turns, "board {number}: {error} taxels off");
                 places.push(error);
             }
