@@ -13,6 +13,8 @@ mod folded;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod hostile;
+#[cfg(feature = "index")]
+mod index;
 mod joints;
 mod live;
 mod maps;

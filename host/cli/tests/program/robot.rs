@@ -35,7 +35,8 @@ fn blocks(language: &str) -> Vec<String> {
     blocks.collect()
 }
 
-fn two() -> String {
+/// The robot of the document.
+pub fn two() -> String {
     let [two] = &blocks("toml")[..] else { panic!("the document has one file") };
     two.clone()
 }
