@@ -154,3 +154,47 @@ fn a_table_is_not_replaced_and_an_input_never_is() {
             && String::from_utf8_lossy(&none.stderr).contains("no such folder cannot be read")
     );
 }
+
+/// Recordings of a second of different scenes.
+const SCENES: [&str; 5] = ["five", "lash", "pat", "press", "idle"];
+/// Recordings that are indexed: the ordinary test, and a campaign.
+const MANY: [usize; 2] = [40, 10_000];
+
+/// How long it takes is printed.
+#[test]
+fn many_recordings_have_as_many_rows() {
+    let many = MANY[usize::from(std::env::var_os("TAXEL_CAMPAIGN").is_some())];
+    let folder = folder("index-many", &two());
+    let all = folder.join("all");
+    let _ = std::fs::remove_dir_all(&all);
+    std::fs::create_dir_all(&all).unwrap();
+    let made = SCENES.map(|scene| {
+        let file = format!("{scene}.mcap");
+        done(
+            &folder,
+            &["record", "--source", &format!("sim:{scene}"), "-o", &file, "--seconds", "1", "--force"],
+        );
+        folder.join(file)
+    });
+    for number in 0..many {
+        let inside = all.join(format!("{:02}", number / 500));
+        std::fs::create_dir_all(&inside).unwrap();
+        // A file of its own, whose content is shared: 10,000 copies would fill disks.
+        std::fs::hard_link(&made[number % made.len()], inside.join(format!("{number:05}.mcap"))).unwrap();
+    }
+    let bytes: u64 =
+        (0..many).map(|number| std::fs::metadata(&made[number % made.len()]).unwrap().len()).sum();
+    let begun = std::time::Instant::now();
+    done(&folder, &["index", "all", "-o", "many.parquet", "--force"]);
+    let seconds = begun.elapsed().as_secs_f64();
+    let rows = rows(&folder.join("many.parquet"));
+    assert_eq!(rows.len(), many);
+    assert!(rows.iter().all(|row| row["error"] == Field::Null && row["whole"] == Field::Bool(true)));
+    // Each file says what the first of its scene says.
+    for (number, row) in rows.iter().enumerate() {
+        let first = &rows[number % made.len()];
+        assert!(row.iter().all(|(column, value)| column == "file" || *value == first[column]), "{number}");
+    }
+    println!("{many} recordings of {:.0} MB: {seconds:.1} s", bytes as f64 / 1e6);
+    std::fs::remove_dir_all(&all).unwrap();
+}

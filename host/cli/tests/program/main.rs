@@ -29,6 +29,7 @@ mod recordings;
 mod reference;
 mod repair;
 mod robot;
+mod robot_cost;
 mod robot_view;
 #[cfg(feature = "ros2")]
 mod ros2;
