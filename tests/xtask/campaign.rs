@@ -138,7 +138,7 @@ const RUNS: [(&str, Run, &str); 28] = [
     (
         "boards",
         Run::Program("robot_cost"),
-        "taxel robot: what a frame costs with 1 to 100 boards of 2,048 taxels and two moving contacts (simulated)",
+        "taxel robot: what a frame costs with 1 to 100 boards, two moving contacts each, by the build of the tests (simulated)",
     ),
     ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
