@@ -8,9 +8,18 @@ const PROGRAM = process.env.TAXEL_PROGRAM ?? "taxel";
 /** A running `taxel view`. */
 export class View {
   /** Starts it with options; where they name no port, it finds one itself. */
-  static async start(...options) {
-    const port = options.includes("--port") ? [] : ["--port", "0"];
-    const program = spawn(PROGRAM, ["view", ...port, ...options], { stdio: ["pipe", "pipe", "inherit"] });
+  static start(...options) {
+    return View.run("view", ...options);
+  }
+
+  /** Starts `taxel robot view`. */
+  static robot(...options) {
+    return View.run("robot", "view", ...options);
+  }
+
+  static async run(...words) {
+    const port = words.includes("--port") ? [] : ["--port", "0"];
+    const program = spawn(PROGRAM, [...words, ...port], { stdio: ["pipe", "pipe", "inherit"] });
     const url = await new Promise((done, fail) => {
       let said = "";
       program.once("error", fail).once("exit", (code) => fail(new Error(`${PROGRAM} ended with ${code}`)));

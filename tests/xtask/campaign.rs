@@ -12,6 +12,8 @@ enum Run {
     Commands(&'static str),
     /// Tests of the library whose names contain this.
     Library(&'static str),
+    /// Tests of the program whose names contain this.
+    Program(&'static str),
     /// A module of the tests of the firmware image.
     Image(&'static str),
     /// A file of the tests of the page.
@@ -35,7 +37,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 25] = [
+const RUNS: [(&str, Run, &str); 28] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -128,6 +130,17 @@ const RUNS: [(&str, Run, &str); 25] = [
         Run::Browser("stream.test.mjs"),
         "taxel view: ten minutes of five contacts at full speed (simulated)",
     ),
+    (
+        "one-time",
+        Run::Library("one_time"),
+        "boards of a robot on one time: skew by round trips, two hours of six clocks and links (simulated)",
+    ),
+    (
+        "boards",
+        Run::Program("robot_cost"),
+        "taxel robot: what a frame costs with 1 to 100 boards, two moving contacts each, by the build of the tests (simulated)",
+    ),
+    ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
 ];
 
@@ -169,6 +182,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
     let end = match run {
         Run::Core(names) => targets::printed("core", &[names], log, &longer),
         Run::Commands(names) => targets::printed("commands", &[names], log, &longer),
+        Run::Program(names) => targets::printed("program", &[names], log, &longer),
         Run::Library(names) => targets::printed("library", &[names], log, &longer),
         Run::Image(module) => targets::measured(module, log, &longer)?,
         Run::Browser(file) => browser::measured(&[file], log, &longer)?,

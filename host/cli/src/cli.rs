@@ -2,8 +2,6 @@
 
 mod completions;
 mod examples;
-#[cfg(not(all(feature = "foxglove", feature = "ros2")))]
-mod not_built;
 
 use crate::commands::board::doctor::{self, DoctorArgs};
 use crate::commands::board::flash::{self, FlashArgs};
@@ -20,7 +18,17 @@ use crate::commands::garment::scenes::{self, ScenesArgs};
 use crate::commands::garment::settle::{self, SettleArgs};
 use crate::commands::garment::setup::{self, SetupArgs};
 use crate::commands::maps::{self, FcmArgs};
+#[cfg(not(all(feature = "foxglove", feature = "index", feature = "ros2")))]
+use crate::commands::not_built;
+#[cfg(not(feature = "foxglove"))]
+use crate::commands::not_built::NotBuiltArgs as FoxgloveArgs;
+#[cfg(not(feature = "index"))]
+use crate::commands::not_built::NotBuiltArgs as IndexArgs;
+#[cfg(not(feature = "ros2"))]
+use crate::commands::not_built::NotBuiltArgs as Ros2Args;
 use crate::commands::recordings::export::{self, ExportArgs};
+#[cfg(feature = "index")]
+use crate::commands::recordings::index::{self, IndexArgs};
 use crate::commands::recordings::info::{self, InfoArgs};
 use crate::commands::recordings::record::{self, RecordArgs};
 use crate::commands::recordings::replay::{self, ReplayArgs};
@@ -40,10 +48,6 @@ use anyhow::Result;
 use clap::{CommandFactory, Parser, Subcommand};
 use completions::CompletionsArgs;
 use examples::*;
-#[cfg(not(feature = "foxglove"))]
-use not_built::NotBuiltArgs as FoxgloveArgs;
-#[cfg(not(feature = "ros2"))]
-use not_built::NotBuiltArgs as Ros2Args;
 use std::ffi::OsString;
 use taxel::tell::{verbose, words};
 
@@ -87,6 +91,10 @@ enum Command {
     /// Convert recordings to CSV, NumPy arrays, images or a LeRobot data set
     #[command(after_help = EXPORT)]
     Export(ExportArgs),
+    /// Write a table of many recordings, for DuckDB, Polars and others
+    #[cfg_attr(not(feature = "index"), doc = "(needs a build with `--features index`)")]
+    #[command(after_help = INDEX)]
+    Index(IndexArgs),
     /// Write one page about a recording or a board
     #[command(after_help = REPORT)]
     Report(ReportArgs),
@@ -179,6 +187,10 @@ impl Cli {
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),
             Command::Export(args) => export::run(args),
+            #[cfg(feature = "index")]
+            Command::Index(args) => index::run(&args),
+            #[cfg(not(feature = "index"))]
+            Command::Index(args) => not_built::index(&args),
             Command::Report(args) => report::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),

@@ -13,12 +13,12 @@ def metres(value, mm):
     return math.isclose(value, mm / 1000, rel_tol=1e-14, abs_tol=1e-18)
 
 
-def contact(message, line, per_newton):
+def contact(message, line, per_newton, frames):
     """All fields of a contact."""
     for field in SAME:
         assert getattr(message, field) == line[field], (field, message, line)
     assert message.contact == (line["phase"] != "released") and PHASES[message.phase] == line["phase"]
-    assert message.header.frame_id == "tactile/" + line["panel_name"].replace(" ", "_")
+    assert message.header.frame_id == frames + line["panel_name"].replace(" ", "_")
     for axis in "xy":
         assert metres(getattr(message.position, axis), line[f"{axis}_mm"])
     assert message.position.z == 0
@@ -37,15 +37,15 @@ def contact(message, line, per_newton):
     assert own == other | on_link
 
 
-def contacts(message, line, per_newton=1000.0):
-    """All fields of a list."""
+def contacts(message, line, per_newton=1000.0, frames="tactile/"):
+    """All fields of a list; `frames` is what the names of the panels' frames begin with."""
     assert message.frame == line["frame"] and message.dropped == line["dropped"]
     assert message.header.frame_id == ""
     for own, told in [(message.contacts, line["contacts"]), (message.released, line["released"])]:
         assert len(own) == len(told)
         for one, other in zip(own, told):
             assert one.header.stamp == message.header.stamp
-            contact(one, other, per_newton)
+            contact(one, other, per_newton, frames)
 
 
 def symbols(message, line):

@@ -65,6 +65,16 @@ pub(super) const EXPORT: &str = "Examples:
   taxel export touch.mcap --to png -o images
   taxel export *.mcap --to lerobot --task \"pat the robot\" -o data";
 
+pub(super) const INDEX: &str = if cfg!(feature = "index") { TABLE } else { NO_INDEX };
+
+/// The example of a build without the feature.
+const NO_INDEX: &str = "Example, in the folder of taxel:
+  cargo run --release --features index -- index recordings -o index.parquet";
+
+const TABLE: &str = "Examples:
+  taxel index recordings -o index.parquet
+  duckdb -c \"select garment, sum(contacts) from 'index.parquet' group by garment\"";
+
 pub(super) const REPORT: &str = "Examples:
   taxel report touch.mcap -o report.html
   taxel report --source sim:source -o source.html";
@@ -160,6 +170,7 @@ pub(super) const BODY: &str = "Examples:
 pub(super) const ROBOT: &str = "Examples:
   taxel robot check robot.toml
   taxel robot live robot.toml --json
+  taxel robot view robot.toml --open
   taxel robot record robot.toml -o touch.mcap
   taxel robot doctor robot.toml";
 

@@ -5,6 +5,8 @@ pub mod body;
 pub mod frames;
 pub mod garment;
 pub mod maps;
+#[cfg(not(all(feature = "foxglove", feature = "index", feature = "ros2")))]
+pub mod not_built;
 pub mod recordings;
 pub mod robot;
 pub mod shapes;

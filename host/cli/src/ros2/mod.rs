@@ -1,4 +1,4 @@
-//! A ROS 2 node, without a ROS: publishes a board's stream over DDS, and takes joint states and concepts.
+//! ROS 2 nodes, without a ROS: publish a board's stream over DDS, and take joint states and concepts.
 //!
 //! Topics, types and qualities of service are in [`taxel::ros2::topics`], the layout of the messages in
 //! [`taxel::ros2`]. The node is part of the program, not of the library: whoever writes a program around
@@ -16,6 +16,7 @@
 //! | `concepts.rs` | concepts on their way to the board |
 //! | `services.rs` | services, and the board's answers to them |
 //! | `show.rs` | [`RosShow`]: hands the stream to all of them |
+//! | `robot.rs` | [`RobotNode`]: the node of a robot of several boards |
 
 mod concepts;
 mod links;
@@ -25,10 +26,12 @@ mod panels;
 mod parameters;
 mod posture;
 mod raw;
+mod robot;
 mod services;
 mod show;
 
 pub use names::RosPlace;
 pub use node::{DOMAINS, RosNode};
 pub use parameters::RosParameters;
+pub use robot::RobotNode;
 pub use show::RosShow;

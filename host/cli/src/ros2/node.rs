@@ -17,7 +17,7 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Poll, Wake, Waker};
 use std::thread::{self, Thread};
-use taxel::ros2::topics::{RosQos, RosService, RosTopic};
+use taxel::ros2::topics::{JOINT_STATES, RosQos, RosService, RosTopic};
 
 /// Domains that there are.
 pub const DOMAINS: std::ops::RangeInclusive<u16> = 0..=232;
@@ -39,7 +39,7 @@ impl RosNode {
         let fail = |why: String| anyhow!("the ROS 2 node cannot be started: {why}");
         let context = Context::with_options(ContextOptions::new().domain_id(place.domain));
         let context = context.map_err(|error| fail(error.to_string()))?;
-        let name = NodeName::new(&place.namespace, &place.name).map_err(|error| fail(error.to_string()))?;
+        let name = NodeName::new(&place.namespace(), &place.name).map_err(|error| fail(error.to_string()))?;
         let options = parameters.declare(NodeOptions::new());
         let mut node = context.new_node(name, options).map_err(|error| fail(error.to_string()))?;
         let spinner = node.spinner().map_err(|error| fail(error.to_string()))?;
@@ -49,10 +49,15 @@ impl RosNode {
         Ok(RosNode { place, node, publishers: BTreeMap::new(), lost: 0 })
     }
 
+    /// Name of its board among those of a robot; empty if it is alone.
+    pub fn board(&self) -> &str {
+        self.place.board.as_deref().unwrap_or_default()
+    }
+
     /// Whole name of a topic, one of a panel, link or concept if `part` names it.
     pub fn name(&self, topic: &RosTopic, part: &str) -> String {
         let name = topic.name.replace("PANEL", part).replace("LINK", part).replace("CONCEPT", part);
-        self.place.absolute(&name)
+        if *topic == JOINT_STATES { self.place.shared(&name) } else { self.place.absolute(&name) }
     }
 
     /// Offers a topic, so that subscribers find it before its first message.

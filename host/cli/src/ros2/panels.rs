@@ -62,7 +62,8 @@ impl Panels {
         }
         self.areas = areas.to_vec();
         self.due_us = 0;
-        node.publish(&FRAMES, "", messages::frames(us, layout, surface.map(AsRef::as_ref)))
+        let frames = messages::frames(node.board(), us, layout, surface.map(AsRef::as_ref));
+        node.publish(&FRAMES, "", frames)
     }
 
     /// Topics of a panel: points need a pitch or a place, forces a calibration.
@@ -95,9 +96,9 @@ impl Panels {
                     continue;
                 }
                 let message = match topic {
-                    IMAGE => messages::image(us, area, values),
-                    POINTS => pressing::points(us, area, self.surface.as_deref(), values),
-                    _ => messages::wrench(us, area, values, self.per_newton.unwrap_or(1.0)),
+                    IMAGE => messages::image(node.board(), us, area, values),
+                    POINTS => pressing::points(node.board(), us, area, self.surface.as_deref(), values),
+                    _ => messages::wrench(node.board(), us, area, values, self.per_newton.unwrap_or(1.0)),
                 };
                 node.publish(&topic, &part, message)?;
             }

@@ -90,7 +90,7 @@ impl RosShow {
             Event::Contacts { frame, dropped, released, .. } => {
                 let list_of = (*frame, *dropped);
                 let on = (self.links.surface().map(AsRef::as_ref), self.panels.per_newton);
-                let message = own::contacts(us, client, list_of, released, on);
+                let message = own::contacts(node.board(), us, client, list_of, released, on);
                 node.publish(&CONTACTS, "", message)
             }
             Event::Pressing(report) => self.links.report(node, client, report, us, &self.base),
@@ -102,7 +102,8 @@ impl RosShow {
                 node.publish(&HEALTH, "", own::health(us, client, health))?;
                 let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
                 let state = BoardState::Reports(health, client.ill().len());
-                node.publish(&DIAGNOSTICS, "", messages::diagnostics(us, firmware, state))?;
+                let told = messages::diagnostics(node.board(), us, firmware, state);
+                node.publish(&DIAGNOSTICS, "", told)?;
                 self.tell_lost();
                 Ok(())
             }
@@ -160,7 +161,8 @@ impl Show<anyhow::Error> for RosShow {
         let stamp = self.stamps.now(client);
         let us = self.us(stamp);
         let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
-        self.node.publish(&DIAGNOSTICS, "", messages::diagnostics(us, firmware, BoardState::Lost(text)))
+        let told = messages::diagnostics(self.node.board(), us, firmware, BoardState::Lost(text));
+        self.node.publish(&DIAGNOSTICS, "", told)
     }
 
     fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {

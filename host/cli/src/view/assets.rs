@@ -58,6 +58,7 @@ const FILES: &[(&str, Asset)] = files![
     SCRIPT "on-robot.js",
     SCRIPT "cloth.js",
     SCRIPT "regions.js",
+    SCRIPT "robot.js",
     SCRIPT "orbit.js",
     SCRIPT "drawing.js",
     SCRIPT "fcm.js",

@@ -58,6 +58,11 @@ struct PageShared {
 }
 
 impl PageHub {
+    /// The hub of one of so many boards, which together keep as many bytes as one.
+    pub fn among(boards: usize) -> PageHub {
+        PageHub { recent: Mutex::new(Recent::among(boards)), ..PageHub::default() }
+    }
+
     /// Locks the state. A panic of another thread does not invalidate it.
     fn lock(&self) -> MutexGuard<'_, PageShared> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)

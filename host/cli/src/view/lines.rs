@@ -351,3 +351,33 @@ mod tests {
         assert_eq!(text(&link), told);
     }
 }
+
+/// A robot of several boards, one of which the page shows.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("robot")))]
+#[serde(tag = "type", rename = "robot")]
+pub struct RobotLine<'a> {
+    /// Name of the robot.
+    pub name: &'a str,
+    /// Name of the board that the page shows.
+    pub board: &'a str,
+    /// All boards, in the order of the robot's file.
+    pub boards: &'a [RobotBoardLine<'a>],
+}
+
+/// How a board of a robot is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RobotBoardLine<'a> {
+    /// Name of the board.
+    pub name: &'a str,
+    /// `live`, or `absent`, `lost`, `other`, `over`, `failed`: its picture is not live.
+    pub state: &'static str,
+    /// When it was last live, the host's time, us since 1970; null if it is, or never was.
+    pub since_us: Option<u64>,
+    /// Why it is not live.
+    pub why: Option<String>,
+    /// Contacts on it.
+    pub contacts: usize,
+}

@@ -1,4 +1,4 @@
-//! Shows a board's stream or a recording (see `recorded`) in the browser.
+//! Shows a board's stream, those of a robot's boards or a recording (see `recorded`) in the browser.
 //!
 //! One program serves one page and all its files, to this machine only, and sends each page the stream over a
 //! WebSocket; see [`message`]. Three rules keep the pages from delaying the board's stream: each page has one
@@ -8,7 +8,7 @@
 mod assets;
 pub mod browser;
 mod hub;
-
+mod hubs;
 mod line_kind;
 mod lines;
 mod mailbox;
@@ -20,6 +20,7 @@ mod past;
 mod raw;
 mod recent;
 mod recorded;
+mod robot;
 mod said;
 #[cfg(feature = "schema")]
 pub mod schemas;
@@ -30,12 +31,14 @@ mod transfer;
 mod viewer;
 
 pub use hub::PageHub;
+pub use hubs::PageHubs;
 pub use line_kind::LineKind;
 pub use mailbox::{Mailbox, Parcel};
 pub use order::Order;
 pub use page::hear;
 pub use recent::Recent;
 pub use recorded::Player;
+pub use robot::RobotPages;
 pub use said::Said;
 pub use server::serve;
 pub use shot::Shot;

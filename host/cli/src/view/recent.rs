@@ -7,7 +7,7 @@ use taxel_core::wire::{Receiver, Report, decode, encode, frame_bound};
 
 /// Time for which bytes are kept, us of the board. Across restarts of the board's clock, time runs on.
 const KEPT: u64 = 30_000_000;
-/// Most bytes kept, whatever the board's clock says.
+/// Most bytes kept, whatever the clocks of the boards say.
 const BYTES: usize = 64 << 20;
 /// Longest message of a board.
 const LONGEST: usize = 8192;
@@ -39,9 +39,16 @@ pub struct Recent {
     /// Time of the last image.
     newest: Micros,
     passed: Passed,
+    /// Number of other boards that share the room.
+    others: usize,
 }
 
 impl Recent {
+    /// Of one of so many boards, which share the room.
+    pub fn among(boards: usize) -> Recent {
+        Recent { others: boards.saturating_sub(1), ..Recent::default() }
+    }
+
     /// Handles bytes in any split.
     pub fn push(&mut self, bytes: &[u8]) {
         for byte in bytes {
@@ -78,7 +85,8 @@ impl Recent {
     }
 
     fn forget(&mut self, now: u64) {
-        while self.pieces.front().is_some_and(|oldest| now - oldest.at > KEPT || self.held > BYTES) {
+        let most = BYTES / (1 + self.others);
+        while self.pieces.front().is_some_and(|oldest| now - oldest.at > KEPT || self.held > most) {
             let gone = self.pieces.pop_front();
             self.held -= gone.map_or(0, |piece| piece.bytes.len());
         }

@@ -1,8 +1,8 @@
 //! The JSON schemas of the messages between the program and a page.
 
 use super::lines::{
-    EndLine, GlowLine, ImageHead, LinkLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine, SayLine,
-    TaxelLine,
+    EndLine, GlowLine, ImageHead, LinkLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine,
+    RobotLine, SayLine, TaxelLine,
 };
 use super::message::PageWish;
 use crate::folding::FoldingLine;
@@ -10,6 +10,7 @@ use crate::on_robot::{BodyLine, PosesLine};
 use serde_json::Value;
 use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine};
 use taxel::json::schema::of;
+use taxel::robot::RobotContactsLine;
 
 /// The schema of each message, and of what a page asks, by the name of its struct.
 pub fn derived() -> Vec<(&'static str, Value)> {
@@ -31,6 +32,8 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("NoneLine", of::<NoneLine>()),
         ("PlayerLine", of::<PlayerLine>()),
         ("OverviewLine", of::<OverviewLine<'static>>()),
+        ("RobotLine", of::<RobotLine<'static>>()),
+        ("RobotContactsLine", of::<RobotContactsLine<'static>>()),
         ("PageWish", of::<PageWish>()),
     ]
 }

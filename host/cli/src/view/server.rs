@@ -1,6 +1,7 @@
 //! Serves the pages and their files.
 
 use super::hub::PageHub;
+use super::hubs::PageHubs;
 use super::said::Said;
 use super::transfer::Transfer;
 use super::{assets, page};
@@ -9,7 +10,6 @@ use crate::serve::{self, Guest, Hurry};
 use anyhow::Result;
 use std::io::BufWriter;
 use std::net::{TcpListener, TcpStream};
-use std::sync::Arc;
 
 /// Connections at a time besides those of pages: those that browsers open for the files of a few pages.
 const CONNECTIONS: usize = 48;
@@ -21,19 +21,21 @@ const BUSY: Refusal = Refusal {
     why: "recordings are being sent to others: try again in a moment",
 };
 
-/// Serves the pages of a hub in a thread of its own. Returns the port.
-pub fn serve(listener: TcpListener, hub: Arc<PageHub>) -> Result<u16> {
-    serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hub)?))
+/// Serves the pages of a hub, or of the boards of a robot, in a thread of its own. Returns the port.
+pub fn serve(listener: TcpListener, hubs: impl Into<PageHubs>) -> Result<u16> {
+    let hubs = hubs.into();
+    serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hubs)?))
 }
 
 /// Answers one request, or serves a page until it closes.
-fn connection(mut stream: TcpStream, guest: &Guest, hub: &PageHub) -> std::io::Result<()> {
+fn connection(mut stream: TcpStream, guest: &Guest, hubs: &PageHubs) -> std::io::Result<()> {
     let Some(request) = http::read(&mut stream, Sites::Own) else { return Ok(()) };
     let request = match request {
         Ok(request) => request,
         Err(refusal) => return http::refuse(&mut stream, refusal),
     };
-    match (request.path.as_str(), request.key) {
+    let Some((hub, path)) = hubs.at(&request.path) else { return http::refuse(&mut stream, MISSING) };
+    match (path, request.key) {
         ("/socket", Some(key)) => match hub.join() {
             Some(mailbox) => {
                 // Pages are counted by the hub.
@@ -49,7 +51,7 @@ fn connection(mut stream: TcpStream, guest: &Guest, hub: &PageHub) -> std::io::R
             }
         },
         ("/recording.taxel" | "/recording.mcap", None) => match hub.transfer() {
-            Some(_transfer) => recording(stream, &request.path, hub),
+            Some(_transfer) => recording(stream, path, hub),
             None => http::refuse(&mut stream, BUSY),
         },
         (path, None) => match assets::find(path) {

@@ -18,9 +18,20 @@ fn a_build_without_foxglove_says_how_to_build_it() {
 #[test]
 #[cfg(not(feature = "ros2"))]
 fn a_build_without_ros2_says_how_to_build_it() {
-    let output = taxel(&["ros2", "--source", "sim:pat"]);
+    for words in ["ros2 --source sim:pat", "robot ros2 robot.toml --domain 7"] {
+        let output = taxel(&Vec::from_iter(words.split(' ')));
+        let error = String::from_utf8(output.stderr).unwrap();
+        let how = format!("`cargo run --release --features ros2 -- {words}`");
+        assert!(output.status.code() == Some(2) && error.contains(&how), "{error}");
+    }
+}
+
+#[test]
+#[cfg(not(feature = "index"))]
+fn a_build_without_the_index_says_how_to_build_it() {
+    let output = taxel(&["index", "recordings", "-o", "index.parquet"]);
     let error = String::from_utf8(output.stderr).unwrap();
-    let how = "`cargo run --release --features ros2 -- ros2 --source sim:pat`";
+    let how = "`cargo run --release --features index -- index recordings -o index.parquet`";
     assert!(output.status.code() == Some(2) && error.contains(how), "{error}");
 }
 

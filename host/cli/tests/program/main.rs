@@ -13,6 +13,8 @@ mod folded;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod hostile;
+#[cfg(feature = "index")]
+mod index;
 mod joints;
 mod live;
 mod maps;
@@ -27,12 +29,15 @@ mod recordings;
 mod reference;
 mod repair;
 mod robot;
+mod robot_cost;
+mod robot_view;
 #[cfg(feature = "ros2")]
 mod ros2;
 mod schemas;
 mod set_up;
 #[path = "../commands/sink.rs"]
 mod sink;
+mod socket;
 mod start;
 mod status;
 mod steps;

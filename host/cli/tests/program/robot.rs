@@ -1,18 +1,15 @@
 //! `taxel robot`: all boards of a robot, from outside.
 
+use super::socket::Socket;
 use super::validator::wrong;
 use crate::start::{root, taxel};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::{TcpListener, TcpStream};
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::{Arc, Mutex};
-use std::time::Duration;
 use taxel::recording::Messages;
 use taxel::robot::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA};
-use taxel::source::{self, SourceOptions};
 
 fn run(folder: &Path, args: &[&str]) -> Output {
     Command::new(taxel()).current_dir(folder).args(args).stdin(Stdio::null()).output().unwrap()
@@ -23,7 +20,7 @@ fn text(bytes: &[u8]) -> &str {
 }
 
 /// A folder with this robot's file.
-fn folder(name: &str, robot: &str) -> PathBuf {
+pub fn folder(name: &str, robot: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("robot-{name}"));
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("robot.toml"), robot).unwrap();
@@ -38,7 +35,8 @@ fn blocks(language: &str) -> Vec<String> {
     blocks.collect()
 }
 
-fn two() -> String {
+/// The robot of the document.
+pub fn two() -> String {
     let [two] = &blocks("toml")[..] else { panic!("the document has one file") };
     two.clone()
 }
@@ -57,7 +55,7 @@ fn the_commands_of_the_document_run() {
         assert!(!done.stdout.is_empty() || line.contains("record"), "{line}");
         count += 1;
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
 }
 
 #[test]
@@ -113,7 +111,9 @@ fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
         if line["type"] == ROBOT_CONTACTS {
             continue;
         }
-        let board = line.as_object_mut().unwrap().remove("board").unwrap();
+        let fields = line.as_object_mut().unwrap();
+        let board = fields.remove("board").unwrap();
+        assert!(fields.remove("host_time_us").unwrap().as_u64().unwrap() > 1_700_000_000_000_000);
         if line["type"] != "board" {
             boards.entry(board.as_str().unwrap().into()).or_default().push(line);
         }
@@ -195,69 +195,6 @@ fn record_and_doctor_tell_of_all_boards() {
     let doctor = run(&folder, &["robot", "doctor", "gone.toml", "--seconds", "1"]);
     assert_eq!(doctor.status.code(), Some(3), "{}", text(&doctor.stderr));
     assert!(text(&doctor.stdout).contains("X link         tcp:127.0.0.1:1 cannot be reached"));
-}
-
-/// A place behind TCP into which a simulated board of any garment can be plugged; each connection finds it just
-/// after power-up.
-struct Socket {
-    address: String,
-    plugged: Arc<Mutex<Plugged>>,
-}
-
-#[derive(Default)]
-struct Plugged {
-    garment: Option<&'static str>,
-    /// Number of times that something was plugged in or out: older connections are cut.
-    times: u64,
-}
-
-impl Socket {
-    fn new(garment: &'static str) -> Socket {
-        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-        let address = listener.local_addr().unwrap().to_string();
-        let plugged = Arc::new(Mutex::new(Plugged { garment: Some(garment), times: 0 }));
-        let known = plugged.clone();
-        std::thread::spawn(move || {
-            for stream in listener.incoming() {
-                serve(stream.unwrap(), &known);
-            }
-        });
-        Socket { address, plugged }
-    }
-
-    fn plug(&self, garment: Option<&'static str>) {
-        let mut plugged = self.plugged.lock().unwrap();
-        (plugged.garment, plugged.times) = (garment, plugged.times + 1);
-    }
-}
-
-/// Passes bytes between a connection and a simulated board until the board is unplugged.
-fn serve(mut stream: TcpStream, plugged: &Mutex<Plugged>) {
-    let (garment, times) = {
-        let plugged = plugged.lock().unwrap();
-        (plugged.garment, plugged.times)
-    };
-    let Some(garment) = garment else { return };
-    let options = SourceOptions {
-        garment: Some(garment.into()),
-        realtime: true,
-        repeat: true,
-        ..SourceOptions::default()
-    };
-    let mut board = source::open(&"sim:press".parse().unwrap(), &options).unwrap();
-    stream.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
-    let mut buffer = [0; 4096];
-    while plugged.lock().unwrap().times == times {
-        match stream.read(&mut buffer) {
-            Ok(0) => return,
-            Ok(count) => drop(board.port.write(&buffer[..count]).unwrap()),
-            Err(_) => {}
-        }
-        let Ok(Some(count)) = board.port.read(&mut buffer) else { return };
-        if stream.write_all(&buffer[..count]).is_err() {
-            return;
-        }
-    }
 }
 
 #[test]

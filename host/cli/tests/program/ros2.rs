@@ -1,5 +1,6 @@
 //! `taxel ros2` from outside; what it publishes is tested with ROS (`cargo xtask ros2`).
 
+use super::robot::folder;
 use std::process::{Command, Output};
 
 fn taxel(args: &[&str], domain: &str) -> Output {
@@ -28,6 +29,24 @@ fn a_node_ends_with_its_source() {
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(said, "sim:pat as node /taxel in domain 231 (Ctrl-C ends)\n");
+}
+
+#[test]
+fn the_nodes_of_a_robot_end_with_its_boards() {
+    let robot = "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim:five\"\n\
+                 [[boards]]\nname = \"left-hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n";
+    let folder = folder("ros2", robot);
+    let file = folder.join("robot.toml").display().to_string();
+    let words = ["robot", "ros2", &file, "--seconds", "1", "--domain", "230", "--namespace", "/skin"];
+    let output = taxel(&words, "");
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(said, "robot two as node /skin/taxel in domain 230 (Ctrl-C ends)\n");
+    std::fs::write(&file, robot.replace("torso", "left_hand")).unwrap();
+    let output = taxel(&words, "");
+    let error = String::from_utf8(output.stderr).unwrap();
+    let why = "boards left_hand and left-hand are both left_hand in ROS";
+    assert!(output.status.code() == Some(2) && error.contains(why), "{error}");
 }
 
 #[test]

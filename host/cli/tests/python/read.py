@@ -1,6 +1,6 @@
 """Reads a recording with other people's readers and prints what was found as JSON.
 
-usage: read.py mcap FILE | ros2 FILE | rerun FILE | lerobot FOLDER
+usage: read.py mcap FILE | ros2 FILE | rerun FILE | lerobot FOLDER | duckdb FILE | polars FILE
 """
 
 import array
@@ -161,5 +161,36 @@ def read_rerun(path):
     return {"counts": counts, "panels": panels, "images": images}
 
 
+def read_duckdb(path):
+    """What `taxel index` has written, by garment."""
+    import duckdb
+
+    query = """
+        select garment, count(*), coalesce(sum(frames), 0)::bigint, coalesce(sum(contacts), 0)::bigint,
+            coalesce(sum(attack), 0)::bigint, coalesce(sum(epoch_us("end") - epoch_us("start")), 0)::bigint,
+            epoch_us(min("start")), count(error)
+        from read_parquet(?) group by garment order by garment nulls first
+    """
+    return duckdb.execute(query, [path]).fetchall()
+
+
+def read_polars(path):
+    """The same."""
+    import polars as pl
+
+    us = lambda name: pl.col(name).dt.epoch("us")
+    columns = [
+        pl.len(),
+        pl.col("frames").sum(),
+        pl.col("contacts").sum(),
+        pl.col("attack").sum(),
+        (us("end") - us("start")).sum().alias("us"),
+        us("start").min(),
+        pl.col("error").count(),
+    ]
+    return pl.scan_parquet(path).group_by("garment").agg(columns).sort("garment").collect().rows()
+
+
 READERS = {"mcap": read_mcap, "ros2": read_ros2, "rerun": read_rerun, "lerobot": read_lerobot}
+READERS |= {"duckdb": read_duckdb, "polars": read_polars}
 print(json.dumps(READERS[sys.argv[1]](sys.argv[2])))

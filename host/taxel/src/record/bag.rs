@@ -69,7 +69,7 @@ impl<S: Store> Ros2<S> {
             return Ok(None);
         };
         let surface = self.body.as_ref().map(|body| body.surface(&worn.garment, &worn.layout)).transpose()?;
-        let data = messages::frames(stamp.host_us, &worn.layout, surface.as_ref());
+        let data = messages::frames("", stamp.host_us, &worn.layout, surface.as_ref());
         (self.areas, self.surface) = (worn.layout.areas().to_vec(), surface);
         let schema = "tf2_msgs/msg/TFMessage";
         Ok(Some(Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }))
@@ -103,6 +103,7 @@ impl<S: Store> Ros2<S> {
             Event::Health(health) => {
                 let board = client.worn().map_or("", |worn| worn.firmware.as_str());
                 let data = messages::diagnostics(
+                    "",
                     stamp.host_us,
                     board,
                     BoardState::Reports(health, client.ill().len()),
@@ -141,13 +142,13 @@ fn frame(client: &Client, stamp: Stamp, scale: Option<f32>, surface: Option<&Sur
             all.push(Sent { topic, schema, text, data });
         };
         let time = stamp.host_us;
-        send("image", "sensor_msgs/msg/Image", schemas::IMAGE, messages::image(time, area, values));
+        send("image", "sensor_msgs/msg/Image", schemas::IMAGE, messages::image("", time, area, values));
         if !area.pitch_um.contains(&0) || surface.is_some() {
-            let data = pressing::points(time, area, surface, values);
+            let data = pressing::points("", time, area, surface, values);
             send("points", "sensor_msgs/msg/PointCloud2", schemas::POINT_CLOUD, data);
         }
         if let Some(scale) = scale {
-            let data = messages::wrench(time, area, values, scale);
+            let data = messages::wrench("", time, area, values, scale);
             send("wrench", "geometry_msgs/msg/WrenchStamped", schemas::WRENCH, data);
         }
     }

@@ -16,6 +16,7 @@
 
 mod angles;
 mod bag;
+mod board_summary;
 mod counters;
 mod encoded;
 mod file;
@@ -33,6 +34,7 @@ mod tally;
 mod topics;
 
 pub use angles::Angles;
+pub use board_summary::BoardSummary;
 pub use encoded::Encoded;
 pub use file::RecordingFile;
 pub use limit::Rotate;

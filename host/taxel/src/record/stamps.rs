@@ -42,7 +42,12 @@ pub struct Stamps {
 impl Stamps {
     /// Starts now.
     pub fn start() -> Stamps {
-        Stamps { time: SteadyTime::start(), heard: None, last: 0 }
+        Stamps::by(SteadyTime::start())
+    }
+
+    /// Starts by a time that others go by, too.
+    pub fn by(time: SteadyTime) -> Stamps {
+        Stamps { time, heard: None, last: 0 }
     }
 
     /// Stamp of an event: by the clock of a board that has answered a `Sync`; else by the arrival of the

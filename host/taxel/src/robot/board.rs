@@ -58,7 +58,15 @@ impl RobotBoard {
 
     /// Opens its source, and recognises the board if it is a real one.
     pub fn open(&self, options: &SourceOptions) -> Result<Source> {
-        recognised(source::open(&self.source, &self.options(options))?, &self.identity())
+        recognised(self.open_any(options)?, &self.identity())
+    }
+
+    /// Opens its source, whatever board is there; with a calibration, the source uses its counts per newton.
+    pub(super) fn open_any(&self, options: &SourceOptions) -> Result<Source> {
+        let mut source = source::open(&self.source, &self.options(options))?;
+        let known = self.calibration.as_ref().and_then(Calibration::counts_per_newton);
+        source.counts_per_newton = known.or(source.counts_per_newton);
+        Ok(source)
     }
 
     /// What it is recognised by.

@@ -16,14 +16,15 @@
 //! of the board across, a contact that begins there, where it would be by its velocity, continues it.
 
 use super::carried::CarriedTouch;
-use super::contact::{RobotContact, RobotContactPart};
+use super::contact::RobotContact;
 use super::file::ReadRobot;
-use super::joined::{JoinedTouch, JoinedTouches, STAYS, is_at, meet};
+use super::joined::{JoinedTouches, STAYS, is_at, meet};
 use super::listed::{ListedBoard, ListedTouch};
 use super::plane::SeamPlane;
 use super::scan::BoardScan;
+use super::touch::RobotTouchPart;
 use super::touched::BoardTouch;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use taxel_core::contact::Phase;
 
 /// Wait for a contact to go on across a seam, us, besides twice the time between scans.
@@ -127,19 +128,21 @@ impl RobotContacts {
         let slowest_us = self.boards.iter().map(ListedBoard::interval_us).max().unwrap_or(0);
         self.boards.iter_mut().for_each(|board| board.forget_ended(host_us, slowest_us));
         let joined = JoinedTouches::new(&self.planes, &self.boards, host_us);
-        let mut ids = self.ids_that_go_on(&joined, host_us);
+        let joined_contacts = joined.contacts();
+        let mut ids = self.ids_that_go_on(&joined, &joined_contacts, host_us);
         let mut shown = Vec::new();
-        for group in 0..joined.all.len() {
-            let members = joined.members(group);
-            if members.is_empty() {
-                continue;
-            }
-            let id = *ids.entry(group).or_insert_with(|| {
+        for (group, members) in &joined_contacts {
+            let id = *ids.entry(*group).or_insert_with(|| {
                 self.ids += 1;
                 self.ids
             });
             let before = self.present.get(&id).map(|present| present.shown.onset_us);
-            let contact = contact_of(id, joined.touch(&members), before, host_us);
+            let contact = RobotContact {
+                id,
+                phase: before.map_or(Phase::Onset, |_| Phase::Held),
+                onset_us: before.unwrap_or(host_us),
+                touch: joined.touch(members),
+            };
             shown.push(contact.clone());
             self.present.insert(id, PresentContact { shown: contact, waits: None });
         }
@@ -154,16 +157,18 @@ impl RobotContacts {
     }
 
     /// The ids of groups that are present already, by the group.
-    fn ids_that_go_on(&self, joined: &JoinedTouches<'_>, host_us: u64) -> BTreeMap<usize, u32> {
+    fn ids_that_go_on(
+        &self,
+        joined: &JoinedTouches<'_>,
+        joined_contacts: &BTreeMap<usize, Vec<usize>>,
+        host_us: u64,
+    ) -> BTreeMap<usize, u32> {
         let contacts = || joined.all.iter().zip(&joined.groups).filter(|(listed, _)| listed.is_contact());
-        let mut is_contact = vec![false; joined.all.len()];
-        contacts().for_each(|(_, group)| is_contact[*group] = true);
         // Of an id that has come apart, the greater part keeps it.
         let mut keeps: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
         for (listed, group) in joined.all.iter().zip(&joined.groups) {
-            let Some(id) = listed.id.filter(|id| is_contact[*group] && self.present.contains_key(id)) else {
-                continue;
-            };
+            let goes_on = |id: &u32| joined_contacts.contains_key(group) && self.present.contains_key(id);
+            let Some(id) = listed.id.filter(goes_on) else { continue };
             let total = listed.carried.total(host_us);
             let kept = keeps.entry(id).or_insert((total, *group));
             if total > kept.0 {
@@ -204,47 +209,29 @@ impl RobotContacts {
     /// What is there no longer: it waits, or is released.
     fn end(&mut self, ids: &BTreeMap<usize, u32>, host_us: u64) -> Vec<RobotContact> {
         let mut gone = Vec::new();
+        let there: BTreeSet<u32> = ids.values().copied().collect();
         self.present.retain(|id, present| {
-            if ids.values().any(|of_group| of_group == id) {
+            if there.contains(id) {
                 return true;
             }
-            let shown = &mut present.shown;
             let waits = present.waits.as_ref().filter(|(_, until)| host_us < *until);
-            shown.phase = if waits.is_some() { Phase::Held } else { Phase::Released };
+            present.shown.phase = if waits.is_some() { Phase::Held } else { Phase::Released };
+            let touch = &mut present.shown.touch;
             let total = waits.map_or(0.0, |(carried, _)| carried.total(host_us));
-            shown.total = total.round() as u32;
-            shown.newtons = match waits {
+            touch.total = total.round() as u32;
+            touch.newtons = match waits {
                 Some((carried, _)) => carried.touch.newtons_per_count.map(|newtons| newtons * total),
-                None => shown.newtons.map(|_| 0.0),
+                None => touch.newtons.map(|_| 0.0),
             };
-            shown.host_us = host_us;
+            touch.host_us = host_us;
             if let Some((carried, _)) = waits {
-                let (contact, total) = (carried.touch.contact, shown.total);
+                let (contact, total) = (carried.touch.contact, touch.total);
                 let age_us = carried.age_us(host_us);
-                shown.parts = vec![RobotContactPart { board: carried.board, contact, total, age_us }];
+                touch.parts = vec![RobotTouchPart { board: carried.board, contact, total, age_us }];
             }
-            gone.push(shown.clone());
+            gone.push(present.shown.clone());
             waits.is_some()
         });
         gone
-    }
-}
-
-/// The contact of what is joined, which has been there since `onset_us` unless it is new.
-fn contact_of(id: u32, joined: JoinedTouch, onset_us: Option<u64>, host_us: u64) -> RobotContact {
-    let JoinedTouch { host_us: told_us, board, panel, centroid, total, newtons, peak, area, parts } = joined;
-    RobotContact {
-        id,
-        phase: onset_us.map_or(Phase::Onset, |_| Phase::Held),
-        onset_us: onset_us.unwrap_or(host_us),
-        host_us: told_us,
-        board,
-        panel,
-        centroid,
-        total,
-        newtons,
-        peak,
-        area,
-        parts,
     }
 }

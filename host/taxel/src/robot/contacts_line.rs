@@ -1,8 +1,9 @@
 //! The robot's contacts as JSON.
 
-use super::contact::{RobotContact, RobotContactPart};
+use super::contact::RobotContact;
 use super::file::ReadRobot;
 use super::plane::pitch_mm;
+use super::touch::{RobotTouch, RobotTouchPart};
 #[cfg(feature = "schema")]
 use crate::json::schema::{self, TypeIs};
 use serde::Serialize;
@@ -89,11 +90,13 @@ impl<'a> RobotContactsLine<'a> {
 impl<'a> RobotContactLine<'a> {
     fn of(robot: &'a ReadRobot, host_time_us: u64, contact: &RobotContact) -> RobotContactLine<'a> {
         let name = |board: usize| robot.boards.get(board).map_or("", |board| board.name.as_str());
-        let worn = robot.boards.get(contact.board).and_then(|board| board.garment.as_ref());
-        let area = worn.and_then(|worn| worn.layout.areas().get(usize::from(contact.panel)));
-        let [x, y] = contact.centroid;
-        let [x_mm, y_mm] = pitch_mm(area.map_or([0; 2], |area| area.pitch_um));
-        let part = |part: &RobotContactPart| RobotContactPartLine {
+        let RobotTouch { host_us, board, panel, centroid, total, newtons, peak, area, parts } =
+            &contact.touch;
+        let worn = robot.boards.get(*board).and_then(|board| board.garment.as_ref());
+        let on = worn.and_then(|worn| worn.layout.areas().get(usize::from(*panel)));
+        let [x, y] = *centroid;
+        let [x_mm, y_mm] = pitch_mm(on.map_or([0; 2], |on| on.pitch_um));
+        let part = |part: &RobotTouchPart| RobotContactPartLine {
             board: name(part.board),
             contact: part.contact,
             total: part.total,
@@ -102,19 +105,19 @@ impl<'a> RobotContactLine<'a> {
         RobotContactLine {
             id: contact.id,
             phase: contact.phase,
-            board: name(contact.board),
-            panel_name: area.map_or("", |area| area.name.as_str()),
+            board: name(*board),
+            panel_name: on.map_or("", |on| on.name.as_str()),
             x,
             y,
             x_mm: x * x_mm,
             y_mm: y * y_mm,
-            total: contact.total,
-            force_n: contact.newtons,
-            peak: contact.peak,
-            area: contact.area,
+            total: *total,
+            force_n: *newtons,
+            peak: *peak,
+            area: *area,
             duration: host_time_us.saturating_sub(contact.onset_us) as f64 / 1e6,
-            age_us: host_time_us.saturating_sub(contact.host_us),
-            parts: contact.parts.iter().map(part).collect(),
+            age_us: host_time_us.saturating_sub(*host_us),
+            parts: parts.iter().map(part).collect(),
         }
     }
 }

@@ -75,6 +75,11 @@ pub trait Teller<T>: Send {
         Ok(None)
     }
 
+    /// After bytes of the recognised board, or a while without any, also while it is lost: may queue requests.
+    fn idle(&mut self, _client: &mut Client) -> Result<()> {
+        Ok(())
+    }
+
     /// Of the end of the stream.
     fn ended(&mut self, _client: &Client, _stamp: Stamp) -> Result<Option<T>> {
         Ok(None)

@@ -77,13 +77,14 @@ pub struct Follower<T> {
     why: String,
 }
 
-/// Follows a board until it is over or nobody takes its events any longer.
+/// Follows a board until it is over or nobody takes its events any longer. `time` is that of all boards.
 pub fn follow<T>(
     board: usize,
     plan: BoardPlan<T>,
     queue: Arc<EventQueue<T>>,
     when_full: WhenFull,
     asks: &Receiver<Ask>,
+    time: SteadyTime,
 ) {
     let BoardPlan { open, waits, identity, begin, teller, limit, .. } = plan;
     let mut follower = Follower {
@@ -92,8 +93,8 @@ pub fn follow<T>(
         when_full,
         identity,
         teller,
-        time: SteadyTime::start(),
-        stamps: Stamps::start(),
+        time,
+        stamps: Stamps::by(time),
         drops: false,
         is_known: false,
         is_met: false,
@@ -141,7 +142,7 @@ impl<T> Follower<T> {
         self.teller.opened(&source);
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
         let returns = self.limit.map_or(Returns::Always, |_| Returns::Within(PATIENCE));
-        let mut session = Session::new(source, returns);
+        let mut session = Session::by(self.time, source, returns);
         let (client, source) = session.parts();
         begin(client, source)?;
         self.required = if source.listens { Required::of(client) } else { Required::default() };
@@ -168,6 +169,9 @@ impl<T> Follower<T> {
                 let (client, stamp) = (session.client(), self.stamps.now(session.client()));
                 let news = self.teller.note(client, &note, stamp)?;
                 self.pass(stamp, news, false);
+            }
+            if self.is_known {
+                self.teller.idle(session.parts().0)?;
             }
             self.tell_other();
             match (gap, session.gap()) {

@@ -1,9 +1,10 @@
 //! Which touches of neighbouring boards meet at a time, and what they are together.
 
 use super::carried::{CarriedTouch, PlaneBox};
-use super::contact::RobotContactPart;
 use super::listed::{ListedBoard, ListedTouch};
 use super::plane::{PlaneSide, SeamPlane};
+use super::touch::{RobotTouch, RobotTouchPart};
+use std::collections::BTreeMap;
 
 /// Greatest age of what is joined, us; of boards with fewer scans, twice the time between two.
 const FRESH_US: u64 = 100_000;
@@ -25,29 +26,6 @@ pub struct JoinedTouches<'a> {
     pub groups: Vec<usize>,
 }
 
-/// Pressure and place of what is joined.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JoinedTouch {
-    /// Host time for which they are told, us.
-    pub host_us: u64,
-    /// Number of the board on which most of it is, and index of the panel.
-    pub board: usize,
-    /// Index of the panel there.
-    pub panel: u8,
-    /// Centroid, `[x, y]` in taxels of that panel, which goes on beyond its seams.
-    pub centroid: [f64; 2],
-    /// Sum of the pressure, counts.
-    pub total: u32,
-    /// Force, N; none unless calibrations are in force on all boards.
-    pub newtons: Option<f64>,
-    /// Greatest pressure of a taxel, counts.
-    pub peak: u16,
-    /// Number of taxels.
-    pub area: u32,
-    /// What it consists of.
-    pub parts: Vec<RobotContactPart>,
-}
-
 /// Two touches that meet: their indices, and the seam.
 type SeamLink = (usize, usize, usize);
 /// Index of a touch, and the way to it: place of the one through which it was found, and the sides that its
@@ -65,13 +43,14 @@ impl<'a> JoinedTouches<'a> {
         joined
     }
 
-    /// Indices of what belongs to a group; empty if that is no contact.
-    pub fn members(&self, group: usize) -> Vec<usize> {
-        let members: Vec<usize> = (0..self.all.len()).filter(|index| self.groups[*index] == group).collect();
-        match members.iter().any(|index| self.all[*index].is_contact()) {
-            true => members,
-            false => Vec::new(),
+    /// Indices of what belongs to each group, by the group; groups without a contact are left out.
+    pub fn contacts(&self) -> BTreeMap<usize, Vec<usize>> {
+        let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (index, group) in self.groups.iter().enumerate() {
+            members.entry(*group).or_default().push(index);
         }
+        members.retain(|_, members| members.iter().any(|index| self.all[*index].is_contact()));
+        members
     }
 
     /// The pairs that meet at a seam.
@@ -112,7 +91,7 @@ impl<'a> JoinedTouches<'a> {
     }
 
     /// What these touches are together.
-    pub fn touch(&self, members: &[usize]) -> JoinedTouch {
+    pub fn touch(&self, members: &[usize]) -> RobotTouch {
         let at_us = self.told_by_all(members);
         let total = |index: usize| self.all[index].carried.total(at_us);
         let most = |a: usize, b: usize| if total(b) > total(a) { b } else { a };
@@ -126,14 +105,14 @@ impl<'a> JoinedTouches<'a> {
             (peak, area) = (touch.peak.max(peak), area + u32::from(touch.area));
             newtons = newtons.zip(touch.newtons_per_count).map(|(sum, each)| sum + each * total(index));
         }
-        let part = |index: &usize| RobotContactPart {
+        let part = |index: &usize| RobotTouchPart {
             board: self.all[*index].carried.board,
             contact: self.all[*index].carried.touch.contact,
             total: total(*index).round() as u32,
             age_us: self.all[*index].carried.age_us(self.host_us),
         };
         let is_there = |index: &&usize| !self.all[**index].has_ended;
-        JoinedTouch {
+        RobotTouch {
             host_us: at_us,
             board: self.all[home].carried.board,
             panel: self.all[home].carried.touch.panel,

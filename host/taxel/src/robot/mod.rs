@@ -16,6 +16,7 @@
 //! | `follow.rs` | follows one board in a thread of its own |
 //! | `order.rs` | [`BoardOrder`]: what boards are asked while they are followed |
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
+//! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
@@ -26,8 +27,10 @@
 //! | `carried.rs` | a touch of a board, carried on to the time of another board's scan |
 //! | `listed.rs` | what a board has told last of what touches it |
 //! | `joined.rs` | which touches meet at the seams, and what they are together |
+//! | `touch.rs` | [`RobotTouch`]: what touches the robot at a time, on one board or on several |
 //! | `contact.rs` | [`RobotContact`]: a contact of the robot, on one board or on several |
 //! | `contacts_line.rs` | the robot's contacts as JSON |
+//! | `contacts_ros2.rs` | the robot's contacts as a message of ROS 2 |
 //! | `contacts.rs` | [`RobotContacts`]: what touches both sides of a seam is one contact with one id |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
@@ -41,6 +44,7 @@ mod config;
 mod contact;
 mod contacts;
 mod contacts_line;
+mod contacts_ros2;
 mod event;
 mod faint;
 mod file;
@@ -50,6 +54,7 @@ mod identity;
 mod joined;
 mod line;
 mod listed;
+mod moments;
 mod open;
 mod order;
 mod place;
@@ -61,24 +66,28 @@ mod refused;
 mod scan;
 mod seam;
 mod session;
+mod touch;
 mod touched;
 
 pub use board::{BoardGarment, RobotBoard};
 pub use config::{BoardConfig, BoardEdge, BoardSeam, RobotConfig};
-pub use contact::{RobotContact, RobotContactPart};
+pub use contact::RobotContact;
 pub use contacts::{CROSSING_US, RobotContacts};
 #[cfg(feature = "schema")]
 pub use contacts_line::robot_contacts_schema;
 pub use contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
+pub use contacts_ros2::robot_contacts_message;
 pub use event::{BoardEvent, RobotEvent, Teller};
 pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
 pub use identity::Identity;
 pub use line::BoardLine;
+pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
 pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
 pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;
+pub use touch::{RobotTouch, RobotTouchPart};
 pub use touched::BoardTouch;

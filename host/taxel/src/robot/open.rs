@@ -7,7 +7,7 @@ use super::follow::BoardPlan;
 use super::queue::WhenFull;
 use super::session::RobotSession;
 use crate::error::Result;
-use crate::source::{self, SourceOptions};
+use crate::source::SourceOptions;
 use std::time::Duration;
 
 impl<T: Send + 'static> RobotSession<T> {
@@ -31,11 +31,10 @@ impl ReadRobot {
         mut teller: impl FnMut(usize) -> Box<dyn Teller<T>>,
     ) -> Vec<BoardPlan<T>> {
         let plan = |(number, board): (usize, &RobotBoard)| {
-            let (options, begins) = (board.options(options), board.clone());
-            let spec = board.source.clone();
+            let (options, opens, begins) = (options.clone(), board.clone(), board.clone());
             BoardPlan {
                 name: board.name.clone(),
-                open: Box::new(move || source::open(&spec, &options)),
+                open: Box::new(move || opens.open_any(&options)),
                 waits: board.is_real(),
                 listens: board.listens(),
                 identity: board.identity(),

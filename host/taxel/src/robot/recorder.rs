@@ -15,7 +15,6 @@ use super::scan::{BoardScan, ScanReader};
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Worn, request_name};
 use crate::error::{Context, Result};
-use crate::files::calibrate::Calibration;
 use crate::files::output::{Force, Output};
 use crate::record::{COUNTS, Encoded, NS, Origin, RecordTopic, Stamp, Tally, Topics, attach};
 use crate::recording::{Format, HELLO, Writer, attachment_of};
@@ -61,8 +60,7 @@ impl RecordTeller {
     /// Of a board of a robot.
     pub fn new(robot: &ReadRobot, board: usize) -> RecordTeller {
         let calibration = robot.boards.get(board).and_then(|board| board.calibration.clone());
-        let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton);
-        let origin = Origin { calibration, counts_per_newton, ..Origin::default() };
+        let origin = Origin { calibration, ..Origin::default() };
         RecordTeller { origin, worn: None, reader: ScanReader::new(robot, board) }
     }
 }
@@ -70,7 +68,7 @@ impl RecordTeller {
 impl Teller<BoardRecord> for RecordTeller {
     fn opened(&mut self, source: &Source) {
         self.origin.label.clone_from(&source.label);
-        self.origin.counts_per_newton = self.origin.counts_per_newton.or(source.counts_per_newton);
+        self.origin.counts_per_newton = source.counts_per_newton;
     }
 
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {

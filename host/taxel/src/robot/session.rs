@@ -5,6 +5,7 @@ use super::follow::{Ask, BoardPlan, follow};
 use super::order::BoardOrder;
 use super::queue::{EventQueue, WhenFull};
 use crate::client::Client;
+use crate::client::clock::SteadyTime;
 use crate::error::{Result, UsageError};
 use crate::tell::words;
 use std::sync::Arc;
@@ -42,6 +43,7 @@ const STACK: usize = 8 << 20;
 pub struct RobotSession<T> {
     queue: Arc<EventQueue<T>>,
     boards: Vec<FollowedBoard>,
+    time: SteadyTime,
 }
 
 struct FollowedBoard {
@@ -65,13 +67,14 @@ impl<T: Send + 'static> RobotSession<T> {
     /// Follows these boards.
     pub fn start(plans: Vec<BoardPlan<T>>, when_full: WhenFull) -> Result<RobotSession<T>> {
         let queue = Arc::new(EventQueue::new(plans.len()));
-        let mut session = RobotSession { queue: queue.clone(), boards: Vec::new() };
+        let time = SteadyTime::start();
+        let mut session = RobotSession { queue: queue.clone(), boards: Vec::new(), time };
         for (board, plan) in plans.into_iter().enumerate() {
             let (asks, asked) = channel();
             let (name, listens, queue) = (plan.name.clone(), plan.listens, queue.clone());
             let thread = Builder::new().name(name.clone()).stack_size(STACK).spawn(move || {
                 let end = FollowEnd(queue.clone(), board);
-                follow(board, plan, queue, when_full, &asked);
+                follow(board, plan, queue, when_full, &asked, time);
                 // Whoever hears that the board is over can no longer ask anything of it.
                 drop(asked);
                 drop(end);
@@ -85,6 +88,11 @@ impl<T: Send + 'static> RobotSession<T> {
     /// Events of a board come in their order, those of several boards as they arrive.
     pub fn wait(&mut self, patience: Duration) -> Option<RobotEvent<T>> {
         self.queue.take(patience)
+    }
+
+    /// The host's time now, us since 1970: that of all stamps.
+    pub fn now_us(&self) -> u64 {
+        self.time.now_us()
     }
 
     /// True once every board is over and all events are taken.

@@ -1,4 +1,4 @@
-//! What a board reports, as standard messages.
+//! What a board reports, as standard messages. `board` is its name among those of a robot; empty if it is alone.
 
 use super::cdr::Cdr;
 use super::names::frame;
@@ -24,7 +24,7 @@ fn head(host_us: u64, frame: &str) -> Cdr {
 /// `tf2_msgs/msg/TFMessage`: the frame of each panel on its link: x along the columns, y along the rows, z into the
 /// robot, as of a camera's image. A garment does not say how its panels lie on a link: those without a place on
 /// `surface` are side by side along x.
-pub fn frames(host_us: u64, layout: &Layout, surface: Option<&Surface>) -> Vec<u8> {
+pub fn frames(board: &str, host_us: u64, layout: &Layout, surface: Option<&Surface>) -> Vec<u8> {
     let mut taken: BTreeMap<&str, f64> = BTreeMap::new();
     let areas = layout.areas();
     let mut cdr = Cdr::default().u32(areas.len() as u32);
@@ -40,15 +40,16 @@ pub fn frames(host_us: u64, layout: &Layout, surface: Option<&Surface>) -> Vec<u
             *x += f64::from(area.columns) * f64::from(area.pitch_um[0]) / f64::from(UM) + GAP;
             (link, pose)
         });
-        cdr = cdr.time(host_us).text(link).text(&frame(area)).f64s(at.to_array()).f64s(turn.to_array());
+        cdr =
+            cdr.time(host_us).text(link).text(&frame(board, area)).f64s(at.to_array()).f64s(turn.to_array());
     }
     cdr.finish()
 }
 
 /// `sensor_msgs/msg/Image`: 16 bits per taxel, counts.
-pub fn image(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
+pub fn image(board: &str, host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    head(host_us, &frame(area))
+    head(host_us, &frame(board, area))
         .u32(area.rows.into())
         .u32(area.columns.into())
         .text("mono16")
@@ -60,7 +61,7 @@ pub fn image(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
 
 /// `sensor_msgs/msg/PointCloud2`: one point per taxel, x and y in metres from the panel's first taxel,
 /// pressure in counts.
-pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
+pub fn points(board: &str, host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
     let [x_um, y_um] = area.pitch_um.map(|um| um as f32);
     let columns = usize::from(area.columns).max(1);
     let point = |(index, value): (usize, &u16)| {
@@ -68,7 +69,7 @@ pub fn points(host_us: u64, area: &Area, values: &[u16]) -> Vec<u8> {
         [column * x_um / UM, row * y_um / UM, 0.0, f32::from(*value)]
     };
     let points: Vec<[f32; 4]> = values.iter().enumerate().map(point).collect();
-    cloud((host_us, &frame(area)), area, ["x", "y", "z", "pressure"], &points)
+    cloud((host_us, &frame(board, area)), area, ["x", "y", "z", "pressure"], &points)
 }
 
 /// `sensor_msgs/msg/PointCloud2` of a panel at a time, us, in a frame: a point for each taxel, whose numbers
@@ -91,7 +92,7 @@ pub(super) fn cloud<const N: usize>(
 
 /// `geometry_msgs/msg/WrenchStamped` of a panel that is pressed with these counts: the force, N, along z, into the
 /// robot, and its moment about the panel's first taxel, N m; NaN if the pitch is unknown.
-pub fn wrench(host_us: u64, area: &Area, values: &[u16], per_newton: f32) -> Vec<u8> {
+pub fn wrench(board: &str, host_us: u64, area: &Area, values: &[u16], per_newton: f32) -> Vec<u8> {
     let columns = usize::from(area.columns).max(1);
     let mut sums = [0u64; 3];
     for (index, value) in values.iter().enumerate() {
@@ -104,7 +105,9 @@ pub fn wrench(host_us: u64, area: &Area, values: &[u16], per_newton: f32) -> Vec
     let is_known = !area.pitch_um.contains(&0);
     let [x, y] = area.pitch_um.map(|um| if is_known { f64::from(um) / f64::from(UM) } else { f64::NAN });
     // A component of 0 has no sign.
-    head(host_us, &frame(area)).f64s([0.0, 0.0, force, by_rows * y, 0.0 - by_columns * x, 0.0]).finish()
+    head(host_us, &frame(board, area))
+        .f64s([0.0, 0.0, force, by_rows * y, 0.0 - by_columns * x, 0.0])
+        .finish()
 }
 
 /// State of a board, as its diagnostics tell it.
@@ -117,7 +120,7 @@ pub enum BoardState<'a> {
 }
 
 /// `diagnostic_msgs/msg/DiagnosticArray` of a board with this firmware.
-pub fn diagnostics(host_us: u64, firmware: &str, state: BoardState<'_>) -> Vec<u8> {
+pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: BoardState<'_>) -> Vec<u8> {
     let mut values = Vec::new();
     let (level, said) = match state {
         BoardState::Reports(health, faulty) => {
@@ -138,7 +141,8 @@ pub fn diagnostics(host_us: u64, firmware: &str, state: BoardState<'_>) -> Vec<u
         }
         BoardState::Lost(why) => (2, why),
     };
-    let status = head(host_us, "").u32(1).u8(level).text("taxel: board").text(said).text(firmware);
+    let name = format!("taxel: {}", if board.is_empty() { "board" } else { board });
+    let status = head(host_us, "").u32(1).u8(level).text(&name).text(said).text(firmware);
     status.list(&values, |cdr, (key, value)| cdr.text(key).text(&value.to_string())).finish()
 }
 
@@ -170,17 +174,29 @@ mod tests {
     }
 
     #[test]
+    fn panels_of_the_boards_of_a_robot_have_frames_of_their_own() {
+        let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
+        let area = &layout.areas()[2];
+        assert_eq!(
+            [frame("", area), frame("torso-2", area)],
+            ["tactile/left_arm", "tactile/torso_2/left_arm"].map(String::from)
+        );
+        assert!(names(&frames("hand", 5, &layout, None), "tactile/hand/left_arm"));
+    }
+
+    #[test]
     fn panels_of_one_link_lie_apart() {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
         let areas = layout.areas();
         assert_eq!(areas[0].link, areas[1].link, "chest and back are on the torso");
-        let told = frames(5, &layout, None);
+        let told = frames("", 5, &layout, None);
         let mut places = Vec::new();
         for area in areas {
-            let own = frame(area);
+            let own = frame("", area);
             assert!(names(&told, &own) && names(&told, &area.link), "{own}");
             let values = vec![1; usize::from(area.rows) * usize::from(area.columns)];
-            for message in [image(5, area, &values), points(5, area, &values), wrench(5, area, &values, 1.0)]
+            for message in
+                [image("", 5, area, &values), points("", 5, area, &values), wrench("", 5, area, &values, 1.0)]
             {
                 assert!(names(&message, &own), "{own}");
             }

@@ -15,9 +15,15 @@ pub fn topic_part(name: &str) -> String {
     if word.starts_with(|c: char| c.is_ascii_digit()) || word.is_empty() { format!("_{word}") } else { word }
 }
 
-/// Frame of a panel; it is its own, so that panels of one link do not overlap.
-pub fn frame(area: &Area) -> String {
-    format!("tactile/{}", topic_part(&area.name))
+/// Frame of a panel of a board of a robot, or, with an empty name, of a board that is alone; it is the panel's
+/// own, so that panels of one link do not overlap.
+pub fn frame(board: &str, area: &Area) -> String {
+    let panel = topic_part(&area.name);
+    if board.is_empty() {
+        format!("tactile/{panel}")
+    } else {
+        format!("tactile/{}/{panel}", topic_part(board))
+    }
 }
 
 #[cfg(test)]

@@ -24,8 +24,9 @@ fn head(us: u64) -> Cdr {
 }
 
 /// `taxel_msgs/msg/Contacts`: the present contacts of a client, and the `released` ones; with a body also
-/// their places on links, with counts per newton also their forces.
+/// their places on links, with counts per newton also their forces. `board`: as of [`messages`](super::messages).
 pub fn contacts(
+    board: &str,
     us: u64,
     client: &Client,
     list_of: (u32, u16),
@@ -39,7 +40,7 @@ pub fn contacts(
             let place = surface.at(layout, at.panel, at.x.to_f64(), at.y.to_f64())?;
             Some((surface.links().get(place.link)?.as_str(), place))
         });
-        on_link(contact(cdr, us, client, placed, per_newton), on, force)
+        on_link(contact(cdr, (board, us), client, placed, per_newton), on, force)
     };
     head(us).u32(frame).list(client.contacts(), each).list(released, each).u16(dropped).finish()
 }
@@ -59,7 +60,13 @@ fn on_link(cdr: Cdr, on: Option<(&str, TaxelPlace)>, force: f64) -> Cdr {
 }
 
 /// `taxel_msgs/msg/Contact`, but for its place on a link.
-fn contact(cdr: Cdr, us: u64, client: &Client, placed: &Placed, per_newton: Option<f32>) -> Cdr {
+fn contact(
+    cdr: Cdr,
+    (board, us): (&str, u64),
+    client: &Client,
+    placed: &Placed,
+    per_newton: Option<f32>,
+) -> Cdr {
     let Placed { contact, shape, region } = placed;
     let area = client.layout().and_then(|layout| layout.areas().get(usize::from(contact.panel)));
     let (x, y) = (contact.x.to_f64(), contact.y.to_f64());
@@ -70,7 +77,7 @@ fn contact(cdr: Cdr, us: u64, client: &Client, placed: &Placed, per_newton: Opti
     let force = newtons(placed, per_newton);
     let name = |name: fn(&Area) -> &Name| area.map_or("", |area| name(area).as_str());
     cdr.time(us)
-        .text(&area.map_or_else(String::new, frame))
+        .text(&area.map_or_else(String::new, |area| frame(board, area)))
         .u8((contact.phase != Phase::Released).into())
         .u32(contact.id)
         .u8(phase(contact.phase))

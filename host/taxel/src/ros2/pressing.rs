@@ -121,10 +121,10 @@ pub fn regions(us: u64, client: &Client, report: &RegionsReport) -> Vec<u8> {
 
 /// `sensor_msgs/msg/PointCloud2` of a panel in the frame of the link that it lies on: place and normal of
 /// each taxel, and its pressure, counts. NaN for a taxel without a place. Without a place of the panel, its points
-/// lie in its own frame.
-pub fn points(us: u64, area: &Area, surface: Option<&Surface>, values: &[u16]) -> Vec<u8> {
+/// lie in its own frame. `board`: as of [`messages`].
+pub fn points(board: &str, us: u64, area: &Area, surface: Option<&Surface>, values: &[u16]) -> Vec<u8> {
     let placed = surface.and_then(|surface| points_on_link(us, area, surface, values));
-    placed.unwrap_or_else(|| messages::points(us, area, values))
+    placed.unwrap_or_else(|| messages::points(board, us, area, values))
 }
 
 /// Points of a panel on its link; none if no taxel has a place.

@@ -1,4 +1,4 @@
-//! Topics and services of the node `taxel ros2`: their names, types and qualities of service. Recordings have
+//! Topics and services of the node `taxel ros2`, and of the nodes of `taxel robot ros2`: their names, types and qualities of service. Recordings have
 //! some of the topics, too.
 
 /// Quality of service of a topic.
@@ -72,8 +72,11 @@ pub const DIAGNOSTICS: RosTopic = topic("/diagnostics", "diagnostic_msgs", "Diag
 /// The board's time, with `--clock`.
 pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
 
-/// What the node publishes.
-pub const PUBLISHED: [RosTopic; 17] = [
+/// Contacts of a robot of several boards, by the node of the robot.
+pub const ROBOT_CONTACTS: RosTopic = topic("robot_contacts", "taxel_msgs", "RobotContacts", EVERY);
+
+/// What the nodes publish.
+pub const PUBLISHED: [RosTopic; 18] = [
     CONTACTS,
     SYMBOLS,
     REACTIONS,
@@ -91,6 +94,7 @@ pub const PUBLISHED: [RosTopic; 17] = [
     FRAMES,
     DIAGNOSTICS,
     CLOCK,
+    ROBOT_CONTACTS,
 ];
 
 /// Joint states, taken as posture.

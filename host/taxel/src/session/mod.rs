@@ -126,11 +126,17 @@ impl Session {
 
     /// A session with an open source that requests nothing yet.
     pub fn new(source: Source, returns: Returns) -> Session {
+        Session::by(SteadyTime::start(), source, returns)
+    }
+
+    /// The same by a time of the host that others go by, too: if the calendar is set between the starts of two
+    /// times, these differ.
+    pub fn by(time: SteadyTime, source: Source, returns: Returns) -> Session {
         let now = Instant::now();
         Session {
             source,
             client: Client::new(),
-            time: SteadyTime::start(),
+            time,
             buffer: Vec::new(),
             taken: 0,
             outgoing: Outgoing::default(),

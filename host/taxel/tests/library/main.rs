@@ -3,6 +3,7 @@
 mod bases;
 mod body;
 mod clock;
+mod delays;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
 mod drift;
@@ -31,6 +32,7 @@ mod session;
 mod shape_of;
 mod shapes;
 mod stepped;
+mod timed_line;
 mod touch;
 #[cfg(feature = "schema")]
 mod validator;

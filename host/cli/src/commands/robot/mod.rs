@@ -6,14 +6,23 @@ mod doctor;
 mod live;
 mod record;
 mod requests;
+#[cfg(feature = "ros2")]
+mod ros2;
+mod shown;
 mod tellers;
+mod view;
 
+#[cfg(not(feature = "ros2"))]
+use crate::commands::not_built::{self, NotBuiltArgs as RobotRos2Args};
 use anyhow::Result;
 use clap::{Args, Subcommand};
 use doctor::RobotDoctorArgs;
 use live::RobotLiveArgs;
 use record::RobotRecordArgs;
+#[cfg(feature = "ros2")]
+use ros2::RobotRos2Args;
 use std::path::PathBuf;
+use view::RobotViewArgs;
 
 /// Arguments of `taxel robot`.
 #[derive(Debug, Clone, Args)]
@@ -38,9 +47,16 @@ enum RobotTask {
         after_help = "Examples:\n  taxel robot live robot.toml\n  taxel robot live robot.toml --json --tare arm=32"
     )]
     Live(RobotLiveArgs),
+    /// Watch all boards in the browser: a page for each, and what touches the robot
+    #[command(after_help = "Example:\n  taxel robot view robot.toml --open")]
+    View(RobotViewArgs),
     /// Record all boards in one file
     #[command(after_help = "Example:\n  taxel robot record robot.toml -o touch.mcap --seconds 60")]
     Record(RobotRecordArgs),
+    /// Run ROS 2 nodes that publish all boards, live: one for each, and one for the robot
+    #[cfg_attr(not(feature = "ros2"), doc = "(needs a build with `--features ros2`)")]
+    #[command(after_help = "Example:\n  taxel robot ros2 robot.toml --domain 7")]
+    Ros2(RobotRos2Args),
     /// Diagnose all boards: what is wrong, and what to do about it
     #[command(after_help = "Example:\n  taxel robot doctor robot.toml --json")]
     Doctor(RobotDoctorArgs),
@@ -51,7 +67,12 @@ pub fn run(args: &RobotArgs) -> Result<()> {
     match &args.what {
         RobotTask::Check { file, json } => check::run(file, *json),
         RobotTask::Live(args) => live::run(args),
+        RobotTask::View(args) => view::run(args),
         RobotTask::Record(args) => record::run(args),
+        #[cfg(feature = "ros2")]
+        RobotTask::Ros2(args) => ros2::run(args),
+        #[cfg(not(feature = "ros2"))]
+        RobotTask::Ros2(args) => not_built::robot_ros2(args),
         RobotTask::Doctor(args) => doctor::run(args),
     }
 }

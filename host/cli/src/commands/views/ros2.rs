@@ -14,6 +14,20 @@ pub struct Ros2Args {
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
+    /// The node.
+    #[command(flatten)]
+    pub node: RosNodeArgs,
+    /// Stamp messages with the board's time, and tell it on /clock: other nodes set use_sim_time
+    #[arg(long)]
+    pub clock: bool,
+    /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub seconds: Option<f64>,
+}
+
+/// Where nodes are, and what they publish.
+#[derive(Debug, Clone, Args)]
+pub struct RosNodeArgs {
     /// Domain of ROS, 0 to 232 [default: ROS_DOMAIN_ID, else 0]
     #[arg(long, value_name = "N")]
     pub domain: Option<u16>,
@@ -26,12 +40,6 @@ pub struct Ros2Args {
     /// Images, points and forces of a panel per second; 0: none. The parameter image_hz changes it
     #[arg(long, value_name = "HZ", default_value = "10", value_parser = hz, allow_negative_numbers = true)]
     pub image_hz: f64,
-    /// Stamp messages with the board's time, and tell it on /clock: other nodes set use_sim_time
-    #[arg(long)]
-    pub clock: bool,
-    /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
-    pub seconds: Option<f64>,
 }
 
 /// Parses a rate of images.
@@ -40,9 +48,9 @@ fn hz(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| "must be 0 to 1000".into())
 }
 
-impl Ros2Args {
-    /// Where the node is.
-    fn place(&self) -> Result<RosPlace> {
+impl RosNodeArgs {
+    /// Where the node is. Error if a name or the domain is invalid.
+    pub fn place(&self) -> Result<RosPlace> {
         let domain = match (self.domain, std::env::var("ROS_DOMAIN_ID").ok().filter(|text| !text.is_empty()))
         {
             (Some(domain), _) => Some(domain),
@@ -52,18 +60,20 @@ impl Ros2Args {
         let domain = domain.filter(|domain| DOMAINS.contains(domain));
         let must = "the domain of ROS (--domain, ROS_DOMAIN_ID) must be a whole number from 0 to 232";
         let domain = domain.ok_or_else(|| Fault::usage(must))?;
-        Ok(RosPlace { domain, namespace: self.namespace.clone(), name: self.name.clone() })
+        let (namespace, name) = (self.namespace.clone(), self.name.clone());
+        let place = RosPlace { domain, namespace, name, board: None };
+        place.check()?;
+        Ok(place)
     }
 }
 
 /// Runs the command.
 pub fn run(args: Ros2Args) -> Result<()> {
-    let place = args.place()?;
-    place.check()?;
+    let place = args.node.place()?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let body = args.board.body.as_deref().map(body::read).transpose()?;
     let (source, _) = args.board.open(options)?;
-    let parameters = RosParameters { source: source.label.clone(), image_hz: args.image_hz };
+    let parameters = RosParameters { source: source.label.clone(), image_hz: args.node.image_hz };
     let at = format!("{} as node {} in domain {}", source.label, place.absolute(&place.name), place.domain);
     let mut show = RosShow::open(RosNode::open(place, &parameters)?, &source, args.clock, body)?;
     // The node leaves the network before the program ends.

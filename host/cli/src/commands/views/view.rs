@@ -3,7 +3,7 @@
 use crate::fault::Fault;
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
-use crate::view::{PageHub, Player, Tape, Viewer, browser, serve};
+use crate::view::{PageHub, PageHubs, Player, Tape, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, ensure};
 use std::net::{Ipv4Addr, TcpListener};
@@ -76,7 +76,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     wearer.into_iter().for_each(|wearer| hub.wear(wearer));
-    announce(&source.label, listener, &hub, args.open)?;
+    announce(&source.label, listener, hub.clone(), args.open)?;
     let folding = args.board.folds.as_deref().map(Folding::read).transpose()?;
     let mut viewer = Viewer::new(&source, hub).folding(folding);
     // Where a board does not listen, the host alone knows the body.
@@ -107,20 +107,20 @@ fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
     args.wearer()?.into_iter().for_each(|wearer| hub.wear(wearer));
     let folding = args.board.folds.as_deref().map(|folds| Folding::recorded(folds, file)).transpose()?;
     let player = Player::open(file, speed, calibration, folding, hub.clone())?;
-    announce(&file.display().to_string(), bind(args.port)?, &hub, args.open)?;
+    announce(&file.display().to_string(), bind(args.port)?, hub, args.open)?;
     player.run()
 }
 
 /// Serves the pages, and prints their address.
-fn announce(what: &str, listener: TcpListener, hub: &Arc<PageHub>, open: bool) -> Result<()> {
-    let port = serve(listener, hub.clone())?;
+pub fn announce(what: &str, listener: TcpListener, hubs: impl Into<PageHubs>, open: bool) -> Result<()> {
+    let port = serve(listener, hubs)?;
     let url = format!("http://127.0.0.1:{port}/");
     println!("{what} at {url} (Ctrl-C ends)");
     if open { browser::open(&url) } else { Ok(()) }
 }
 
 /// Binds to the loopback interface.
-fn bind(port: Option<u16>) -> Result<TcpListener> {
+pub fn bind(port: Option<u16>) -> Result<TcpListener> {
     let listen = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     let wanted = port.unwrap_or(PORT);
     let listener = match (listen(wanted), port) {

@@ -11,6 +11,7 @@ import { Hover } from "./hover.js";
 import { Link } from "./link.js";
 import { Panels } from "./panels.js";
 import { Player } from "./player.js";
+import { Robot } from "./robot.js";
 import { Save } from "./save.js";
 import { Store } from "./store.js";
 import { Surface } from "./surface.js";
@@ -49,6 +50,7 @@ const socket = connect({
 const ask = (wish) => socket.ask(wish);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
+const robot = new Robot();
 const speaker = new Speaker();
 const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
@@ -110,6 +112,7 @@ function beside(settings) {
   say($("folding"), legend(store.shown(), settings));
   say($("spoken"), speaker.next(spoken(), performance.now()));
   concepts.draw(store);
+  robot.draw(store);
   contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);
   ranges.draw(one(HTMLCanvasElement, "ranges"), store, settings);
   if (!store.recorded) strips.draw(one(HTMLCanvasElement, "strips"), store);

@@ -1,5 +1,6 @@
 // Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs,
-// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs and host/taxel/src/json/lines. Made from these by host/cli/tests/program/page_types.rs:
+// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines and
+// host/taxel/src/robot/contacts_line.rs. Made from these by host/cli/tests/program/page_types.rs:
 // TAXEL_BLESS=1 updates it.
 
 /** Garment, scene and firmware of the board, and how the page shows them. */
@@ -535,6 +536,79 @@ export type OverviewLine = {
   said: [number, string, string][];
   /** Number of lines about contacts that were left out. */
   unlisted: number;
+};
+
+/** A robot of several boards, one of which the page shows. */
+export type RobotLine = {
+  /** Type of the message. */
+  type: "robot";
+  /** Name of the robot. */
+  name: string;
+  /** Name of the board that the page shows. */
+  board: string;
+  /** All boards, in the order of the robot's file. */
+  boards: {
+    /** Name of the board. */
+    name: string;
+    /** `live`, or `absent`, `lost`, `other`, `over`, `failed`: its picture is not live. */
+    state: string;
+    /** When it was last live, the host's time, us since 1970; null if it is, or never was. */
+    since_us: number | null;
+    /** Why it is not live. */
+    why: string | null;
+    /** Contacts on it. */
+    contacts: number;
+  }[];
+};
+
+/** Contacts of all boards of a robot; what touches both sides of a seam between boards is one contact. */
+export type RobotContactsLine = {
+  /** Type of the message. */
+  type: "robot_contacts";
+  /** Host time of the board's scan that is told, us since 1970. */
+  host_time_us: number;
+  /** Present contacts and those just released, by their ids. */
+  contacts: {
+    /** Number of the contact, from 1 upwards; constant from onset to release, on whatever boards it is. */
+    id: number;
+    /** `onset`, `held` or `released`. */
+    phase: string;
+    /** Name of the board on which most of it is. */
+    board: string;
+    /** Name of the panel there. */
+    panel_name: string;
+    /** Centroid along the columns of that panel, taxels from the first; goes on beyond a seam. */
+    x: number;
+    /** Centroid along the rows, taxels from the first. */
+    y: number;
+    /** Centroid along the columns, mm from the first. */
+    x_mm: number;
+    /** Centroid along the rows, mm from the first. */
+    y_mm: number;
+    /** Sum of the pressure of its taxels on all boards, counts. */
+    total: number;
+    /** Force by the calibrations in force, N; absent unless all of its boards have one. */
+    force_n?: number | null;
+    /** Greatest pressure of a taxel, counts. */
+    peak: number;
+    /** Number of taxels. */
+    area: number;
+    /** Time since the onset, s. */
+    duration: number;
+    /** Age of pressure and place, us: the time until which all of its boards have told theirs. */
+    age_us: number;
+    /** What it consists of, board by board. */
+    parts: {
+      /** Name of the board. */
+      board: string;
+      /** Id of the board's contact; null if it is too faint to be one there. */
+      contact: number | null;
+      /** Its pressure, counts. */
+      total: number;
+      /** Age of what the board has told last, us; below 0 if it is newer. */
+      age_us: number;
+    }[];
+  }[];
 };
 
 /** A request of a page. */

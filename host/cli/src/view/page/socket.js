@@ -28,7 +28,7 @@ export function connect(on) {
   /** @type {WebSocket | null} */
   let socket = null;
   const open = () => {
-    const next = new WebSocket(`ws://${location.host}/socket`);
+    const next = new WebSocket(new URL("socket", location.href.replace(/^http/, "ws")));
     socket = next;
     next.binaryType = "arraybuffer";
     next.onopen = () => on.connected(true);

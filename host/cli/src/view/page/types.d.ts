@@ -17,6 +17,8 @@ import type {
   PinsLine,
   PlayerLine,
   PosesLine,
+  RobotContactsLine,
+  RobotLine,
   SayLine,
   TaxelLine,
 } from "./messages.d.ts";
@@ -107,6 +109,8 @@ export interface States {
   player?: PlayerState;
   glow?: GlowLine & { values?: Uint16Array };
   overview?: Overview;
+  robot?: RobotLine;
+  robot_contacts?: RobotContactsLine;
 }
 
 /** A text message. */

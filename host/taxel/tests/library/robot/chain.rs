@@ -101,23 +101,23 @@ fn a_touch_over_two_seams_is_one_contact_in_its_place() {
     assert_eq!(ids, [1].into());
     assert_eq!(told.iter().filter(|(_, contact)| contact.phase == Phase::Released).count(), 1);
     let boards_of =
-        |contact: &RobotContact| contact.parts.iter().map(|part| part.board).collect::<BTreeSet<_>>();
+        |contact: &RobotContact| contact.touch.parts.iter().map(|part| part.board).collect::<BTreeSet<_>>();
     let over_both = told.iter().filter(|(_, contact)| boards_of(contact).len() == 3).count();
     assert!(over_both > 50, "{over_both}");
     // While it is held, its centroid and its force are those of the touch.
     let (mut sum, mut worst_mm): (Vec<f64>, f64) = (Vec::new(), 0.0);
     let [start_s, mm_s, end_s] = TOUCH;
     for (_, contact) in &told {
-        let at_s = (contact.host_us - BEGAN_US) as f64 / 1e6 - start_s;
+        let at_s = (contact.touch.host_us - BEGAN_US) as f64 / 1e6 - start_s;
         let y_mm = FROM_MM + mm_s * at_s;
         let is_whole = y_mm > 32.0 && y_mm < tops()[2] + 160.0 - 32.0;
         if contact.phase != Phase::Held || at_s < 0.08 || at_s > end_s - start_s - 0.08 || !is_whole {
             continue;
         }
-        let (_, _, row_mm, _) = BOARDS[contact.board];
-        let told_mm = tops()[contact.board] + (contact.centroid[1] + 0.5) * row_mm;
+        let (_, _, row_mm, _) = BOARDS[contact.touch.board];
+        let told_mm = tops()[contact.touch.board] + (contact.touch.centroid[1] + 0.5) * row_mm;
         worst_mm = worst_mm.max((told_mm - y_mm).abs());
-        sum.push(f64::from(contact.total));
+        sum.push(f64::from(contact.touch.total));
     }
     let mean = sum.iter().sum::<f64>() / sum.len() as f64;
     let off = sum.iter().map(|total| (total / mean - 1.0).abs()).fold(0.0, f64::max);

@@ -266,7 +266,7 @@ fn a_touch_keeps_its_id_over_a_seam_between_boards() {
         let told = told(&pass, Filter::default());
         let [all, released] = ids(&told);
         let boards: BTreeSet<usize> =
-            told.iter().flat_map(|(_, c)| c).flat_map(|c| &c.parts).map(|part| part.board).collect();
+            told.iter().flat_map(|(_, c)| c).flat_map(|c| &c.touch.parts).map(|part| part.board).collect();
         let is_kept = all.len() == 1 && released == all && boards.len() == 2;
         if !is_kept {
             println!("seed {seed}: ids {all:?}, released {released:?}, boards {boards:?}, {pass:?}");
@@ -292,13 +292,13 @@ fn differences(filter: Filter) -> [Vec<f64>; 3] {
         let inside = inside(&pass, filter);
         let [mut sum, mut want_sum, mut count] = [0.0; 3];
         for (_, contacts) in told(&pass, filter) {
-            let on_seam: Vec<&RobotContact> = contacts.iter().filter(|c| c.parts.len() == 2).collect();
+            let on_seam: Vec<&RobotContact> = contacts.iter().filter(|c| c.touch.parts.len() == 2).collect();
             let [contact] = on_seam[..] else { continue };
-            let time = contact.host_us;
+            let time = contact.touch.host_us;
             let after = inside.partition_point(|(at, _)| *at <= time);
             let [(t0, a), (t1, b)] = inside[after - 1..=after] else { continue };
             let want = a + (b - a) * (time - t0) as f64 / (t1 - t0) as f64;
-            let total = f64::from(contact.total);
+            let total = f64::from(contact.touch.total);
             (sum, want_sum, count) = (sum + total, want_sum + want, count + 1.0);
             let difference = (total / want - 1.0).abs();
             moments.push(difference);

@@ -96,12 +96,12 @@ fn told(robot: &ReadRobot) -> Vec<RobotContact> {
 fn a_force_on_two_boards_is_the_sum_by_both_calibrations() {
     let told_now = told(&read([Some("one-force.toml"), Some("two-force.toml")]).unwrap());
     let [contact] = &told_now[..] else { panic!("{told_now:?}") };
-    let parts: Vec<(usize, u32)> = contact.parts.iter().map(|part| (part.board, part.total)).collect();
+    let parts: Vec<(usize, u32)> = contact.touch.parts.iter().map(|part| (part.board, part.total)).collect();
     let [(0, one), (1, two)] = parts[..] else { panic!("{parts:?}") };
     assert!(one > two && two > 200, "{one} {two}");
     let want: f64 = BOARDS.iter().zip([one, two]).map(|((_, each), n)| f64::from(n) / f64::from(*each)).sum();
     // The faint border belongs to the force, not to the pressure.
-    let newtons = contact.newtons.unwrap();
+    let newtons = contact.touch.newtons.unwrap();
     assert!((1.0..1.05).contains(&(newtons / want)), "{newtons} {want}");
 }
 
@@ -109,7 +109,7 @@ fn a_force_on_two_boards_is_the_sum_by_both_calibrations() {
 fn without_a_calibration_on_all_boards_there_is_no_force() {
     let told = told(&read([Some("one-force.toml"), None]).unwrap());
     let [contact] = &told[..] else { panic!("{told:?}") };
-    assert_eq!((contact.parts.len(), contact.newtons), (2, None));
+    assert_eq!((contact.touch.parts.len(), contact.touch.newtons), (2, None));
 }
 
 #[test]

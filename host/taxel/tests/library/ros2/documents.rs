@@ -59,7 +59,8 @@ fn the_documentation_has_every_topic_service_and_parameter() {
 }
 
 /// Messages that the node publishes.
-const WHOLE: [&str; 7] = ["BodyRegions", "Contacts", "Health", "Intent", "Pressing", "Reaction", "Symbols"];
+const WHOLE: [&str; 8] =
+    ["BodyRegions", "Contacts", "Health", "Intent", "Pressing", "Reaction", "RobotContacts", "Symbols"];
 
 #[test]
 fn our_messages_are_those_of_the_package() {
@@ -78,7 +79,17 @@ fn our_messages_are_those_of_the_package() {
 }
 
 fn ours_are_known(all: &Definitions) -> bool {
-    let parts = ["BodyRegion", "Contact", "Landed", "LinkWrench", "Region", "Symbol", "Uncertain"];
+    let parts = [
+        "BodyRegion",
+        "Contact",
+        "Landed",
+        "LinkWrench",
+        "Region",
+        "RobotContact",
+        "RobotContactPart",
+        "Symbol",
+        "Uncertain",
+    ];
     parts.iter().chain(&WHOLE).all(|name| all.names().any(|known| known == *name))
 }
 

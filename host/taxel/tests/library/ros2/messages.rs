@@ -89,7 +89,7 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
     let line = message(client, event);
     match event {
         Event::Contacts { frame, dropped, released, .. } => {
-            let bytes = own::contacts(US, client, (*frame, *dropped), released, (None, Some(SCALE)));
+            let bytes = own::contacts("", US, client, (*frame, *dropped), released, (None, Some(SCALE)));
             let read = all.read("Contacts", &bytes);
             for list in ["contacts", "released"] {
                 let (read, line) = (read[list].as_array().unwrap(), line[list].as_array().unwrap());
@@ -140,7 +140,7 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
                 assert_eq!(read[key], line[key], "{key}");
             }
             assert_eq!(read["scan"], json!(line["scan_us"].as_f64().unwrap() / 1e6));
-            let told = messages::diagnostics(US, "x", BoardState::Reports(health, 3));
+            let told = messages::diagnostics("", US, "x", BoardState::Reports(health, 3));
             let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &told);
             assert_eq!(read["status"][0]["values"][9], json!({ "key": "ill_taxels", "value": "3" }));
             Some("Health")
@@ -160,20 +160,21 @@ fn same_panels(client: &Client) {
     for area in layout.areas() {
         let start = usize::from(area.base);
         let values = &image[start..start + usize::from(area.rows) * usize::from(area.columns)];
-        let read = Definitions::of_text("I", schemas::IMAGE).read("I", &messages::image(US, area, values));
-        assert_eq!(read["data"].as_array().unwrap().len(), 2 * values.len());
         let read =
-            Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &messages::points(US, area, values));
+            Definitions::of_text("I", schemas::IMAGE).read("I", &messages::image("", US, area, values));
+        assert_eq!(read["data"].as_array().unwrap().len(), 2 * values.len());
+        let read = Definitions::of_text("P", schemas::POINT_CLOUD)
+            .read("P", &messages::points("", US, area, values));
         assert_eq!(read["data"].as_array().unwrap().len(), 16 * values.len());
         same_wrench(area, values);
     }
-    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &messages::frames(US, layout, None));
+    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &messages::frames("", US, layout, None));
     assert_eq!(read["transforms"].as_array().unwrap().len(), layout.areas().len());
 }
 
 /// Fails unless force and moment of a panel are those of its points.
 fn same_wrench(area: &Area, values: &[u16]) {
-    let told = messages::wrench(US, area, values, SCALE);
+    let told = messages::wrench("", US, area, values, SCALE);
     let read = Definitions::of_text("W", schemas::WRENCH).read("W", &told);
     let mut want = [DVec3::ZERO; 2];
     for (index, value) in (0u16..).zip(values) {
@@ -196,7 +197,7 @@ fn frames_of_panels_lie_on_the_body() {
     let garment = Garment::reference();
     let layout = Layout::build(&garment, 2048, 4095).unwrap();
     let surface = body::read("reference").unwrap().surface(&garment, &layout).unwrap();
-    let told = messages::frames(US, &layout, Some(&surface));
+    let told = messages::frames("", US, &layout, Some(&surface));
     let read = Definitions::of_text("F", schemas::FRAMES).read("F", &told);
     let transforms = read["transforms"].as_array().unwrap();
     assert_eq!(transforms.len(), layout.areas().len());
@@ -254,7 +255,7 @@ fn small_messages_are_as_their_definitions() {
         Definitions::of_text("J", joints).read("J", &messages::joints((4, 5), &["a", "bc"], &[1.0, -2.0]));
     assert_eq!(read["header"]["stamp"], json!({ "sec": 4, "nanosec": 5 }));
     assert_eq!([&read["name"], &read["position"]], [&json!(["a", "bc"]), &json!([1.0, -2.0])]);
-    let lost = messages::diagnostics(US, "taxel-fw", BoardState::Lost("usb is gone"));
+    let lost = messages::diagnostics("", US, "taxel-fw", BoardState::Lost("usb is gone"));
     let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &lost);
     assert_eq!(
         [&read["status"][0]["level"], &read["status"][0]["message"]],

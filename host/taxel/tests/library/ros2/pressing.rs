@@ -111,7 +111,8 @@ fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_
 /// Fails unless the contacts of a list lie where the board says that they do.
 fn same_contacts(all: &Definitions, session: &Session, surface: &Surface, report: &PressingReport) -> usize {
     let client = session.client();
-    let read = all.read("Contacts", &own::contacts(US, client, (0, 0), &[], (Some(surface), Some(SCALE))));
+    let read =
+        all.read("Contacts", &own::contacts("", US, client, (0, 0), &[], (Some(surface), Some(SCALE))));
     let mut seen = 0;
     for contact in read["contacts"].as_array().unwrap() {
         let Some(landed) = report.contacts.iter().find(|landed| contact["id"] == json!(landed.id)) else {
@@ -136,7 +137,7 @@ fn same_points(client: &Client, surface: &Surface) {
     for area in client.layout().unwrap().areas() {
         let start = usize::from(area.base);
         let values = &image[start..start + usize::from(area.rows) * usize::from(area.columns)];
-        let told = pressing::points(US, area, Some(surface), values);
+        let told = pressing::points("", US, area, Some(surface), values);
         let read = Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &told);
         let link = surface.places()[start].unwrap().link;
         assert_eq!(read["header"]["frame_id"], json!(surface.links()[link]));
@@ -213,11 +214,11 @@ fn a_link_without_a_touch_has_no_force_and_a_panel_without_a_place_no_points() {
     let surface = Surface::build(&body, &garment, &layout).unwrap();
     let values = [0; 512];
     for (index, area) in layout.areas().iter().enumerate() {
-        let told = pressing::points(US, area, Some(&surface), &values);
+        let told = pressing::points("", US, area, Some(&surface), &values);
         // In the frame of the link, or of the panel.
         let link =
             Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &told)["header"]["frame_id"].clone();
         assert_eq!(link, json!(["torso", "tactile/back", "tactile/left_arm", "tactile/right_arm"][index]));
-        assert_eq!(told == messages::points(US, area, &values), index > 0);
+        assert_eq!(told == messages::points("", US, area, &values), index > 0);
     }
 }

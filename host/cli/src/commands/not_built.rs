@@ -14,18 +14,30 @@ pub struct NotBuiltArgs {
 /// Stand-in for `taxel foxglove`: returns the error that says how the command is built in.
 #[cfg(not(feature = "foxglove"))]
 pub fn foxglove(args: &NotBuiltArgs) -> Result<()> {
-    refuse("Foxglove", "foxglove", args)
+    refuse("Foxglove", "foxglove", "foxglove", args)
+}
+
+/// Stand-in for `taxel index`: returns the error that says how the command is built in.
+#[cfg(not(feature = "index"))]
+pub fn index(args: &NotBuiltArgs) -> Result<()> {
+    refuse("the index", "index", "index", args)
 }
 
 /// Stand-in for `taxel ros2`: returns the error that says how the command is built in.
 #[cfg(not(feature = "ros2"))]
 pub fn ros2(args: &NotBuiltArgs) -> Result<()> {
-    refuse("ROS 2", "ros2", args)
+    refuse("ROS 2", "ros2", "ros2", args)
 }
 
-fn refuse(what: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {
+/// Stand-in for `taxel robot ros2`: returns the error that says how the command is built in.
+#[cfg(not(feature = "ros2"))]
+pub fn robot_ros2(args: &NotBuiltArgs) -> Result<()> {
+    refuse("ROS 2", "ros2", "robot ros2", args)
+}
+
+fn refuse(what: &str, feature: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {
     let asked = args.args.iter().map(|arg| format!(" {}", arg.display())).collect::<String>();
     bail!(Fault::usage(format!(
-        "this program was built without {what}: `cargo run --release --features {command} -- {command}{asked}` builds it in"
+        "this program was built without {what}: `cargo run --release --features {feature} -- {command}{asked}` builds it in"
     )))
 }

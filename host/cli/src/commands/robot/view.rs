@@ -1,0 +1,97 @@
+//! `taxel robot view`: all boards in the browser.
+
+use super::args::RobotFileArgs;
+use super::live::{failed, limit};
+use super::shown::ShownTeller;
+use crate::commands::views::view::{announce, bind};
+use crate::on_robot::Wearer;
+use crate::view::{PageHub, RobotPages, Tape, Viewer};
+use crate::watch::seconds;
+use anyhow::Result;
+use clap::Args;
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+use taxel::record::Origin;
+use taxel::robot::{BoardScan, ReadRobot, RobotSession, Teller, WhenFull};
+use taxel::source::{Source, SourceOptions};
+
+/// Longest wait before pages are told what is new.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Arguments of `taxel robot view`.
+#[derive(Debug, Clone, Args)]
+pub struct RobotViewArgs {
+    /// The robot.
+    #[command(flatten)]
+    robot: RobotFileArgs,
+    /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
+    #[arg(long, value_name = "N")]
+    port: Option<u16>,
+    /// Open the page in the browser
+    #[arg(long)]
+    open: bool,
+    /// Stop after S seconds of each board's time [default: go on until Ctrl-C]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    seconds: Option<f64>,
+}
+
+/// Runs the command. Error if a board cannot be followed, once all are over.
+pub fn run(args: &RobotViewArgs) -> Result<()> {
+    let robot = args.robot.read()?;
+    let mut requests = args.robot.requests()?;
+    let mut pages = RobotPages::new(&robot);
+    for number in 0..robot.boards.len() {
+        wearer(&robot, number)?.into_iter().for_each(|wearer| pages.hub(number).wear(wearer));
+    }
+    announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
+    let options =
+        SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
+    let teller = |number: usize| -> Box<dyn Teller<BoardScan>> {
+        let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
+        let open = move |source: &Source| {
+            Ok(viewer(
+                source,
+                &hub,
+                Origin {
+                    label: source.label.clone(),
+                    counts_per_newton: source.counts_per_newton,
+                    calibration: calibration.clone(),
+                },
+            ))
+        };
+        Box::new(ShownTeller::new(&robot, number, open))
+    };
+    let plans = robot.plans(&options, limit(args.seconds), teller);
+    let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
+    let mut ended = Ok(());
+    while !session.is_over() {
+        requests.iter_mut().for_each(|requests| requests.ask(&session));
+        if let Some(event) = session.wait(LOOK) {
+            pages.event(&event);
+            let name = &robot.boards[event.board].name;
+            ended = ended.and(failed(name, event.what));
+        }
+        pages.turn();
+    }
+    if args.seconds.is_some() || ended.is_err() {
+        return ended;
+    }
+    println!("Streams ended; showing the last frames (Ctrl-C ends).");
+    loop {
+        thread::park();
+    }
+}
+
+/// Shows a board to the pages of its hub, which can save it.
+fn viewer(source: &Source, hub: &Arc<PageHub>, origin: Origin) -> Viewer {
+    hub.tape(Tape::Live(Arc::new(origin)));
+    Viewer::new(source, hub.clone())
+}
+
+/// The robot that wears the garment of a board; none without a body.
+fn wearer(robot: &ReadRobot, number: usize) -> Result<Option<Wearer>> {
+    let urdf = robot.robot.as_ref().map(|described| described.file());
+    let body = robot.boards[number].body.as_deref();
+    body.map(|body| Wearer::read(body, urdf, "")).transpose()
+}

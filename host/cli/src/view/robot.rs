@@ -1,0 +1,141 @@
+//! Tells the pages of a robot's boards how all boards are, and what touches the robot.
+
+use super::hub::PageHub;
+use super::hubs::PageHubs;
+use super::lines::{RobotBoardLine, RobotLine};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use taxel::robot::{
+    BoardEvent, BoardScan, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContacts, RobotContactsLine,
+    RobotEvent,
+};
+use taxel::tell::words;
+use taxel_core::contact::Phase;
+
+/// Shortest time between two messages of a kind.
+const PERIOD: Duration = Duration::from_millis(100);
+/// Longest time between two messages about the boards: a page is told that the program is there, also while its
+/// board is not.
+const ALIVE: Duration = Duration::from_secs(1);
+
+/// The pages of a robot's boards, a hub for each board.
+pub struct RobotPages<'a> {
+    robot: &'a ReadRobot,
+    hubs: Vec<Arc<PageHub>>,
+    boards: Vec<RobotBoardLine<'a>>,
+    /// The boards were told otherwise, and when.
+    is_new: bool,
+    told_boards: Instant,
+    /// None if no boards are sewn together.
+    contacts: Option<RobotContacts>,
+    /// The robot's contacts at a host time, us, if they were told otherwise.
+    news: Option<(u64, Vec<RobotContact>)>,
+    told: Instant,
+}
+
+impl<'a> RobotPages<'a> {
+    /// Pages on which all boards are absent.
+    pub fn new(robot: &'a ReadRobot) -> RobotPages<'a> {
+        let count = robot.boards.len();
+        let (state, since_us, why, contacts) = ("absent", None, None, 0);
+        let boards = robot.boards.iter().map(|board| RobotBoardLine {
+            name: board.name.as_str(),
+            state,
+            since_us,
+            why: why.clone(),
+            contacts,
+        });
+        let mut pages = RobotPages {
+            robot,
+            hubs: (0..count).map(|_| Arc::new(PageHub::among(count))).collect(),
+            boards: boards.collect(),
+            is_new: false,
+            told_boards: Instant::now(),
+            contacts: (!robot.seams.is_empty()).then(|| RobotContacts::new(robot)),
+            news: None,
+            told: Instant::now(),
+        };
+        pages.tell_boards();
+        pages
+    }
+
+    /// The hub of a board.
+    pub fn hub(&self, board: usize) -> Arc<PageHub> {
+        self.hubs[board].clone()
+    }
+
+    /// All hubs, by the names of their boards.
+    pub fn hubs(&self) -> PageHubs {
+        let names = self.robot.boards.iter().map(|board| board.name.clone());
+        PageHubs::Boards(names.zip(self.hubs.iter().cloned()).collect())
+    }
+
+    /// Handles an event of a board.
+    pub fn event(&mut self, event: &RobotEvent<BoardScan>) {
+        let host_us = event.stamp.host_us;
+        let board = &mut self.boards[event.board];
+        let before = board.clone();
+        match &event.what {
+            BoardEvent::News(scan) => {
+                if let Some(contacts) = &scan.contacts {
+                    board.contacts = contacts.len();
+                }
+            }
+            BoardEvent::Met | BoardEvent::Back { .. } => {
+                (board.state, board.since_us, board.why) = ("live", None, None);
+            }
+            BoardEvent::Absent { why } => (board.state, board.why) = ("absent", Some(why.clone())),
+            BoardEvent::Lost { since_us, why } => board.gone("lost", *since_us, Some(why.clone())),
+            BoardEvent::Other { why } => {
+                let since_us = board.since_us.unwrap_or(host_us);
+                board.gone("other", since_us, Some(why.clone()));
+            }
+            BoardEvent::Over => board.gone("over", host_us, None),
+            BoardEvent::Failed(error) => board.gone("failed", host_us, Some(words::sentence(error))),
+            // Of scans: pages get their images from the board's thread.
+            BoardEvent::Dropped { .. } => {}
+        }
+        self.is_new |= *board != before;
+        let is_gone = board.state != "live";
+        if let Some(contacts) = &mut self.contacts {
+            let joined = match &event.what {
+                BoardEvent::News(scan) => contacts.scan(event.board, scan, host_us),
+                _ if is_gone => contacts.forget(event.board, host_us),
+                _ => Vec::new(),
+            };
+            if !joined.is_empty() {
+                self.news = Some((host_us, joined));
+            }
+        }
+    }
+
+    /// Sends what is new to the pages.
+    pub fn turn(&mut self) {
+        if self.told.elapsed() < PERIOD {
+            return;
+        }
+        self.told = Instant::now();
+        if self.is_new || self.told_boards.elapsed() >= ALIVE {
+            self.tell_boards();
+        }
+        if let Some((host_us, mut contacts)) = self.news.take() {
+            contacts.retain(|contact| contact.phase != Phase::Released);
+            let line = RobotContactsLine::of(self.robot, host_us, &contacts);
+            self.hubs.iter().for_each(|hub| hub.state(ROBOT_CONTACTS, &line));
+        }
+    }
+
+    fn tell_boards(&mut self) {
+        (self.is_new, self.told_boards) = (false, Instant::now());
+        for (hub, board) in self.hubs.iter().zip(&self.boards) {
+            let line = RobotLine { name: &self.robot.name, board: board.name, boards: &self.boards };
+            hub.state("robot", &line);
+        }
+    }
+}
+
+impl RobotBoardLine<'_> {
+    fn gone(&mut self, state: &'static str, since_us: u64, why: Option<String>) {
+        (self.state, self.since_us, self.why, self.contacts) = (state, Some(since_us), why, 0);
+    }
+}

@@ -1,0 +1,97 @@
+"""A robot of several boards: a node for each, and one for the robot."""
+
+import json
+import math
+
+import fields
+import pytest
+from conftest import NEWEST, stamp_us, taxel
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import Image
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+from taxel_msgs.msg import Contacts, RobotContacts
+
+ROBOT = """name = "three"
+[[boards]]
+name = "torso"
+source = "sim:five"
+garment = "reference"
+[[boards]]
+name = "left-hand"
+source = "sim:press"
+garment = "block-4x16"
+[[boards]]
+name = "foot"
+source = "tcp:127.0.0.1:1"
+garment = "block-4x16"
+[[seams]]
+a = { board = "torso", panel = "left arm", side = "bottom" }
+b = { board = "left-hand", panel = "mat", side = "top" }
+length = 16
+"""
+
+
+@pytest.fixture
+def robot(tmp_path):
+    file = tmp_path / "robot.toml"
+    file.write_text(ROBOT)
+    return str(file)
+
+
+def test_each_board_says_below_its_name_what_it_says_alone(listener, robot):
+    boards = {}
+    for board in ["torso", "left_hand"]:
+        boards[board] = [
+            listener.hear(String, f"/{board}/taxel/json"),
+            listener.hear(Contacts, f"/{board}/taxel/contacts"),
+        ]
+    images = listener.hear(Image, "/left_hand/tactile/mat/image", NEWEST)
+    with taxel(robot, command=("robot", "ros2")):
+        listener.spin(lambda: all(len(contacts.messages) > 300 for _, contacts in boards.values()), 40)
+        listener.spin(lambda: images.messages)
+        # Joint states are those of the robot.
+        assert listener.node.count_subscribers("/joint_states") == 2
+        assert listener.node.count_subscribers("/torso/joint_states") == 0
+        assert listener.call(Trigger, "/left_hand/taxel/tare", Trigger.Request()).message in ["done", REFUSED]
+    for board, (told, contacts) in boards.items():
+        lines = [json.loads(message.data) for message in told.messages]
+        lines = {line["frame"]: line for line in lines if line["type"] == "contacts"}
+        # A scene that is repeated counts its frames on.
+        compared = [message for message in contacts.messages if message.frame in lines]
+        assert len(compared) > 200
+        for message in compared:
+            fields.contacts(message, lines[message.frame], frames=f"tactile/{board}/")
+            assert stamp_us(message.header.stamp) == lines[message.frame]["host_time_us"]
+    assert images.messages[0].header.frame_id == "tactile/left_hand/mat"
+
+
+#: A garment that is touched is not tared.
+REFUSED = "the board refuses: something touches the garment"
+
+
+def test_the_robot_says_what_touches_it_and_who_is_missing(listener, robot):
+    contacts = listener.hear(RobotContacts, "/robot_contacts")
+    diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
+    statuses = lambda: {one.name: one for message in diagnostics.messages for one in message.status}
+    with taxel(robot, command=("robot", "ros2")):
+        listener.spin(lambda: {"taxel: torso", "taxel: left-hand", "taxel: foot"} <= {*statuses()}, 20)
+        listener.spin(lambda: {part.board for one in touches(contacts) for part in one.parts} == BOARDS, 20)
+        listener.spin(lambda: len(contacts.messages) > 500, 20)
+    assert statuses()["taxel: foot"].level == b"\2" and "cannot be reached" in statuses()["taxel: foot"].message
+    assert statuses()["taxel: torso"].level == b"\0"
+    for one in touches(contacts):
+        assert one.board in BOARDS and one.panel_name in {"chest", "back", "left arm", "right arm", "mat"}
+        assert math.isnan(one.force) and one.age >= 0 and one.duration >= 0
+        assert all(part.is_contact or part.contact == 0 for part in one.parts)
+        if one.phase != one.RELEASED and len(one.parts) == 1:
+            assert one.parts[0].board == one.board and one.total == one.parts[0].total
+    begun = [one.id for one in touches(contacts) if one.phase == one.ONSET]
+    assert len(begun) == len(set(begun)) > 1
+
+
+BOARDS = {"torso", "left-hand"}
+
+
+def touches(contacts):
+    return [one for message in contacts.messages for one in message.contacts]
