@@ -8,7 +8,6 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use taxel::client::clock::SteadyTime;
 use taxel::client::{Client, Event};
 use taxel::record::Stamp;
 use taxel::robot::{
@@ -49,25 +48,26 @@ struct FactTeller {
     board: String,
     teller: Teller,
     reader: ScanReader,
-    clock: SteadyTime,
 }
 
 impl FactTeller {
-    fn named(&self, mut fact: Fact) -> Fact {
+    /// The fact with its board, and the one time of all boards.
+    fn named(&self, mut fact: Fact, stamp: Stamp) -> Fact {
         fact.line["board"] = self.board.as_str().into();
-        fact
+        stamp.mark(&mut fact.line);
+        Fact { host_ns: stamp.host_ns(), ..fact }
     }
 }
 
 impl BoardTeller<BoardFact> for FactTeller {
-    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<Option<BoardFact>> {
-        let fact = self.teller.fact(client, event, self.clock.now_us().saturating_mul(1000));
-        Ok(Some(BoardFact { fact: self.named(fact), scan: self.reader.scan(client, event) }))
+    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
+        let fact = self.teller.fact(client, event, stamp.host_ns());
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan: self.reader.scan(client, event) }))
     }
 
-    fn note(&mut self, client: &Client, note: &Event, _: Stamp) -> taxel::Result<Option<BoardFact>> {
-        let fact = self.teller.note(client, note, self.clock.now_us().saturating_mul(1000));
-        Ok(Some(BoardFact { fact: self.named(fact), scan: None }))
+    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
+        let fact = self.teller.note(client, note, stamp.host_ns());
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan: None }))
     }
 }
 
@@ -79,7 +79,6 @@ impl OpenRobot {
                 board: robot.boards[number].name.clone(),
                 teller: Teller::default(),
                 reader: ScanReader::new(&robot, number),
-                clock: SteadyTime::start(),
             })
         };
         let limit = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
@@ -106,7 +105,7 @@ impl OpenRobot {
         let RobotEvent { board, stamp, what } = event;
         let host_us = stamp.host_us;
         if let Some(line) = BoardLine::of(&self.robot.boards[board].name, host_us, &what) {
-            self.waiting.push_back(Fact::alone(serde_json::to_value(line)?, host_us.saturating_mul(1000)));
+            self.waiting.push_back(Fact::alone(serde_json::to_value(line)?, stamp.host_ns()));
         }
         let joined = self.contacts.as_mut().map_or(Vec::new(), |contacts| match &what {
             BoardEvent::News(BoardFact { scan: Some(scan), .. }) => contacts.scan(board, scan, host_us),
@@ -120,7 +119,7 @@ impl OpenRobot {
         }
         if !joined.is_empty() {
             let line = serde_json::to_value(RobotContactsLine::of(&self.robot, host_us, &joined))?;
-            self.waiting.push_back(Fact::alone(line, host_us.saturating_mul(1000)));
+            self.waiting.push_back(Fact::alone(line, stamp.host_ns()));
         }
         Ok(())
     }

@@ -143,10 +143,7 @@ impl Show<anyhow::Error> for RosShow {
         if is_line && self.node.wants(&JSON, "") {
             let mut line = json::message(client, event);
             if line != Value::Null {
-                line["host_time_us"] = stamp.host_us.into();
-                if let Some(uncertainty_us) = stamp.uncertainty_us {
-                    line["host_time_uncertainty_us"] = uncertainty_us.into();
-                }
+                stamp.mark(&mut line);
                 self.node.publish(&JSON, "", messages::text(&line.to_string()))?;
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event};
+use serde_json::Value;
 use taxel_core::format::Micros;
 
 /// Nanoseconds per microsecond.
@@ -27,6 +28,15 @@ impl Stamp {
     /// The board's time, ns; saturates.
     pub fn board_ns(&self) -> u64 {
         self.board_us.saturating_mul(NS)
+    }
+
+    /// Adds the host's time to a JSON line: `host_time_us`, and if its error has a bound
+    /// `host_time_uncertainty_us`.
+    pub fn mark(&self, line: &mut Value) {
+        line["host_time_us"] = self.host_us.into();
+        if let Some(uncertainty_us) = self.uncertainty_us {
+            line["host_time_uncertainty_us"] = uncertainty_us.into();
+        }
     }
 }
 

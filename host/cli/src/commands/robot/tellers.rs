@@ -40,10 +40,7 @@ impl Teller<BoardNews> for JsonTeller {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardNews>> {
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
-        line["host_time_us"] = stamp.host_us.into();
-        if let Some(uncertainty_us) = stamp.uncertainty_us {
-            line["host_time_uncertainty_us"] = uncertainty_us.into();
-        }
+        stamp.mark(&mut line);
         let scan = self.reader.scan(client, event);
         Ok(Some(BoardNews { lines: format!("{line}\n"), scan }))
     }
