@@ -4,7 +4,7 @@ use super::feedback::{Feedback, Pressed};
 use crate::capacity::TAXELS;
 use crate::garment::Layout;
 
-/// Words of a bit for each taxel, and one behind them.
+/// Words of a bit for each taxel, and one more, so that each of those has a next one.
 const WORDS: usize = TAXELS.div_ceil(32) + 1;
 
 /// A bit for each taxel within some taxels of a contact.
@@ -77,11 +77,17 @@ mod tests {
 
     #[test]
     fn the_same_taxels_as_each_rectangle_holds() {
-        for garment in [Garment::reference(), Garment::mat(), Garment::block()] {
+        // The last has more columns than a word has bits.
+        for garment in [Garment::reference(), Garment::mat(), Garment::block(), Garment::recorded(8, 100)] {
             let layout = Layout::build(&garment, TAXELS, u16::MAX).unwrap();
-            for (top, bottom, left, right, beside) in
-                [(0, 0, 0, 0, 1), (2, 3, 4, 15, 1), (1, 3, 7, 9, 3), (3, 3, 15, 15, 3), (0, 3, 0, 15, 1)]
-            {
+            for (top, bottom, left, right, beside) in [
+                (0, 0, 0, 0, 1),
+                (2, 3, 4, 15, 1),
+                (1, 3, 7, 9, 3),
+                (3, 3, 15, 15, 3),
+                (0, 3, 0, 15, 1),
+                (1, 2, 3, 90, 1),
+            ] {
                 let rect = Rect { panel: layout.areas().len() as u8 - 1, top, bottom, left, right };
                 let mut feedback = Feedback::<4>::new();
                 feedback.home.push(Pressed { rect, peak: 1 }).unwrap();

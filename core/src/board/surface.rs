@@ -111,8 +111,8 @@ impl Surface {
     }
 
     /// Encodes what is due: the regions' states, else what is unknown of a
-    /// [`PressingReport`](crate::wire::PressingReport), else that. `doubt` finds what is unknown, `sum` sums up,
-    /// both by a table. Returns `false` if it does not fit. Own frame: it needs much stack.
+    /// [`PressingReport`](crate::wire::PressingReport), else that. `doubt` finds what is unknown, `sum` sums
+    /// up, both by a table. Returns `false` if it does not fit. Own frame: it needs much stack.
     #[inline(never)]
     pub fn put(
         &mut self,

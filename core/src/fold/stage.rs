@@ -244,8 +244,8 @@ impl FoldState {
         }
     }
 
-    /// Subtracts from the taxels that press what is expected of them, counts. `pressure` gives what such a taxel
-    /// feels: its value holds only where every taxel begins to press at the same level.
+    /// Subtracts from the taxels that press what is expected of them, counts. `pressure` gives what such a
+    /// taxel feels: its value holds only where every taxel begins to press at the same level.
     #[inline(never)] // own registers
     pub(crate) fn subtract(&self, values: &mut [u16], pressure: impl Fn(usize) -> u16) {
         let Some(table) = self.table() else { return };

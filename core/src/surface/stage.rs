@@ -236,7 +236,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         !self.blind.is_empty() || self.sums.iter().any(|sums| sums.saturated > 0)
     }
 
-    /// What is unknown of contacts, by id: of those where something is. A share of the sums.
+    /// What is unknown of contacts, by id: of those where something is. Needs the sums.
     pub fn doubts_of_contacts<'a>(
         &'a self,
         table: &'a Table<'_>,
@@ -251,7 +251,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         self.landings.iter().map(of).filter(|(_, of)| !of.is_none())
     }
 
-    /// What is unknown of links, by number: of those where something is. A share of the sums.
+    /// What is unknown of links, by number: of those where something is. Needs the sums.
     pub fn doubts_of_links<'a>(
         &'a self,
         table: &'a Table<'_>,
