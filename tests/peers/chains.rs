@@ -27,8 +27,9 @@ pub struct Ours {
     frame: u64,
 }
 
-impl Ours {
-    pub fn new() -> Ours {
+impl Default for Ours {
+    /// Before the first frame, with the panel at rest.
+    fn default() -> Ours {
         let layout =
             Layout::build(&Garment::recorded(ROWS as u16, COLUMNS as u16), TAXELS, u16::MAX).unwrap();
         let condition = ConditionConfig { floor: 1, filter: Filter::Median, ..Default::default() };
@@ -44,7 +45,9 @@ impl Ours {
             frame: 0,
         }
     }
+}
 
+impl Ours {
     /// One frame, and the sums of what it found.
     pub fn segment(&mut self, codes: &[Code]) -> impl Iterator<Item = Sums> {
         let (condition, contact) = &mut self.state;
@@ -89,7 +92,7 @@ pub fn imageproc(image: &GrayImage) -> Vec<Sums> {
 pub fn found(scene: &[u8]) -> (Vec<Sums>, Vec<Sums>) {
     let codes: Vec<Code> = scene.iter().map(|value| Code(u16::from(*value))).collect();
     let (mut ours, mut theirs): (Vec<Sums>, _) =
-        (Ours::new().segment(&codes).collect(), imageproc(&panel(scene)));
+        (Ours::default().segment(&codes).collect(), imageproc(&panel(scene)));
     ours.sort_unstable();
     theirs.sort_unstable();
     (ours, theirs)

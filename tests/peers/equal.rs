@@ -1,11 +1,9 @@
 //! The core and imageproc find the same contacts with the same sums: what `cargo xtask peers` times is the
 //! same work.
 
-mod chains;
-mod scenes;
-
 use proptest::prelude::*;
 use taxel_core::format::Code;
+use taxel_peers::{chains, scenes};
 
 #[test]
 fn the_same_contacts_with_the_same_sums() {
@@ -14,7 +12,7 @@ fn the_same_contacts_with_the_same_sums() {
         assert_eq!(ours, theirs, "{}", scene.name);
         assert_eq!(ours.len(), scene.contacts, "{}", scene.name);
         let codes: Vec<Code> = scene.values.iter().map(|value| Code(u16::from(*value))).collect();
-        assert_eq!(chains::Ours::new().follow(&codes), scene.contacts, "{}", scene.name);
+        assert_eq!(chains::Ours::default().follow(&codes), scene.contacts, "{}", scene.name);
     }
 }
 

@@ -43,6 +43,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-outputs", |log| targets::on_emulator("outputs", log)),
     ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
     ("view", browser::check),
+    ("peers", targets::equal_to_peers),
     ("python", targets::python),
     ("wheel", python::check),
     ("ros2", ros2::check),
@@ -160,15 +161,16 @@ fn fmt(log: &Path) -> End {
     let check = |folder| {
         process::run_into(&mut cargo(&["fmt", "--all", "--", "--check", "--color=never"], folder), log)
     };
-    let apart = [paths::root(), paths::firmware(), paths::fuzz().join("targets")];
-    Ok(apart.into_iter().try_for_each(check))
+    let apart = paths::apart().map(|(_, folder)| folder);
+    Ok([paths::root()].into_iter().chain(apart).try_for_each(check))
 }
 
 fn clippy(log: &Path) -> End {
-    let run = |which: &[&str]| {
+    let within = |folder, which: &[&str]| {
         let args = [&["clippy"], which, &["--", "--deny", "warnings"]].concat();
-        process::run_into(&mut cargo(&args, paths::root()), log)
+        process::run_into(&mut cargo(&args, folder), log)
     };
+    let run = |which: &[&str]| within(paths::root(), which);
     let apart: Vec<&str> = targets::APART
         .iter()
         .flat_map(|(_, names)| names.iter().flat_map(|name| ["--test", *name]))
@@ -177,7 +179,8 @@ fn clippy(log: &Path) -> End {
     let plain = ["--workspace", "--exclude", "taxel-tests"];
     Ok(run(&[WHOLE, &["--all-targets"]].concat())
         .and_then(|()| run(&[WHOLE, &apart].concat()))
-        .and_then(|()| run(&plain)))
+        .and_then(|()| run(&plain))
+        .and_then(|()| within(paths::peers(), &["--all-targets"])))
 }
 
 fn compare_locks(_: &Path) -> End {
@@ -185,12 +188,10 @@ fn compare_locks(_: &Path) -> End {
         std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
     };
     let root = read(paths::root().join("Cargo.lock"));
-    let apart = [("firmware/", paths::firmware()), ("fuzz/targets/", paths::fuzz().join("targets"))];
-    Ok(root.and_then(|root| {
-        apart
-            .into_iter()
-            .try_for_each(|(name, folder)| locks::compare(&root, &read(folder.join("Cargo.lock"))?, name))
-    }))
+    let compare = |root: &str, (name, folder): (&str, PathBuf)| {
+        locks::compare(root, &read(folder.join("Cargo.lock"))?, name)
+    };
+    Ok(root.and_then(|root| paths::apart().into_iter().try_for_each(|apart| compare(&root, apart))))
 }
 
 /// All tests, then those of what a core without features refuses.

@@ -19,6 +19,17 @@ pub fn fuzz() -> PathBuf {
     root().join("fuzz")
 }
 
+/// The peers.
+pub fn peers() -> PathBuf {
+    root().join("tests/peers")
+}
+
+/// Packages that are no members of the workspace and have a lock file each: their folders in the repository, and
+/// where these are.
+pub fn apart() -> [(&'static str, PathBuf); 3] {
+    ["firmware", "fuzz/targets", "tests/peers"].map(|folder| (folder, root().join(folder)))
+}
+
 /// The emulator harness.
 pub fn emulator() -> PathBuf {
     root().join("tests/emulator")

@@ -20,7 +20,7 @@ const TYPED: &[&str] = &["tests", "examples", "lerobot/lerobot_robot_taxel", "le
 /// How the wheel is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Build {
-    /// By the dev profile, like the other tests.
+    /// By the dev profile, like the other tests, and with all that the command can do.
     Dev,
     /// For users: by the release profile, with all that the command can do.
     Release,
@@ -159,9 +159,11 @@ fn built(python: &Path, build: Build, log: &Path) -> Result<PathBuf, String> {
     let mut maturin = Command::new(python);
     maturin.args(["-m", "maturin", "build", "--locked", "--out"]).arg(&out).arg("--manifest-path");
     maturin.arg(package().join("Cargo.toml"));
-    if build == Build::Release {
-        maturin.args(["--release", "--features", "full"]);
-    }
+    match build {
+        // As all tests have it, so that cargo compiles little but the package itself.
+        Build::Dev => maturin.args(["--strip", "false", "--features", "full,taxel-cli/schema"]),
+        Build::Release => maturin.args(["--release", "--features", "full"]),
+    };
     process::run_into(&mut maturin, log)?;
     let found = std::fs::read_dir(&out).ok().and_then(|mut files| files.next()).and_then(Result::ok);
     found.map(|file| file.path()).ok_or("maturin has built no wheel".into())

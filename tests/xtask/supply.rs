@@ -5,8 +5,6 @@ use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Packages with a lock file: the workspace, the image, the fuzz targets.
-const LOCKED: [&str; 3] = ["Cargo.toml", "firmware/Cargo.toml", "fuzz/targets/Cargo.toml"];
 /// Checks of cargo-deny. The advisories need the network, the others do not.
 const CHECKS: [&str; 4] = ["licenses", "sources", "bans", ADVISORIES];
 const ADVISORIES: &str = "advisories";
@@ -35,10 +33,10 @@ pub fn run(args: &[String]) -> Result<bool, String> {
     let deny = install::cargo_tool("cargo-deny", "0.20.2").map_err(|why| format!("not run: {why}"))?;
     let log = paths::log("supply")?;
     let mut is_good = true;
-    for manifest in LOCKED {
+    for (name, folder) in [("the workspace", paths::root())].into_iter().chain(paths::apart()) {
         for check in CHECKS {
-            let end = asked(&deny, manifest, check, &log);
-            println!("{manifest}: {check}: {}", end.words());
+            let end = asked(&deny, &folder.join("Cargo.toml"), check, &log);
+            println!("{name}: {check}: {}", end.words());
             is_good &= end == End::Passed || end == End::NotRun && may_miss;
         }
     }
@@ -60,9 +58,9 @@ impl End {
 }
 
 /// Runs cargo-deny on the dependencies of a package.
-fn asked(deny: &Path, manifest: &str, check: &str, log: &Path) -> End {
+fn asked(deny: &Path, manifest: &Path, check: &str, log: &Path) -> End {
     let mut command = Command::new(deny);
-    command.args(["--locked", "--manifest-path"]).arg(paths::root().join(manifest));
+    command.args(["--locked", "--manifest-path"]).arg(manifest);
     command.arg("--config").arg(paths::root().join("deny.toml")).args([
         "check",
         "--hide-inclusion-graph",

@@ -148,11 +148,21 @@ pub fn feed_recordings(args: &[String]) -> Result<(), String> {
     process::run(&mut command)
 }
 
-/// `cargo xtask peers`: compares the core with other libraries, in one run.
+/// `cargo xtask peers`: times the core beside other libraries, in one run.
 pub fn peers(args: &[String]) -> Result<(), String> {
-    let mut command =
-        cargo(&["bench", "--quiet", "--package", "taxel-tests", "--bench", "peers", "--"], paths::root());
-    process::run(command.args(args))
+    process::run(of_peers(&["bench", "--quiet", "--bench", "times", "--"]).args(args))
+}
+
+/// Tests that the core and other libraries find the same.
+pub fn equal_to_peers(log: &Path) -> End {
+    Ok(process::run_into(&mut of_peers(&["test"]), log))
+}
+
+/// Cargo in the package of the peers, with the target folder of all.
+fn of_peers(args: &[&str]) -> Command {
+    let mut command = cargo(args, paths::peers());
+    command.env("CARGO_TARGET_DIR", paths::target());
+    command
 }
 
 /// `cargo xtask bench`: cost and error on this machine.

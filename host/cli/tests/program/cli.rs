@@ -6,7 +6,10 @@ use crate::reference;
 use crate::start::taxel;
 use npyz::WriterBuilder;
 use serde_json::Value;
+use std::io::{Cursor, Write as _};
 use std::process::{Command, Stdio};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 fn npy<T: npyz::AutoSerialize + Copy>(shape: &[u64], values: &[T]) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -19,16 +22,12 @@ fn npy<T: npyz::AutoSerialize + Copy>(shape: &[u64], values: &[T]) -> Vec<u8> {
 
 /// An archive of two images named `a` and `b`.
 fn two_images() -> Vec<u8> {
-    let mut cursor = std::io::Cursor::new(Vec::new());
-    let mut writer = npyz::npz::NpzWriter::new(&mut cursor);
-    for name in ["a", "b"] {
-        let array = writer.array(name, Default::default()).unwrap();
-        let mut array = array.default_dtype().shape(&[2, 3]).begin_nd().unwrap();
-        array.extend([1u16, 2, 3, 4, 5, 6]).unwrap();
-        array.finish().unwrap();
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    for name in ["a.npy", "b.npy"] {
+        writer.start_file(name, SimpleFileOptions::default()).unwrap();
+        writer.write_all(&npy(&[2, 3], &[1u16, 2, 3, 4, 5, 6])).unwrap();
     }
-    drop(writer);
-    cursor.into_inner()
+    writer.finish().unwrap().into_inner()
 }
 
 #[test]

@@ -1,8 +1,9 @@
 use super::*;
 use npyz::WriterBuilder;
-use npyz::npz::NpzWriter;
-use std::io::Cursor;
+use std::io::{Cursor, Write as _};
 use std::path::PathBuf;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 /// A file with this name in a folder of this test run.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {
@@ -24,16 +25,13 @@ fn npy<T: npyz::AutoSerialize + Copy>(shape: &[u64], order: npyz::Order, values:
 
 /// An archive of the arrays `name: shape`, filled with 0, 1, 2, ...
 fn npz(arrays: &[(&str, &[u64])]) -> Vec<u8> {
-    let mut cursor = Cursor::new(Vec::new());
-    let mut writer = NpzWriter::new(&mut cursor);
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, shape) in arrays {
-        let array = writer.array(name, Default::default()).unwrap();
-        let mut array = array.default_dtype().shape(shape).begin_nd().unwrap();
-        array.extend(0..shape.iter().product::<u64>() as u16).unwrap();
-        array.finish().unwrap();
+        let values: Vec<u16> = (0..shape.iter().product::<u64>() as u16).collect();
+        writer.start_file(format!("{name}.npy"), SimpleFileOptions::default()).unwrap();
+        writer.write_all(&npy(shape, npyz::Order::C, &values)).unwrap();
     }
-    drop(writer);
-    cursor.into_inner()
+    writer.finish().unwrap().into_inner()
 }
 
 fn numbers() -> Vec<u16> {

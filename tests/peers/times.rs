@@ -1,18 +1,15 @@
 //! `cargo xtask peers`: microseconds per 32 x 64 panel, the core beside imageproc, and OpenCV where Python
 //! has it.
 
-mod chains;
-mod scenes;
-
-use chains::Ours;
 use image::GrayImage;
-use scenes::Scene;
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use taxel_core::format::Code;
+use taxel_peers::chains::{self, Ours};
+use taxel_peers::scenes::{self, Scene};
 
 /// Repetitions that are timed together, and how often. All take turns within a round: what else the machine
 /// does, and how fast it is just then, meets them alike. It only ever adds, so the quickest round of each
@@ -21,7 +18,7 @@ const ROUNDS: usize = 201;
 const REPEATED: u32 = 25;
 
 /// The table as it was last written.
-const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench/peers.txt");
+const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/bench/peers.txt");
 
 fn main() {
     let asked = |option: &str| std::env::args().any(|arg| arg == option);
@@ -79,7 +76,7 @@ impl Course {
     fn new(scene: Scene) -> Course {
         let codes = scene.values.iter().map(|value| Code(u16::from(*value))).collect();
         let panel = chains::panel(&scene.values);
-        Course { scene, codes, panel, segment: Ours::new(), follow: Ours::new(), rounds: Vec::new() }
+        Course { scene, codes, panel, segment: Ours::default(), follow: Ours::default(), rounds: Vec::new() }
     }
 
     fn round(&mut self) {

@@ -1,0 +1,4 @@
+//! The core beside other libraries: the panels that all see, and what each does with them.
+
+pub mod chains;
+pub mod scenes;
