@@ -13,9 +13,11 @@ docs/python.md of the project.
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from types import TracebackType
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -51,6 +53,7 @@ from ._taxel import (
     Reflex,
     Regions,
     Refused,
+    RobotIntent,
     RobotTouch,
     SelfTest,
     Shapes,
@@ -97,6 +100,7 @@ __all__ = [
     "Refused",
     "Requests",
     "Robot",
+    "RobotIntent",
     "RobotTouch",
     "SelfTest",
     "Shapes",
@@ -146,8 +150,18 @@ class Robot(_taxel.Robot):
     """An open robot: an iterator over the events of all its boards, to be used with ``with``.
 
     Each event has the name of its ``board``. ``tare``, ``set_scene`` and ``self_test`` are for all boards, or for the
-    one of this name; a board that is lost gets them once it is back.
+    one of this name; a board that is lost gets them once it is back. ``tell`` and ``set_joints`` tell the robot's map
+    what others know, and how the robot moves.
     """
+
+    def why(self, of: str | None = None) -> dict[str, Any]:
+        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
+
+        It is what ``taxel robot why --json`` prints: the causes in units that add up, what each input heard down to
+        the contacts of each board, and why each board announced what it did.
+        """
+        found: dict[str, Any] = json.loads(super()._why(of))
+        return found
 
     def set_scene(self, path_or_text: str | os.PathLike[str], *, board: str | None = None) -> None:
         """Sends a scene: a TOML file, or its text. Missing keys have the shipped scene's values."""

@@ -11,6 +11,8 @@ pub struct RobotConfig {
     pub name: String,
     /// Its description: a URDF file, or `reference`.
     pub urdf: Option<String>,
+    /// What touches mean to it: a map of a robot, a TOML file or a shipped one; `robot` if left out.
+    pub map: Option<String>,
     /// Its boards.
     pub boards: Vec<BoardConfig>,
     /// Edges of panels of different boards that are sewn together.

@@ -9,6 +9,8 @@ use crate::body::{
     robot::{self, Robot},
 };
 use crate::error::{Context, FileError, Result};
+use crate::fcm::load;
+use crate::fcm::map::MapFile;
 use crate::files::calibrate::{Calibration, Forces};
 use crate::files::{garments, scripts};
 use crate::source::{SceneFile, SourceSpec, is_board};
@@ -33,6 +35,8 @@ pub struct ReadRobot {
     pub name: String,
     /// Its description, if it names one.
     pub robot: Option<Arc<Robot>>,
+    /// What touches mean to it.
+    pub map: MapFile,
     /// Its boards, in the order of the file; at least one.
     pub boards: Vec<RobotBoard>,
     /// Its seams between boards.
@@ -71,6 +75,8 @@ impl ReadRobot {
         let described = config.urdf.as_deref().map(|urdf| robot::read(&beside(urdf)));
         let described =
             described.transpose().with_context(|| place.error("urdf", "the robot"))?.map(Arc::new);
+        let map = load::map(&config.map.as_deref().map_or("robot".into(), &mut beside));
+        let map = map.with_context(|| place.error("map", "the map"))?;
         let mut boards: Vec<RobotBoard> = Vec::new();
         for (index, board) in config.boards.iter().enumerate() {
             let reader = BoardReader { place, index, config: &config, robot: described.as_ref() };
@@ -79,7 +85,7 @@ impl ReadRobot {
             boards.push(read);
         }
         let seams = seam::check(&config.seams, &boards, place)?;
-        Ok(ReadRobot { name: config.name, robot: described, boards, seams, inputs, text, file })
+        Ok(ReadRobot { name: config.name, robot: described, map, boards, seams, inputs, text, file })
     }
 
     /// Number of the board of this name.
