@@ -111,7 +111,7 @@ def test_the_robot_s_map_says_what_touches_of_two_boards_mean(tmp_path: Path) ->
         touch = f'panel = "{panel}"\nshape = "palm"\nat = [7.5, 15.5]\nsize_mm = [120, 90]\nforce_n = 12\nstart_s = 0.6\n'
         script = f'duration_s = 2.5\ngarment = "reference"\n[[touch]]\n{touch}rise_s = 0.4\nhold_s = 1.2\n'
         (tmp_path / f"{name}.toml").write_text(script)
-    meant = []
+    meant: list[taxel.RobotIntent] = []
     why: dict[str, Any] = {}
     with taxel.open_robot(file, realtime=True) as robot:
         with pytest.raises(taxel.UsageError, match='did you mean "vision"'):

@@ -104,6 +104,7 @@ __all__ = [
     "RobotTouch",
     "SelfTest",
     "Shapes",
+    "SteppedRobot",
     "Stream",
     "Symbols",
     "Sync",
@@ -174,6 +175,33 @@ class Robot(_taxel.Robot):
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+class SteppedRobot(_taxel.SteppedRobot):
+    """The very boards of a robot and its map, stepped by hand: the codes of a scan and a time in, meanings out.
+
+    ``path`` is a robot's file; its boards need a ``garment``, and their sources are not opened. All go by the time of
+    the steps. ``step`` gives a ``RobotIntent`` when touches mean something else than before.
+
+    >>> import numpy as np, taxel
+    >>> robot = taxel.SteppedRobot("robot.toml")  # doctest: +SKIP
+    >>> robot.set_joints({"left_elbow": 0.5}, 0)  # doctest: +SKIP
+    >>> robot.step("torso", np.full(robot.taxels("torso"), 100, np.uint16), 5000)  # doctest: +SKIP
+    """
+
+    def touches(self) -> list[dict[str, Any]]:
+        """What touches the robot now: ``board`` (its number), ``contact``, ``region``, ``link``, ``load``.
+
+        ``mover`` is ``own`` if the robot's own motion has caused the touch, ``other`` or ``unsure``; ``approach`` is how
+        the robot's surface moved before the onset, if that is known: ``normal_m_s`` outwards, ``speed_m_s`` in all.
+        """
+        found: list[dict[str, Any]] = json.loads(super()._touches())
+        return found
+
+    def why(self, of: str | None = None) -> dict[str, Any]:
+        """Why the robot's map has its activations now, as ``Robot.why``."""
+        found: dict[str, Any] = json.loads(super()._why(of))
+        return found
 
 
 class Board(_taxel.Board, Requests):

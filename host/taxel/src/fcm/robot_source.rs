@@ -9,6 +9,11 @@
 //! | `{ lasts = ["chest"] }` | ms | time since this part is touched without a gap |
 //! | `{ apart = [["chest"], ["back"]] }` | ms | time by which the touch of the first part began before that of the second; 0 unless both are touched |
 //! | `{ motion = ["arm"] }` | mm/s | speed of the fastest link of this part, by the joints that are told |
+//! | `"own"` | 2^-15 | share of the force that the robot's own motion has caused, on the board that announces something, the least of several; else on all boards |
+//! | `{ hardness = ["arm"] }` | counts/mm | force over depth of what this part has moved into |
+//! | `{ point = ["arm"] }` | percent | share of its force on a single taxel, at the greatest force |
+//! | `{ slide = ["arm"] }` | mm/s | greatest speed of it along the surface |
+//! | `{ stir = ["arm"] }` | percent | greatest change of its force while the part was still |
 //! | `{ told = "voice" }` | 2^-15 | what somebody told by this name |
 //!
 //! A part is named by words: a contact lies on it if one of them is a word of its region or of its link. No
@@ -36,6 +41,16 @@ pub enum RobotSource {
     Apart(PartWords, PartWords),
     /// Speed of the fastest link of a part, mm/s.
     Motion(PartWords),
+    /// Share of the force that the robot's own motion has caused, 2^-15.
+    Own,
+    /// Force over depth of what a part has moved into, counts/mm.
+    Hardness(PartWords),
+    /// Share of its force on a single taxel, percent.
+    Point(PartWords),
+    /// Greatest speed of it along the surface, mm/s.
+    Slide(PartWords),
+    /// Greatest change of its force while the part was still, percent.
+    Stir(PartWords),
     /// What somebody told by a name, 2^-15.
     Told(String),
 }

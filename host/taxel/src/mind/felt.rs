@@ -1,5 +1,6 @@
 //! What a board says of touches, for the mind of its robot.
 
+use super::mover::SurfaceSpot;
 use super::place::{BoardPlaces, BodyPlace};
 use crate::client::{Client, Event};
 use crate::fcm::map::MapFile;
@@ -15,10 +16,18 @@ pub struct FeltContact {
     pub contact: u32,
     /// Where it lies.
     pub place: Arc<BodyPlace>,
+    /// The point of the robot's surface; none unless the board has a body.
+    pub spot: Option<SurfaceSpot>,
     /// Its pressure, counts; with a calibration in force its force, thousandths of a newton.
     pub load: u32,
     /// Its area, mm2.
     pub cover_mm2: u32,
+    /// Its greatest pressure on a taxel, in the unit of the load.
+    pub peak: u32,
+    /// Its panel.
+    pub panel: u8,
+    /// Its centroid there along columns and rows, mm.
+    pub at_mm: [f64; 2],
 }
 
 /// What a board wears, as far as the mind needs it.
@@ -81,13 +90,22 @@ impl MindReader {
     fn felt(&self, client: &Client, touch: &BoardTouch) -> Option<FeltContact> {
         let worn = client.worn()?;
         let pitch_um = worn.layout.areas().get(usize::from(touch.panel))?.pitch_um;
-        let millinewtons =
-            touch.newtons_per_count.map(|newtons| (newtons * f64::from(touch.total) * 1e3).round() as u32);
+        // A pitch that is not known is taken as 10 mm.
+        let [x_mm, y_mm] = pitch_um.map(|um| if um == 0 { 10.0 } else { f64::from(um) * 1e-3 });
+        let scaled = |counts: u32| match touch.newtons_per_count {
+            Some(newtons) => (newtons * f64::from(counts) * 1e3).round() as u32,
+            None => counts,
+        };
+        let (place, spot) = self.places.at(worn, touch.panel, touch.centroid)?;
         Some(FeltContact {
             contact: touch.contact?,
-            place: self.places.at(worn, touch.panel, touch.centroid)?,
-            load: millinewtons.unwrap_or(touch.total),
+            place,
+            spot,
+            load: scaled(touch.total),
             cover_mm2: u32::from(touch.area).saturating_mul(cell_mm2(pitch_um)),
+            peak: scaled(touch.peak.into()),
+            panel: touch.panel,
+            at_mm: [touch.centroid[0] * x_mm, touch.centroid[1] * y_mm],
         })
     }
 }

@@ -1,5 +1,6 @@
 //! Where on the body a board's contacts lie.
 
+use super::mover::SurfaceSpot;
 use crate::body::Surface;
 use crate::client::Worn;
 use crate::robot::RobotBoard;
@@ -62,14 +63,22 @@ impl BoardPlaces {
         places
     }
 
-    /// Place of a point of a panel, `(x, y)` in taxels.
-    pub fn at(&self, worn: &Worn, panel: u8, [x, y]: [f64; 2]) -> Option<Arc<BodyPlace>> {
+    /// Place of a point of a panel, `(x, y)` in taxels, and the point of the surface if the board has a body.
+    pub fn at(
+        &self,
+        worn: &Worn,
+        panel: u8,
+        [x, y]: [f64; 2],
+    ) -> Option<(Arc<BodyPlace>, Option<SurfaceSpot>)> {
         let spot = self.surface.as_ref().and_then(|surface| surface.at(&worn.layout, panel, x, y));
         let on_surface = spot.and_then(|spot| {
             let mut spots = self.spots.iter();
             spots.find(|(link, region, _)| (*link, *region) == (spot.link, spot.region))
         });
-        on_surface.map(|(.., place)| place).or_else(|| self.panels.get(usize::from(panel))).cloned()
+        let place = on_surface.map(|(.., place)| place).or_else(|| self.panels.get(usize::from(panel)))?;
+        let spot =
+            spot.map(|spot| SurfaceSpot { link: place.link.clone(), at: spot.at, normal: spot.normal });
+        Some((place.clone(), spot))
     }
 
     /// All of them.

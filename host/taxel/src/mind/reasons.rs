@@ -145,6 +145,11 @@ fn said(source: &RobotSource) -> String {
         RobotSource::Lasts(of) => format!("touch of {} lasts", part(of)),
         RobotSource::Apart(a, b) => format!("touch of {} before that of {}", part(a), part(b)),
         RobotSource::Motion(of) => format!("motion of {}", part(of)),
+        RobotSource::Hardness(of) => format!("hardness of what {} moved into", part(of)),
+        RobotSource::Point(of) => format!("pointedness of what {} moved into", part(of)),
+        RobotSource::Slide(of) => format!("sliding of what {} moved into", part(of)),
+        RobotSource::Stir(of) => format!("stirring of what {} moved into", part(of)),
+        RobotSource::Own => "share by the robot's own motion".into(),
         RobotSource::Told(name) => format!("told as {name}"),
     }
 }

@@ -12,8 +12,9 @@ use crate::tell::words;
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{CONCEPTS, EDGES, Felt, Intent, IntentConfig, IntentState, Leading, Outcome};
 
-/// Time that an intention must lead before it is announced, ms: boards have waited already.
-const ONSET_MS: u16 = 10;
+/// Time that an intention must lead before it is announced, ms: boards have waited already, and what leads must not
+/// contradict what holds.
+const ONSET_MS: u16 = 0;
 /// Shortest time between two inferences, ms.
 const PERIOD_MS: u16 = 5;
 /// Greatest number of steps of an inference.

@@ -1,13 +1,22 @@
 //! What a robot senses now: the newest of each board, of its joints and of what others tell, each with its age.
 
 use super::felt::{BoardSense, FeltContact, WornMind};
+use super::mover::{Approach, Mover};
 use super::place::BodyPlace;
+use super::probe::{Probe, ProbeCourse};
 use super::speeds::LinkSpeeds;
 use crate::fcm::robot_source::{RobotInput, RobotSource};
 use std::collections::BTreeMap;
 use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
 use taxel_core::wire::IntentReport;
+
+/// Time for which a contact that has ended still counts for whose motion it was, us: a board announces what it
+/// meant as long.
+const HELD_US: u64 = 800_000;
+/// Time within which two contacts begin together, us; also that within which joints are told that were read
+/// before an onset.
+const TOGETHER_US: u64 = 150_000;
 
 /// A value for an input of the robot's map.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,12 +40,34 @@ pub struct SenseCause {
     pub age_ms: u32,
 }
 
-/// A present contact.
-#[derive(Debug, Clone)]
-struct PresentTouch {
-    felt: FeltContact,
+/// A contact that is present, or was until a moment ago.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensedTouch {
+    /// The contact, as it was told last.
+    pub felt: FeltContact,
     /// Host time at which it was first told, us.
-    since_us: u64,
+    pub since_us: u64,
+    /// Host time at which it was no longer told, us; none while it is present.
+    pub ended_us: Option<u64>,
+    /// Its greatest load so far.
+    pub most: u32,
+    /// How the robot's surface moved before the onset; none if it is not known.
+    pub approach: Option<Approach>,
+    /// Whose motion has caused it.
+    pub mover: Mover,
+    /// What it says of the object, if the robot has moved into it.
+    pub course: ProbeCourse,
+}
+
+impl SensedTouch {
+    /// Finds whose motion has caused it.
+    fn judge(&mut self, speeds: Option<&LinkSpeeds>) {
+        self.approach = self.felt.spot.as_ref().zip(speeds).and_then(|(spot, speeds)| {
+            // Where the contact is later says nothing of how it began.
+            spot.approach(speeds, self.since_us)
+        });
+        self.mover = self.approach.map_or(Mover::Unsure, Approach::mover);
+    }
 }
 
 /// What a board has said.
@@ -45,7 +76,8 @@ struct SensedBoard {
     /// Host time of what it said last, us; none while it is not there.
     heard_us: Option<u64>,
     worn: Option<WornMind>,
-    contacts: Vec<PresentTouch>,
+    /// Present contacts, and those that have ended within [`HELD_US`].
+    contacts: Vec<SensedTouch>,
     report: Option<Box<IntentReport>>,
 }
 
@@ -62,8 +94,59 @@ impl SensedBoard {
     }
 
     /// Contacts on a part.
-    fn touches<'a>(&'a self, part: &'a [String]) -> impl Iterator<Item = &'a PresentTouch> {
-        self.contacts.iter().filter(|touch| touch.felt.place.is_of(part))
+    fn touches<'a>(&'a self, part: &'a [String]) -> impl Iterator<Item = &'a SensedTouch> {
+        let present = self.contacts.iter().filter(|touch| touch.ended_us.is_none());
+        present.filter(|touch| touch.felt.place.is_of(part))
+    }
+
+    /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be told that
+    /// were read before.
+    fn list(&mut self, contacts: &[FeltContact], speeds: Option<&LinkSpeeds>, host_us: u64) {
+        let is_recent =
+            |touch: &SensedTouch| touch.ended_us.is_none_or(|ended| host_us.saturating_sub(ended) < HELD_US);
+        self.contacts.retain(is_recent);
+        for touch in self.contacts.iter_mut().filter(|touch| touch.ended_us.is_none()) {
+            if !contacts.iter().any(|felt| felt.contact == touch.felt.contact) {
+                touch.ended_us = Some(host_us);
+            }
+        }
+        for felt in contacts {
+            let known = self.contacts.iter_mut().find(|touch| touch.felt.contact == felt.contact);
+            match known {
+                Some(touch) => {
+                    let is_new = host_us.saturating_sub(touch.since_us) < TOGETHER_US;
+                    (touch.felt, touch.ended_us) = (felt.clone(), None);
+                    touch.most = touch.most.max(felt.load);
+                    touch.course.take(felt, speeds, host_us);
+                    if is_new && touch.mover != Mover::Own {
+                        touch.judge(speeds);
+                    }
+                }
+                None => {
+                    let mut touch = SensedTouch {
+                        felt: felt.clone(),
+                        since_us: host_us,
+                        ended_us: None,
+                        most: felt.load,
+                        approach: None,
+                        mover: Mover::Unsure,
+                        course: ProbeCourse::begin(felt, speeds, host_us),
+                    };
+                    touch.judge(speeds);
+                    self.contacts.push(touch);
+                }
+            }
+        }
+    }
+
+    /// Share of the force that the robot's own motion has caused, of present contacts and of those that have
+    /// just ended, 2^-15; none if nothing touches or nothing is known of the motion.
+    fn own(&self) -> Option<i32> {
+        let known = self.contacts.iter().any(|touch| touch.approach.is_some());
+        let most = |touch: &SensedTouch| u64::from(touch.most);
+        let all: u64 = self.contacts.iter().map(most).sum();
+        let own: u64 = self.contacts.iter().filter(|touch| touch.mover == Mover::Own).map(most).sum();
+        (known && all > 0).then(|| (own as f64 / all as f64 * f64::from(Q15::ONE.0)).round() as i32)
     }
 
     /// Activation of the intention that it announces; none if it announces another.
@@ -98,18 +181,54 @@ impl Senses {
             BoardSense::Begins(worn) => {
                 *sensed = SensedBoard { worn: Some(worn.clone()), ..SensedBoard::default() };
             }
-            BoardSense::Contacts(contacts) => {
-                let since = |felt: &FeltContact| {
-                    let before = sensed.contacts.iter().find(|touch| touch.felt.contact == felt.contact);
-                    before.map_or(host_us, |touch| touch.since_us)
-                };
-                let touch = |felt: &FeltContact| PresentTouch { felt: felt.clone(), since_us: since(felt) };
-                sensed.contacts = contacts.iter().map(touch).collect();
-            }
+            BoardSense::Contacts(contacts) => sensed.list(contacts, self.speeds.as_ref(), host_us),
             BoardSense::Intent(report) => sensed.report = Some(report.clone()),
             BoardSense::Alive => {}
         }
         sensed.heard_us = Some(sensed.heard_us.map_or(host_us, |heard| heard.max(host_us)));
+        if matches!(sense, BoardSense::Contacts(_)) {
+            self.pair(board, host_us);
+        }
+    }
+
+    /// Where the robot's own surfaces face each other and both are pressed, the robot touches itself, and one of them may
+    /// be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of a board and all others
+    /// that are present.
+    fn pair(&mut self, board: usize, now_us: u64) {
+        let Some(speeds) = &self.speeds else { return };
+        let all = || self.boards.iter().flat_map(|board| &board.contacts);
+        let is_own = |touch: &SensedTouch| {
+            let Some(spot) = touch.felt.spot.as_ref().filter(|_| touch.mover != Mover::Own) else {
+                return false;
+            };
+            all().any(|other| {
+                let Some(facing) = &other.felt.spot else { return false };
+                let began_with = other.since_us.abs_diff(touch.since_us) <= TOGETHER_US;
+                let is_bump = other.mover == Mover::Own && began_with && spot.is_beside(facing);
+                let is_pressed = other.ended_us.is_none() && touch.ended_us.is_none();
+                is_bump || is_pressed && spot.meets(facing, speeds, now_us)
+            })
+        };
+        let mut own = Vec::new();
+        for (number, sensed) in self.boards.iter().enumerate() {
+            let is_concerned = |touch: &&SensedTouch| number == board || touch.ended_us.is_none();
+            let touches = sensed.contacts.iter().filter(is_concerned).filter(|touch| is_own(touch));
+            own.extend(touches.map(|touch| (number, touch.felt.contact)));
+        }
+        for (number, contact) in own {
+            let touches = self.boards[number].contacts.iter_mut();
+            touches.filter(|touch| touch.felt.contact == contact).for_each(|touch| touch.mover = Mover::Own);
+        }
+    }
+
+    /// Number of boards.
+    pub fn boards(&self) -> usize {
+        self.boards.len()
+    }
+
+    /// Contacts of a board that are present, and those that have just ended.
+    pub fn touches(&self, board: usize) -> &[SensedTouch] {
+        self.boards.get(board).map_or(&[], |sensed| &sensed.contacts)
     }
 
     /// A board is lost: nothing that it said counts any longer.
@@ -173,6 +292,23 @@ impl Senses {
                 let [Some(first), Some(second)] = onsets else { return Some((0, age_ms)) };
                 Some(((second as i64 - first as i64) / 1000, age_ms))
             }
+            // A board's word is excused by its own contacts alone.
+            RobotSource::Own => {
+                let announces = |board: &SensedBoard| {
+                    board.report.as_ref().is_some_and(|report| report.leading != Leading::None)
+                };
+                let live =
+                    || self.boards.iter().filter(|board| board.age_ms(input.lasts_ms, now_us).is_some());
+                let announcing = live().filter(|board| announces(board));
+                let excused = announcing.map(|board| board.own().unwrap_or(0)).min();
+                let least = causes().min_by_key(|cause| cause.value)?;
+                Some((excused.unwrap_or(least.value).into(), least.age_ms))
+            }
+            // Of several objects, that which is pressed most.
+            RobotSource::Hardness(_)
+            | RobotSource::Point(_)
+            | RobotSource::Slide(_)
+            | RobotSource::Stir(_) => causes().next().map(|cause| (cause.value.into(), cause.age_ms)),
             RobotSource::Motion(_) | RobotSource::Told(_) => {
                 causes().next().map(|cause| (cause.value.into(), cause.age_ms))
             }
@@ -193,9 +329,9 @@ impl Senses {
             let live = ages.enumerate().zip(&self.boards);
             live.filter_map(|((number, age_ms), board)| Some((number, age_ms?, board)))
         };
-        let touches = |part: &[String], value: &dyn Fn(&PresentTouch) -> u64| -> Vec<SenseCause> {
+        let touches = |part: &[String], value: &dyn Fn(&SensedTouch) -> u64| -> Vec<SenseCause> {
             let of = |(number, age_ms, board): (usize, u32, &SensedBoard)| -> Vec<SenseCause> {
-                let cause = |touch: &PresentTouch| SenseCause {
+                let cause = |touch: &SensedTouch| SenseCause {
                     board: Some(number),
                     contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
                     value: i32::try_from(value(touch)).unwrap_or(i32::MAX),
@@ -205,9 +341,25 @@ impl Senses {
             };
             boards().flat_map(of).collect()
         };
+        let probed = |part: &[String], value: &dyn Fn(Probe) -> Option<u32>| -> Vec<SenseCause> {
+            let own = boards().flat_map(|(number, age_ms, board)| {
+                let own = board.contacts.iter().filter(|touch| touch.mover == Mover::Own);
+                own.filter(|touch| touch.felt.place.is_of(part)).map(move |touch| (number, age_ms, touch))
+            });
+            let most = own.max_by_key(|(.., touch)| touch.most);
+            let cause = most.and_then(|(number, age_ms, touch)| {
+                Some(SenseCause {
+                    board: Some(number),
+                    contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
+                    value: i32::try_from(value(touch.course.probe())?).unwrap_or(i32::MAX),
+                    age_ms,
+                })
+            });
+            cause.into_iter().collect()
+        };
         let alone = |value: i32, age_ms: u32| SenseCause { board: None, contact: None, value, age_ms };
         let is_young = |age_ms: &u32| input.lasts_ms.is_none_or(|lasts_ms| *age_ms < lasts_ms);
-        let since_ms = |touch: &PresentTouch| now_us.saturating_sub(touch.since_us) / 1000;
+        let since_ms = |touch: &SensedTouch| now_us.saturating_sub(touch.since_us) / 1000;
         match &input.source {
             RobotSource::Intent(leading) => {
                 let announced = boards().filter_map(|(number, age_ms, board)| {
@@ -229,6 +381,16 @@ impl Senses {
                 let fastest = self.speeds.as_ref().and_then(|speeds| speeds.fastest(now_us, is_meant));
                 let young = fastest.filter(|(_, age_ms)| is_young(age_ms));
                 young.map(|(speed, age_ms)| alone(speed, age_ms)).into_iter().collect()
+            }
+            RobotSource::Hardness(part) => probed(part, &|probe| probe.hardness),
+            RobotSource::Point(part) => probed(part, &|probe| Some(probe.point)),
+            RobotSource::Slide(part) => probed(part, &|probe| Some(probe.slide)),
+            RobotSource::Stir(part) => probed(part, &|probe| Some(probe.stir)),
+            RobotSource::Own => {
+                let own = boards().filter_map(|(number, age_ms, board)| {
+                    Some(SenseCause { board: Some(number), ..alone(board.own()?, age_ms) })
+                });
+                own.collect()
             }
             RobotSource::Told(name) => {
                 let told = self.told.get(name).map(|(value, from_us)| {

@@ -1,14 +1,18 @@
 //! How fast the robot's own links move, by the positions of its joints.
 
+use crate::body::DVec3;
 use crate::body::posture::{JointHistory, Motion};
 use crate::body::robot::Robot;
 use crate::error::Result;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use std::time::Duration;
 use taxel_core::format::Micros;
 
 /// Time over which a speed is taken, us.
 const STEP_US: u64 = 10_000;
+/// Age of the joints from which nothing is known of the robot's motion.
+const SILENT: Duration = Duration::from_millis(300);
 /// Distance from a link's origin at which its turning counts, m: half of a forearm.
 const REACH_M: f64 = 0.1;
 
@@ -42,6 +46,20 @@ impl LinkSpeeds {
         }
         self.history.need(&Vec::from_iter(self.told.iter().copied()));
         Ok(())
+    }
+
+    /// A point of a link and a direction there in the base at a time of the host, us. None without such a link,
+    /// or if nothing is known of the joints at that time.
+    pub fn point(&self, host_us: u64, link: &str, at: DVec3, direction: DVec3) -> Option<(DVec3, DVec3)> {
+        if self.told.is_empty() {
+            return None;
+        }
+        let estimate = self.history.live(Micros(host_us)).ok()?;
+        if estimate.age > SILENT {
+            return None;
+        }
+        let pose = self.robot.poses(&estimate.posture).of(self.robot.link(link).ok()?, 0)?;
+        Some((pose.point(at), pose.direction(direction)))
     }
 
     /// Speed of the fastest of the links that are meant, mm/s, and the age of the joints, ms. The speed of a link

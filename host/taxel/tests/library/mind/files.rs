@@ -60,15 +60,31 @@ fn a_robot_s_file_names_its_map() {
     )
     .unwrap();
     let text = |map: &str| {
-        format!("name = \"r\"\nmap = \"{map}\"\n[[boards]]\nname = \"b\"\nsource = \"sim:idle\"\n")
+        format!("name = \"r\"\nmaps = [\"{map}\"]\n[[boards]]\nname = \"b\"\nsource = \"sim:idle\"\n")
     };
     let read = |map: &str| ReadRobot::parse("r.toml".into(), text(map), folder);
-    assert_eq!(read("own.toml").unwrap().map.name, "m");
+    let own = read("own.toml").unwrap().map;
+    assert!(own.name == "robot" && own.find("x") == Some(0) && own.concept.len() == 2);
+    let both = read("robot\", \"probe").unwrap().map;
+    assert_eq!(
+        both,
+        ReadRobot::parse("r.toml".into(), text("robot").replacen("maps", "#", 1), folder).unwrap().map
+    );
+    let two = load::map("robot").unwrap().concept.len() + load::map("probe").unwrap().concept.len();
+    // Own, kindness, threat and attack are those of both.
+    assert_eq!(both.concept.len(), two - 4);
+    std::fs::write(
+        folder.join("other.toml"),
+        format!("{MAP}robot = {{ told = \"vision\" }}\nrise = [0, 9]\n"),
+    )
+    .unwrap();
+    let told = format!("{:#}", read("own.toml\", \"other.toml").unwrap_err());
+    assert!(told.contains("the input of x in m differs from that of the map before"), "{told}");
     let told = format!("{:#}", read("robto").unwrap_err());
     assert_eq!(
         told,
-        "r.toml, line 2, `map`: the map: there is no map \"robto\": did you mean \"robot\"? \
-         Known are tactile, shape, robot, or give a .toml file"
+        "r.toml, line 2, `maps`: the map of the robot: there is no map \"robto\": did you mean \"robot\"? \
+         Known are tactile, shape, robot, probe, or give a .toml file"
     );
 }
 

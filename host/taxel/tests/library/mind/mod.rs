@@ -3,6 +3,9 @@
 mod dropped;
 mod families;
 mod files;
+mod mover;
+mod probed;
+mod probes;
 mod reasons;
 mod spread;
 mod worn;
