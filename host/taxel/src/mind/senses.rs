@@ -11,8 +11,8 @@ use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
 use taxel_core::wire::IntentReport;
 
-/// Time for which a contact that has ended still counts for whose motion it was, us: a board announces what it
-/// meant as long.
+/// Time for which a contact that has ended still counts, and within which its greatest force does, us: a board announces
+/// what it meant nearly as long.
 const HELD_US: u64 = 800_000;
 /// Time within which two contacts begin together, us; also that within which joints are told that were read
 /// before an onset.
@@ -51,6 +51,8 @@ pub struct SensedTouch {
     pub ended_us: Option<u64>,
     /// Its greatest load so far.
     pub most: u32,
+    /// Its greatest load within [`HELD_US`], and the host's time of that, us.
+    recent: (u32, u64),
     /// How the robot's surface moved before the onset; none if it is not known.
     pub approach: Option<Approach>,
     /// Whose motion has caused it.
@@ -60,6 +62,19 @@ pub struct SensedTouch {
 }
 
 impl SensedTouch {
+    /// True if it is present or has ended within [`HELD_US`].
+    fn counts(&self, now_us: u64) -> bool {
+        self.ended_us.is_none_or(|ended| now_us.saturating_sub(ended) < HELD_US)
+    }
+
+    /// Takes the load of now.
+    fn load(&mut self, host_us: u64) {
+        let (recent, at_us) = self.recent;
+        if self.felt.load >= recent || host_us.saturating_sub(at_us) >= HELD_US {
+            self.recent = (self.felt.load, host_us);
+        }
+    }
+
     /// Finds whose motion has caused it.
     fn judge(&mut self, speeds: Option<&LinkSpeeds>) {
         self.approach = self.felt.spot.as_ref().zip(speeds).and_then(|(spot, speeds)| {
@@ -93,10 +108,10 @@ impl SensedBoard {
         self.worn.iter().flat_map(|worn| &worn.places).any(|place| place.is_of(part))
     }
 
-    /// Contacts on a part.
-    fn touches<'a>(&'a self, part: &'a [String]) -> impl Iterator<Item = &'a SensedTouch> {
-        let present = self.contacts.iter().filter(|touch| touch.ended_us.is_none());
-        present.filter(|touch| touch.felt.place.is_of(part))
+    /// Contacts on a part that are present or have ended within [`HELD_US`].
+    fn touches<'a>(&'a self, part: &'a [String], now_us: u64) -> impl Iterator<Item = &'a SensedTouch> {
+        let counts = move |touch: &&SensedTouch| touch.counts(now_us);
+        self.contacts.iter().filter(counts).filter(|touch| touch.felt.place.is_of(part))
     }
 
     /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be told that
@@ -117,6 +132,7 @@ impl SensedBoard {
                     let is_new = host_us.saturating_sub(touch.since_us) < TOGETHER_US;
                     (touch.felt, touch.ended_us) = (felt.clone(), None);
                     touch.most = touch.most.max(felt.load);
+                    touch.load(host_us);
                     touch.course.take(felt, speeds, host_us);
                     if is_new && touch.mover != Mover::Own {
                         touch.judge(speeds);
@@ -128,6 +144,7 @@ impl SensedBoard {
                         since_us: host_us,
                         ended_us: None,
                         most: felt.load,
+                        recent: (felt.load, host_us),
                         approach: None,
                         mover: Mover::Unsure,
                         course: ProbeCourse::begin(felt, speeds, host_us),
@@ -318,7 +335,7 @@ impl Senses {
     /// Onset of the oldest contact on a part, us.
     fn onset_us(&self, part: &[String], lasts_ms: Option<u32>, now_us: u64) -> Option<u64> {
         let boards = self.boards.iter().filter(|board| board.age_ms(lasts_ms, now_us).is_some());
-        boards.flat_map(|board| board.touches(part)).map(|touch| touch.since_us).min()
+        boards.flat_map(|board| board.touches(part, now_us)).map(|touch| touch.since_us).min()
     }
 
     /// What a value consists of, down to contacts; nothing if it is the default or nothing touches. Of an
@@ -337,7 +354,7 @@ impl Senses {
                     value: i32::try_from(value(touch)).unwrap_or(i32::MAX),
                     age_ms,
                 };
-                board.touches(part).map(cause).collect()
+                board.touches(part, now_us).map(cause).collect()
             };
             boards().flat_map(of).collect()
         };
@@ -368,8 +385,10 @@ impl Senses {
                 });
                 announced.collect()
             }
-            RobotSource::Load(part) => touches(part, &|touch| touch.felt.load.into()),
-            RobotSource::Cover(part) => touches(part, &|touch| touch.felt.cover_mm2.into()),
+            RobotSource::Load(part) => touches(part, &|touch| touch.recent.0.into()),
+            RobotSource::Cover(part) => {
+                touches(part, &|touch| touch.ended_us.map_or(touch.felt.cover_mm2, |_| 0).into())
+            }
             RobotSource::Lasts(part) => touches(part, &since_ms),
             RobotSource::Apart(first, second) => {
                 let both = [first, second].map(|part| touches(part, &since_ms));

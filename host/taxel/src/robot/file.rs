@@ -78,8 +78,10 @@ impl ReadRobot {
         let described = config.urdf.as_deref().map(|urdf| robot::read(&beside(urdf)));
         let described =
             described.transpose().with_context(|| place.error("urdf", "the robot"))?.map(Arc::new);
-        let maps = config.maps.clone().unwrap_or_else(|| MAPS.map(String::from).into());
-        let maps: Result<Vec<MapFile>> = maps.iter().map(|map| load::map(&beside(map))).collect();
+        let maps: Result<Vec<MapFile>> = match &config.maps {
+            Some(maps) => maps.iter().map(|map| load::map(&beside(map))).collect(),
+            None => MAPS.into_iter().map(load::map).collect(),
+        };
         let map = maps.and_then(united).with_context(|| place.error("maps", "the map of the robot"))?;
         let mut boards: Vec<RobotBoard> = Vec::new();
         for (index, board) in config.boards.iter().enumerate() {

@@ -145,6 +145,21 @@ fn hand_and_arm(hand: &str, arm: &str, wish: Wish, number: u64) -> SpreadTouch {
     SpreadTouch { wish, span: (span.0, span.1.max(arm_span.1)), parts: [on_hand, on_arm], note }
 }
 
+/// The panel of a garment on which a scan has most above another.
+fn pressed_panel(garment: &Garment, scans: &mut Scans, [rest_us, pressed_us]: [u64; 2]) -> usize {
+    let layout = Layout::build(garment, 2048, 4095).unwrap();
+    let mut codes = [vec![0; layout.taxels()], vec![0; layout.taxels()]];
+    scans(rest_us, &mut codes[0]);
+    scans(pressed_us, &mut codes[1]);
+    let risen = |panel: &usize| {
+        let area = &layout.areas()[*panel];
+        let first = usize::from(area.base);
+        let taxels = first..first + usize::from(area.rows) * usize::from(area.columns);
+        taxels.map(|at| u64::from(codes[1][at].saturating_sub(codes[0][at]))).sum::<u64>()
+    };
+    (0..layout.areas().len()).max_by_key(risen).unwrap()
+}
+
 /// What a chest meets while the back already leans on something.
 fn leaning_back(chest: &str, wish: Wish, number: u64) -> SpreadTouch {
     let on_panel = |name: &str, panel: usize| {
@@ -152,25 +167,37 @@ fn leaning_back(chest: &str, wish: Wish, number: u64) -> SpreadTouch {
         (0..).find_map(|more| {
             let act = || strange(name, 1000 * more + number);
             let mut tried = act();
-            let layout = Layout::build(&tried.garment, 2048, 4095).unwrap();
-            let mut codes = [vec![0; 2048], vec![0; 2048]];
-            (tried.codes)(0, &mut codes[0]);
-            let middle = tried.span.0.midpoint(tried.span.1.min(tried.span.0 + 60 * MS));
-            (tried.codes)(middle, &mut codes[1]);
-            let risen = |panel: usize| {
-                let first = usize::from(layout.areas()[panel].base);
-                (first..first + 512)
-                    .map(|at| u64::from(codes[1][at].saturating_sub(codes[0][at])))
-                    .sum::<u64>()
-            };
-            let most = (0..4).max_by_key(|panel| risen(*panel)).unwrap();
-            (most == panel).then(act)
+            let pressed_us = tried.span.0.midpoint(tried.span.1.min(tried.span.0 + 60 * MS));
+            let on = pressed_panel(&tried.garment, &mut tried.codes, [0, pressed_us]);
+            (on == panel).then(act)
         })
     };
     let (front, rear) = (on_panel(chest, 0).unwrap(), on_panel("leaning", 1).unwrap());
     let (span, note) = (front.span, front.note.clone());
     let parts = [later(some(front, [0, 2]), 2000), some(rear, [1, 3])];
     SpreadTouch { wish, span: (span.0, span.1 + 2_000 * MS), parts, note }
+}
+
+/// Two firm hands, one on the chest and one on the back: each alone restrains.
+fn firm_hug(number: u64) -> SpreadTouch {
+    let on_panel = |panel: usize| {
+        (0..).find_map(|more| {
+            let person =
+                || -> Box<dyn Session> { Box::new(hands::Person::new(2 * (1000 * more + number), 1)) };
+            let mut tried = person();
+            let act = tried.acts().iter().find(|act| act.kind == Kind::Hold).unwrap().clone();
+            let garment = tried.garment();
+            let mut scans: Scans = Box::new(move |now, codes| tried.frame(now, codes));
+            let times = [act.span.0.saturating_sub(200 * MS), act.span.0 + 600 * MS];
+            let on = pressed_panel(&garment, &mut scans, times);
+            (on == panel).then(|| of_person(Kind::Hold, person))
+        })
+    };
+    let (front, rear) = (on_panel(0).unwrap(), on_panel(1).unwrap());
+    let span = (BEFORE_US, front.span.1.min(rear.span.1));
+    let ([on_chest, _], [_, on_back]) = (front.parts, rear.parts);
+    let note = format!("{}; {}", front.note, rear.note);
+    SpreadTouch { wish: Wish::Kind, span, parts: [on_chest, on_back], note }
 }
 
 /// All families: those of both authors of the families of one board, and those that two boards need.
@@ -199,6 +226,7 @@ pub fn families() -> Vec<SpreadFamily> {
     more("pat on hand and arm", pair("pat", "pat", Wish::Kind));
     more("push on hand and arm", pair("push", "push", Wish::Harmful));
     more("blow on a held hand", pair("handshake", "slap of 80 N", Wish::Attack));
+    more("firm hug", Box::new(firm_hug));
     let leaning = |chest, wish| Box::new(move |number| leaning_back(chest, wish, number));
     more("blow against a chair", leaning("slap of 80 N", Wish::Attack));
     more("push against a chair", leaning("push", Wish::Harmful));
