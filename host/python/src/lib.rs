@@ -13,6 +13,7 @@
 //! | `stream` | `Stream`: a board's stream |
 //! | `robot` | `Robot`: all boards of a robot as one stream |
 //! | `board` | `Board`: the very board, stepped by hand |
+//! | `stepped_robot` | `SteppedRobot`: the very boards of a robot and its mind, stepped by hand |
 //! | `recording` | recordings: contents, events, messages |
 //! | `features` | features of a touch, moments of an image |
 //! | `folds` | what the garment's folds press |
@@ -37,6 +38,8 @@ mod stream;
 mod robot;
 
 mod board;
+
+mod stepped_robot;
 
 mod recording;
 
@@ -63,6 +66,7 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<stream::Stream>()?;
     module.add_class::<robot::Robot>()?;
     module.add_class::<board::Board>()?;
+    module.add_class::<stepped_robot::SteppedRobot>()?;
     module.add_class::<recording::RecordedEvents>()?;
     module.add_class::<recording::RecordedMessages>()?;
     module.add_function(wrap_pyfunction!(recording::overview, module)?)?;

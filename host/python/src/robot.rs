@@ -3,16 +3,17 @@
 use crate::error::{argument, raised};
 use crate::event::{self, Fact, Teller};
 use pyo3::prelude::*;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel::client::{Client, Event};
+use taxel::mind::{BoardSense, MindReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
 use taxel::record::Stamp;
 use taxel::robot::{
-    BoardEvent, BoardLine, BoardOrder, BoardScan, ReadRobot, RobotContacts, RobotContactsLine, RobotEvent,
-    RobotSession, ScanReader, Teller as BoardTeller, WhenFull,
+    BoardEvent, BoardLine, BoardOrder, BoardScan, ReadRobot, RobotBoard, RobotContacts, RobotContactsLine,
+    RobotEvent, RobotSession, ScanReader, Teller as BoardTeller, WhenFull,
 };
 use taxel::source::{SceneFile, SourceOptions};
 
@@ -33,6 +34,10 @@ struct OpenRobot {
     session: RobotSession<BoardFact>,
     /// None if no boards are sewn together.
     contacts: Option<RobotContacts>,
+    /// None unless all boards are at one time.
+    mind: Option<RobotMind>,
+    /// Host time of the begin, us.
+    begun_us: u64,
     /// What is told next.
     waiting: VecDeque<Fact>,
 }
@@ -41,6 +46,7 @@ struct OpenRobot {
 struct BoardFact {
     fact: Fact,
     scan: Option<BoardScan>,
+    sense: Option<BoardSense>,
 }
 
 /// Makes facts of a board's events.
@@ -48,6 +54,7 @@ struct FactTeller {
     board: String,
     teller: Teller,
     reader: ScanReader,
+    mind: Option<MindReader>,
 }
 
 impl FactTeller {
@@ -62,43 +69,76 @@ impl FactTeller {
 impl BoardTeller<BoardFact> for FactTeller {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
         let fact = self.teller.fact(client, event, stamp.host_ns());
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan: self.reader.scan(client, event) }))
+        let scan = self.reader.scan(client, event);
+        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, scan.as_ref()));
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan, sense }))
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
         let fact = self.teller.note(client, note, stamp.host_ns());
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan: None }))
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan: None, sense: None }))
     }
 }
 
 impl OpenRobot {
     fn open(path: PathBuf, options: &SourceOptions) -> anyhow::Result<OpenRobot> {
         let robot = ReadRobot::read(&path)?;
+        let is_minded = options.realtime || robot.boards.iter().all(RobotBoard::is_real);
+        let mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
         let teller = |number: usize| -> Box<dyn BoardTeller<BoardFact>> {
             Box::new(FactTeller {
                 board: robot.boards[number].name.clone(),
                 teller: Teller::default(),
                 reader: ScanReader::new(&robot, number),
+                mind: is_minded.then(|| MindReader::new(&robot, number)),
             })
         };
         let limit = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let session = RobotSession::start(robot.plans(options, limit, teller), WhenFull::DropImages)?;
         let contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
-        Ok(OpenRobot { robot, session, contacts, waiting: VecDeque::new() })
+        let begun_us = session.now_us();
+        Ok(OpenRobot { robot, session, contacts, mind, begun_us, waiting: VecDeque::new() })
     }
 
     /// Looks for what is told next; none if nothing has come for a while.
     fn look(&mut self) -> anyhow::Result<Option<Fact>> {
-        if self.waiting.is_empty()
-            && let Some(event) = self.session.wait(LOOK)
-        {
-            self.take(event)?;
+        if self.waiting.is_empty() {
+            match self.session.wait(LOOK) {
+                Some(event) => self.take(event)?,
+                None => self.mean(|mind, now_us| mind.pass(now_us).is_some())?,
+            }
         }
         Ok(self.waiting.pop_front())
     }
 
     fn is_over(&self) -> bool {
         self.waiting.is_empty() && self.session.is_over()
+    }
+
+    /// Lets the mind hear something at the host's time, us, and tells what it means if that is news.
+    fn mean(&mut self, hear: impl FnOnce(&mut RobotMind, u64) -> bool) -> anyhow::Result<()> {
+        let now_us = self.session.now_us();
+        let Some(mind) = self.mind.as_mut() else { return Ok(()) };
+        if hear(mind, now_us)
+            && let Some(meaning) = mind.meaning()
+        {
+            let line = serde_json::to_value(RobotMeaningLine::of(mind, meaning))?;
+            self.waiting.push_back(Fact::alone(line, meaning.host_us.saturating_mul(1000)));
+        }
+        Ok(())
+    }
+
+    /// Tells the mind what others know.
+    fn tell(&mut self, line: &ToldLine) -> anyhow::Result<()> {
+        let mut told =
+            Err(argument("the boards are not at one time: open the robot with realtime=True").into());
+        self.mean(|mind, now_us| {
+            let news = mind.tell(line, now_us).map(|news| news.is_some());
+            let is_news = matches!(news, Ok(true));
+            told = news.map(drop).map_err(anyhow::Error::from);
+            is_news
+        })?;
+        told
     }
 
     fn take(&mut self, event: RobotEvent<BoardFact>) -> anyhow::Result<()> {
@@ -114,14 +154,20 @@ impl OpenRobot {
             }
             _ => Vec::new(),
         });
-        if let BoardEvent::News(BoardFact { fact, .. }) = what {
-            self.waiting.push_back(fact);
+        let is_gone = matches!(what, BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_));
+        let mut sense = None;
+        if let BoardEvent::News(news) = what {
+            self.waiting.push_back(news.fact);
+            sense = news.sense;
         }
         if !joined.is_empty() {
             let line = serde_json::to_value(RobotContactsLine::of(&self.robot, host_us, &joined))?;
             self.waiting.push_back(Fact::alone(line, stamp.host_ns()));
         }
-        Ok(())
+        self.mean(|mind, _| match &sense {
+            Some(sense) => mind.board(board, sense, host_us).is_some(),
+            None => is_gone && mind.forget(board, host_us).is_some(),
+        })
     }
 }
 
@@ -158,6 +204,25 @@ impl Robot {
             None => return Err(argument("the robot is closed").into()),
         };
         Ok(())
+    }
+}
+
+impl Robot {
+    fn told(&self, line: &ToldLine) -> anyhow::Result<()> {
+        match self.interrupt().as_mut() {
+            Some(robot) => robot.tell(line),
+            None => Err(argument("the robot is closed").into()),
+        }
+    }
+
+    fn why(&self, of: Option<&str>) -> anyhow::Result<String> {
+        let open = self.interrupt();
+        let Some(robot) = open.as_ref() else { return Err(argument("the robot is closed").into()) };
+        let Some(mind) = &robot.mind else {
+            return Err(argument("the boards are not at one time: open the robot with realtime=True").into());
+        };
+        let seconds = robot.session.now_us().saturating_sub(robot.begun_us) as f64 / 1e6;
+        Ok(RobotReasons::of(mind, seconds, of, &robot.robot)?.json(&robot.robot).to_string())
     }
 }
 
@@ -219,6 +284,26 @@ impl Robot {
     fn _set_scene(&self, py: Python<'_>, path_or_text: &str, board: Option<&str>) -> PyResult<()> {
         let send = || self.order(board, &BoardOrder::Scene(Box::new(SceneFile::named(path_or_text)?)));
         py.detach(send).map_err(raised)
+    }
+
+    /// Tells the robot's map what others know: a value of -1 to 1 by its name, of this age.
+    #[pyo3(signature = (name, value, *, age_ms=0))]
+    fn tell(&self, py: Python<'_>, name: String, value: f64, age_ms: u32) -> PyResult<()> {
+        let line = ToldLine { told: [(name, value)].into(), age_ms, ..ToldLine::default() };
+        py.detach(|| self.told(&line)).map_err(raised)
+    }
+
+    /// Tells positions of the robot's joints, rad or m, of this age.
+    #[pyo3(signature = (positions, *, age_ms=0))]
+    fn set_joints(&self, py: Python<'_>, positions: BTreeMap<String, f64>, age_ms: u32) -> PyResult<()> {
+        let line = ToldLine { positions, age_ms, ..ToldLine::default() };
+        py.detach(|| self.told(&line)).map_err(raised)
+    }
+
+    /// Why the robot's map has its activations now, as JSON.
+    #[pyo3(signature = (of=None))]
+    fn _why(&self, py: Python<'_>, of: Option<&str>) -> PyResult<String> {
+        py.detach(|| self.why(of)).map_err(raised)
     }
 
     /// Examines lines and inputs of this board, or of all.

@@ -89,3 +89,56 @@ def test_a_board_is_asked_by_its_name(file: Path) -> None:
     assert ("torso", "set-scene") in answers and ("hand", "set-scene") not in answers
     with pytest.raises(taxel.UsageError, match="the robot is closed"):
         robot.tare()
+
+
+HUG = """name = "two"
+urdf = "reference"
+[[boards]]
+name = "front"
+source = "sim:front.toml"
+garment = "reference"
+[[boards]]
+name = "rear"
+source = "sim:rear.toml"
+garment = "reference"
+"""
+
+
+def test_the_robot_s_map_says_what_touches_of_two_boards_mean(tmp_path: Path) -> None:
+    file = tmp_path / "robot.toml"
+    file.write_text(HUG)
+    for name, panel in (("front", "chest"), ("rear", "back")):
+        touch = f'panel = "{panel}"\nshape = "palm"\nat = [7.5, 15.5]\nsize_mm = [120, 90]\nforce_n = 12\nstart_s = 0.6\n'
+        script = f'duration_s = 2.5\ngarment = "reference"\n[[touch]]\n{touch}rise_s = 0.4\nhold_s = 1.2\n'
+        (tmp_path / f"{name}.toml").write_text(script)
+    meant: list[taxel.RobotIntent] = []
+    why: dict[str, Any] = {}
+    with taxel.open_robot(file, realtime=True) as robot:
+        with pytest.raises(taxel.UsageError, match='did you mean "vision"'):
+            robot.tell("visoin", 0.5)
+        with pytest.raises(taxel.UsageError, match="must be -1 to 1"):
+            robot.tell("vision", 1.5)
+        with pytest.raises(taxel.Error, match='there is no joint "knee"'):
+            robot.set_joints({"knee": 0.5})
+        for event in robot:
+            if not meant:
+                robot.tell("voice", 0.5, age_ms=20)
+            if isinstance(event, taxel.RobotIntent):
+                meant.append(event)
+                if "hug" in event.holding and not why:
+                    why = robot.why("hug")
+    hugs = [event for event in meant if "hug" in event.holding]
+    assert any(event.leading == "kindness" for event in hugs)
+    assert all(event.concepts["hug"] >= 0.4 and "plan" in event.defaults for event in hugs)
+    assert "voice" not in hugs[0].defaults
+    causes = {heard["concept"]: heard["causes"] for heard in why["heard"]}
+    assert why["concept"] == "hug" and {cause["board"] for cause in causes["chest"]} == {"front"}
+    assert {cause["region"] for cause in causes["back"]} == {"back"}
+
+
+def test_boards_at_times_of_their_own_have_no_mind(file: Path) -> None:
+    with taxel.open_robot(file, seconds=0.1) as robot:
+        with pytest.raises(taxel.UsageError, match="realtime=True"):
+            robot.tell("vision", 0.5)
+        with pytest.raises(taxel.UsageError, match="realtime=True"):
+            robot.why()

@@ -16,6 +16,7 @@ pub mod map;
 pub mod member;
 pub mod paths;
 pub mod ran;
+pub mod robot_source;
 pub mod scene;
 pub mod search;
 pub mod steps;

@@ -28,6 +28,7 @@
 //! | [`ros2`] | messages of ROS 2 and their layout |
 //! | [`record`] | recordings of a stream and their topics |
 //! | [`robot`] | a robot of several boards: its file, and all their streams as one |
+//! | [`mind`] | what touches mean to a robot of several boards |
 //! | [`learn`] | training of what a board recognises |
 //!
 //! Every error is an [`Error`]: sentences for people, and a [kind](Error::kind) that a program can match:
@@ -86,6 +87,8 @@ pub mod ros2;
 pub mod record;
 
 pub mod robot;
+
+pub mod mind;
 
 pub mod learn;
 

@@ -55,13 +55,13 @@ fn the_commands_of_the_document_run() {
         assert!(!done.stdout.is_empty() || line.contains("record"), "{line}");
         count += 1;
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 8);
 }
 
 #[test]
 fn the_document_names_every_key_and_state() {
     let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
-    let keys = "name urdf boards boards.name boards.source boards.serial boards.garment boards.scene boards.tare \
+    let keys = "name urdf maps boards boards.name boards.source boards.serial boards.garment boards.scene boards.tare \
                 boards.body boards.link seams seams.a seams.b seams.length seams.reversed";
     let states = "absent met lost back other dropped over failed";
     for word in keys.split(' ').chain(states.split(' ')) {
@@ -227,6 +227,9 @@ fn boards_that_are_pulled_come_back_in_another_order_and_never_under_another_nam
         let mut states = Vec::new();
         while !missing.is_empty() {
             let line: Value = serde_json::from_str(&lines.next().expect("it goes on").unwrap()).unwrap();
+            if line["type"] == "robot_intent" {
+                continue;
+            }
             let board = line["board"].as_str().unwrap().to_string();
             let garment = GARMENTS.iter().find(|(name, _)| *name == board).unwrap().1;
             match line["type"].as_str().unwrap() {
@@ -308,9 +311,80 @@ fn boards_are_asked_by_lines_while_they_are_followed() {
         "lines.txt, line 6: there is no board \"hnad\": did you mean \"hand\"? Known are hand, gone, foot",
         "lines.txt, line 7: board foot: tare over \"many\"",
         "lines.txt, line 8: a tare takes 1 to 4096 frames, not 5000",
-        "lines.txt, line 9: \"dance\": must be tare [BOARD] [N], scene [BOARD] FILE or self-test [BOARD]",
+        "lines.txt, line 9: \"dance\": must be tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD] or told NAME VALUE \
+         [AGE_MS]",
         "lines.txt, line 10: board gone: ",
     ] {
         assert!(text(&done.stderr).contains(why), "{why}\n{}", text(&done.stderr));
     }
+}
+
+/// A robot whose chest and back are boards of their own, and that is embraced.
+fn embraced(name: &str) -> PathBuf {
+    let board = |name: &str| {
+        format!("[[boards]]\nname = \"{name}\"\nsource = \"sim:{name}.toml\"\ngarment = \"reference\"\n")
+    };
+    let folder =
+        folder(name, &format!("name = \"two\"\nurdf = \"reference\"\n{}{}", board("front"), board("rear")));
+    for (name, panel, newtons) in [("front", "chest", 12), ("rear", "back", 15)] {
+        let script = format!(
+            "duration_s = 3.5\ngarment = \"reference\"\n[[touch]]\npanel = \"{panel}\"\nshape = \"palm\"\n\
+             at = [7.5, 15.5]\nsize_mm = [120, 90]\nforce_n = {newtons}\nstart_s = 0.6\nrise_s = 0.4\nhold_s = 1.2\nfall_s = 0.2\n"
+        );
+        std::fs::write(folder.join(format!("{name}.toml")), script).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
+    let folder = embraced("embraced");
+    let told = "told vision 0.5 40\n{\"told\": {\"voice\": 0.25}}\n{\"positions\": {\"waist\": 0.0}}\ntold visoin 1\n\
+                told voice 3\ntold plan 1 2 3\n{\"positions\": {\"knee\": 1}}\n";
+    std::fs::write(folder.join("told.txt"), told).unwrap();
+    let args = ["robot", "live", "robot.toml", "--realtime", "--requests", "told.txt"];
+    let done = run(&folder, &[&args[..], &["--json"]].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let lines = text(&done.stdout).lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let meant: Vec<Value> = lines.filter(|line| line["type"] == "robot_intent").collect();
+    let is_hug = |line: &Value| line["holding"].as_array().unwrap().contains(&json!("hug"));
+    let hug = meant.iter().find(|line| is_hug(line)).expect("it is embraced");
+    assert!(
+        hug["concepts"]["hug"].as_f64().unwrap() >= 0.5 && hug["host_time_us"].as_u64().unwrap() > 1 << 50
+    );
+    assert!(meant.iter().any(|line| is_hug(line) && line["leading"] == "kindness"), "{meant:?}");
+    assert!(meant.iter().all(|line| line["leading"] != "threat" && line["leading"] != "attack"), "{meant:?}");
+    assert_eq!(meant.last().unwrap()["leading"], "none");
+    let defaults = hug["defaults"].as_array().unwrap();
+    assert!(defaults.contains(&json!("plan")) && defaults.contains(&json!("hand")), "{hug}");
+    for why in [
+        "told.txt, line 4: there is no name of what is told \"visoin\": did you mean \"vision\"?",
+        "told.txt, line 5: voice is 3, and must be -1 to 1",
+        "told.txt, line 6: \"told plan 1 2 3\": must be told NAME VALUE [AGE_MS]",
+        "told.txt, line 7: reference: there is no joint \"knee\"",
+    ] {
+        assert!(text(&done.stderr).contains(why), "{why}\n{}", text(&done.stderr));
+    }
+    let lines = run(&folder, &args);
+    assert!(text(&lines.stdout).contains("robot kindness; hug 0."), "{}", text(&lines.stdout));
+    let why = run(&folder, &["robot", "why", "robot.toml", "--at", "1.6", "--of", "hug"]);
+    let why = text(&why.stdout);
+    for part in [
+        "hug is 0.",
+        "chest: a hug is chest",
+        "  chest: load of chest ",
+        "    board front: contact 1 on chest (torso): ",
+        "    board rear: contact 1 on back (torso): ",
+        "  voice: told as voice 0, the default: nothing is known",
+    ] {
+        assert!(why.contains(part), "{part} in {why}");
+    }
+    let announced = run(&folder, &["robot", "why", "robot.toml", "--json"]);
+    let announced: Value = serde_json::from_slice(&announced.stdout).unwrap();
+    assert_eq!((&announced["leading"], &announced["concept"]), (&json!("kindness"), &json!("kindness")));
+    std::fs::write(folder.join("front.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
+    std::fs::write(folder.join("rear.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
+    let none = run(&folder, &["robot", "why", "robot.toml"]);
+    let told = "error: robot.toml: no intention was announced; --at S explains the state at that time\n";
+    assert_eq!((none.status.code(), text(&none.stderr)), (Some(1), told));
 }

@@ -13,9 +13,11 @@ docs/python.md of the project.
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from types import TracebackType
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -51,6 +53,7 @@ from ._taxel import (
     Reflex,
     Regions,
     Refused,
+    RobotIntent,
     RobotTouch,
     SelfTest,
     Shapes,
@@ -97,9 +100,11 @@ __all__ = [
     "Refused",
     "Requests",
     "Robot",
+    "RobotIntent",
     "RobotTouch",
     "SelfTest",
     "Shapes",
+    "SteppedRobot",
     "Stream",
     "Symbols",
     "Sync",
@@ -146,8 +151,18 @@ class Robot(_taxel.Robot):
     """An open robot: an iterator over the events of all its boards, to be used with ``with``.
 
     Each event has the name of its ``board``. ``tare``, ``set_scene`` and ``self_test`` are for all boards, or for the
-    one of this name; a board that is lost gets them once it is back.
+    one of this name; a board that is lost gets them once it is back. ``tell`` and ``set_joints`` tell the robot's map
+    what others know, and how the robot moves.
     """
+
+    def why(self, of: str | None = None) -> dict[str, Any]:
+        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
+
+        It is what ``taxel robot why --json`` prints: the causes in units that add up, what each input heard down to
+        the contacts of each board, and why each board announced what it did.
+        """
+        found: dict[str, Any] = json.loads(super()._why(of))
+        return found
 
     def set_scene(self, path_or_text: str | os.PathLike[str], *, board: str | None = None) -> None:
         """Sends a scene: a TOML file, or its text. Missing keys have the shipped scene's values."""
@@ -160,6 +175,33 @@ class Robot(_taxel.Robot):
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+class SteppedRobot(_taxel.SteppedRobot):
+    """The very boards of a robot and its map, stepped by hand: the codes of a scan and a time in, meanings out.
+
+    ``path`` is a robot's file; its boards need a ``garment``, and their sources are not opened. All go by the time of
+    the steps. ``step`` gives a ``RobotIntent`` when touches mean something else than before.
+
+    >>> import numpy as np, taxel
+    >>> robot = taxel.SteppedRobot("robot.toml")  # doctest: +SKIP
+    >>> robot.set_joints({"left_elbow": 0.5}, 0)  # doctest: +SKIP
+    >>> robot.step("torso", np.full(robot.taxels("torso"), 100, np.uint16), 5000)  # doctest: +SKIP
+    """
+
+    def touches(self) -> list[dict[str, Any]]:
+        """What touches the robot now: ``board`` (its number), ``contact``, ``region``, ``link``, ``load``.
+
+        ``mover`` is ``own`` if the robot's own motion has caused the touch, ``other`` or ``unsure``; ``approach`` is how
+        the robot's surface moved before the onset, if that is known: ``normal_m_s`` outwards, ``speed_m_s`` in all.
+        """
+        found: list[dict[str, Any]] = json.loads(super()._touches())
+        return found
+
+    def why(self, of: str | None = None) -> dict[str, Any]:
+        """Why the robot's map has its activations now, as ``Robot.why``."""
+        found: dict[str, Any] = json.loads(super()._why(of))
+        return found
 
 
 class Board(_taxel.Board, Requests):

@@ -49,11 +49,16 @@ impl MapFile {
             let edge = Edge { from: number(&edge.from)?, to: number(&edge.to)?, weight };
             config.edges.push(edge).map_err(|_| full("edges", self.edge.len(), E))?;
         }
+        let mut of_robot = 0..=u8::MAX;
         for (number, input) in self.input.iter().enumerate() {
+            let slot = match input.robot {
+                Some(_) => of_robot.next().ok_or_else(|| full("inputs", self.input.len(), 256))?,
+                None => 0,
+            };
             let known = self.index(&input.concept, "an input");
             let concept =
                 u8::try_from(known.map_err(|why| wrong(&[Key("input"), At(number), Key("concept")], why))?)?;
-            for ramp in input.inputs(concept, decimals).map_err(inside("input", number, None))? {
+            for ramp in input.inputs(concept, decimals, slot).map_err(inside("input", number, None))? {
                 config.inputs.push(ramp).map_err(|_| full("inputs", self.input.len(), N))?;
             }
         }

@@ -10,8 +10,12 @@ use std::borrow::Cow;
 use std::path::Path;
 
 /// The shipped maps.
-pub const SHIPPED: [(&str, &str); 2] =
-    [("tactile", include_str!("../../maps/tactile.toml")), ("shape", include_str!("../../maps/shape.toml"))];
+pub const SHIPPED: [(&str, &str); 4] = [
+    ("tactile", include_str!("../../maps/tactile.toml")),
+    ("shape", include_str!("../../maps/shape.toml")),
+    ("robot", include_str!("../../maps/robot.toml")),
+    ("probe", include_str!("../../maps/probe.toml")),
+];
 
 /// Reads a map: a TOML file, or a shipped one by name. Errors are sentences with file, place and value.
 pub fn map(name_or_path: &str) -> Result<MapFile> {

@@ -3,6 +3,7 @@
 use super::decimal::Decimal;
 use super::engine::{Problem, Settings};
 use super::member::InputFile;
+use super::robot_source::RobotInput;
 use super::steps::steps;
 use super::weight::Weight;
 use super::wrong::wrong;
@@ -142,6 +143,11 @@ impl MapFile {
     pub fn entries(&self) -> Vec<&str> {
         let names = self.concept.iter().map(|c| c.name.as_str());
         names.filter(|name| !self.is_driven(name)).collect()
+    }
+
+    /// What it hears of a robot, by the slots of its configuration.
+    pub fn robot_inputs(&self) -> Vec<RobotInput> {
+        self.input.iter().filter_map(InputFile::of_robot).collect()
     }
 
     /// Most decimals of any number of the map, at most the core's four.

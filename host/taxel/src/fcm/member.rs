@@ -10,10 +10,11 @@
 //! `at` defaults to `[0, 1]`; activations are linear between the points. Points are in the unit of the
 //! source. Triangle and trapezoid become two inputs of the board, whose activations add up.
 
+use super::robot_source::{RobotInput, RobotSource};
 use super::steps::steps;
 use crate::error::{MapFileError, Result};
 use serde::{Deserialize, Serialize};
-use taxel_core::intent::{MapInput, Source};
+use taxel_core::intent::{Leading, MapInput, Source};
 
 /// An input of a map file: exactly one of the four forms.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,6 +25,15 @@ pub struct InputFile {
     /// Source of the value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<Source>,
+    /// Source of the value that only a robot of several boards knows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<RobotSource>,
+    /// With `robot`: age from which a value no longer counts, ms; never if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lasts_ms: Option<u32>,
+    /// With `robot`: value that counts then, and while there is none; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub otherwise: Option<i32>,
     /// Increases from the first point to the second.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<[i32; 2]>,
@@ -48,15 +58,41 @@ pub struct InputFile {
 type Ramp = ([i32; 2], [i16; 2]);
 
 impl InputFile {
-    /// One or two ramps for the concept with number `concept`, activations in steps of 10^-`decimals`.
-    pub fn inputs(&self, concept: u8, decimals: u32) -> Result<Vec<MapInput>> {
-        let Some(source) = self.source else {
-            fail!(MapFileError::Malformed, "input {}: source is missing", self.concept)
+    /// One or two ramps for the concept with number `concept`, activations in steps of 10^-`decimals`. What
+    /// only a robot knows is fed by the host, into this slot.
+    pub fn inputs(&self, concept: u8, decimals: u32, slot: u8) -> Result<Vec<MapInput>> {
+        let name = &self.concept;
+        let source = match (self.source, &self.robot) {
+            (Some(source), None) => source,
+            (None, Some(_)) => Source::Host(slot),
+            (None, None) => fail!(MapFileError::Malformed, "input {name}: source is missing"),
+            (Some(_), Some(_)) => {
+                fail!(MapFileError::Malformed, "input {name}: give either source or robot")
+            }
         };
+        if self.robot == Some(RobotSource::Intent(Leading::None)) {
+            fail!(MapFileError::Malformed, "input {name}: no board's intention is none");
+        }
+        if self.robot.is_none() && (self.lasts_ms.is_some() || self.otherwise.is_some()) {
+            fail!(
+                MapFileError::Malformed,
+                "input {name}: lasts_ms and otherwise are for what a robot knows (robot)"
+            );
+        }
         let ramps = self.ramps(decimals)?;
         let input =
             |([low, high], [at_low, at_high]): Ramp| MapInput { concept, source, low, high, at_low, at_high };
         Ok(ramps.into_iter().map(input).collect())
+    }
+
+    /// What it hears of a robot, if it does.
+    pub fn of_robot(&self) -> Option<RobotInput> {
+        Some(RobotInput {
+            concept: self.concept.clone(),
+            source: self.robot.clone()?,
+            lasts_ms: self.lasts_ms,
+            otherwise: self.otherwise.unwrap_or(0),
+        })
     }
 
     fn ramps(&self, decimals: u32) -> Result<Vec<Ramp>> {

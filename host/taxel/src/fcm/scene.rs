@@ -3,7 +3,7 @@
 
 use super::load;
 use super::map::MapFile;
-use crate::error::{Context, Result};
+use crate::error::{Context, MapFileError, Result};
 use serde_json::Value;
 use std::path::Path;
 use taxel_core::intent::MapConfig;
@@ -20,6 +20,10 @@ pub fn resolve(scene: &mut Value, folder: &Path) -> Result<()> {
         }
         _ => return Ok(()),
     };
+    if let Some(input) = file.input.iter().find(|input| input.robot.is_some()) {
+        let concept = &input.concept;
+        fail!(MapFileError::Unanswerable, "intent.map: input {concept} is of a robot, which no board knows");
+    }
     let config: MapConfig = *file.to_config().context("intent.map")?;
     *map = serde_json::to_value(config).context("intent.map")?;
     Ok(())

@@ -8,7 +8,10 @@ use crate::body::{
     self,
     robot::{self, Robot},
 };
-use crate::error::{Context, FileError, Result};
+use crate::error::{Context, FileError, MapFileError, Result};
+use crate::fcm::load;
+use crate::fcm::map::MapFile;
+use crate::fcm::unite::{EdgeConflict, United, unite};
 use crate::files::calibrate::{Calibration, Forces};
 use crate::files::{garments, scripts};
 use crate::source::{SceneFile, SourceSpec, is_board};
@@ -17,6 +20,8 @@ use std::path::Path;
 use std::sync::Arc;
 use taxel_core::garment::{Circuit, Layout, Pins};
 
+/// Maps of a robot that names none.
+const MAPS: [&str; 2] = ["robot", "probe"];
 /// Longest tare, frames.
 const TARE: u16 = 4096;
 /// Longest name of a board, bytes.
@@ -33,6 +38,8 @@ pub struct ReadRobot {
     pub name: String,
     /// Its description, if it names one.
     pub robot: Option<Arc<Robot>>,
+    /// What touches mean to it.
+    pub map: MapFile,
     /// Its boards, in the order of the file; at least one.
     pub boards: Vec<RobotBoard>,
     /// Its seams between boards.
@@ -71,6 +78,11 @@ impl ReadRobot {
         let described = config.urdf.as_deref().map(|urdf| robot::read(&beside(urdf)));
         let described =
             described.transpose().with_context(|| place.error("urdf", "the robot"))?.map(Arc::new);
+        let maps: Result<Vec<MapFile>> = match &config.maps {
+            Some(maps) => maps.iter().map(|map| load::map(&beside(map))).collect(),
+            None => MAPS.into_iter().map(load::map).collect(),
+        };
+        let map = maps.and_then(united).with_context(|| place.error("maps", "the map of the robot"))?;
         let mut boards: Vec<RobotBoard> = Vec::new();
         for (index, board) in config.boards.iter().enumerate() {
             let reader = BoardReader { place, index, config: &config, robot: described.as_ref() };
@@ -79,13 +91,20 @@ impl ReadRobot {
             boards.push(read);
         }
         let seams = seam::check(&config.seams, &boards, place)?;
-        Ok(ReadRobot { name: config.name, robot: described, boards, seams, inputs, text, file })
+        Ok(ReadRobot { name: config.name, robot: described, map, boards, seams, inputs, text, file })
     }
 
     /// Number of the board of this name.
     pub fn board(&self, name: &str) -> Option<usize> {
         self.boards.iter().position(|board| board.name == name)
     }
+}
+
+/// Maps as one, by the concepts that they have in common. Error if they contradict each other.
+fn united(maps: Vec<MapFile>) -> Result<MapFile> {
+    let United { map, conflicts, .. } = unite(&maps, "robot", EdgeConflict::Agree)?;
+    require!(conflicts.is_empty(), MapFileError::Unanswerable, "{}", conflicts.join("; "));
+    Ok(map)
 }
 
 /// A path of the file: what has an extension is a path, everything else a name.

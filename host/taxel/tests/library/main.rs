@@ -17,6 +17,7 @@ mod lines;
 mod link;
 mod maps;
 mod meaning;
+mod mind;
 mod people;
 mod points;
 mod pressing;

@@ -1,13 +1,13 @@
 //! Intentions of simulated touches: 500 seeded variants of a pat and of a lash, and controls with the map's
 //! reason.
 
-mod family;
+pub mod family;
 mod flicker;
 mod garments;
 mod judge;
 mod same;
-mod scripted;
-mod strangers;
+pub mod scripted;
+pub mod strangers;
 
 use std::collections::BTreeSet;
 use taxel::files::scripts;

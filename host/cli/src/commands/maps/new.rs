@@ -176,6 +176,6 @@ fn input(concept: &str, text: &str) -> Result<Option<InputFile>> {
         ("trapezoid", [a, b, c, d]) => input.trapezoid = Some([*a, *b, *c, *d]),
         _ => bail!("expected rise A B, fall A B, triangle A B C or trapezoid A B C D"),
     }
-    input.inputs(0, 4)?;
+    input.inputs(0, 4, 0)?;
     Ok(Some(input))
 }

@@ -1,15 +1,17 @@
 //! `taxel robot check`: a robot's boards and seams.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
+use taxel::mind::RobotMind;
 use taxel::robot::{ReadRobot, RobotBoard, RobotEdge, RobotSeam};
 use taxel_core::garment::Side;
 
 /// Runs the command.
 pub fn run(file: &Path, is_json: bool) -> Result<()> {
     let robot = ReadRobot::read(file)?;
+    RobotMind::new(&robot).with_context(|| robot.file.clone())?;
     match is_json {
         true => println!("{}", report(&robot)),
         false => print!("{}", table(&robot)),

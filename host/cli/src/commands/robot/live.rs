@@ -7,12 +7,19 @@ use anyhow::{Context, Error, Result};
 use clap::Args;
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
-use taxel::robot::{BoardEvent, BoardLine, RobotContacts, RobotContactsLine, RobotSession, Teller, WhenFull};
+use taxel::mind::{RobotMeaning, RobotMeaningLine, RobotMind};
+use taxel::robot::{
+    BoardEvent, BoardLine, RobotBoard, RobotContacts, RobotContactsLine, RobotEvent, RobotSession, Teller,
+    WhenFull,
+};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 
 /// Longest wait before the output is flushed.
 const LOOK: Duration = Duration::from_millis(100);
+
+/// What precedes lines about the whole robot.
+const ROBOT: &str = "robot";
 
 /// Arguments of `taxel robot live`.
 #[derive(Debug, Clone, Args)]
@@ -41,12 +48,16 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let mut requests = args.robot.requests()?;
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
-    let wide = robot.boards.iter().map(|board| board.name.len()).max().unwrap_or(0);
+    // Simulations and recordings are at one time only at real time.
+    let is_minded = args.realtime || robot.boards.iter().all(RobotBoard::is_real);
+    let mut mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
+    let names = robot.boards.iter().map(|board| board.name.len());
+    let wide = names.chain(is_minded.then_some(ROBOT.len())).max().unwrap_or(0);
     let teller = |number: usize| -> Box<dyn Teller<BoardNews>> {
         let name = &robot.boards[number].name;
         match args.json {
-            true => Box::new(JsonTeller::new(&robot, number, args.pixels)),
-            false => Box::new(TextTeller::new(format!("{name:wide$} "))),
+            true => Box::new(JsonTeller::new(&robot, number, args.pixels, is_minded)),
+            false => Box::new(TextTeller::new(&robot, number, format!("{name:wide$} "), is_minded)),
         }
     };
     let plans = robot.plans(&options, limit(args.seconds), teller);
@@ -55,8 +66,11 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let mut contacts = (args.json && !robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session));
+        requests.iter_mut().for_each(|requests| requests.ask(&session, mind.as_mut()));
         let Some(event) = session.wait(LOOK) else {
+            let now_us = session.now_us();
+            mind.as_mut()
+                .map_or(Ok(()), |mind| meant(args.json, wide, mind, &mut out, |mind| mind.pass(now_us)))?;
             out.flush()?;
             continue;
         };
@@ -78,10 +92,42 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
             let line = RobotContactsLine::of(&robot, host_us, &joined);
             writeln!(out, "{}", serde_json::to_string(&line)?)?;
         }
+        if let Some(mind) = &mut mind {
+            meant(args.json, wide, mind, &mut out, |mind| hear(mind, &event))?;
+        }
         ended = ended.and(failed(name, event.what));
     }
     out.flush()?;
     ended
+}
+
+/// Lets the mind of the robot hear an event. Returns what it means if that is news.
+pub fn hear<'a>(mind: &'a mut RobotMind, event: &RobotEvent<BoardNews>) -> Option<&'a RobotMeaning> {
+    let RobotEvent { board, stamp, what } = event;
+    match what {
+        BoardEvent::News(BoardNews { sense: Some(sense), .. }) => mind.board(*board, sense, stamp.host_us),
+        BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
+            mind.forget(*board, stamp.host_us)
+        }
+        _ => None,
+    }
+}
+
+/// Writes what touches mean now if that is news.
+fn meant(
+    json: bool,
+    wide: usize,
+    mind: &mut RobotMind,
+    out: &mut impl Write,
+    hear: impl FnOnce(&mut RobotMind) -> Option<&RobotMeaning>,
+) -> Result<()> {
+    let Some(meaning) = hear(mind).cloned() else { return Ok(()) };
+    let line = RobotMeaningLine::of(mind, &meaning);
+    match json {
+        true => writeln!(out, "{}", serde_json::to_string(&line)?)?,
+        false => writeln!(out, "{ROBOT:wide$} {}", line.text())?,
+    }
+    Ok(())
 }
 
 /// How a board is, in words; none if its lines say it: it is met, lost, back, over.

@@ -11,6 +11,7 @@ mod ros2;
 mod shown;
 mod tellers;
 mod view;
+mod why;
 
 #[cfg(not(feature = "ros2"))]
 use crate::commands::not_built::{self, NotBuiltArgs as RobotRos2Args};
@@ -23,6 +24,7 @@ use record::RobotRecordArgs;
 use ros2::RobotRos2Args;
 use std::path::PathBuf;
 use view::RobotViewArgs;
+use why::RobotWhyArgs;
 
 /// Arguments of `taxel robot`.
 #[derive(Debug, Clone, Args)]
@@ -47,6 +49,9 @@ enum RobotTask {
         after_help = "Examples:\n  taxel robot live robot.toml\n  taxel robot live robot.toml --json --tare arm=32"
     )]
     Live(RobotLiveArgs),
+    /// Explain what touches mean to the robot, down to the contacts of its boards
+    #[command(after_help = "Example:\n  taxel robot why robot.toml --at 1 --of hug")]
+    Why(RobotWhyArgs),
     /// Watch all boards in the browser: a page for each, and what touches the robot
     #[command(after_help = "Example:\n  taxel robot view robot.toml --open")]
     View(RobotViewArgs),
@@ -67,6 +72,7 @@ pub fn run(args: &RobotArgs) -> Result<()> {
     match &args.what {
         RobotTask::Check { file, json } => check::run(file, *json),
         RobotTask::Live(args) => live::run(args),
+        RobotTask::Why(args) => why::run(args),
         RobotTask::View(args) => view::run(args),
         RobotTask::Record(args) => record::run(args),
         #[cfg(feature = "ros2")]

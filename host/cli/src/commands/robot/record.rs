@@ -49,7 +49,7 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     let mut written = Ok(());
     while written.is_ok() && !session.is_over() && !stop::asked() {
         written = recorder.keep();
-        requests.iter_mut().for_each(|requests| requests.ask(&session));
+        requests.iter_mut().for_each(|requests| requests.ask(&session, None));
         let Some(event) = session.wait(LOOK) else { continue };
         let name = &robot.boards[event.board].name;
         match &event.what {

@@ -6,6 +6,7 @@ use std::io::{BufRead, BufReader, Read, stdin};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
+use taxel::mind::{RobotMind, ToldLine};
 use taxel::robot::{BoardOrder, RobotSession};
 use taxel::source::SceneFile;
 use taxel::tell::words;
@@ -55,16 +56,42 @@ impl RequestLines {
         Ok(RequestLines { name, lines, count: 0 })
     }
 
-    /// Asks what the lines say that have come since. What cannot be asked is told, and the rest goes on.
-    pub fn ask<T: Send + 'static>(&mut self, session: &RobotSession<T>) {
+    /// Asks what the lines say that have come since, and tells the mind of the robot what they tell. What
+    /// cannot be asked is told, and the rest goes on.
+    pub fn ask<T: Send + 'static>(&mut self, session: &RobotSession<T>, mut mind: Option<&mut RobotMind>) {
         while let Ok(line) = self.lines.try_recv() {
             self.count += 1;
-            let asked = line.map_err(anyhow::Error::from).and_then(|line| ask(line.trim(), session));
+            let asked = line.map_err(anyhow::Error::from).and_then(|line| match told(line.trim())? {
+                Some(told) => tell(&told, session.now_us(), mind.as_deref_mut()),
+                None => ask(line.trim(), session),
+            });
             if let Err(error) = asked {
                 eprintln!("{}, line {}: {}", self.name, self.count, words::sentence(error.as_ref()));
             }
         }
     }
+}
+
+/// What a line tells: `told NAME VALUE [AGE_MS]`, or the same as JSON; none if it asks something.
+fn told(line: &str) -> Result<Option<ToldLine>> {
+    if line.starts_with('{') {
+        return Ok(Some(ToldLine::parse(line)?));
+    }
+    let parts: Vec<&str> = line.split_whitespace().collect();
+    let [name, value, age @ ..] = parts.strip_prefix(&["told"]).unwrap_or_default() else { return Ok(None) };
+    let value = value.parse().with_context(|| format!("told {name}: \"{value}\""))?;
+    let age_ms = match age {
+        [] => 0,
+        [age] => age.parse().with_context(|| format!("told {name}: age \"{age}\""))?,
+        _ => bail!("\"{line}\": must be told NAME VALUE [AGE_MS]"),
+    };
+    Ok(Some(ToldLine { told: [(name.to_string(), value)].into(), age_ms, ..ToldLine::default() }))
+}
+
+fn tell(told: &ToldLine, now_us: u64, mind: Option<&mut RobotMind>) -> Result<()> {
+    let mind = mind.context("nobody hears what is told: `taxel robot live` does, of boards at one time")?;
+    mind.tell(told, now_us)?;
+    Ok(())
 }
 
 /// Asks what a line says: `tare [BOARD] [N]`, `scene [BOARD] FILE`, `self-test [BOARD]`.
@@ -88,7 +115,9 @@ fn ask<T: Send + 'static>(line: &str, session: &RobotSession<T>) -> Result<()> {
         }
         ("self-test", []) => (None, BoardOrder::SelfTest),
         ("self-test", [board]) => (Some(*board), BoardOrder::SelfTest),
-        _ => bail!("\"{line}\": must be tare [BOARD] [N], scene [BOARD] FILE or self-test [BOARD]"),
+        _ => bail!(
+            "\"{line}\": must be tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD] or told NAME VALUE [AGE_MS]"
+        ),
     };
     if let BoardOrder::Tare(frames) = &order {
         ensure!((1..=4096).contains(frames), "a tare takes 1 to 4096 frames, not {frames}");

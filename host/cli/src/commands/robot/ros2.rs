@@ -62,7 +62,7 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     println!("{at} (Ctrl-C ends)");
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session));
+        requests.iter_mut().for_each(|requests| requests.ask(&session, None));
         if let Some(event) = session.wait(LOOK) {
             node.event(&event)?;
             ended = ended.and(failed(&robot.boards[event.board].name, event.what));

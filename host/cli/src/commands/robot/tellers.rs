@@ -3,6 +3,7 @@
 use crate::terminal::Lines;
 use taxel::client::{Client, Event};
 use taxel::json::MessagePrinter;
+use taxel::mind::{BoardSense, MindReader};
 use taxel::record::Stamp;
 use taxel::robot::{BoardScan, ReadRobot, ScanReader, Teller};
 use taxel::session::Show;
@@ -15,23 +16,47 @@ pub struct BoardNews {
     pub lines: String,
     /// The scan that it is about.
     pub scan: Option<BoardScan>,
+    /// What it says of touches.
+    pub sense: Option<BoardSense>,
+}
+
+/// Reads scans, and what is said of touches.
+pub struct Readers {
+    scans: ScanReader,
+    /// None if nobody wants to know what touches mean to the robot.
+    mind: Option<MindReader>,
+}
+
+impl Readers {
+    /// Of a board of a robot.
+    pub fn new(robot: &ReadRobot, number: usize, is_minded: bool) -> Readers {
+        let mind = is_minded.then(|| MindReader::new(robot, number));
+        Readers { scans: ScanReader::new(robot, number), mind }
+    }
+
+    /// The event with its lines.
+    pub fn news(&mut self, client: &Client, event: &Event, lines: String) -> BoardNews {
+        let scan = self.scans.scan(client, event);
+        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, scan.as_ref()));
+        BoardNews { lines, scan, sense }
+    }
 }
 
 /// Makes JSON of a board's events.
 pub struct JsonTeller {
     board: String,
     printer: MessagePrinter<std::io::Empty>,
-    reader: ScanReader,
+    readers: Readers,
 }
 
 impl JsonTeller {
-    /// Of a board of a robot, with or without the pressure of every taxel.
-    pub fn new(robot: &ReadRobot, number: usize, pixels: bool) -> JsonTeller {
+    /// Of a board of a robot, with or without the pressure of every taxel, and what it says of touches.
+    pub fn new(robot: &ReadRobot, number: usize, pixels: bool, is_minded: bool) -> JsonTeller {
         let board = &robot.boards[number];
         JsonTeller {
             board: board.name.clone(),
             printer: MessagePrinter::new(pixels, std::io::empty()).calibrated(board.calibration.clone()),
-            reader: ScanReader::new(robot, number),
+            readers: Readers::new(robot, number, is_minded),
         }
     }
 }
@@ -41,32 +66,31 @@ impl Teller<BoardNews> for JsonTeller {
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
         stamp.mark(&mut line);
-        let scan = self.reader.scan(client, event);
-        Ok(Some(BoardNews { lines: format!("{line}\n"), scan }))
+        Ok(Some(self.readers.news(client, event, format!("{line}\n"))))
     }
 }
 
 /// Makes lines of text of a board's events.
-#[derive(Default)]
 pub struct TextTeller {
     /// What precedes each line.
     head: String,
     /// None before the source is open.
     lines: Option<Lines<Vec<u8>>>,
+    readers: Readers,
 }
 
 impl TextTeller {
-    /// Of a board, whose lines begin with this.
-    pub fn new(head: String) -> TextTeller {
-        TextTeller { head, lines: None }
+    /// Of a board of a robot, whose lines begin with this, and what it says of touches.
+    pub fn new(robot: &ReadRobot, number: usize, head: String, is_minded: bool) -> TextTeller {
+        TextTeller { head, lines: None, readers: Readers::new(robot, number, is_minded) }
     }
 
     /// What has been written since, with the board before each line.
-    fn told(&mut self) -> Option<BoardNews> {
-        let written = std::mem::take(self.lines.as_mut()?.output());
+    fn told(&mut self) -> String {
+        let Some(lines) = self.lines.as_mut() else { return String::new() };
+        let written = std::mem::take(lines.output());
         let text = String::from_utf8_lossy(&written);
-        let lines: String = text.lines().map(|line| format!("{}{line}\n", self.head)).collect();
-        (!lines.is_empty()).then_some(BoardNews { lines, scan: None })
+        text.lines().map(|line| format!("{}{line}\n", self.head)).collect()
     }
 }
 
@@ -77,12 +101,15 @@ impl Teller<BoardNews> for TextTeller {
 
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.event(client, event)).map_err(other)?;
-        Ok(self.told())
+        let lines = self.told();
+        let news = self.readers.news(client, event, lines);
+        Ok((!news.lines.is_empty() || news.sense.is_some()).then_some(news))
     }
 
     fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.end(client)).map_err(other)?;
-        Ok(self.told())
+        let lines = self.told();
+        Ok((!lines.is_empty()).then_some(BoardNews { lines, scan: None, sense: None }))
     }
 }
 

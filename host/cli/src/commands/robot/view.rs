@@ -66,7 +66,7 @@ pub fn run(args: &RobotViewArgs) -> Result<()> {
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
     let mut ended = Ok(());
     while !session.is_over() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session));
+        requests.iter_mut().for_each(|requests| requests.ask(&session, None));
         if let Some(event) = session.wait(LOOK) {
             pages.event(&event);
             let name = &robot.boards[event.board].name;

@@ -52,6 +52,11 @@ pub struct Act {
 pub type Told = Vec<(Leading, i64)>;
 
 impl Wish {
+    /// True if a person would not want it.
+    pub fn is_harmful(self) -> bool {
+        matches!(self, Wish::Harmful | Wish::Attack)
+    }
+
     /// True if a person would agree with the announcements for a touch of this duration.
     pub fn agrees(self, told: &Told, lasts_ms: i64) -> bool {
         let any = |of: Leading| told.iter().any(|(leading, _)| *leading == of);

@@ -6,10 +6,10 @@
 //! instead of one.
 
 mod course;
-mod hands;
-mod kind;
+pub mod hands;
+pub mod kind;
 mod print;
-mod scripted;
+pub mod scripted;
 mod skin;
 mod tally;
 mod worn;

@@ -1,0 +1,85 @@
+//! `taxel robot why`: explains what touches mean to the robot, down to the contacts of its boards.
+
+use super::args::RobotFileArgs;
+use super::live::{failed, hear};
+use super::tellers::{BoardNews, Readers};
+use crate::watch::{seconds, stop};
+use anyhow::{Result, bail};
+use clap::Args;
+use std::time::Duration;
+use taxel::client::{Client, Event};
+use taxel::mind::{RobotMind, RobotReasons};
+use taxel::record::Stamp;
+use taxel::robot::{ReadRobot, RobotSession, WhenFull};
+use taxel::source::SourceOptions;
+use taxel_core::intent::Leading;
+
+/// Longest wait before the requests are read again.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Arguments of `taxel robot why`.
+#[derive(Debug, Clone, Args)]
+pub struct RobotWhyArgs {
+    /// The robot.
+    #[command(flatten)]
+    robot: RobotFileArgs,
+    /// Explain the state S seconds after the begin, announced or not [default: the first announced intention]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    at: Option<f64>,
+    /// Concept to explain [default: the announced or the strongest intention]
+    #[arg(long)]
+    of: Option<String>,
+    /// Paths to list, of each map
+    #[arg(long, default_value_t = 6)]
+    paths: usize,
+    /// Print JSON instead of a table; it has all paths
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command: simulations are played at real time. Error if no intention is announced.
+pub fn run(args: &RobotWhyArgs) -> Result<()> {
+    let robot = args.robot.read()?;
+    let mind = RobotMind::new(&robot)?;
+    let (mind, seconds) = listen(args, &robot, mind)?;
+    let reasons = RobotReasons::of(&mind, seconds, args.of.as_deref(), &robot)?;
+    match args.json {
+        true => println!("{}", reasons.json(&robot)),
+        false => print!("{}", reasons.text(&robot, args.paths)),
+    }
+    Ok(())
+}
+
+/// Follows the boards until the moment that is to be explained. Returns the mind then, and the time since the
+/// begin, s.
+fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result<(RobotMind, f64)> {
+    let mut requests = args.robot.requests()?;
+    let options = SourceOptions { realtime: true, ..SourceOptions::default() };
+    let plans = robot.plans(&options, None, |number| {
+        let mut readers = Readers::new(robot, number, true);
+        Box::new(move |client: &Client, event: &Event, _: Stamp| {
+            let news = readers.news(client, event, String::new());
+            news.sense.is_some().then_some(news)
+        })
+    });
+    let mut session: RobotSession<BoardNews> = RobotSession::start(plans, WhenFull::DropImages)?;
+    let begun_us = session.now_us();
+    let since = |now_us: u64| now_us.saturating_sub(begun_us) as f64 / 1e6;
+    while !session.is_over() && !stop::asked() {
+        requests.iter_mut().for_each(|requests| requests.ask(&session, Some(&mut mind)));
+        let now_us = session.now_us();
+        if args.at.is_some_and(|at| since(now_us) >= at) {
+            return Ok((mind, since(now_us)));
+        }
+        let Some(event) = session.wait(LOOK) else { continue };
+        let news = hear(&mut mind, &event);
+        if args.at.is_none() && news.is_some_and(|meaning| meaning.leading != Leading::None) {
+            return Ok((mind, since(now_us)));
+        }
+        failed(&robot.boards[event.board].name, event.what)?;
+    }
+    match args.at {
+        None => bail!("{}: no intention was announced; --at S explains the state at that time", robot.file),
+        Some(at) => bail!("{}: its boards were over before {at} s", robot.file),
+    }
+}

@@ -1,0 +1,111 @@
+//! What a board says of touches, for the mind of its robot.
+
+use super::mover::SurfaceSpot;
+use super::place::{BoardPlaces, BodyPlace};
+use crate::client::{Client, Event};
+use crate::fcm::map::MapFile;
+use crate::robot::{BoardScan, BoardTouch, ReadRobot, RobotBoard};
+use std::sync::Arc;
+use taxel_core::garment::cell_mm2;
+use taxel_core::wire::IntentReport;
+
+/// A contact of a board, and where on the body it lies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeltContact {
+    /// Id of the board's contact.
+    pub contact: u32,
+    /// Where it lies.
+    pub place: Arc<BodyPlace>,
+    /// The point of the robot's surface; none unless the board has a body.
+    pub spot: Option<SurfaceSpot>,
+    /// Its pressure, counts; with a calibration in force its force, thousandths of a newton.
+    pub load: u32,
+    /// Its area, mm2.
+    pub cover_mm2: u32,
+    /// Its greatest pressure on a taxel, in the unit of the load.
+    pub peak: u32,
+    /// Its panel.
+    pub panel: u8,
+    /// Its centroid there along columns and rows, mm.
+    pub at_mm: [f64; 2],
+}
+
+/// What a board wears, as far as the mind needs it.
+#[derive(Debug, Clone)]
+pub struct WornMind {
+    /// All places of the body that its garment covers.
+    pub places: Vec<Arc<BodyPlace>>,
+    /// The map of its scene; none if it has none.
+    pub map: Option<Arc<MapFile>>,
+}
+
+/// What a board's event says of touches.
+#[derive(Debug, Clone)]
+pub enum BoardSense {
+    /// It begins, or has another garment or scene.
+    Begins(WornMind),
+    /// Its contacts.
+    Contacts(Vec<FeltContact>),
+    /// Its intention.
+    Intent(Box<IntentReport>),
+    /// It scans.
+    Alive,
+}
+
+/// Reads a board's events for the mind of its robot, in the board's thread.
+#[derive(Debug, Clone)]
+pub struct MindReader {
+    board: RobotBoard,
+    places: BoardPlaces,
+}
+
+impl MindReader {
+    /// Of a board of a robot.
+    pub fn new(robot: &ReadRobot, board: usize) -> MindReader {
+        MindReader { board: robot.boards[board].clone(), places: BoardPlaces::default() }
+    }
+
+    /// What an event says, which the client already includes, with the [scan](crate::robot::ScanReader) that
+    /// it is about; none if it says nothing of touches.
+    pub fn sense(&mut self, client: &Client, event: &Event, scan: Option<&BoardScan>) -> Option<BoardSense> {
+        match event {
+            Event::Hello => Some(BoardSense::Begins(self.begin(client)?)),
+            Event::Intent(report) => Some(BoardSense::Intent(report.clone())),
+            _ => Some(match scan?.contacts.as_ref() {
+                Some(contacts) => {
+                    BoardSense::Contacts(contacts.iter().filter_map(|felt| self.felt(client, felt)).collect())
+                }
+                None => BoardSense::Alive,
+            }),
+        }
+    }
+
+    fn begin(&mut self, client: &Client) -> Option<WornMind> {
+        let worn = client.worn()?;
+        self.places = BoardPlaces::of(&self.board, worn);
+        let map = worn.scene.intent.as_ref().map(|intent| Arc::new(MapFile::from_config(&intent.map)));
+        Some(WornMind { places: self.places.all(), map })
+    }
+
+    fn felt(&self, client: &Client, touch: &BoardTouch) -> Option<FeltContact> {
+        let worn = client.worn()?;
+        let pitch_um = worn.layout.areas().get(usize::from(touch.panel))?.pitch_um;
+        // A pitch that is not known is taken as 10 mm.
+        let [x_mm, y_mm] = pitch_um.map(|um| if um == 0 { 10.0 } else { f64::from(um) * 1e-3 });
+        let scaled = |counts: u32| match touch.newtons_per_count {
+            Some(newtons) => (newtons * f64::from(counts) * 1e3).round() as u32,
+            None => counts,
+        };
+        let (place, spot) = self.places.at(worn, touch.panel, touch.centroid)?;
+        Some(FeltContact {
+            contact: touch.contact?,
+            place,
+            spot,
+            load: scaled(touch.total),
+            cover_mm2: u32::from(touch.area).saturating_mul(cell_mm2(pitch_um)),
+            peak: scaled(touch.peak.into()),
+            panel: touch.panel,
+            at_mm: [touch.centroid[0] * x_mm, touch.centroid[1] * y_mm],
+        })
+    }
+}

@@ -1,0 +1,103 @@
+//! What touches mean to the robot, as JSON and in words.
+
+use super::mover::{Approach, Mover};
+use super::probe::Probe;
+use super::robot_mind::{RobotMeaning, RobotMind};
+use super::senses::SensedTouch;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+/// Message about what the touches of all boards mean together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "type", rename = "robot_intent")]
+pub struct RobotMeaningLine {
+    /// The host's time, us since 1970.
+    pub host_time_us: u64,
+    /// The announced intention: `none`, `kindness`, `threat` or `attack`.
+    pub leading: &'static str,
+    /// Names of the concepts with causes that hold: of at least 0.5, and then down to 0.4.
+    pub holding: Vec<String>,
+    /// Activation of each concept of the map, -1 to 1.
+    pub concepts: Map<String, Value>,
+    /// Inputs of the map for which nothing is known that is young enough, so that its default counts: names of
+    /// their concepts.
+    pub defaults: Vec<String>,
+    /// What touches the robot, and whose motion has caused it.
+    pub touches: Vec<RobotTouchLine>,
+}
+
+/// A contact of a board.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RobotTouchLine {
+    /// Number of the board, in the order of the robot's file.
+    pub board: usize,
+    /// Id of the board's contact.
+    pub contact: u32,
+    /// Region on which it lies.
+    pub region: String,
+    /// Link on which it lies.
+    pub link: String,
+    /// Its pressure, counts; with a calibration in force its force, thousandths of a newton.
+    pub load: u32,
+    /// `own` if the robot's motion has caused it, `other` if that of what touches it, or `unsure`.
+    pub mover: Mover,
+    /// How the robot's surface moved before the onset; absent if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approach: Option<Approach>,
+    /// What the robot feels of the object that it has moved into; absent of what touches it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probe: Option<Probe>,
+}
+
+impl RobotTouchLine {
+    /// Contacts of all boards that are present.
+    pub fn all(mind: &RobotMind) -> Vec<RobotTouchLine> {
+        let line = |(board, touch): (usize, &SensedTouch)| RobotTouchLine {
+            board,
+            contact: touch.felt.contact,
+            region: touch.felt.place.region.clone(),
+            link: touch.felt.place.link.clone(),
+            load: touch.felt.load,
+            mover: touch.mover,
+            approach: touch.approach,
+            probe: (touch.mover == Mover::Own).then(|| touch.course.probe()),
+        };
+        let boards = 0..mind.senses().boards();
+        let all =
+            boards.flat_map(|board| mind.senses().touches(board).iter().map(move |touch| (board, touch)));
+        all.filter(|(_, touch)| touch.ended_us.is_none()).map(line).collect()
+    }
+}
+
+impl RobotMeaningLine {
+    /// The message of a meaning.
+    pub fn of(mind: &RobotMind, meaning: &RobotMeaning) -> RobotMeaningLine {
+        let name = |at: usize| mind.map().concept.get(at).map_or(String::new(), |it| it.name.clone());
+        let concepts = meaning.activations.iter().enumerate();
+        let mut defaults: Vec<String> = Vec::new();
+        for (input, heard) in mind.inputs().iter().zip(&meaning.heard) {
+            if heard.age_ms.is_none() && !defaults.contains(&input.concept) {
+                defaults.push(input.concept.clone());
+            }
+        }
+        RobotMeaningLine {
+            host_time_us: meaning.host_us,
+            leading: meaning.leading.as_str(),
+            holding: meaning.holding.iter().map(|at| name(*at)).collect(),
+            concepts: concepts.map(|(at, value)| (name(at), value.to_f64().into())).collect(),
+            defaults,
+            touches: RobotTouchLine::all(mind),
+        }
+    }
+
+    /// In words: `kindness; hug 0.98, happiness 0.90`.
+    pub fn text(&self) -> String {
+        let value = |name: &String| self.concepts.get(name).and_then(Value::as_f64).unwrap_or(0.0);
+        let others = self.holding.iter().filter(|name| *name != self.leading);
+        let others: Vec<String> = others.map(|name| format!("{name} {:.2}", value(name))).collect();
+        match (self.leading, others.is_empty()) {
+            (leading, true) => leading.into(),
+            (leading, false) => format!("{leading}; {}", others.join(", ")),
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The mind of a robot of several boards: what touches mean to the robot as a whole.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `place.rs` | [`BodyPlace`]: where on the body a contact lies |
+//! | `felt.rs` | [`MindReader`]: what a board's events say of touches, in the board's thread |
+//! | `speeds.rs` | [`LinkSpeeds`]: how fast the robot's own links move |
+//! | `mover.rs` | [`Mover`]: whose motion has caused a touch |
+//! | `probe.rs` | [`Probe`]: what a limb feels of what it moves into |
+//! | `told.rs` | [`ToldLine`]: what others know |
+//! | `senses.rs` | [`Senses`]: the newest of all of these, each with its age |
+//! | `robot_mind.rs` | [`RobotMind`]: the map of the robot over its senses |
+//! | `line.rs` | what it means, as JSON and in words |
+//! | `reasons.rs` | why, down to the contacts |
+//! | `stepped_robot.rs` | [`SteppedRobot`]: the boards of a robot and its mind, stepped by hand |
+//!
+//! The map is a file like those of boards ([`crate::fcm`]), and the stage that infers and announces is the
+//! board's own; only its inputs are others ([`crate::fcm::robot_source`]). An input of which nothing is known that is
+//! young enough has the default that the map states for it.
+
+mod felt;
+mod line;
+mod mover;
+mod place;
+mod probe;
+mod reasons;
+mod robot_mind;
+mod senses;
+mod speeds;
+mod stepped_robot;
+mod told;
+
+pub use felt::{BoardSense, FeltContact, MindReader, WornMind};
+pub use line::{RobotMeaningLine, RobotTouchLine};
+pub use mover::{Approach, Mover, SurfaceSpot};
+pub use place::BodyPlace;
+pub use probe::{Probe, ProbeCourse};
+pub use reasons::{ReasonInput, RobotReasons};
+pub use robot_mind::{RobotMeaning, RobotMind};
+pub use senses::{SenseCause, SensedTouch, SensedValue, Senses};
+pub use speeds::LinkSpeeds;
+pub use stepped_robot::SteppedRobot;
+pub use told::ToldLine;

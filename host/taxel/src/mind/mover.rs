@@ -1,0 +1,107 @@
+//! Whose motion has caused a touch: the robot's own, or that of what touches it.
+//!
+//! Before its onset, the touched surface moves along its normal if the robot bumps into something, and does not
+//! if it is touched. The velocity follows from the joints that are told. If both move, the robot's motion shows
+//! and the other's does not: such a touch is taken for the robot's own from its speed on.
+
+use super::speeds::LinkSpeeds;
+use crate::body::DVec3;
+use serde::Serialize;
+
+/// Speed along the normal from which on the robot itself has moved into what it touches, m/s.
+const OWN_M_S: f64 = 0.02;
+/// Speed up to which the surface has not moved, m/s: what servos and encoders leave.
+const STILL_M_S: f64 = 0.008;
+/// Share of its whole speed that a surface has along its normal if it moves into something, and up to which it moves
+/// along what touches it: contacts lie beside the taxels that meet something first, where the normal is another.
+const INTO: f64 = 0.3;
+const ALONG: f64 = 0.25;
+/// Time before the onset within which the greatest speed counts, us: a bump stops the link, and a board tells of
+/// a contact some frames later.
+const BEFORE_US: u64 = 80_000;
+/// Time over which a speed is taken, us.
+const OVER_US: u64 = 20_000;
+/// Distance within which two of the robot's own contacts touch each other, m.
+const NEAR_M: f64 = 0.06;
+/// Distance within which a contact belongs to a bump that has just begun, m: it has stopped the link.
+const BESIDE_M: f64 = 0.12;
+/// Cosine of the angle of their normals up to which they face each other.
+const FACING: f64 = -0.5;
+
+/// Whose motion has caused a touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mover {
+    /// The robot's own.
+    Own,
+    /// That of what touches it.
+    Other,
+    /// It moved too slowly to tell, or nothing is known of its motion or of the surface.
+    Unsure,
+}
+
+/// How the robot's surface moved shortly before a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Approach {
+    /// Speed along the normal, m/s; positive outwards.
+    pub normal_m_s: f64,
+    /// Whole speed, m/s.
+    pub speed_m_s: f64,
+}
+
+impl Approach {
+    /// Whose motion it was.
+    pub fn mover(self) -> Mover {
+        let Approach { normal_m_s, speed_m_s } = self;
+        if normal_m_s >= OWN_M_S && normal_m_s >= INTO * speed_m_s {
+            Mover::Own
+        } else if normal_m_s <= STILL_M_S || normal_m_s <= ALONG * speed_m_s {
+            Mover::Other
+        } else {
+            Mover::Unsure
+        }
+    }
+}
+
+/// A point of the robot's surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceSpot {
+    /// Name of its link.
+    pub link: String,
+    /// Where it is in the link's frame, m.
+    pub at: DVec3,
+    /// Direction away from the robot there, of length 1.
+    pub normal: DVec3,
+}
+
+impl SurfaceSpot {
+    /// The motion with the greatest speed along the normal shortly before an onset at a time of the host, us. None if
+    /// nothing is known of the robot's motion then.
+    pub fn approach(&self, speeds: &LinkSpeeds, onset_us: u64) -> Option<Approach> {
+        let steps = (0..BEFORE_US / OVER_US).map(|step| onset_us.saturating_sub(step * OVER_US));
+        let motion = |to_us: u64| {
+            let from_us = to_us.saturating_sub(OVER_US);
+            let (before, _) = speeds.point(from_us, &self.link, self.at, self.normal)?;
+            let (after, normal) = speeds.point(to_us, &self.link, self.at, self.normal)?;
+            let velocity = (after - before) / (OVER_US as f64 * 1e-6);
+            Some(Approach { normal_m_s: velocity.dot(normal), speed_m_s: velocity.length() })
+        };
+        steps.filter_map(motion).max_by(|a, b| a.normal_m_s.total_cmp(&b.normal_m_s))
+    }
+
+    /// True if they are beside each other on one side of a link: of one bump, if they begin together.
+    pub fn is_beside(&self, other: &SurfaceSpot) -> bool {
+        let is_near = self.link == other.link && self.at.distance(other.at) <= BESIDE_M;
+        is_near && self.normal.dot(other.normal) > 0.0
+    }
+
+    /// True if the robot's own surface touches itself at these two spots at a time of the host, us.
+    pub fn meets(&self, other: &SurfaceSpot, speeds: &LinkSpeeds, host_us: u64) -> bool {
+        if self.link == other.link {
+            return false;
+        }
+        let in_base = |spot: &SurfaceSpot| speeds.point(host_us, &spot.link, spot.at, spot.normal);
+        let (Some((a, normal)), Some((b, facing))) = (in_base(self), in_base(other)) else { return false };
+        a.distance(b) <= NEAR_M && normal.dot(facing) <= FACING
+    }
+}

@@ -1,0 +1,423 @@
+//! What a robot senses now: the newest of each board, of its joints and of what others tell, each with its age.
+
+use super::felt::{BoardSense, FeltContact, WornMind};
+use super::mover::{Approach, Mover};
+use super::place::BodyPlace;
+use super::probe::{Probe, ProbeCourse};
+use super::speeds::LinkSpeeds;
+use crate::fcm::robot_source::{RobotInput, RobotSource};
+use std::collections::BTreeMap;
+use taxel_core::format::Q15;
+use taxel_core::intent::Leading;
+use taxel_core::wire::IntentReport;
+
+/// Time for which a contact that has ended still counts, and within which its greatest force does, us: a board announces
+/// what it meant nearly as long.
+const HELD_US: u64 = 800_000;
+/// Time within which two contacts begin together, us; also that within which joints are told that were read
+/// before an onset.
+const TOGETHER_US: u64 = 150_000;
+
+/// A value for an input of the robot's map.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SensedValue {
+    /// The value, in the unit of its source.
+    pub value: i32,
+    /// Its age, ms; none if it is the default that the map states.
+    pub age_ms: Option<u32>,
+}
+
+/// One of the things of which a value consists.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SenseCause {
+    /// Number of the board; none if it is no board's.
+    pub board: Option<usize>,
+    /// Id of the board's contact, and where it lies; none if it is no contact.
+    pub contact: Option<(u32, BodyPlace)>,
+    /// What it adds, in the unit of the source.
+    pub value: i32,
+    /// Its age, ms.
+    pub age_ms: u32,
+}
+
+/// A contact that is present, or was until a moment ago.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensedTouch {
+    /// The contact, as it was told last.
+    pub felt: FeltContact,
+    /// Host time at which it was first told, us.
+    pub since_us: u64,
+    /// Host time at which it was no longer told, us; none while it is present.
+    pub ended_us: Option<u64>,
+    /// Its greatest load so far.
+    pub most: u32,
+    /// Its greatest load within [`HELD_US`], and the host's time of that, us.
+    recent: (u32, u64),
+    /// How the robot's surface moved before the onset; none if it is not known.
+    pub approach: Option<Approach>,
+    /// Whose motion has caused it.
+    pub mover: Mover,
+    /// What it says of the object, if the robot has moved into it.
+    pub course: ProbeCourse,
+}
+
+impl SensedTouch {
+    /// True if it is present or has ended within [`HELD_US`].
+    fn counts(&self, now_us: u64) -> bool {
+        self.ended_us.is_none_or(|ended| now_us.saturating_sub(ended) < HELD_US)
+    }
+
+    /// Takes the load of now.
+    fn load(&mut self, host_us: u64) {
+        let (recent, at_us) = self.recent;
+        if self.felt.load >= recent || host_us.saturating_sub(at_us) >= HELD_US {
+            self.recent = (self.felt.load, host_us);
+        }
+    }
+
+    /// Finds whose motion has caused it.
+    fn judge(&mut self, speeds: Option<&LinkSpeeds>) {
+        self.approach = self.felt.spot.as_ref().zip(speeds).and_then(|(spot, speeds)| {
+            // Where the contact is later says nothing of how it began.
+            spot.approach(speeds, self.since_us)
+        });
+        self.mover = self.approach.map_or(Mover::Unsure, Approach::mover);
+    }
+}
+
+/// What a board has said.
+#[derive(Debug, Clone, Default)]
+struct SensedBoard {
+    /// Host time of what it said last, us; none while it is not there.
+    heard_us: Option<u64>,
+    worn: Option<WornMind>,
+    /// Present contacts, and those that have ended within [`HELD_US`].
+    contacts: Vec<SensedTouch>,
+    report: Option<Box<IntentReport>>,
+}
+
+impl SensedBoard {
+    /// Age of what it has said, ms, unless it is not there or silent for too long.
+    fn age_ms(&self, lasts_ms: Option<u32>, now_us: u64) -> Option<u32> {
+        let age_ms = u32::try_from(now_us.saturating_sub(self.heard_us?) / 1000).unwrap_or(u32::MAX);
+        lasts_ms.is_none_or(|lasts_ms| age_ms < lasts_ms).then_some(age_ms)
+    }
+
+    /// True if its garment covers some of this part.
+    fn covers(&self, part: &[String]) -> bool {
+        self.worn.iter().flat_map(|worn| &worn.places).any(|place| place.is_of(part))
+    }
+
+    /// Contacts on a part that are present or have ended within [`HELD_US`].
+    fn touches<'a>(&'a self, part: &'a [String], now_us: u64) -> impl Iterator<Item = &'a SensedTouch> {
+        let counts = move |touch: &&SensedTouch| touch.counts(now_us);
+        self.contacts.iter().filter(counts).filter(|touch| touch.felt.place.is_of(part))
+    }
+
+    /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be told that
+    /// were read before.
+    fn list(&mut self, contacts: &[FeltContact], speeds: Option<&LinkSpeeds>, host_us: u64) {
+        let is_recent =
+            |touch: &SensedTouch| touch.ended_us.is_none_or(|ended| host_us.saturating_sub(ended) < HELD_US);
+        self.contacts.retain(is_recent);
+        for touch in self.contacts.iter_mut().filter(|touch| touch.ended_us.is_none()) {
+            if !contacts.iter().any(|felt| felt.contact == touch.felt.contact) {
+                touch.ended_us = Some(host_us);
+            }
+        }
+        for felt in contacts {
+            let known = self.contacts.iter_mut().find(|touch| touch.felt.contact == felt.contact);
+            match known {
+                Some(touch) => {
+                    let is_new = host_us.saturating_sub(touch.since_us) < TOGETHER_US;
+                    (touch.felt, touch.ended_us) = (felt.clone(), None);
+                    touch.most = touch.most.max(felt.load);
+                    touch.load(host_us);
+                    touch.course.take(felt, speeds, host_us);
+                    if is_new && touch.mover != Mover::Own {
+                        touch.judge(speeds);
+                    }
+                }
+                None => {
+                    let mut touch = SensedTouch {
+                        felt: felt.clone(),
+                        since_us: host_us,
+                        ended_us: None,
+                        most: felt.load,
+                        recent: (felt.load, host_us),
+                        approach: None,
+                        mover: Mover::Unsure,
+                        course: ProbeCourse::begin(felt, speeds, host_us),
+                    };
+                    touch.judge(speeds);
+                    self.contacts.push(touch);
+                }
+            }
+        }
+    }
+
+    /// Share of the force that the robot's own motion has caused, of present contacts and of those that have
+    /// just ended, 2^-15; none if nothing touches or nothing is known of the motion.
+    fn own(&self) -> Option<i32> {
+        let known = self.contacts.iter().any(|touch| touch.approach.is_some());
+        let most = |touch: &SensedTouch| u64::from(touch.most);
+        let all: u64 = self.contacts.iter().map(most).sum();
+        let own: u64 = self.contacts.iter().filter(|touch| touch.mover == Mover::Own).map(most).sum();
+        (known && all > 0).then(|| (own as f64 / all as f64 * f64::from(Q15::ONE.0)).round() as i32)
+    }
+
+    /// Activation of the intention that it announces; none if it announces another.
+    fn announces(&self, leading: Leading) -> Option<Q15> {
+        let report = self.report.as_ref().filter(|report| report.leading == leading)?;
+        let concepts = &self.worn.as_ref()?.map.as_ref()?.concept;
+        let at = concepts.iter().position(|concept| concept.name == leading.as_str())?;
+        report.concepts.get(at).copied()
+    }
+}
+
+/// All that a robot senses.
+#[derive(Debug, Clone)]
+pub struct Senses {
+    boards: Vec<SensedBoard>,
+    speeds: Option<LinkSpeeds>,
+    /// Values by name, with the host's time from which they are, us.
+    told: BTreeMap<String, (Q15, u64)>,
+}
+
+impl Senses {
+    /// Of so many boards, of which nothing is known; without a description of the robot nothing is known of its
+    /// motion.
+    pub fn new(boards: usize, speeds: Option<LinkSpeeds>) -> Senses {
+        Senses { boards: vec![SensedBoard::default(); boards], speeds, told: BTreeMap::new() }
+    }
+
+    /// Takes what a board says of a time of the host, us.
+    pub fn board(&mut self, board: usize, sense: &BoardSense, host_us: u64) {
+        let Some(sensed) = self.boards.get_mut(board) else { return };
+        match sense {
+            BoardSense::Begins(worn) => {
+                *sensed = SensedBoard { worn: Some(worn.clone()), ..SensedBoard::default() };
+            }
+            BoardSense::Contacts(contacts) => sensed.list(contacts, self.speeds.as_ref(), host_us),
+            BoardSense::Intent(report) => sensed.report = Some(report.clone()),
+            BoardSense::Alive => {}
+        }
+        sensed.heard_us = Some(sensed.heard_us.map_or(host_us, |heard| heard.max(host_us)));
+        if matches!(sense, BoardSense::Contacts(_)) {
+            self.pair(board, host_us);
+        }
+    }
+
+    /// Where the robot's own surfaces face each other and both are pressed, the robot touches itself, and one of them may
+    /// be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of a board and all others
+    /// that are present.
+    fn pair(&mut self, board: usize, now_us: u64) {
+        let Some(speeds) = &self.speeds else { return };
+        let all = || self.boards.iter().flat_map(|board| &board.contacts);
+        let is_own = |touch: &SensedTouch| {
+            let Some(spot) = touch.felt.spot.as_ref().filter(|_| touch.mover != Mover::Own) else {
+                return false;
+            };
+            all().any(|other| {
+                let Some(facing) = &other.felt.spot else { return false };
+                let began_with = other.since_us.abs_diff(touch.since_us) <= TOGETHER_US;
+                let is_bump = other.mover == Mover::Own && began_with && spot.is_beside(facing);
+                let is_pressed = other.ended_us.is_none() && touch.ended_us.is_none();
+                is_bump || is_pressed && spot.meets(facing, speeds, now_us)
+            })
+        };
+        let mut own = Vec::new();
+        for (number, sensed) in self.boards.iter().enumerate() {
+            let is_concerned = |touch: &&SensedTouch| number == board || touch.ended_us.is_none();
+            let touches = sensed.contacts.iter().filter(is_concerned).filter(|touch| is_own(touch));
+            own.extend(touches.map(|touch| (number, touch.felt.contact)));
+        }
+        for (number, contact) in own {
+            let touches = self.boards[number].contacts.iter_mut();
+            touches.filter(|touch| touch.felt.contact == contact).for_each(|touch| touch.mover = Mover::Own);
+        }
+    }
+
+    /// Number of boards.
+    pub fn boards(&self) -> usize {
+        self.boards.len()
+    }
+
+    /// Contacts of a board that are present, and those that have just ended.
+    pub fn touches(&self, board: usize) -> &[SensedTouch] {
+        self.boards.get(board).map_or(&[], |sensed| &sensed.contacts)
+    }
+
+    /// A board is lost: nothing that it said counts any longer.
+    pub fn forget(&mut self, board: usize) {
+        if let Some(sensed) = self.boards.get_mut(board) {
+            *sensed = SensedBoard { worn: sensed.worn.take(), ..SensedBoard::default() };
+        }
+    }
+
+    /// Takes what somebody tells by a name, of a time of the host, us.
+    pub fn tell(&mut self, name: &str, value: Q15, host_us: u64) {
+        self.told.insert(name.into(), (value, host_us));
+    }
+
+    /// The robot's own links, if it has a description.
+    pub fn speeds(&mut self) -> Option<&mut LinkSpeeds> {
+        self.speeds.as_mut()
+    }
+
+    /// The last report of a board.
+    pub fn report(&self, board: usize) -> Option<&IntentReport> {
+        self.boards.get(board)?.report.as_deref()
+    }
+
+    /// What a board wears, once it has begun.
+    pub fn worn(&self, board: usize) -> Option<&WornMind> {
+        self.boards.get(board)?.worn.as_ref()
+    }
+
+    /// Value of an input at a time of the host, us.
+    pub fn value(&self, input: &RobotInput, now_us: u64) -> SensedValue {
+        let sensed = self.sensed(input, now_us).map(|(value, age_ms)| SensedValue {
+            value: i32::try_from(value).unwrap_or(if value < 0 { i32::MIN } else { i32::MAX }),
+            age_ms: Some(age_ms),
+        });
+        sensed.unwrap_or(SensedValue { value: input.otherwise, age_ms: None })
+    }
+
+    /// Value of an input and its age, ms; none if nothing is known that is young enough.
+    fn sensed(&self, input: &RobotInput, now_us: u64) -> Option<(i64, u32)> {
+        let present = |part: &[String]| {
+            let boards = self.boards.iter().filter(|board| board.covers(part));
+            let ages = boards.filter_map(|board| board.age_ms(input.lasts_ms, now_us));
+            ages.max()
+        };
+        let causes = || self.causes(input, now_us).into_iter();
+        match &input.source {
+            RobotSource::Intent(_) => {
+                let greatest = causes().map(|cause| i64::from(cause.value)).max().unwrap_or(0);
+                Some((greatest, present(&[])?))
+            }
+            RobotSource::Load(part) | RobotSource::Cover(part) => {
+                Some((causes().map(|cause| i64::from(cause.value)).sum(), present(part)?))
+            }
+            RobotSource::Lasts(part) => {
+                Some((causes().map(|cause| i64::from(cause.value)).max().unwrap_or(0), present(part)?))
+            }
+            RobotSource::Apart(first, second) => {
+                let age_ms = present(first)?.max(present(second)?);
+                let onsets = [first, second].map(|part| self.onset_us(part, input.lasts_ms, now_us));
+                let [Some(first), Some(second)] = onsets else { return Some((0, age_ms)) };
+                Some(((second as i64 - first as i64) / 1000, age_ms))
+            }
+            // A board's word is excused by its own contacts alone.
+            RobotSource::Own => {
+                let announces = |board: &SensedBoard| {
+                    board.report.as_ref().is_some_and(|report| report.leading != Leading::None)
+                };
+                let live =
+                    || self.boards.iter().filter(|board| board.age_ms(input.lasts_ms, now_us).is_some());
+                let announcing = live().filter(|board| announces(board));
+                let excused = announcing.map(|board| board.own().unwrap_or(0)).min();
+                let least = causes().min_by_key(|cause| cause.value)?;
+                Some((excused.unwrap_or(least.value).into(), least.age_ms))
+            }
+            // Of several objects, that which is pressed most.
+            RobotSource::Hardness(_)
+            | RobotSource::Point(_)
+            | RobotSource::Slide(_)
+            | RobotSource::Stir(_) => causes().next().map(|cause| (cause.value.into(), cause.age_ms)),
+            RobotSource::Motion(_) | RobotSource::Told(_) => {
+                causes().next().map(|cause| (cause.value.into(), cause.age_ms))
+            }
+        }
+    }
+
+    /// Onset of the oldest contact on a part, us.
+    fn onset_us(&self, part: &[String], lasts_ms: Option<u32>, now_us: u64) -> Option<u64> {
+        let boards = self.boards.iter().filter(|board| board.age_ms(lasts_ms, now_us).is_some());
+        boards.flat_map(|board| board.touches(part, now_us)).map(|touch| touch.since_us).min()
+    }
+
+    /// What a value consists of, down to contacts; nothing if it is the default or nothing touches. Of an
+    /// intention: the boards that announce it.
+    pub fn causes(&self, input: &RobotInput, now_us: u64) -> Vec<SenseCause> {
+        let boards = || {
+            let ages = self.boards.iter().map(|board| board.age_ms(input.lasts_ms, now_us));
+            let live = ages.enumerate().zip(&self.boards);
+            live.filter_map(|((number, age_ms), board)| Some((number, age_ms?, board)))
+        };
+        let touches = |part: &[String], value: &dyn Fn(&SensedTouch) -> u64| -> Vec<SenseCause> {
+            let of = |(number, age_ms, board): (usize, u32, &SensedBoard)| -> Vec<SenseCause> {
+                let cause = |touch: &SensedTouch| SenseCause {
+                    board: Some(number),
+                    contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
+                    value: i32::try_from(value(touch)).unwrap_or(i32::MAX),
+                    age_ms,
+                };
+                board.touches(part, now_us).map(cause).collect()
+            };
+            boards().flat_map(of).collect()
+        };
+        let probed = |part: &[String], value: &dyn Fn(Probe) -> Option<u32>| -> Vec<SenseCause> {
+            let own = boards().flat_map(|(number, age_ms, board)| {
+                let own = board.contacts.iter().filter(|touch| touch.mover == Mover::Own);
+                own.filter(|touch| touch.felt.place.is_of(part)).map(move |touch| (number, age_ms, touch))
+            });
+            let most = own.max_by_key(|(.., touch)| touch.most);
+            let cause = most.and_then(|(number, age_ms, touch)| {
+                Some(SenseCause {
+                    board: Some(number),
+                    contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
+                    value: i32::try_from(value(touch.course.probe())?).unwrap_or(i32::MAX),
+                    age_ms,
+                })
+            });
+            cause.into_iter().collect()
+        };
+        let alone = |value: i32, age_ms: u32| SenseCause { board: None, contact: None, value, age_ms };
+        let is_young = |age_ms: &u32| input.lasts_ms.is_none_or(|lasts_ms| *age_ms < lasts_ms);
+        let since_ms = |touch: &SensedTouch| now_us.saturating_sub(touch.since_us) / 1000;
+        match &input.source {
+            RobotSource::Intent(leading) => {
+                let announced = boards().filter_map(|(number, age_ms, board)| {
+                    let value = board.announces(*leading)?.0;
+                    Some(SenseCause { board: Some(number), ..alone(value, age_ms) })
+                });
+                announced.collect()
+            }
+            RobotSource::Load(part) => touches(part, &|touch| touch.recent.0.into()),
+            RobotSource::Cover(part) => {
+                touches(part, &|touch| touch.ended_us.map_or(touch.felt.cover_mm2, |_| 0).into())
+            }
+            RobotSource::Lasts(part) => touches(part, &since_ms),
+            RobotSource::Apart(first, second) => {
+                let both = [first, second].map(|part| touches(part, &since_ms));
+                if both.iter().any(Vec::is_empty) { Vec::new() } else { both.concat() }
+            }
+            RobotSource::Motion(part) => {
+                let is_meant =
+                    |link: &str| BodyPlace { region: String::new(), link: link.into() }.is_of(part);
+                let fastest = self.speeds.as_ref().and_then(|speeds| speeds.fastest(now_us, is_meant));
+                let young = fastest.filter(|(_, age_ms)| is_young(age_ms));
+                young.map(|(speed, age_ms)| alone(speed, age_ms)).into_iter().collect()
+            }
+            RobotSource::Hardness(part) => probed(part, &|probe| probe.hardness),
+            RobotSource::Point(part) => probed(part, &|probe| Some(probe.point)),
+            RobotSource::Slide(part) => probed(part, &|probe| Some(probe.slide)),
+            RobotSource::Stir(part) => probed(part, &|probe| Some(probe.stir)),
+            RobotSource::Own => {
+                let own = boards().filter_map(|(number, age_ms, board)| {
+                    Some(SenseCause { board: Some(number), ..alone(board.own()?, age_ms) })
+                });
+                own.collect()
+            }
+            RobotSource::Told(name) => {
+                let told = self.told.get(name).map(|(value, from_us)| {
+                    let age_ms = u32::try_from(now_us.saturating_sub(*from_us) / 1000).unwrap_or(u32::MAX);
+                    alone(value.0, age_ms)
+                });
+                told.filter(|told| is_young(&told.age_ms)).into_iter().collect()
+            }
+        }
+    }
+}
