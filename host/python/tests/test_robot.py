@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import taxel
 from conftest import program
@@ -142,3 +143,42 @@ def test_boards_at_times_of_their_own_have_no_mind(file: Path) -> None:
             robot.tell("vision", 0.5)
         with pytest.raises(taxel.UsageError, match="realtime=True"):
             robot.why()
+
+
+def test_a_robot_is_stepped_by_hand(tmp_path: Path) -> None:
+    file = tmp_path / "robot.toml"
+    file.write_text(
+        'name = "one"\nurdf = "reference"\n[[boards]]\nname = "torso"\nsource = "sim:idle"\n'
+        'garment = "reference"\nbody = "reference"\ntare = 16\n'
+    )
+    robot = taxel.SteppedRobot(file)
+    assert (robot.boards, robot.taxels("torso")) == (["torso"], 2048)
+    with pytest.raises(taxel.UsageError, match='did you mean "torso"'):
+        robot.taxels("torsi")
+    with pytest.raises(taxel.UsageError, match="3 codes for a garment of 2048 taxels"):
+        robot.step("torso", np.zeros(3, np.uint16), 0)
+    with pytest.raises(taxel.UsageError, match='did you mean "vision"'):
+        robot.tell("visoin", 0.5, 0)
+    meant: list[taxel.RobotIntent] = []
+    for time_us in range(0, 1_500_000, 5_000):
+        codes = np.full(2048, 100, np.uint16)
+        if time_us > 500_000:
+            # A palm of 15 N on the chest.
+            codes[:512].reshape(32, 16)[12:20, 4:12] += 240
+        if time_us % 10_000 == 0:
+            robot.set_joints({"waist": 0.0, "left_shoulder_pitch": 0.0}, time_us, age_ms=2)
+        news = robot.step("torso", codes, time_us)
+        if news is not None:
+            meant.append(news)
+    (touch,) = robot.touches()
+    assert (touch["region"], touch["link"], touch["mover"]) == ("chest", "torso", "other")
+    assert touch["approach"]["speed_m_s"] == 0.0 and "probe" not in touch
+    assert meant and meant[0].touches[0]["region"] == "chest"
+    why = robot.why("kindness")
+    assert why["concept"] == "kindness" and why["seconds"] > 0.5
+
+
+def test_a_robot_by_hand_needs_garments(file: Path) -> None:
+    file.write_text('name = "one"\n[[boards]]\nname = "a"\nsource = "sim:idle"\n')
+    with pytest.raises(taxel.UsageError, match="board a has no `garment`"):
+        taxel.SteppedRobot(file)

@@ -57,6 +57,8 @@ pub struct Stepped {
     /// The table being received.
     table: Vec<u8>,
     last: Option<Micros>,
+    /// The board waits for a scan: also after one that was refused.
+    is_due: bool,
 }
 
 impl Stepped {
@@ -70,7 +72,7 @@ impl Stepped {
         board.booted(Boot::default());
         let mut client = Client::new();
         client.start(0)?;
-        Ok(Stepped { board, client, codes: Vec::new(), table: Vec::new(), last: None })
+        Ok(Stepped { board, client, codes: Vec::new(), table: Vec::new(), last: None, is_due: false })
     }
 
     /// Number of taxels: the length of a scan.
@@ -107,7 +109,7 @@ impl Stepped {
         }
         let requests = self.client.take_requests();
         self.board.step(time, Input::Received(&requests), &mut ());
-        let is_due = self.work(time);
+        self.is_due |= self.work(time);
         self.send(time, told)?;
         // A request may just have changed the garment.
         let taxels = self.taxels();
@@ -117,7 +119,7 @@ impl Stepped {
             "{} codes for a garment of {taxels} taxels",
             codes.len()
         );
-        if is_due {
+        if std::mem::take(&mut self.is_due) {
             self.codes.clear();
             self.codes.extend(codes.iter().map(|code| Code(*code)));
             let report = ScanReport { start: time, ..ScanReport::default() };

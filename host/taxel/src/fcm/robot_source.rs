@@ -4,7 +4,7 @@
 //! | `robot =` | unit | value |
 //! |---|---|---|
 //! | `{ intent = "attack" }` | 2^-15 | activation of this intention on a board that announces it, 0 on one that does not: the greatest of all boards |
-//! | `{ load = ["chest"] }` | counts | sum of the contacts on this part, of each its greatest force within 0.8 s, also after its end; thousandths of a newton on boards with a calibration in force |
+//! | `{ load = ["chest"] }` | counts | sum of the contacts on this part, of each its greatest force within 1.2 s, also after its end; thousandths of a newton on boards with a calibration in force |
 //! | `{ cover = ["chest"] }` | mm2 | area that they cover |
 //! | `{ lasts = ["chest"] }` | ms | time since this part is touched without a gap |
 //! | `{ apart = [["chest"], ["back"]] }` | ms | time by which the touch of the first part began before that of the second; 0 unless both are touched |

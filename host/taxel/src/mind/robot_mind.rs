@@ -53,6 +53,8 @@ pub struct RobotMind {
     senses: Senses,
     meaning: Option<RobotMeaning>,
     now_us: u64,
+    /// Host time of its last thought, us.
+    thought_us: u64,
 }
 
 impl RobotMind {
@@ -89,6 +91,7 @@ impl RobotMind {
             senses,
             meaning: None,
             now_us: 0,
+            thought_us: 0,
             map,
         })
     }
@@ -136,11 +139,14 @@ impl RobotMind {
         self.inputs.iter().map(|input| self.senses.value(input, self.now_us)).collect()
     }
 
-    /// Takes what a board says of a time of the host, us. Returns what it means if that is news: another
-    /// intention leads, or other concepts hold.
+    /// Takes what a board says of a time of the host, us; it thinks at every word of a board, else every 5 ms. Returns
+    /// what that means if it is news: another intention leads, or other concepts hold.
     pub fn board(&mut self, board: usize, sense: &BoardSense, host_us: u64) -> Option<&RobotMeaning> {
         self.senses.board(board, sense, host_us);
-        self.pass(host_us)
+        // Of a hundred boards that scan, not each scan is worth a thought; a word is.
+        let is_word = matches!(sense, BoardSense::Intent(_) | BoardSense::Begins(_));
+        let due_us = self.thought_us.saturating_add(1000 * u64::from(PERIOD_MS));
+        if is_word || host_us >= due_us { self.pass(host_us) } else { None }
     }
 
     /// A board is lost: nothing that it said counts any longer.
@@ -179,6 +185,7 @@ impl RobotMind {
     pub fn pass(&mut self, host_us: u64) -> Option<&RobotMeaning> {
         // Boards tell of times that are not in order.
         self.now_us = self.now_us.max(host_us);
+        self.thought_us = self.now_us;
         let (heard, now) = (self.hear(), Micros(self.now_us));
         let found = self.stage.process(&mut self.state, &[], &Felt::default(), &values(&heard), now)?;
         let (led, held) = self

@@ -12,8 +12,8 @@ use taxel_core::intent::Leading;
 use taxel_core::wire::IntentReport;
 
 /// Time for which a contact that has ended still counts, and within which its greatest force does, us: a board announces
-/// what it meant nearly as long.
-const HELD_US: u64 = 800_000;
+/// what a touch meant for 0.6 s, and the arms of a hug open one after the other.
+const HELD_US: u64 = 1_200_000;
 /// Time within which two contacts begin together, us; also that within which joints are told that were read
 /// before an onset.
 const TOGETHER_US: u64 = 150_000;

@@ -73,7 +73,14 @@ fn what_does_not_fit_is_refused() {
     let mut quiet = |_: &_, _: &_| Ok(());
     let why = board.step(&codes[1..], Micros(0), &mut quiet).unwrap_err().to_string();
     assert_eq!(why, format!("{} codes for a garment of {} taxels", codes.len() - 1, codes.len()));
-    board.step(&codes, Micros(9), &mut quiet).unwrap();
+    // The board still waits for the scan that was refused.
+    let mut frames = 0;
+    let mut count = |_: &_, event: &taxel::client::Event| {
+        frames += usize::from(matches!(event, taxel::client::Event::Frame { .. }));
+        Ok(())
+    };
+    board.step(&codes, Micros(9), &mut count).unwrap();
+    assert_eq!(frames, 1);
     let why = board.step(&codes, Micros(8), &mut quiet).unwrap_err().to_string();
     assert_eq!(why, "a step at 8 us is before the last one");
 }

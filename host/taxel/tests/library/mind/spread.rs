@@ -178,10 +178,10 @@ fn leaning_back(chest: &str, wish: Wish, number: u64) -> SpreadTouch {
     SpreadTouch { wish, span: (span.0, span.1 + 2_000 * MS), parts, note }
 }
 
-/// Two firm hands, one on the chest and one on the back: each alone restrains.
+/// Two firm hands, one on the chest and one on the back, which let go within 0.4 s: each alone restrains.
 fn firm_hug(number: u64) -> SpreadTouch {
-    let on_panel = |panel: usize| {
-        (0..).find_map(|more| {
+    let on_panel = |panel: usize, from: u64| {
+        (from..).find_map(|more| {
             let person =
                 || -> Box<dyn Session> { Box::new(hands::Person::new(2 * (1000 * more + number), 1)) };
             let mut tried = person();
@@ -190,11 +190,16 @@ fn firm_hug(number: u64) -> SpreadTouch {
             let mut scans: Scans = Box::new(move |now, codes| tried.frame(now, codes));
             let times = [act.span.0.saturating_sub(200 * MS), act.span.0 + 600 * MS];
             let on = pressed_panel(&garment, &mut scans, times);
-            (on == panel).then(|| of_person(Kind::Hold, person))
+            (on == panel).then(|| (of_person(Kind::Hold, person), more))
         })
     };
-    let (front, rear) = (on_panel(0).unwrap(), on_panel(1).unwrap());
-    let span = (BEFORE_US, front.span.1.min(rear.span.1));
+    let front = on_panel(0, 0).unwrap().0;
+    let mut rear = on_panel(1, 0).unwrap();
+    while front.span.1.abs_diff(rear.0.span.1) > 400 * MS {
+        rear = on_panel(1, rear.1 + 1).unwrap();
+    }
+    let rear = rear.0;
+    let span = (BEFORE_US, front.span.1.max(rear.span.1));
     let ([on_chest, _], [_, on_back]) = (front.parts, rear.parts);
     let note = format!("{}; {}", front.note, rear.note);
     SpreadTouch { wish: Wish::Kind, span, parts: [on_chest, on_back], note }
