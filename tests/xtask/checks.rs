@@ -1,5 +1,5 @@
-//! `cargo xtask test`: all checks, three at a time: one compiles, and those that compile in the same folder wait
-//! for cargo meanwhile; one runs the emulator, on one core; one keeps the other core busy.
+//! `cargo xtask test`: all checks, three at a time: one compiles, and those that compile in the same folder
+//! wait for cargo meanwhile; one runs the emulator, on one core; one keeps the other core busy.
 
 use crate::cargo::{WHOLE, cargo};
 use crate::counts::Counts;

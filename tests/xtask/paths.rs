@@ -24,8 +24,8 @@ pub fn peers() -> PathBuf {
     root().join("tests/peers")
 }
 
-/// Packages that are no members of the workspace and have a lock file each: their folders in the repository, and
-/// where these are.
+/// Packages that are no members of the workspace and have a lock file each: their folders in the repository,
+/// and where these are.
 pub fn apart() -> [(&'static str, PathBuf); 3] {
     ["firmware", "fuzz/targets", "tests/peers"].map(|folder| (folder, root().join(folder)))
 }

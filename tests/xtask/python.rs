@@ -92,8 +92,8 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     Ok(Ok(lines))
 }
 
-/// Makes a wheel by an environment with the pinned tools, installs it beside them, and runs the tests and mypy. Returns
-/// what they measured.
+/// Makes a wheel by an environment with the pinned tools, installs it beside them, and runs the tests and
+/// mypy. Returns what they measured.
 fn tested(
     python: &str,
     wheel: impl FnOnce(&Path) -> Result<PathBuf, String>,

@@ -3,7 +3,7 @@
 use super::mover::{Approach, Mover};
 use super::probe::Probe;
 use super::robot_mind::{RobotMeaning, RobotMind};
-use super::senses::SensedTouch;
+use super::sensed_board::SensedTouch;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -19,8 +19,8 @@ pub struct RobotMeaningLine {
     pub holding: Vec<String>,
     /// Activation of each concept of the map, -1 to 1.
     pub concepts: Map<String, Value>,
-    /// Inputs of the map for which nothing is known that is young enough, so that its default counts: names of
-    /// their concepts.
+    /// Inputs of the map for which nothing is known that is young enough, so that its default counts: names
+    /// of their concepts.
     pub defaults: Vec<String>,
     /// What touches the robot, and whose motion has caused it.
     pub touches: Vec<RobotTouchLine>,

@@ -8,6 +8,7 @@
 //! | `mover.rs` | [`Mover`]: whose motion has caused a touch |
 //! | `probe.rs` | [`Probe`]: what a limb feels of what it moves into |
 //! | `told.rs` | [`ToldLine`]: what others know |
+//! | `sensed_board.rs` | [`SensedTouch`]: what one board has said, and whose motion has caused it |
 //! | `senses.rs` | [`Senses`]: the newest of all of these, each with its age |
 //! | `robot_mind.rs` | [`RobotMind`]: the map of the robot over its senses |
 //! | `line.rs` | what it means, as JSON and in words |
@@ -15,8 +16,8 @@
 //! | `stepped_robot.rs` | [`SteppedRobot`]: the boards of a robot and its mind, stepped by hand |
 //!
 //! The map is a file like those of boards ([`crate::fcm`]), and the stage that infers and announces is the
-//! board's own; only its inputs are others ([`crate::fcm::robot_source`]). An input of which nothing is known that is
-//! young enough has the default that the map states for it.
+//! board's own; only its inputs are others ([`crate::fcm::robot_source`]). An input of which nothing is known
+//! that is young enough has the default that the map states for it.
 
 mod felt;
 mod line;
@@ -25,6 +26,7 @@ mod place;
 mod probe;
 mod reasons;
 mod robot_mind;
+mod sensed_board;
 mod senses;
 mod speeds;
 mod stepped_robot;
@@ -37,7 +39,8 @@ pub use place::BodyPlace;
 pub use probe::{Probe, ProbeCourse};
 pub use reasons::{ReasonInput, RobotReasons};
 pub use robot_mind::{RobotMeaning, RobotMind};
-pub use senses::{SenseCause, SensedTouch, SensedValue, Senses};
+pub use sensed_board::SensedTouch;
+pub use senses::{SenseCause, SensedValue, Senses};
 pub use speeds::LinkSpeeds;
 pub use stepped_robot::SteppedRobot;
 pub use told::ToldLine;

@@ -1,8 +1,8 @@
 //! Whose motion has caused a touch: the robot's own, or that of what touches it.
 //!
-//! Before its onset, the touched surface moves along its normal if the robot bumps into something, and does not
-//! if it is touched. The velocity follows from the joints that are told. If both move, the robot's motion shows
-//! and the other's does not: such a touch is taken for the robot's own from its speed on.
+//! Before its onset, the touched surface moves along its normal if the robot bumps into something, and does
+//! not if it is touched. The velocity follows from the joints that are told. If both move, the robot's motion
+//! shows and the other's does not: such a touch is taken for the robot's own from its speed on.
 
 use super::speeds::LinkSpeeds;
 use crate::body::DVec3;
@@ -12,12 +12,13 @@ use serde::Serialize;
 const OWN_M_S: f64 = 0.02;
 /// Speed up to which the surface has not moved, m/s: what servos and encoders leave.
 const STILL_M_S: f64 = 0.008;
-/// Share of its whole speed that a surface has along its normal if it moves into something, and up to which it moves
-/// along what touches it: contacts lie beside the taxels that meet something first, where the normal is another.
+/// Share of its whole speed that a surface has along its normal if it moves into something, and up to which
+/// it moves along what touches it: contacts lie beside the taxels that meet something first, where the normal
+/// is another.
 const INTO: f64 = 0.3;
 const ALONG: f64 = 0.25;
-/// Time before the onset within which the greatest speed counts, us: a bump stops the link, and a board tells of
-/// a contact some frames later.
+/// Time before the onset within which the greatest speed counts, us: a bump stops the link, and a board tells
+/// of a contact some frames later.
 const BEFORE_US: u64 = 80_000;
 /// Time over which a speed is taken, us.
 const OVER_US: u64 = 20_000;
@@ -75,8 +76,8 @@ pub struct SurfaceSpot {
 }
 
 impl SurfaceSpot {
-    /// The motion with the greatest speed along the normal shortly before an onset at a time of the host, us. None if
-    /// nothing is known of the robot's motion then.
+    /// The motion with the greatest speed along the normal shortly before an onset at a time of the host, us.
+    /// None if nothing is known of the robot's motion then.
     pub fn approach(&self, speeds: &LinkSpeeds, onset_us: u64) -> Option<Approach> {
         let steps = (0..BEFORE_US / OVER_US).map(|step| onset_us.saturating_sub(step * OVER_US));
         let motion = |to_us: u64| {

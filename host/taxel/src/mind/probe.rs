@@ -7,7 +7,8 @@ use crate::body::DVec3;
 use serde::Serialize;
 use std::collections::VecDeque;
 
-/// Depth from which on a hardness is known, and the least that is taken, mm: joints are read to a tenth of that.
+/// Depth from which on a hardness is known, and the least that is taken, mm: joints are read to a tenth of
+/// that.
 const DEEP_MM: f64 = 0.5;
 /// Load from which on what is not as deep is hard, counts.
 const PRESSED: u32 = 2000;
@@ -25,8 +26,8 @@ const QUIET_US: u64 = 100_000;
 /// What a limb feels of an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Probe {
-    /// Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before that depth or
-    /// 2,000 counts.
+    /// Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before
+    /// that depth or 2,000 counts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness: Option<u32>,
     /// Share of the force on the taxel with the greatest pressure, at the greatest force, percent.

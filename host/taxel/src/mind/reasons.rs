@@ -39,8 +39,8 @@ pub struct ReasonInput {
 }
 
 impl RobotReasons {
-    /// Explains what a mind senses now, `seconds` after the begin: the announced intention, else the strongest
-    /// one, or the concept `of`.
+    /// Explains what a mind senses now, `seconds` after the begin: the announced intention, else the
+    /// strongest one, or the concept `of`.
     pub fn of(mind: &RobotMind, seconds: f64, of: Option<&str>, robot: &ReadRobot) -> Result<RobotReasons> {
         let RobotMeaning { host_us, leading, outcome, steps, activations, heard, .. } = mind.meaning_now();
         let concepts = activations.into_iter().collect();

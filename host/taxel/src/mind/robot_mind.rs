@@ -12,8 +12,8 @@ use crate::tell::words;
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{CONCEPTS, EDGES, Felt, Intent, IntentConfig, IntentState, Leading, Outcome};
 
-/// Time that an intention must lead before it is announced, ms: boards have waited already, and what leads must not
-/// contradict what holds.
+/// Time that an intention must lead before it is announced, ms: boards have waited already, and what leads
+/// must not contradict what holds.
 const ONSET_MS: u16 = 0;
 /// Shortest time between two inferences, ms.
 const PERIOD_MS: u16 = 5;
@@ -139,8 +139,8 @@ impl RobotMind {
         self.inputs.iter().map(|input| self.senses.value(input, self.now_us)).collect()
     }
 
-    /// Takes what a board says of a time of the host, us; it thinks at every word of a board, else every 5 ms. Returns
-    /// what that means if it is news: another intention leads, or other concepts hold.
+    /// Takes what a board says of a time of the host, us; it thinks at every word of a board, else every 5
+    /// ms. Returns what that means if it is news: another intention leads, or other concepts hold.
     pub fn board(&mut self, board: usize, sense: &BoardSense, host_us: u64) -> Option<&RobotMeaning> {
         self.senses.board(board, sense, host_us);
         // Of a hundred boards that scan, not each scan is worth a thought; a word is.

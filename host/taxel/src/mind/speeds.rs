@@ -32,8 +32,8 @@ impl LinkSpeeds {
         Ok(LinkSpeeds { robot, history, told: BTreeSet::new() })
     }
 
-    /// Takes positions of joints, rad or m, at a time of the host, us. Joints that were never told rest. Error,
-    /// and nothing is taken, if the robot has no such joint or a position is out of its range.
+    /// Takes positions of joints, rad or m, at a time of the host, us. Joints that were never told rest.
+    /// Error, and nothing is taken, if the robot has no such joint or a position is out of its range.
     pub fn take<'a>(
         &mut self,
         host_us: u64,
@@ -48,8 +48,8 @@ impl LinkSpeeds {
         Ok(())
     }
 
-    /// A point of a link and a direction there in the base at a time of the host, us. None without such a link,
-    /// or if nothing is known of the joints at that time.
+    /// A point of a link and a direction there in the base at a time of the host, us. None without such a
+    /// link, or if nothing is known of the joints at that time.
     pub fn point(&self, host_us: u64, link: &str, at: DVec3, direction: DVec3) -> Option<(DVec3, DVec3)> {
         if self.told.is_empty() {
             return None;
@@ -62,9 +62,9 @@ impl LinkSpeeds {
         Some((pose.point(at), pose.direction(direction)))
     }
 
-    /// Speed of the fastest of the links that are meant, mm/s, and the age of the joints, ms. The speed of a link
-    /// is that of its origin, and of its turning at 0.1 m from there. None before two readings of each joint
-    /// that was told.
+    /// Speed of the fastest of the links that are meant, mm/s, and the age of the joints, ms. The speed of a
+    /// link is that of its origin, and of its turning at 0.1 m from there. None before two readings of each
+    /// joint that was told.
     pub fn fastest(&self, host_us: u64, is_meant: impl Fn(&str) -> bool) -> Option<(i32, u32)> {
         if self.told.is_empty() {
             return None;

@@ -1,5 +1,5 @@
-//! The very boards of a robot and its mind, stepped by hand: for simulators that make codes of their own, and for
-//! tests. Nothing here waits, and nothing reads a clock: all boards go by the time of the steps.
+//! The very boards of a robot and its mind, stepped by hand: for simulators that make codes of their own, and
+//! for tests. Nothing here waits, and nothing reads a clock: all boards go by the time of the steps.
 
 use super::felt::MindReader;
 use super::robot_mind::{RobotMeaning, RobotMind};

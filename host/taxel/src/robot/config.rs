@@ -11,8 +11,8 @@ pub struct RobotConfig {
     pub name: String,
     /// Its description: a URDF file, or `reference`.
     pub urdf: Option<String>,
-    /// What touches mean to it: maps of a robot, TOML files or shipped ones, which are united; `robot` and `probe` if
-    /// left out.
+    /// What touches mean to it: maps of a robot, TOML files or shipped ones, which are united; `robot` and
+    /// `probe` if left out.
     pub maps: Option<Vec<String>>,
     /// Its boards.
     pub boards: Vec<BoardConfig>,

@@ -1,4 +1,5 @@
-//! Each source of the mind dropped in turn: the default that the map states counts, and nothing contradicts itself.
+//! Each source of the mind dropped in turn: the default that the map states counts, and nothing contradicts
+//! itself.
 
 use super::worn::robot;
 use fastrand::Rng;
@@ -169,7 +170,8 @@ fn what_is_too_old_has_its_default() {
     };
     // Without a body nobody knows which way the surface moved, and what it met.
     assert_eq!(stale(&mind), 5);
-    // Joints stand still after 0.3 s, boards and vision are silent after 1 s, voice after 3 s, plans after 10 s.
+    // Joints stand still after 0.3 s, boards and vision are silent after 1 s, voice after 3 s, plans after 10
+    // s.
     let mut counts = Vec::new();
     for ms in [400, 1_100, 3_100, 10_100] {
         let now_us = NOW_US + 1000 * ms;

@@ -1,9 +1,9 @@
 //! All families of touches, spread over two boards: the mind is at least as right as its best source.
 //!
-//! The scripts and simulators are those of the families of one board; the map of the robot was written with them in
-//! sight. A source judges a touch if it announces something, or ought to: silence is no judgement of a touch of which
-//! nothing need be said. The mind is compared with a source on the touches that this source judges.
-//! `TAXEL_CAMPAIGN=1`: 40 touches of each family instead of 2, and others.
+//! The scripts and simulators are those of the families of one board; the map of the robot was written with
+//! them in sight. A source judges a touch if it announces something, or ought to: silence is no judgement of
+//! a touch of which nothing need be said. The mind is compared with a source on the touches that this source
+//! judges. `TAXEL_CAMPAIGN=1`: 40 touches of each family instead of 2, and others.
 
 use super::spread::{SpreadFamily, families};
 use super::worn::hear;
@@ -21,7 +21,8 @@ struct Row {
     count: usize,
     /// Right touches of the mind.
     right: usize,
-    /// By single source: touches that it judges, those of them in which it is right, and in which the mind is.
+    /// By single source: touches that it judges, those of them in which it is right, and in which the mind
+    /// is.
     judged: [[usize; 3]; 5],
     wrong: Vec<String>,
 }

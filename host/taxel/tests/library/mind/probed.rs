@@ -103,8 +103,8 @@ pub fn tuned(object: Object, rng: &mut Rng) -> Thing {
     }
 }
 
-/// Other objects, by other laws: foam that stiffens, balls of Hertz, straight edges, cones, blades; what rolls, pulls away
-/// or beats.
+/// Other objects, by other laws: foam that stiffens, balls of Hertz, straight edges, cones, blades; what
+/// rolls, pulls away or beats.
 pub fn other(object: Object, rng: &mut Rng) -> Thing {
     let flat = |x: f64, y: f64, [a, b]: [f64; 2]| f64::from(u8::from(x.abs() <= a && y.abs() <= b));
     match object {

@@ -57,7 +57,8 @@ fn part(garment: &Garment, panels: [usize; 2]) -> Garment {
     part
 }
 
-/// The codes of these panels, of a touch of the whole garment. Both parts draw the whole from the same numbers.
+/// The codes of these panels, of a touch of the whole garment. Both parts draw the whole from the same
+/// numbers.
 fn some(act: Act, panels: [usize; 2]) -> SpreadPart {
     of_panels((act.garment, act.codes), act.period_us, panels)
 }

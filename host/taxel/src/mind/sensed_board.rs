@@ -1,0 +1,155 @@
+//! What one board has said: its contacts, present and just ended, and what it announces.
+
+use super::felt::{FeltContact, WornMind};
+use super::mover::{Approach, Mover};
+use super::probe::ProbeCourse;
+use super::speeds::LinkSpeeds;
+use taxel_core::format::Q15;
+use taxel_core::intent::Leading;
+use taxel_core::wire::IntentReport;
+
+/// Time for which a contact that has ended still counts, and within which its greatest force does, us: a
+/// board announces what a touch meant for 0.6 s, and the arms of a hug open one after the other.
+const HELD_US: u64 = 1_200_000;
+/// Time within which two contacts begin together, us; also that within which joints are told that were read
+/// before an onset.
+pub(super) const TOGETHER_US: u64 = 150_000;
+
+/// A contact that is present, or was until a moment ago.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensedTouch {
+    /// The contact, as it was told last.
+    pub felt: FeltContact,
+    /// Host time at which it was first told, us.
+    pub since_us: u64,
+    /// Host time at which it was no longer told, us; none while it is present.
+    pub ended_us: Option<u64>,
+    /// Its greatest load so far.
+    pub most: u32,
+    /// Its greatest load within [`HELD_US`], and the host's time of that, us.
+    pub(super) recent: (u32, u64),
+    /// How the robot's surface moved before the onset; none if it is not known.
+    pub approach: Option<Approach>,
+    /// Whose motion has caused it.
+    pub mover: Mover,
+    /// What it says of the object, if the robot has moved into it.
+    pub course: ProbeCourse,
+}
+
+impl SensedTouch {
+    /// True if it is present or has ended within [`HELD_US`].
+    fn counts(&self, now_us: u64) -> bool {
+        self.ended_us.is_none_or(|ended| now_us.saturating_sub(ended) < HELD_US)
+    }
+
+    /// Takes the load of now.
+    fn load(&mut self, host_us: u64) {
+        let (recent, at_us) = self.recent;
+        if self.felt.load >= recent || host_us.saturating_sub(at_us) >= HELD_US {
+            self.recent = (self.felt.load, host_us);
+        }
+    }
+
+    /// Finds whose motion has caused it.
+    fn judge(&mut self, speeds: Option<&LinkSpeeds>) {
+        self.approach = self.felt.spot.as_ref().zip(speeds).and_then(|(spot, speeds)| {
+            // Where the contact is later says nothing of how it began.
+            spot.approach(speeds, self.since_us)
+        });
+        self.mover = self.approach.map_or(Mover::Unsure, Approach::mover);
+    }
+}
+
+/// What a board has said.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SensedBoard {
+    /// Host time of what it said last, us; none while it is not there.
+    pub(super) heard_us: Option<u64>,
+    pub(super) worn: Option<WornMind>,
+    /// Present contacts, and those that have ended within [`HELD_US`].
+    pub(super) contacts: Vec<SensedTouch>,
+    pub(super) report: Option<Box<IntentReport>>,
+}
+
+impl SensedBoard {
+    /// Age of what it has said, ms, unless it is not there or silent for too long.
+    pub(super) fn age_ms(&self, lasts_ms: Option<u32>, now_us: u64) -> Option<u32> {
+        let age_ms = u32::try_from(now_us.saturating_sub(self.heard_us?) / 1000).unwrap_or(u32::MAX);
+        lasts_ms.is_none_or(|lasts_ms| age_ms < lasts_ms).then_some(age_ms)
+    }
+
+    /// True if its garment covers some of this part.
+    pub(super) fn covers(&self, part: &[String]) -> bool {
+        self.worn.iter().flat_map(|worn| &worn.places).any(|place| place.is_of(part))
+    }
+
+    /// Contacts on a part that are present or have ended within [`HELD_US`].
+    pub(super) fn touches<'a>(
+        &'a self,
+        part: &'a [String],
+        now_us: u64,
+    ) -> impl Iterator<Item = &'a SensedTouch> {
+        let counts = move |touch: &&SensedTouch| touch.counts(now_us);
+        self.contacts.iter().filter(counts).filter(|touch| touch.felt.place.is_of(part))
+    }
+
+    /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be told
+    /// that were read before.
+    pub(super) fn list(&mut self, contacts: &[FeltContact], speeds: Option<&LinkSpeeds>, host_us: u64) {
+        let is_recent =
+            |touch: &SensedTouch| touch.ended_us.is_none_or(|ended| host_us.saturating_sub(ended) < HELD_US);
+        self.contacts.retain(is_recent);
+        for touch in self.contacts.iter_mut().filter(|touch| touch.ended_us.is_none()) {
+            if !contacts.iter().any(|felt| felt.contact == touch.felt.contact) {
+                touch.ended_us = Some(host_us);
+            }
+        }
+        for felt in contacts {
+            let known = self.contacts.iter_mut().find(|touch| touch.felt.contact == felt.contact);
+            match known {
+                Some(touch) => {
+                    let is_new = host_us.saturating_sub(touch.since_us) < TOGETHER_US;
+                    (touch.felt, touch.ended_us) = (felt.clone(), None);
+                    touch.most = touch.most.max(felt.load);
+                    touch.load(host_us);
+                    touch.course.take(felt, speeds, host_us);
+                    if is_new && touch.mover != Mover::Own {
+                        touch.judge(speeds);
+                    }
+                }
+                None => {
+                    let mut touch = SensedTouch {
+                        felt: felt.clone(),
+                        since_us: host_us,
+                        ended_us: None,
+                        most: felt.load,
+                        recent: (felt.load, host_us),
+                        approach: None,
+                        mover: Mover::Unsure,
+                        course: ProbeCourse::begin(felt, speeds, host_us),
+                    };
+                    touch.judge(speeds);
+                    self.contacts.push(touch);
+                }
+            }
+        }
+    }
+
+    /// Share of the force that the robot's own motion has caused, of present contacts and of those that have
+    /// just ended, 2^-15; none if nothing touches or nothing is known of the motion.
+    pub(super) fn own(&self) -> Option<i32> {
+        let known = self.contacts.iter().any(|touch| touch.approach.is_some());
+        let most = |touch: &SensedTouch| u64::from(touch.most);
+        let all: u64 = self.contacts.iter().map(most).sum();
+        let own: u64 = self.contacts.iter().filter(|touch| touch.mover == Mover::Own).map(most).sum();
+        (known && all > 0).then(|| (own as f64 / all as f64 * f64::from(Q15::ONE.0)).round() as i32)
+    }
+
+    /// Activation of the intention that it announces; none if it announces another.
+    pub(super) fn announces(&self, leading: Leading) -> Option<Q15> {
+        let report = self.report.as_ref().filter(|report| report.leading == leading)?;
+        let concepts = &self.worn.as_ref()?.map.as_ref()?.concept;
+        let at = concepts.iter().position(|concept| concept.name == leading.as_str())?;
+        report.concepts.get(at).copied()
+    }
+}
