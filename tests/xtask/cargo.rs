@@ -12,8 +12,13 @@ pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
 pub fn cargo(args: &[&str], folder: PathBuf) -> Command {
     let mut command = Command::new("cargo");
     command.args(args).current_dir(folder);
+    without_increments(&mut command);
+    command
+}
+
+/// Makes a command that calls cargo build like [`cargo`]: what is built otherwise is built once more.
+pub fn without_increments(command: &mut Command) {
     if std::env::var_os("CARGO_INCREMENTAL").is_none() {
         command.env("CARGO_INCREMENTAL", "0");
     }
-    command
 }

@@ -1,5 +1,6 @@
 //! `cargo xtask python`: the Python package as a wheel, tested in an environment of its own.
 
+use crate::cargo::without_increments;
 use crate::end::{End, shown};
 use crate::interpreter::{VERSIONS, first_image, interpreter, minor, package, version};
 use crate::{install, paths, process, wheels};
@@ -164,6 +165,7 @@ fn built(python: &Path, build: Build, log: &Path) -> Result<PathBuf, String> {
         Build::Dev => maturin.args(["--strip", "false", "--features", "full,taxel-cli/schema"]),
         Build::Release => maturin.args(["--release", "--features", "full"]),
     };
+    without_increments(&mut maturin);
     process::run_into(&mut maturin, log)?;
     let found = std::fs::read_dir(&out).ok().and_then(|mut files| files.next()).and_then(Result::ok);
     found.map(|file| file.path()).ok_or("maturin has built no wheel".into())
