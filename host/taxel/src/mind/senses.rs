@@ -35,6 +35,18 @@ pub struct SenseCause {
     pub age_ms: u32,
 }
 
+impl SenseCause {
+    /// A contact of a board.
+    fn of(board: usize, touch: &SensedTouch, value: u64, age_ms: u32) -> SenseCause {
+        SenseCause {
+            board: Some(board),
+            contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
+            value: i32::try_from(value).unwrap_or(i32::MAX),
+            age_ms,
+        }
+    }
+}
+
 /// All that a robot senses.
 #[derive(Debug, Clone)]
 pub struct Senses {
@@ -198,39 +210,36 @@ impl Senses {
         boards.flat_map(|board| board.touches(part, now_us)).map(|touch| touch.since_us).min()
     }
 
+    /// The boards that count for an input: their numbers, and their ages, ms.
+    fn live(&self, input: &RobotInput, now_us: u64) -> impl Iterator<Item = (usize, u32, &SensedBoard)> {
+        let ages = self.boards.iter().map(move |board| board.age_ms(input.lasts_ms, now_us));
+        let boards = ages.enumerate().zip(&self.boards);
+        boards.filter_map(|((number, age_ms), board)| Some((number, age_ms?, board)))
+    }
+
+    /// Of what a part has moved into, the contact with the greatest force; its board, and the age of that, ms.
+    fn met(&self, part: &[String], input: &RobotInput, now_us: u64) -> Option<(usize, u32, &SensedTouch)> {
+        let own = self.live(input, now_us).flat_map(|(number, age_ms, board)| {
+            let own = board.contacts.iter().filter(|touch| touch.mover == Mover::Own);
+            own.filter(|touch| touch.felt.place.is_of(part)).map(move |touch| (number, age_ms, touch))
+        });
+        own.max_by_key(|(.., touch)| touch.most)
+    }
+
     /// What a value consists of, down to contacts; nothing if it is the default or nothing touches. Of an
     /// intention: the boards that announce it.
     pub fn causes(&self, input: &RobotInput, now_us: u64) -> Vec<SenseCause> {
-        let boards = || {
-            let ages = self.boards.iter().map(|board| board.age_ms(input.lasts_ms, now_us));
-            let live = ages.enumerate().zip(&self.boards);
-            live.filter_map(|((number, age_ms), board)| Some((number, age_ms?, board)))
-        };
+        let boards = || self.live(input, now_us);
         let touches = |part: &[String], value: &dyn Fn(&SensedTouch) -> u64| -> Vec<SenseCause> {
             let of = |(number, age_ms, board): (usize, u32, &SensedBoard)| -> Vec<SenseCause> {
-                let cause = |touch: &SensedTouch| SenseCause {
-                    board: Some(number),
-                    contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
-                    value: i32::try_from(value(touch)).unwrap_or(i32::MAX),
-                    age_ms,
-                };
+                let cause = |touch: &SensedTouch| SenseCause::of(number, touch, value(touch), age_ms);
                 board.touches(part, now_us).map(cause).collect()
             };
             boards().flat_map(of).collect()
         };
         let probed = |part: &[String], value: &dyn Fn(Probe) -> Option<u32>| -> Vec<SenseCause> {
-            let own = boards().flat_map(|(number, age_ms, board)| {
-                let own = board.contacts.iter().filter(|touch| touch.mover == Mover::Own);
-                own.filter(|touch| touch.felt.place.is_of(part)).map(move |touch| (number, age_ms, touch))
-            });
-            let most = own.max_by_key(|(.., touch)| touch.most);
-            let cause = most.and_then(|(number, age_ms, touch)| {
-                Some(SenseCause {
-                    board: Some(number),
-                    contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
-                    value: i32::try_from(value(touch.course.probe())?).unwrap_or(i32::MAX),
-                    age_ms,
-                })
+            let cause = self.met(part, input, now_us).and_then(|(number, age_ms, touch)| {
+                Some(SenseCause::of(number, touch, value(touch.course.probe())?.into(), age_ms))
             });
             cause.into_iter().collect()
         };
