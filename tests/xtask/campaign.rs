@@ -37,7 +37,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 28] = [
+const RUNS: [(&str, Run, &str); 31] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -59,9 +59,24 @@ const RUNS: [(&str, Run, &str); 28] = [
         Run::Image("outputs"),
         "outputs: levels from the first instructions on, a converter that stands still, 100 random sequences (emulated)",
     ),
+    (
+        "base",
+        Run::Core("a_generator_that_was_left_out"),
+        "shapes: each generator by a base that was learned without it (drawn)",
+    ),
+    (
+        "baseline",
+        Run::Core("baseline::"),
+        "the core alone: an hour of drift, idle and with a touch that is held (simulated)",
+    ),
     ("link", Run::Library("link::"), "link: 10,000,000 messages through each kind of fault"),
     ("health", Run::Library("health::"), "health: every fault, and 10,000 healthy frames (simulated)"),
     ("setup", Run::Commands("setup::"), "setup by touch: 1,000 random wirings (simulated)"),
+    (
+        "calibrate",
+        Run::Commands("calibrate::forces"),
+        "calibration: forces of other touches on ten garments with unequal gains, hysteresis and noise (simulated)",
+    ),
     (
         "people",
         Run::Library("people::"),

@@ -197,7 +197,10 @@ fn compare_locks(_: &Path) -> End {
 /// All tests, then those of what a core without features refuses.
 fn test(log: &Path) -> End {
     let all = [&["test"], WHOLE, &["--no-fail-fast"]].concat();
-    let left_out = ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out"];
+    // Quicker compiled than optimised.
+    let plain = "profile.dev.package.taxel-core.opt-level=0";
+    let left_out =
+        ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out", "--config", plain];
     let all = process::run_into(&mut cargo(&all, paths::root()), log);
     let left_out = process::run_into(&mut cargo(&left_out, paths::root()), log);
     Ok(all.and(left_out))

@@ -75,13 +75,24 @@ pub fn table(log: &Path) -> Result<String, String> {
     Ok(text)
 }
 
-/// Compiles the core that leaves each of the features out, and their sets; [`table`] builds the images, which
-/// takes minutes. The firmware only hands the features on.
+/// Sets of features in which each two of them are both in, both out, and one without the other. Beside an
+/// empty one these are five: each feature is in three of them, no two in the same three.
+fn paired() -> [Vec<&'static str>; 6] {
+    const SETS: u8 = 5;
+    let threes = (0..1_u8 << SETS).filter(|sets| sets.count_ones() == 3);
+    let placed: Vec<_> = ALL.into_iter().zip(threes).collect();
+    [0, 1, 2, 3, 4, SETS].map(|set| {
+        placed.iter().filter(|(_, sets)| sets >> set & 1 == 1).map(|(feature, _)| *feature).collect()
+    })
+}
+
+/// Compiles the core with these sets of features; [`table`] builds the images, which takes minutes. The
+/// firmware only hands the features on.
 pub fn check(log: &Path) -> End {
     let toolchain = Toolchain::find()?;
-    Ok(images().iter().filter(|(name, _)| name != EVERYTHING).try_for_each(|(name, features)| {
+    Ok(paired().iter().try_for_each(|features| {
         process::run_into(&mut with(firmware::core_command(&toolchain), features), log)
-            .map_err(|error| format!("{name}: {error}"))
+            .map_err(|error| format!("with the features {}: {error}", features.join(", ")))
     }))
 }
 
@@ -92,12 +103,27 @@ fn exceeds(bytes: [u64; 2], most: [u64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, images};
+    use super::{ALL, images, paired};
 
     /// The default features of a manifest.
     fn default_of(manifest: &str) -> Vec<&str> {
         let line = manifest.lines().find(|line| line.starts_with("default = "));
         line.map_or(Vec::new(), |line| line.split('"').skip(1).step_by(2).collect())
+    }
+
+    #[test]
+    fn each_two_features_are_in_and_out_together_and_alone() {
+        let sets = paired();
+        assert!(sets[5].is_empty());
+        for (at, one) in ALL.iter().enumerate() {
+            for other in &ALL[at + 1..] {
+                let mut met: Vec<_> =
+                    sets.iter().map(|set| [set.contains(one), set.contains(other)]).collect();
+                met.sort_unstable();
+                met.dedup();
+                assert_eq!(met.len(), 4, "{one} and {other}: {met:?}");
+            }
+        }
     }
 
     #[test]

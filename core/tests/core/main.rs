@@ -1,5 +1,5 @@
 //! The core by itself: exact references, golden bytes, hard images, properties. `cargo test -p taxel-core`
-//! runs this alone.
+//! runs this alone; with `TAXEL_CAMPAIGN=1`, longer.
 
 mod baseline;
 mod board;
@@ -24,3 +24,8 @@ mod taught;
 mod told;
 mod tracking;
 mod wire;
+
+/// True if the tests are to take as long as they like.
+fn is_campaign() -> bool {
+    std::env::var_os("TAXEL_CAMPAIGN").is_some()
+}

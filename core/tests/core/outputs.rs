@@ -281,7 +281,7 @@ impl Judge {
 
 #[test]
 fn no_pin_is_at_rest_while_its_cause_holds_and_no_end_is_untold() {
-    let sequences = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 100_000 } else { 1_000 };
+    let sequences = if crate::is_campaign() { 100_000 } else { 1_000 };
     let mut steps = 0;
     for seed in 0..sequences {
         let mut judge = Judge::new(seed);

@@ -56,7 +56,7 @@ fn idle(noise: &mut Noise, codes: &mut [Code]) {
 /// neighbours rested for 8 frames.
 #[test]
 fn impulses_of_one_frame_begin_no_contact() {
-    let frames = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 100_000 } else { 10_000 };
+    let frames = if crate::is_campaign() { 100_000 } else { 10_000 };
     let (mut worn, mut noise, mut rng) = (Worn::new(), Noise(1), Noise(7));
     let mut codes = vec![Code(REST); TAXELS];
     let areas = worn.layout.areas().to_vec();

@@ -1,5 +1,5 @@
 //! Calibration of simulated garments with unequal gains, hysteresis and noise: forces of other touches, and
-//! detection of drift.
+//! detection of drift. `TAXEL_CAMPAIGN=1`: forces of ten garments instead of one.
 
 use anyhow::Result;
 use fastrand::Rng;
@@ -67,6 +67,8 @@ fn touches(sensor: &Sensor, seed: u64) -> (Script, Vec<f64>) {
 fn measuring() -> Scene {
     let mut scene = Scene::shipped();
     (scene.condition.filter, scene.condition.floor) = (Filter::Off, 4);
+    // A hundred frames for the mean of each force; the board could scan four times as often.
+    scene.rate_hz = 390;
     (scene.stream.frames_hz, scene.intent, scene.shape) = (u16::MAX, None, None);
     scene.friendliness.clear();
     scene.react.clear();
@@ -136,7 +138,8 @@ fn error(frames: &[[f64; 2]], range: std::ops::RangeInclusive<f64>) -> (f64, usi
 
 #[test]
 fn forces_of_half_to_twenty_newtons_are_within_three_percent() {
-    for seed in [101, 102, 103] {
+    let seeds = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 101..=110 } else { 101..=101 };
+    for seed in seeds {
         let calibration = calibrated(&SENSOR, seed).unwrap();
         let fit = calibration.fit;
         assert!(

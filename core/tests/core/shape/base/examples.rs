@@ -8,7 +8,7 @@ use taxel_core::condition::{Image, Rows};
 use taxel_core::shape::{Class, ShapeFeatures, features, nmi};
 
 /// Rows and columns.
-pub const GRIDS: [[u16; 2]; 3] = [[4, 16], [16, 16], [32, 64]];
+const GRIDS: [[u16; 2]; 3] = [[4, 16], [16, 16], [32, 64]];
 
 /// Examples of one kind.
 pub struct ExampleSet {
@@ -18,10 +18,11 @@ pub struct ExampleSet {
     pub examples: Vec<(ShapeFeatures, Class)>,
 }
 
-/// So many of each generator, grid and quality; what no contact is left of is drawn anew.
-pub fn drawn(count: usize, seed: u64) -> Vec<ExampleSet> {
+/// So many of each of these generators, and of each grid and quality; what no contact is left of is drawn
+/// anew.
+pub fn drawn(kinds: &[Generator], count: usize, seed: u64) -> Vec<ExampleSet> {
     let mut sets = Vec::new();
-    for (number, kind) in (0..).zip(GENERATORS) {
+    for (number, kind) in (0..).zip(GENERATORS).filter(|(_, kind)| kinds.contains(kind)) {
         for grid in GRIDS {
             for quality in QUALITIES {
                 let rng =
