@@ -280,10 +280,11 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
             missed = head["missed"].as_u64().unwrap();
         }
     }
-    let gap = numbers.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap();
-    assert!(gap > 256, "{numbers:?}");
-    // As many samples as are kept arrive; the others are counted.
-    assert_eq!(missed, gap - 256);
+    // On a busy machine there are several gaps. As many samples as are kept arrive with the image after each;
+    // the others are counted.
+    let gaps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
+    assert!(gaps.clone().max() > Some(256), "{numbers:?}");
+    assert_eq!(missed, gaps.map(|gap| gap.saturating_sub(256)).sum::<u64>());
 }
 
 #[test]
