@@ -28,6 +28,10 @@ pub async fn run<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
     let mut reader = Reader::new();
     while platform.alive() {
         reader.receive(link, platform, board);
+        if let Some(start) = link.start_of_frame(board.asks_start_of_frame()) {
+            let now = platform.now();
+            board.step(now, Input::StartOfFrame(start), platform);
+        }
         acquire.watch(board.reflexes(), board.reacting(), |taxel| board.inactive_code(taxel));
         let now = platform.now();
         let job = board.step(now, Input::Tick, platform);

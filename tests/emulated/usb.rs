@@ -2,6 +2,8 @@
 //! `cargo xtask test --only emulator-usb`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): all scenes of the
 //! bench, for longer.
 
+mod starts;
+
 use crate::board::Emulated;
 use crate::images::{Images, TAXELS};
 use crate::surface::moving::{Moving, bend};
@@ -73,8 +75,8 @@ fn codes_of(pattern: TouchPattern, number: u32) -> [u16; TAXELS] {
     codes.map(|code| code.0)
 }
 
-/// A board on USB that streams, with a budget for each frame; when the first frame was shown. `begin` tells it
-/// what it needs before.
+/// A board on USB that streams, with a budget for each frame; when the first frame was shown. `begin` tells
+/// it what it needs before.
 fn streaming(
     scene: &Scene,
     codes: &[u16],
@@ -156,8 +158,8 @@ fn what_is_perceived_arrives_interlaced() {
     arrives(&scene, MOST_INTERLACED, &shown, &played, |_| {}, |_| None);
 }
 
-/// A robot that moves, in a garment that folds over 512 taxels: its posture and its poses are told fifty times a
-/// second, and what presses where in the base comes with each frame.
+/// A robot that moves, in a garment that folds over 512 taxels: its posture and its poses are told fifty
+/// times a second, and what presses where in the base comes with each frame.
 fn arrives_of_a_moving_body(patterns: &[Shown], most: u64) {
     let shown = (patterns.to_vec(), 60);
     let layout = Layout::build(&Garment::reference(), TAXELS, 4095).unwrap();
@@ -178,8 +180,8 @@ fn what_is_perceived_of_a_moving_body_arrives_interlaced() {
     arrives_of_a_moving_body(&[(TouchPattern::One, true), (TouchPattern::Five, true)], MOST_INTERLACED);
 }
 
-/// Sixteen contacts on some 460 taxels leave no time between two scans. Each scan is perceived and told; images
-/// are left out, and counted.
+/// Sixteen contacts on some 460 taxels leave no time between two scans. Each scan is perceived and told;
+/// images are left out, and counted.
 #[test]
 fn sixteen_contacts_on_a_moving_body_leave_no_scan_out() {
     arrives_of_a_moving_body(&[(TouchPattern::Sixteen, false)], MOST_BUSY);

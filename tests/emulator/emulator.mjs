@@ -31,7 +31,7 @@ const { values: options } = parseArgs({
     every: { type: 'string' }, times: { type: 'boolean', default: false }, watch: { type: 'string', default: '' },
     flash: { type: 'string' }, cut: { type: 'string' }, restarts: { type: 'boolean', default: false },
     ground: { type: 'string', default: '' }, clock: { type: 'string', default: '0' }, 'reset-by': { type: 'string', default: 'power' },
-    race: { type: 'string' }, 'unique-id': { type: 'string' },
+    race: { type: 'string' }, 'unique-id': { type: 'string' }, 'usb-frames': { type: 'string' },
   },
 });
 
@@ -41,6 +41,11 @@ function say(value) {
 
 function pinsOf(list) {
   return list.split(',').filter((pin) => pin !== '').map(Number);
+}
+
+function framesOf(list) {
+  const [first, ppm, wander, period] = list.split(',').map(Number);
+  return { first, ppm, wander, period };
 }
 
 function attachGarment(machine) {
@@ -130,6 +135,7 @@ async function main() {
         allowed, onByte: (byte) => overUsb || link.push(byte), onBytes: (bytes) => bytes.forEach((byte) => link.push(byte)),
         onKnown: (usb) => say({ usb }), restarts: options.restarts, cause: options['reset-by'], after, browned, micros: Number(options.clock),
         onLockUp: (us) => say({ lockup: us }),
+        frames: options['usb-frames'] === undefined ? undefined : framesOf(options['usb-frames']),
         uniqueId: options['unique-id'] === undefined ? undefined : Buffer.from(options['unique-id'], 'hex'),
       });
       machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));

@@ -43,11 +43,11 @@ export class Machine {
    * and no mistake. `cause`: what reset the chip as a whole. `after`: the machine that has been reset, whose flash
    * this one has, and its scratch registers unless `browned`; all else begins anew, its memory and its time included, which is
    * `micros` then. `onLockUp(us)`: the core has met memory that nobody may access, and does nothing more. `uniqueId`: that of the
-   * flash chip.
+   * flash chip. `frames`: those of the USB, as of `Frames`.
    */
   constructor(
     { flash, symbols },
-    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, browned = false, micros = 0, onLockUp = () => {}, uniqueId = UNIQUE_ID } = {},
+    { allowed = () => false, onByte = () => {}, onBytes = () => {}, onKnown, restarts = false, cause = 'power', after, browned = false, micros = 0, onLockUp = () => {}, uniqueId = UNIQUE_ID, frames } = {},
   ) {
     const chip = new RP2040();
     Object.assign(this, { chip, clock: chip.clock, core: chip.core, symbols, restarts, onLockUp });
@@ -65,7 +65,7 @@ export class Machine {
     this.onLent = () => {};
     chip.uart[0] = chip.peripherals[UART0_BASE] = new Uart(chip, 'UART0', UART0_IRQ, UART0_DREQ, onByte);
     chip.usbCtrl = chip.peripherals[USB_BASE] = new Usb(chip);
-    this.usb = new UsbHost(chip, { onBytes, onKnown, fail: (text) => complain('USB', text) });
+    this.usb = new UsbHost(chip, { onBytes, onKnown, frames, fail: (text) => complain('USB', text) });
     chip.adc = chip.peripherals[ADC_BASE] = new Adc(chip, (channel) => this.sample(channel));
     PIO_BASES.forEach((base, i) => {
       chip.pio[i] = chip.peripherals[base] = new Pio(chip, `PIO${i}`, PIO_IRQS[i], i);

@@ -3,16 +3,17 @@
 
 import { BasePeripheral } from 'rp2040js';
 
-const ADDR_ENDP = 0x00, MAIN_CTRL = 0x40, SIE_CTRL = 0x4c, SIE_STATUS = 0x50, INT_EP_CTRL = 0x54, BUFF_STATUS = 0x58;
+const ADDR_ENDP = 0x00, MAIN_CTRL = 0x40, SOF_RD = 0x48, SIE_CTRL = 0x4c, SIE_STATUS = 0x50, INT_EP_CTRL = 0x54, BUFF_STATUS = 0x58;
 const EP_STALL_ARM = 0x68, MUXING = 0x74, PWR = 0x78, INTR = 0x8c, INTE = 0x90, INTF = 0x94, INTS = 0x98;
 // Registers that nothing here depends on.
-const KEPT = [0x44, 0x48, 0x5c, 0x60, 0x64, 0x6c, 0x70, 0x7c, 0x80, 0x84, 0x88];
+const KEPT = [0x44, 0x5c, 0x60, 0x64, 0x6c, 0x70, 0x7c, 0x80, 0x84, 0x88];
 const LAST_REGISTER = 0x98;
 
 const CONTROLLER_EN = 1 << 0, PULLUP_EN = 1 << 16, EP0_INT_1BUF = 1 << 29;
 const STATUS_VBUS = 1 << 0, STATUS_SUSPENDED = 1 << 4, STATUS_RESUME = 1 << 11, STATUS_CONNECTED = 1 << 16;
 const STATUS_SETUP = 1 << 17, STATUS_RESET = 1 << 19;
 const INT_BUFFER = 1 << 4, INT_RESET = 1 << 12, INT_SUSPEND = 1 << 14, INT_RESUME = 1 << 15, INT_SETUP = 1 << 16;
+const INT_SOF = 1 << 17;
 export const USB_IRQ = 5;
 
 // Memory of the controller: setup packet, controls of endpoints 1 to 15, buffer controls of 0 to 15, buffers.
@@ -27,7 +28,8 @@ export class Usb extends BasePeripheral {
     this.registers = new Map(KEPT.map((register) => [register, 0]));
     this.address = this.mainControl = this.control = this.status = this.buffers = this.stallArmed = 0;
     this.endpointInterrupts = this.muxing = this.power = this.enabled = this.forced = 0;
-    this.suspendChanged = false;
+    this.suspendChanged = this.started = false;
+    this.frame = 0;
     /** Called when the firmware has armed a buffer, or has come or gone. */
     this.onChange = () => {};
   }
@@ -38,6 +40,13 @@ export class Usb extends BasePeripheral {
   }
 
   // What a host does.
+
+  /** A frame of this number starts. */
+  start(number) {
+    this.frame = number;
+    this.started = true;
+    this.update();
+  }
 
   reset() {
     this.status &= ~STATUS_SUSPENDED;
@@ -121,7 +130,8 @@ export class Usb extends BasePeripheral {
   get raw() {
     const { status } = this;
     return (this.buffers !== 0 ? INT_BUFFER : 0) | (status & STATUS_RESET ? INT_RESET : 0) |
-      (this.suspendChanged ? INT_SUSPEND : 0) | (status & STATUS_RESUME ? INT_RESUME : 0) | (status & STATUS_SETUP ? INT_SETUP : 0);
+      (this.suspendChanged ? INT_SUSPEND : 0) | (status & STATUS_RESUME ? INT_RESUME : 0) | (status & STATUS_SETUP ? INT_SETUP : 0) |
+      (this.started ? INT_SOF : 0);
   }
 
   get pending() {
@@ -141,6 +151,7 @@ export class Usb extends BasePeripheral {
     switch (offset) {
       case ADDR_ENDP: return this.address;
       case MAIN_CTRL: return this.mainControl;
+      case SOF_RD: return this.heard();
       case SIE_CTRL: return this.control;
       case SIE_STATUS: return this.status | STATUS_VBUS;
       case INT_EP_CTRL: return this.endpointInterrupts;
@@ -154,6 +165,13 @@ export class Usb extends BasePeripheral {
       case INTS: return this.pending;
       default: return this.registers.get(offset) ?? this.unknown(offset) ?? super.readUint32(offset);
     }
+  }
+
+  /** Reading the number ends the interrupt. */
+  heard() {
+    this.started = false;
+    this.update();
+    return this.frame;
   }
 
   /** Addresses of interrupt endpoints, which only a host has. */

@@ -1,10 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { board } from './board.fixture.mjs';
-import { Bus } from './usb_bus.mjs';
+import { Bus, Frames } from './usb_bus.mjs';
 import { Usb } from './usb.mjs';
 
-const SIE_CTRL = 0x4c, SIE_STATUS = 0x50, MAIN_CTRL = 0x40, BUFF_STATUS = 0x58, INTE = 0x90;
+const SIE_CTRL = 0x4c, SIE_STATUS = 0x50, MAIN_CTRL = 0x40, BUFF_STATUS = 0x58, SOF_RD = 0x48, INTR = 0x8c, INTE = 0x90;
+const SOF = 1 << 17;
 const ALL = 0x1f810;
 const IRQ = 5;
 const ENABLE = 1 << 31, PER_BUFFER = 1 << 29, FULL = 1 << 15, DATA1 = 1 << 13, AVAILABLE = 1 << 10;
@@ -84,6 +85,34 @@ test('a frame holds 19 packets of 64 bytes', () => {
   bus.drop();
   advance(1e6);
   assert.ok(packets - before <= 191);
+});
+
+test('a frame starts each millisecond, and interrupts until its number is read', () => {
+  const { it, chip, advance, pending } = usb();
+  const bus = new Bus(chip.clock, () => undefined, (number) => it.start(number), new Frames({ first: 2046 }));
+  bus.drive();
+  advance(1e6);
+  assert.equal(it.readUint32(INTR) & SOF, SOF);
+  assert.equal(pending(IRQ), false, 'it interrupts only if that is enabled');
+  it.writeUint32(INTE, ALL | SOF);
+  assert.equal(pending(IRQ), true);
+  assert.equal(it.readUint32(SOF_RD), 2047);
+  assert.equal(pending(IRQ), false);
+  advance(1e6);
+  assert.deepEqual([pending(IRQ), it.readUint32(SOF_RD)], [true, 0]);
+  bus.rest();
+  advance(5e6);
+  assert.deepEqual([pending(IRQ), it.readUint32(SOF_RD)], [false, 0]);
+});
+
+test('the frames of a host are longer to a clock that is fast', () => {
+  const frames = new Frames({ ppm: 50, wander: 5, period: 10 });
+  assert.equal(frames.startOf(0), 0);
+  // The wander has come to nothing after a whole period, and is greatest after half of it.
+  assert.ok(Math.abs(frames.startOf(10_000) - 10e9 * (1 + 50e-6)) < 1);
+  assert.ok(Math.abs(frames.startOf(5_000) - 5e9 * (1 + 50e-6) - 5e-6 * 10e9 / Math.PI) < 1);
+  const [start, end] = frames.span(2_000_100);
+  assert.ok(start === frames.startOf(2) && end === frames.startOf(3));
 });
 
 test('what is not ready is asked again when something has changed', () => {

@@ -1,6 +1,6 @@
 // A computer on the board's USB: it finds out what the board is, opens its serial port, and moves bytes both ways.
 
-import { Bus } from './usb_bus.mjs';
+import { Bus, Frames } from './usb_bus.mjs';
 
 const MILLISECOND = 1e6;
 const RESET_NANOS = 10 * MILLISECOND, RECOVERY_NANOS = 2 * MILLISECOND, SUSPEND_NANOS = 3 * MILLISECOND;
@@ -14,10 +14,13 @@ const FROM_DEVICE = 0x80, TO_CLASS_INTERFACE = 0x21;
 const COMMUNICATION = 2, BULK = 2, DTR_AND_RTS = 3;
 
 export class UsbHost {
-  /** `onBytes(bytes)`: they came from the port. `onKnown(what)`: what the board says it is. `fail(text)`: it does what it must not. */
-  constructor(chip, { onBytes, onKnown = () => {}, fail }) {
+  /**
+   * `onBytes(bytes)`: they came from the port. `onKnown(what)`: what the board says it is. `fail(text)`: it does what it must not.
+   * `frames`: those of the bus, as of `Frames`.
+   */
+  constructor(chip, { onBytes, onKnown = () => {}, fail, frames }) {
     Object.assign(this, { clock: chip.clock, device: chip.usbCtrl, onBytes, onKnown, fail });
-    this.bus = new Bus(this.clock, () => this.next());
+    this.bus = new Bus(this.clock, () => this.next(), (number) => this.device.start(number), new Frames(frames));
     this.pause = this.clock.createAlarm(() => this.advance());
     this.sleep = this.clock.createAlarm(() => this.device.suspend());
     this.device.onChange = () => this.changed();
@@ -38,11 +41,13 @@ export class UsbHost {
   plug() {
     this.plugged = true;
     this.sleep.cancel();
+    this.bus.drive();
     this.changed();
   }
 
   unplug() {
     this.plugged = false;
+    this.bus.rest();
     this.forget();
     this.sleep.schedule(SUSPEND_NANOS);
   }

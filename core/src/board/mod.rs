@@ -51,7 +51,7 @@ use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::reflex::Early;
 use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
-use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, frame_bound};
+use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, StartOfFrame, frame_bound};
 use budget::{Doing, Ledger};
 #[cfg(feature = "folds")]
 use folds::Folds;
@@ -90,6 +90,8 @@ pub enum Input<'a> {
     Misled,
     /// A reaction began by reflex, within the frame being scanned or scanned last.
     Reflex(Early),
+    /// When the frame of the USB began that [`Board::asks_start_of_frame`] has asked for.
+    StartOfFrame(StartOfFrame),
     /// Asks for the next job.
     Tick,
 }
@@ -300,6 +302,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             Input::Examined(result) => self.examined(now, result),
             Input::Misled => self.retest.raise(now),
             Input::Reflex(early) => self.reflex(&early),
+            Input::StartOfFrame(start) => self.outbox.start_of_frame(start),
             Input::Tick => return self.next_job(now),
         }
         None
@@ -335,6 +338,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// too early is made all the same.
     pub fn takes_message(&mut self, now: Micros) -> bool {
         !self.inbox.first().is_some_and(Rebuilds::count) || self.rebuilds.are_due(now)
+    }
+
+    /// True once after each `Sync`: the host would like to know when a frame of the USB begins.
+    pub fn asks_start_of_frame(&mut self) -> bool {
+        self.outbox.asks_start_of_frame()
     }
 
     /// A scan has ended, successfully or not.

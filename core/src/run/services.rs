@@ -4,6 +4,7 @@ use crate::acquire::Clock;
 use crate::board::{PieceToStore, Saved, Settings, TableKind};
 use crate::format::Micros;
 use crate::pipeline::Probe;
+use crate::wire::StartOfFrame;
 
 /// Error of a platform without a place for tables.
 const NO_ROOM: &str = "this board has no room for such a table";
@@ -15,6 +16,11 @@ pub trait Link {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize;
     /// Queues bytes to send; returns how many were accepted.
     fn try_write(&mut self, bytes: &[u8]) -> usize;
+    /// When the first frame of the USB after the last `true` began; none before it has, once it was returned,
+    /// and on other links.
+    fn start_of_frame(&mut self, _next: bool) -> Option<StartOfFrame> {
+        None
+    }
 }
 
 /// Services of a board other than its pins, its converter and its link.
@@ -32,8 +38,8 @@ pub trait Platform: Clock + Probe {
     fn store_table(&mut self, _: &PieceToStore<'_>) -> Result<Option<&'static [u8]>, &'static str> {
         Err(NO_ROOM)
     }
-    /// Makes the table of this length whose pieces were stored last the one of its kind that a start finds, or
-    /// none if the length is 0.
+    /// Makes the table of this length whose pieces were stored last the one of its kind that a start finds,
+    /// or none if the length is 0.
     fn keep_table(&mut self, _: TableKind, _: u32) -> Result<(), &'static str> {
         Err(NO_ROOM)
     }

@@ -84,6 +84,8 @@ pub enum Report<'a> {
     Regions(RegionsReport),
     /// Names of the surface's regions.
     RegionNames(RegionNames),
+    /// When a frame of the USB began.
+    StartOfFrame(StartOfFrame),
 }
 
 /// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
@@ -143,6 +145,8 @@ impl Report<'_> {
     pub const REGIONS: u32 = 25;
     /// Number of `RegionNames`.
     pub const REGION_NAMES: u32 = 26;
+    /// Number of `StartOfFrame`.
+    pub const START_OF_FRAME: u32 = 27;
 }
 
 /// Identity and settings of the board. This layout is frozen.
@@ -532,6 +536,18 @@ pub struct SyncReport {
     pub received: Micros,
     /// The board's time when this answer was handed to the link.
     pub sent: Micros,
+}
+
+/// When a frame of the USB began: all boards on one host controller see its starts, one each millisecond, at
+/// the same moments and with the same numbers (USB 2.0, 8.4.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StartOfFrame {
+    /// Number of the frame, 0 to 2047.
+    pub number: u16,
+    /// The board's time when it noticed the start.
+    pub noticed: Micros,
+    /// Greatest time by which it may have begun before, us.
+    pub late_us: u16,
 }
 
 /// Answer to a request.

@@ -179,7 +179,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 27] {
+fn reports() -> [(&'static str, Report<'static>); 28] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -261,6 +261,7 @@ fn reports() -> [(&'static str, Report<'static>); 27] {
                 names: one(LinkName::try_from("left forearm, outer").unwrap()),
             }),
         ),
+        ("StartOfFrame", Report::StartOfFrame(StartOfFrame { number: 2047, noticed: time, late_us: 20 })),
     ]
 }
 

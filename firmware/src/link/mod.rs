@@ -7,11 +7,13 @@
 //! | `usb.rs` | the USB port |
 //! | `rings.rs` | its rings |
 //! | `packets.rs` | packets from a ring to the host |
+//! | `starts.rs` | starts of the frames of the USB |
 //! | `device.rs` | USB device, and the task that moves bytes from the host to a ring |
 
 mod device;
 mod packets;
 mod rings;
+mod starts;
 pub mod uart;
 mod usb;
 
@@ -20,6 +22,7 @@ pub use uart::Uart;
 pub use usb::Usb;
 
 use taxel_core::run::Link;
+use taxel_core::wire::StartOfFrame;
 
 /// The byte link to the host.
 pub struct Wire {
@@ -82,5 +85,9 @@ impl Link for Wire {
             self.ended = *last == END;
         }
         count
+    }
+
+    fn start_of_frame(&mut self, next: bool) -> Option<StartOfFrame> {
+        self.usb.start_of_frame(next && self.over_usb)
     }
 }

@@ -2,6 +2,7 @@
 //! packet, where a task of the device that is woken for each takes 1,200.
 
 use super::rings::{OPENED, PACKETS, SENT};
+use super::starts;
 use core::cell::Cell;
 use core::sync::atomic::Ordering;
 use embassy_rp::interrupt::typelevel::{Handler, USBCTRL_IRQ};
@@ -14,8 +15,8 @@ const ENDPOINT: usize = 2;
 /// Number of bytes of a packet.
 pub(super) const PACKET: usize = 64;
 
-/// True if the last packet was full. A transfer ends with a packet that is not full: an empty one after a full
-/// one.
+/// True if the last packet was full. A transfer ends with a packet that is not full: an empty one after a
+/// full one.
 static WAS_FULL: Mutex<CriticalSectionRawMutex, Cell<bool>> = Mutex::new(Cell::new(false));
 
 /// Handles the interrupt before the driver does, and leaves to it what is not of this endpoint.
@@ -24,6 +25,8 @@ pub struct PacketHandler;
 impl Handler<USBCTRL_IRQ> for PacketHandler {
     #[allow(unsafe_code)] // SAFETY: no unsafe code here; the trait requires that only the interrupt calls it
     unsafe fn on_interrupt() {
+        // First: what follows would make it late.
+        starts::notice();
         let taken = USB.buff_status().read().ep_in(ENDPOINT);
         if taken {
             // A bit is cleared by writing 1.

@@ -1,11 +1,12 @@
 //! The USB port as a link.
 
 use super::rings::{OPENED, PACKETS, RECEIVED, SENT};
-use super::{device, packets};
+use super::{device, packets, starts};
 use core::sync::atomic::Ordering;
 use embassy_rp::{peripherals::USB, usb};
 use embassy_time::Instant;
 use taxel_core::run::Link;
+use taxel_core::wire::StartOfFrame;
 
 /// Number of bytes copied at a time, with interrupts off: for less than 10 us.
 const PIECE: usize = 256;
@@ -64,5 +65,9 @@ impl Link for Usb {
         }
         packets::begin();
         given
+    }
+
+    fn start_of_frame(&mut self, next: bool) -> Option<StartOfFrame> {
+        starts::take(next)
     }
 }

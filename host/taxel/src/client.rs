@@ -16,6 +16,7 @@
 //! ```
 
 mod again;
+mod buses;
 pub mod cleaned;
 pub mod clock;
 mod counts;
@@ -33,6 +34,7 @@ mod wanted;
 mod worn;
 
 pub use again::Restored;
+pub use buses::Buses;
 pub use counts::Counts;
 pub use event::{Event, ImageNews};
 pub use known::leads;
@@ -278,6 +280,10 @@ impl Client {
             Report::Sync(report) => {
                 self.syncs.take(&report);
                 Event::Sync(report)
+            }
+            Report::StartOfFrame(start) => {
+                self.syncs.start_of_frame(&start);
+                Event::StartOfFrame(start)
             }
             Report::Answer(answer) => self.take_answer(&answer),
             Report::Raw(raw) => self.take_raw(&raw),

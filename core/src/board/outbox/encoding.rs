@@ -31,6 +31,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let tx_frame = &mut self.tx_frame;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
+        } else if let Some(start) = self.start_of_frame.take() {
+            tx_frame.put(Report::START_OF_FRAME, &start)
         } else if self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
             self.greeted = true;

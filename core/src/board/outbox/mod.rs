@@ -64,6 +64,9 @@ pub(super) struct Outbox<const TAXELS: usize> {
     /// True after a `Hello`: how the board started is sent next.
     greeted: bool,
     synced: Deque<(u32, Micros), 4>,
+    /// True after a `Sync`, until the link was asked for the start of a frame.
+    start_asked: bool,
+    start_of_frame: Option<StartOfFrame>,
     answers: Deque<(u8, Option<Refusal>), 8>,
     logs: Deque<(Level, Sentence), 4>,
     reactions: Deque<ReactionReport, 16>,
@@ -119,6 +122,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             hello: Some(Micros(0)),
             greeted: false,
             synced: Deque::new(),
+            start_asked: false,
+            start_of_frame: None,
             answers: Deque::new(),
             logs: Deque::new(),
             reactions: Deque::new(),
@@ -259,6 +264,17 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
 
     pub fn sync(&mut self, token: u32, now: Micros) {
         let _ = self.synced.push_back((token, now));
+        self.start_asked = true;
+    }
+
+    /// True once after each `Sync`.
+    pub fn asks_start_of_frame(&mut self) -> bool {
+        core::mem::take(&mut self.start_asked)
+    }
+
+    /// Takes the start of a frame of the link.
+    pub fn start_of_frame(&mut self, start: StartOfFrame) {
+        self.start_of_frame = Some(start);
     }
 
     /// Queues once a second: `Hello` until `Start`, then `Health`.

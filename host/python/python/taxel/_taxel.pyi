@@ -362,6 +362,17 @@ class Sync(Event):
     def sent_us(self) -> int: ...
 
 @final
+class StartOfFrame(Event):
+    """When a frame of the USB began, which all boards on one host controller notice at the same moment."""
+
+    @property
+    def number(self) -> int: ...
+    @property
+    def noticed_us(self) -> int: ...
+    @property
+    def late_us(self) -> int: ...
+
+@final
 class Answer(Event):
     """Answer to a request: ``refusal`` is None if it was carried out."""
 

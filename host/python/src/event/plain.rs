@@ -62,6 +62,7 @@ classes! {
     "health_map" => HealthMap, "Faulty taxels.";
     "self_test" => SelfTest, "Faults of lines and inputs.";
     "sync" => Sync, "Answer to a request for the board's time.";
+    "start_of_frame" => StartOfFrame, "When a frame of the USB began.";
     "answer" => Answer, "Answer to a request: `refusal` is None if it was carried out.";
     "board" => BoardState, "How a board of a robot is: `state`, and why.";
     "robot_intent" => RobotIntent, "What touches on all boards together mean to the robot.";

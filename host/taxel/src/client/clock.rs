@@ -87,17 +87,36 @@ struct ClockEstimate {
 impl HostClock {
     /// Adds a round trip; ignores one that ends before it began.
     pub fn take(&mut self, trip: &RoundTrip) {
+        self.take_within(trip, 0.0, ClockEstimate::carried_on);
+    }
+
+    /// Adds a round trip of one of several boards, which come in any order, and whose times may be off by
+    /// this much, us.
+    pub(super) fn take_any(&mut self, trip: &RoundTrip, off_us: f64) {
+        self.take_within(trip, off_us, |known, sent, new| match span(known.at, sent) < 0.0 {
+            true => known.looked_back(sent, new),
+            false => known.carried_on(sent, new),
+        });
+    }
+
+    fn take_within(
+        &mut self,
+        trip: &RoundTrip,
+        off_us: f64,
+        carry: impl FnOnce(ClockEstimate, Micros, Bounds) -> Option<ClockEstimate>,
+    ) {
         let RoundTrip { asked, received, sent, answered } = *trip;
         let origin =
             self.known.as_ref().map_or(i128::from(answered) - i128::from(sent.0), |known| known.origin);
         let offset = |host: u64, board: Micros| (i128::from(host) - i128::from(board.0) - origin) as f64;
         // Drift during the short time on the board, and up to one microsecond of truncation by either clock.
-        let slack = 1.0 + span(received, sent).abs() * RATE_LIMIT;
-        let new = Bounds { low: offset(asked, received) - slack, high: offset(answered, sent) + 1.0 };
+        let slack = off_us + 1.0 + span(received, sent).abs() * RATE_LIMIT;
+        let new =
+            Bounds { low: offset(asked, received) - slack, high: offset(answered, sent) + 1.0 + off_us };
         if received > sent || new.low > new.high {
             return;
         }
-        let carried = self.known.take().and_then(|known| known.carried_on(sent, new));
+        let carried = self.known.take().and_then(|known| carry(known, sent, new));
         self.known = Some(carried.unwrap_or_else(|| ClockEstimate {
             origin,
             at: sent,
@@ -156,6 +175,16 @@ impl ClockEstimate {
         }
     }
 
+    /// Adds the bounds of a trip from before the last one; none if the intersection of all bounds is empty.
+    fn looked_back(mut self, sent: Micros, then: Bounds) -> Option<ClockEstimate> {
+        let passed = span(sent, self.at);
+        let wander = WANDER * 1e-6 * passed * passed / 2.0;
+        let Bounds { low, high } = then.widened(wander);
+        let now = Bounds { low: low + self.rate.low * passed, high: high + self.rate.high * passed };
+        self.offset = self.offset.cut(now)?;
+        Some(self)
+    }
+
     /// Adds the bounds of a new trip; none if the intersection of all bounds is empty.
     fn carried_on(mut self, sent: Micros, new: Bounds) -> Option<ClockEstimate> {
         let passed = span(self.at, sent);
@@ -190,7 +219,7 @@ impl ClockEstimate {
 }
 
 /// Signed time from `from` to `to`, us.
-fn span(from: Micros, to: Micros) -> f64 {
+pub(super) fn span(from: Micros, to: Micros) -> f64 {
     (i128::from(to.0) - i128::from(from.0)) as f64
 }
 

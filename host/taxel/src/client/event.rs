@@ -5,8 +5,8 @@ use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
     Budget, ConfidenceReport, FoldsReport, FormsReport, GestureReport, Health, IntentReport, Level,
-    PressingReport, ReactionReport, ReflexReport, RegionsReport, SelfTestReport, SymbolList, SyncReport,
-    Temperature, UnsureReport, WireError,
+    PressingReport, ReactionReport, ReflexReport, RegionsReport, SelfTestReport, StartOfFrame, SymbolList,
+    SyncReport, Temperature, UnsureReport, WireError,
 };
 
 /// An event; persistent state is found in the [`Client`](super::Client).
@@ -95,6 +95,8 @@ pub enum Event {
     },
     /// Answer to `Sync`.
     Sync(SyncReport),
+    /// When a frame of the USB began.
+    StartOfFrame(StartOfFrame),
     /// Answer to another request.
     Answer {
         /// Number of the request; 255 if it was unreadable.

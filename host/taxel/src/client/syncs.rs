@@ -1,8 +1,11 @@
-//! Round trips of `Sync`: quick ones at the start, then one a second.
+//! Round trips of `Sync`: quick ones at the start, then one a second; and the starts of frames that come with
+//! them.
 
-use super::clock::{HostClock, RoundTrip};
+use super::buses::BusSeat;
+use super::clock::{HostClock, HostTime, RoundTrip};
 use std::collections::VecDeque;
-use taxel_core::wire::{Request, SyncReport};
+use taxel_core::format::Micros;
+use taxel_core::wire::{Request, StartOfFrame, SyncReport};
 
 /// Number of quick round trips at the start, and the time between them, us.
 const QUICK: (u32, u64) = (10, 100_000);
@@ -21,7 +24,9 @@ pub(super) struct Syncs {
     token: u32,
     open: VecDeque<(u32, u64)>,
     /// The model itself.
-    pub clock: HostClock,
+    clock: HostClock,
+    /// The board's place on a USB that it may share with others; none if nobody has asked for that.
+    pub bus: Option<BusSeat>,
 }
 
 impl Syncs {
@@ -48,12 +53,41 @@ impl Syncs {
         let Some((_, asked)) = asked.and_then(|index| self.open.remove(index)) else { return };
         let Some(answered) = self.now else { return };
         let SyncReport { received, sent, .. } = *report;
-        self.clock.take(&RoundTrip { asked, received, sent, answered });
+        let trip = RoundTrip { asked, received, sent, answered };
+        self.clock.take(&trip);
+        self.bus.iter_mut().for_each(|bus| bus.trip(&trip));
+    }
+
+    /// Handles the start of a frame.
+    pub fn start_of_frame(&mut self, start: &StartOfFrame) {
+        self.bus.iter_mut().for_each(|bus| bus.take(start, &self.clock));
+    }
+
+    /// Host time of a board time; none before the first answer. That of the bus, if the board is on one, but
+    /// never beyond the bounds of the board's own round trips.
+    pub fn host_time(&self, board: Micros) -> Option<HostTime> {
+        let own = self.clock.host_time(board)?;
+        let Some(shared) = self.bus.as_ref().and_then(|bus| bus.host_us(board)) else { return Some(own) };
+        let [low, high] =
+            [own.us.saturating_sub(own.uncertainty_us), own.us.saturating_add(own.uncertainty_us)];
+        let us = shared.clamp(low, high);
+        Some(HostTime { us, uncertainty_us: (us - low).max(high - us) })
+    }
+
+    /// Board time of a host time, us: the inverse of [`Syncs::host_time`], within 1 us.
+    pub fn board_time(&self, host_us: u64) -> Option<Micros> {
+        let mut board = self.clock.board_time(host_us)?;
+        for _ in 0..2 {
+            let off = host_us as i64 - self.host_time(board)?.us as i64;
+            board = Micros(board.0.saturating_add_signed(off));
+        }
+        Some(board)
     }
 
     /// The board has restarted.
     pub fn restart(&mut self) {
         self.clock.forget();
+        self.bus.iter_mut().for_each(BusSeat::leave);
         self.open.clear();
         (self.made, self.due) = (0, 0);
     }

@@ -1,6 +1,7 @@
 //! The host's time, given to a client and asked of it.
 
 use super::Client;
+use super::buses::{BusSeat, Buses};
 use super::clock::HostTime;
 use taxel_core::format::Micros;
 
@@ -13,15 +14,26 @@ impl Client {
         self.syncs.now = Some(host_us);
     }
 
+    /// The board may share a USB host controller with others, whose clients are told the same `buses`: then
+    /// all of them are on one time, within microseconds.
+    pub fn share(&mut self, buses: Buses) {
+        self.syncs.bus = Some(BusSeat::new(buses));
+    }
+
+    /// Number of the controller that the board is on, the same for all that share it; none until it is known.
+    pub fn bus(&self) -> Option<usize> {
+        self.syncs.bus.as_ref().and_then(BusSeat::bus)
+    }
+
     /// Converts a board time to host time, with its uncertainty; none until the board has answered, or if the
     /// host's time is not set.
     pub fn host_time(&self, board: Micros) -> Option<HostTime> {
-        self.syncs.clock.host_time(board)
+        self.syncs.host_time(board)
     }
 
     /// Converts a host time, us, to board time; none until the board has answered, or if the host's time is
     /// not set.
     pub fn board_time_at(&self, host_us: u64) -> Option<Micros> {
-        self.syncs.clock.board_time(host_us)
+        self.syncs.board_time(host_us)
     }
 }

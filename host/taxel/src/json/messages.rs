@@ -9,8 +9,8 @@ use super::lines::{
     AnswerLine, BootLine, ConfidenceLine, ContactsLine, DoubtLine, FoldsLine, FormAge, FormsLine, FrameLine,
     GestureLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, PinFaultLine,
     RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, RegionsLine, SelfTestLine, ShapesLine,
-    SurfaceRegionLine, SymbolLine, SymbolsLine, SyncLine, TemperatureLine, UnsureLine, UnusableLine,
-    WordsLine,
+    StartOfFrameLine, SurfaceRegionLine, SymbolLine, SymbolsLine, SyncLine, TemperatureLine, UnsureLine,
+    UnusableLine, WordsLine,
 };
 use super::meaning::MeaningOfTouch;
 use super::pressing;
@@ -115,6 +115,11 @@ fn of_board<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             token: report.token,
             received_us: report.received.0,
             sent_us: report.sent.0,
+        }),
+        Event::StartOfFrame(start) => JsonLine::StartOfFrame(StartOfFrameLine {
+            number: start.number,
+            noticed_us: start.noticed.0,
+            late_us: start.late_us,
         }),
         Event::Answer { request, refusal } => {
             JsonLine::Answer(AnswerLine { request: request_name(*request), refusal: refusal.as_deref() })

@@ -131,6 +131,7 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Regions(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
+        Event::StartOfFrame(start) => start.noticed,
         Event::Boot(_)
         | Event::Shapes { .. }
         | Event::Unusable(_)

@@ -8,7 +8,7 @@ use super::recognise::recognised;
 use super::refused::Required;
 use crate::client::clock::SteadyTime;
 use crate::client::passed::Passed;
-use crate::client::{Client, Event, ImageNews};
+use crate::client::{Buses, Client, Event, ImageNews};
 use crate::error::{Error, RecordingError, Result, SourceError};
 use crate::record::{Stamp, Stamps};
 use crate::session::{Returns, Session, Turn};
@@ -77,14 +77,15 @@ pub struct Follower<T> {
     why: String,
 }
 
-/// Follows a board until it is over or nobody takes its events any longer. `time` is that of all boards.
+/// Follows a board until it is over or nobody takes its events any longer. `time` is that of all boards,
+/// `buses` are those that they may share.
 pub fn follow<T>(
     board: usize,
     plan: BoardPlan<T>,
     queue: Arc<EventQueue<T>>,
     when_full: WhenFull,
     asks: &Receiver<Ask>,
-    time: SteadyTime,
+    (time, buses): (SteadyTime, Buses),
 ) {
     let BoardPlan { open, waits, identity, begin, teller, limit, .. } = plan;
     let mut follower = Follower {
@@ -106,7 +107,7 @@ pub fn follow<T>(
         why: String::new(),
     };
     let ended = match follower.open(open, waits) {
-        Ok(Some(source)) => follower.run(source, begin, asks),
+        Ok(Some(source)) => follower.run(source, begin, asks, buses),
         Ok(None) => return,
         Err(error) => Err(error),
     };
@@ -138,12 +139,13 @@ impl<T> Follower<T> {
         Ok(None)
     }
 
-    fn run(&mut self, source: Source, begin: Begin, asks: &Receiver<Ask>) -> Result<()> {
+    fn run(&mut self, source: Source, begin: Begin, asks: &Receiver<Ask>, buses: Buses) -> Result<()> {
         self.teller.opened(&source);
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
         let returns = self.limit.map_or(Returns::Always, |_| Returns::Within(PATIENCE));
         let mut session = Session::by(self.time, source, returns);
         let (client, source) = session.parts();
+        client.share(buses);
         begin(client, source)?;
         self.required = if source.listens { Required::of(client) } else { Required::default() };
         let mut gap: Option<Instant> = None;

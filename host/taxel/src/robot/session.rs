@@ -4,8 +4,8 @@ use super::event::RobotEvent;
 use super::follow::{Ask, BoardPlan, follow};
 use super::order::BoardOrder;
 use super::queue::{EventQueue, WhenFull};
-use crate::client::Client;
 use crate::client::clock::SteadyTime;
+use crate::client::{Buses, Client};
 use crate::error::{Result, UsageError};
 use crate::tell::words;
 use std::sync::Arc;
@@ -69,12 +69,14 @@ impl<T: Send + 'static> RobotSession<T> {
         let queue = Arc::new(EventQueue::new(plans.len()));
         let time = SteadyTime::start();
         let mut session = RobotSession { queue: queue.clone(), boards: Vec::new(), time };
+        let buses = Buses::default();
         for (board, plan) in plans.into_iter().enumerate() {
             let (asks, asked) = channel();
             let (name, listens, queue) = (plan.name.clone(), plan.listens, queue.clone());
+            let buses = buses.clone();
             let thread = Builder::new().name(name.clone()).stack_size(STACK).spawn(move || {
                 let end = FollowEnd(queue.clone(), board);
-                follow(board, plan, queue, when_full, &asked, time);
+                follow(board, plan, queue, when_full, &asked, (time, buses));
                 // Whoever hears that the board is over can no longer ask anything of it.
                 drop(asked);
                 drop(end);

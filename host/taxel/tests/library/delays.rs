@@ -5,14 +5,14 @@ use fastrand::Rng;
 /// A kind of link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Link {
-    /// The board reads between two stages of a frame, 0.1 to 5 ms late. The way back takes at least 0.8 ms, on
-    /// average 0.3 ms more; in bursts, ten seconds of each half minute, on average 20 ms more, as behind images on
-    /// a busy link. One answer in twenty is lost.
+    /// The board reads between two stages of a frame, 0.1 to 5 ms late. The way back takes at least 0.8 ms,
+    /// on average 0.3 ms more; in bursts, ten seconds of each half minute, on average 20 ms more, as behind
+    /// images on a busy link. One answer in twenty is lost.
     Serial,
     /// Polled each millisecond, in both directions; the board is busy for up to 2 ms. Nothing is lost.
     Usb,
-    /// A network: 0.2 ms there and 0.4 ms back at least, and on average 0.4 and 1.5 ms more; one answer in a hundred
-    /// comes 100 ms late, one in fifty never.
+    /// A network: 0.2 ms there and 0.4 ms back at least, and on average 0.4 and 1.5 ms more; one answer in a
+    /// hundred comes 100 ms late, one in fifty never.
     Network,
 }
 
@@ -54,6 +54,11 @@ impl Delays {
                 400.0 + self.exponential(1_500.0) + late
             }
         }
+    }
+
+    /// From the start of a frame of the bus until the board notices it, at most `late_us`: mostly soon.
+    pub fn notice(&mut self, late_us: u16) -> f64 {
+        f64::from(late_us) * self.rng.f64().powi(3)
     }
 
     /// True if an answer never comes.

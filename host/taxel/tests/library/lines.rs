@@ -16,7 +16,8 @@ use taxel_core::surface::{
 };
 use taxel_core::wire::{
     Budget, ConfidenceReport, FormsReport, GestureReport, Health, Level, PressingReport, ReactionReport,
-    ReflexReport, RegionsReport, SelfTestReport, SyncReport, Temperature, UnsureReport, WireError,
+    ReflexReport, RegionsReport, SelfTestReport, StartOfFrame, SyncReport, Temperature, UnsureReport,
+    WireError,
 };
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/library/golden/lines.txt");
@@ -145,6 +146,7 @@ fn others(client: &Client, lines: &mut Lines) {
         Event::Boot(Boot { cause: BootCause::Watchdog, resets: 2, aside: Aside::Resets }),
         Event::Log { time: TIME, level: Level::Warn, text: "a \"word\"\n".into() },
         Event::Sync(SyncReport { token: 3, received: TIME, sent: Micros(1_234_599) }),
+        Event::StartOfFrame(StartOfFrame { number: 2047, noticed: TIME, late_us: 24 }),
         Event::Answer { request: 3, refusal: Some("no".into()) },
         Event::Answer { request: 255, refusal: None },
         Event::Raw { frame: 9, time: TIME, whole: false },

@@ -1,5 +1,5 @@
-//! A client and a board with a clock of its own, on a link with delays of its own. All times are the truth, us,
-//! which the client does not see.
+//! A client and a board with a clock of its own, on a link with delays of its own. All times are the truth,
+//! us, which the client does not see.
 
 use super::delays::Delays;
 use std::collections::VecDeque;
@@ -9,6 +9,7 @@ use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::scene::Scene;
+use taxel_core::wire::StartOfFrame;
 
 /// The host's time when the simulation begins, us.
 pub const EPOCH: f64 = 1.8e15;
@@ -38,6 +39,24 @@ impl DriftingClock {
     }
 }
 
+/// A USB host controller: when its frames start, and which numbers they have.
+#[derive(Debug, Clone, Copy)]
+pub struct Controller {
+    /// By the crystal of the controller, which shows 0 at the start of frame 0.
+    pub clock: DriftingClock,
+    /// Most by which a board notices a start late, us.
+    pub late_us: u16,
+}
+
+impl Controller {
+    /// The first start after a time: its number, and when it is.
+    fn after(&self, now: f64) -> (u16, f64) {
+        let frame = self.clock.at(now).0 / 1_000 + 1;
+        let left = (frame * 1_000 - self.clock.at(now).0) as f64;
+        ((frame % 2_048) as u16, now + left / (1.0 + self.clock.ppm * 1e-6))
+    }
+}
+
 /// A client and a board.
 pub struct TimedLine {
     /// The host's end.
@@ -48,6 +67,8 @@ pub struct TimedLine {
     delays: Delays,
     /// Bytes on their way to the host, and their times of arrival.
     coming: VecDeque<(f64, Vec<u8>)>,
+    /// The controller that the board is on, if it is on USB.
+    pub controller: Option<Controller>,
 }
 
 impl TimedLine {
@@ -55,7 +76,7 @@ impl TimedLine {
     pub fn new(clock: DriftingClock, delays: Delays) -> TimedLine {
         let mut client = Client::new();
         client.start(0).unwrap();
-        TimedLine { client, clock, board: board(), delays, coming: VecDeque::new() }
+        TimedLine { client, clock, board: board(), delays, coming: VecDeque::new(), controller: None }
     }
 
     /// The board restarts, and says so on a link that has lost everything.
@@ -81,7 +102,16 @@ impl TimedLine {
         let read = now + self.delays.there();
         self.board.step(self.clock.at(read), Input::Received(&asked), &mut ());
         let sent = read + self.delays.on_board();
-        let bytes = self.answers(sent);
+        let mut bytes = self.answers(sent);
+        if self.board.asks_start_of_frame()
+            && let Some(controller) = self.controller
+        {
+            let (number, starts) = controller.after(read);
+            let noticed = self.clock.at(starts + self.delays.notice(controller.late_us));
+            let start = StartOfFrame { number, noticed, late_us: controller.late_us };
+            self.board.step(noticed, Input::StartOfFrame(start), &mut ());
+            bytes.extend(self.answers(starts + f64::from(controller.late_us)));
+        }
         let mut arrives = sent + self.delays.back(now);
         if let Some((last, _)) = self.coming.back() {
             arrives = arrives.max(*last);

@@ -257,6 +257,20 @@ pub struct SyncLine {
     pub sent_us: u64,
 }
 
+/// When a frame of the USB began.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("start_of_frame")))]
+#[serde(tag = "type", rename = "start_of_frame")]
+pub struct StartOfFrameLine {
+    /// Number of the frame, 0 to 2047.
+    pub number: u16,
+    /// Time at which the board noticed its start, us of the board.
+    pub noticed_us: u64,
+    /// Greatest time by which it may have begun before, us.
+    pub late_us: u16,
+}
+
 /// Answer to another request.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

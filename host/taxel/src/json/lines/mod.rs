@@ -12,7 +12,7 @@ mod touch;
 
 pub use board::{
     AnswerLine, BootLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, LogLine,
-    PinFaultLine, RefusedLine, SelfTestLine, SyncLine, TemperatureLine, UnusableLine,
+    PinFaultLine, RefusedLine, SelfTestLine, StartOfFrameLine, SyncLine, TemperatureLine, UnusableLine,
 };
 pub use folds::{DoubtLine, FoldsLine};
 pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
@@ -54,6 +54,7 @@ pub enum JsonLine<'a> {
     SelfTest(SelfTestLine<'a>),
     Log(LogLine<'a>),
     Sync(SyncLine),
+    StartOfFrame(StartOfFrameLine),
     Answer(AnswerLine<'a>),
     Raw(RawLine),
     Refused(RefusedLine),

@@ -7,6 +7,7 @@ mod crossing;
 mod file;
 mod losses;
 mod newtons;
+mod one_bus;
 mod one_time;
 mod orders;
 mod recorded;

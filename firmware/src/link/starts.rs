@@ -1,0 +1,76 @@
+//! Starts of the frames of the USB, one each millisecond, which all boards on one host controller share.
+
+use core::cell::Cell;
+use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
+use embassy_time::Instant;
+use rp_pac::USB;
+use taxel_core::format::Micros;
+use taxel_core::wire::StartOfFrame;
+
+/// Time between two starts, us.
+const FRAME_US: u64 = 1_000;
+/// Numbers wrap after 11 bits.
+const NUMBERS: u16 = 0x7ff;
+/// Most by which the time between two starts that were noticed may differ from a frame, us. What else keeps
+/// interrupts off delays one of the two, and the next two are taken.
+const AGREE_US: u64 = 12;
+/// Most by which a start that agrees with the one before may have been before it was noticed, us: the
+/// difference above, and as much for what delays both.
+const LATE_US: u16 = 2 * AGREE_US as u16;
+
+/// What is known of the next start.
+#[derive(Clone, Copy)]
+enum Watch {
+    /// Nobody wants to know it.
+    Idle,
+    /// It is awaited, after this one.
+    Awaited(Option<(u16, u64)>),
+    /// It has come.
+    Noticed(StartOfFrame),
+}
+
+static WATCH: Mutex<CriticalSectionRawMutex, Cell<Watch>> = Mutex::new(Cell::new(Watch::Idle));
+
+/// Notices a start, if one has woken the controller's interrupt.
+pub(super) fn notice() {
+    if !USB.ints().read().dev_sof() {
+        return;
+    }
+    let now = Instant::now().as_micros();
+    // This also ends the interrupt's cause.
+    let number = USB.sof_rd().read().count();
+    WATCH.lock(|watch| {
+        let Watch::Awaited(before) = watch.get() else { return };
+        let agrees = before.is_some_and(|(last, then)| {
+            last.wrapping_add(1) & NUMBERS == number && (now - then).abs_diff(FRAME_US) <= AGREE_US
+        });
+        if agrees {
+            await_next(false);
+            watch.set(Watch::Noticed(StartOfFrame { number, noticed: Micros(now), late_us: LATE_US }));
+        } else {
+            watch.set(Watch::Awaited(Some((number, now))));
+        }
+    });
+}
+
+/// Asks for the next start if `next`; returns the one that was noticed since the last one was asked for.
+pub(super) fn take(next: bool) -> Option<StartOfFrame> {
+    WATCH.lock(|watch| {
+        let noticed = match watch.get() {
+            Watch::Noticed(start) => Some(start),
+            _ => None,
+        };
+        if next {
+            watch.set(Watch::Awaited(None));
+            await_next(true);
+        } else if noticed.is_some() {
+            watch.set(Watch::Idle);
+        }
+        noticed
+    })
+}
+
+/// Whether the controller's interrupt comes at each start. Interrupts are off.
+fn await_next(next: bool) {
+    USB.inte().modify(|interrupts| interrupts.set_dev_sof(next));
+}
