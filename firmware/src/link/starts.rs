@@ -20,7 +20,7 @@ const LATE_US: u16 = 2 * AGREE_US as u16;
 
 /// What is known of the next start.
 #[derive(Clone, Copy)]
-enum Watch {
+enum NextStart {
     /// Nobody wants to know it.
     Idle,
     /// It is awaited, after this one.
@@ -29,7 +29,7 @@ enum Watch {
     Noticed(StartOfFrame),
 }
 
-static WATCH: Mutex<CriticalSectionRawMutex, Cell<Watch>> = Mutex::new(Cell::new(Watch::Idle));
+static NEXT: Mutex<CriticalSectionRawMutex, Cell<NextStart>> = Mutex::new(Cell::new(NextStart::Idle));
 
 /// Notices a start, if one has woken the controller's interrupt.
 pub(super) fn notice() {
@@ -39,38 +39,38 @@ pub(super) fn notice() {
     let now = Instant::now().as_micros();
     // This also ends the interrupt's cause.
     let number = USB.sof_rd().read().count();
-    WATCH.lock(|watch| {
-        let Watch::Awaited(before) = watch.get() else { return };
+    NEXT.lock(|next| {
+        let NextStart::Awaited(before) = next.get() else { return };
         let agrees = before.is_some_and(|(last, then)| {
             last.wrapping_add(1) & NUMBERS == number && (now - then).abs_diff(FRAME_US) <= AGREE_US
         });
         if agrees {
             await_next(false);
-            watch.set(Watch::Noticed(StartOfFrame { number, noticed: Micros(now), late_us: LATE_US }));
+            next.set(NextStart::Noticed(StartOfFrame { number, noticed: Micros(now), late_us: LATE_US }));
         } else {
-            watch.set(Watch::Awaited(Some((number, now))));
+            next.set(NextStart::Awaited(Some((number, now))));
         }
     });
 }
 
-/// Asks for the next start if `next`; returns the one that was noticed since the last one was asked for.
-pub(super) fn take(next: bool) -> Option<StartOfFrame> {
-    WATCH.lock(|watch| {
-        let noticed = match watch.get() {
-            Watch::Noticed(start) => Some(start),
+/// Asks for the next start if `asked`; returns the one that was noticed since the last one was asked for.
+pub(super) fn take(asked: bool) -> Option<StartOfFrame> {
+    NEXT.lock(|next| {
+        let noticed = match next.get() {
+            NextStart::Noticed(start) => Some(start),
             _ => None,
         };
-        if next {
-            watch.set(Watch::Awaited(None));
+        if asked {
+            next.set(NextStart::Awaited(None));
             await_next(true);
         } else if noticed.is_some() {
-            watch.set(Watch::Idle);
+            next.set(NextStart::Idle);
         }
         noticed
     })
 }
 
 /// Whether the controller's interrupt comes at each start. Interrupts are off.
-fn await_next(next: bool) {
-    USB.inte().modify(|interrupts| interrupts.set_dev_sof(next));
+fn await_next(comes: bool) {
+    USB.inte().modify(|interrupts| interrupts.set_dev_sof(comes));
 }
