@@ -43,6 +43,7 @@ pub enum Mover {
 
 /// How the robot's surface moved shortly before a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Approach {
     /// Speed along the normal, m/s; positive outwards.
     pub normal_m_s: f64,

@@ -25,9 +25,11 @@ const QUIET_US: u64 = 100_000;
 
 /// What a limb feels of an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Probe {
     /// Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before
     /// that depth or 2,000 counts.
+    #[cfg_attr(feature = "schema", schemars(with = "u32"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness: Option<u32>,
     /// Share of the force on the taxel with the greatest pressure, at the greatest force, percent.

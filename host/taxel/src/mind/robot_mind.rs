@@ -7,7 +7,7 @@ use super::told::{ToldLine, fraction};
 use crate::error::{Context, MapFileError, Result, UsageError};
 use crate::fcm::map::MapFile;
 use crate::fcm::robot_source::{RobotInput, RobotSource};
-use crate::robot::ReadRobot;
+use crate::robot::{BoardEvent, ReadRobot, RobotEvent};
 use crate::tell::words;
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{CONCEPTS, EDGES, Felt, Intent, IntentConfig, IntentState, Leading, Outcome};
@@ -147,6 +147,22 @@ impl RobotMind {
         let is_word = matches!(sense, BoardSense::Intent(_) | BoardSense::Begins(_));
         let due_us = self.thought_us.saturating_add(1000 * u64::from(PERIOD_MS));
         if is_word || host_us >= due_us { self.pass(host_us) } else { None }
+    }
+
+    /// Takes an event of a board, whose news say this of touches. Returns what that means if it is news.
+    pub fn event<T>(
+        &mut self,
+        event: &RobotEvent<T>,
+        sense: impl FnOnce(&T) -> Option<&BoardSense>,
+    ) -> Option<&RobotMeaning> {
+        let RobotEvent { board, stamp, what } = event;
+        match what {
+            BoardEvent::News(news) => self.board(*board, sense(news)?, stamp.host_us),
+            BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
+                self.forget(*board, stamp.host_us)
+            }
+            _ => None,
+        }
     }
 
     /// A board is lost: nothing that it said counts any longer.
