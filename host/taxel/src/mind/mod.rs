@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `place.rs` | [`BodyPlace`]: where on the body a contact lies |
+//! | `part.rs` | parts of the body that the map names |
 //! | `felt.rs` | [`MindReader`]: what a board's events say of touches, in the board's thread |
 //! | `speeds.rs` | [`LinkSpeeds`]: how fast the robot's own links move |
 //! | `mover.rs` | [`Mover`]: whose motion has caused a touch |
@@ -27,6 +28,7 @@ mod heard;
 mod intent_ros2;
 mod line;
 mod mover;
+mod part;
 mod place;
 mod probe;
 mod reasons;
@@ -44,7 +46,7 @@ pub use intent_ros2::robot_intent_message;
 #[cfg(feature = "schema")]
 pub use line::robot_intent_schema;
 pub use line::{ROBOT_INTENT, ROBOT_INTENT_SCHEMA, RobotMeaningLine, RobotTouchLine};
-pub use mover::{Approach, Mover, SurfaceSpot};
+pub use mover::{Approach, BasePlace, Mover, SurfaceSpot};
 pub use place::BodyPlace;
 pub use probe::{Probe, ProbeCourse};
 pub use reasons::{ReasonInput, RobotReasons};
@@ -52,7 +54,7 @@ pub use recorded::{MindRecord, MindRecordTeller, RecordedMind};
 pub use robot_mind::{RobotMeaning, RobotMind};
 pub use sensed_board::SensedTouch;
 pub use senses::{SenseCause, SensedValue, Senses};
-pub use speeds::LinkSpeeds;
+pub use speeds::{LinkSpeeds, LinksAt};
 pub use stepped_robot::SteppedRobot;
 #[cfg(feature = "schema")]
 pub use told::robot_told_schema;
