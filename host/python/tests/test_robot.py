@@ -99,11 +99,12 @@ def test_images_and_contacts_of_all_boards_are_aligned(file: Path) -> None:
     newest: dict[str, taxel.Frame] = {}
     with taxel.open_robot(file, seconds=2, keep=3600) as robot:
         for event in robot:
+            board = event.board or ""
             if isinstance(event, taxel.Frame):
-                newest[event.board] = event
+                newest[board] = event
             if isinstance(event, taxel.Contacts):
-                told[event.board].append(event)
-            if isinstance(event, taxel.BoardState) and event.state == "over" and event.board == "hand":
+                told[board].append(event)
+            if isinstance(event, taxel.BoardState) and event.state == "over" and board == "hand":
                 assert robot.frames(host_ns=1) == {"torso": None, "hand": None}
         # Between two lists a contact is between them.
         one, two = next(
