@@ -8,6 +8,7 @@ import { after, before, test } from "node:test";
 import assert from "node:assert/strict";
 import { Chromium } from "./chromium.mjs";
 import { View } from "./program.mjs";
+import { violations } from "./access.fixture.mjs";
 import { drawn } from "./page.fixture.mjs";
 
 /** A place where no board is: whoever connects is sent away. */
@@ -29,7 +30,7 @@ before(async () => {
   ].join("");
   const file = join(await mkdtemp(join(tmpdir(), "taxel-boards-")), "robot.toml");
   await writeFile(file, robot);
-  view = await View.robot(file);
+  view = await View.robot(file, "--requests", "-");
   browser = await Chromium.start();
   await browser.open(view.url);
 });
@@ -63,6 +64,35 @@ test("contacts of the robot are on every page", async () => {
   const rows = '[...document.querySelectorAll("#robot-contacts tbody tr")].map((row) => row.textContent)';
   await browser.until(`${rows}.some((text) => text.includes("torso: left arm"))`);
   await browser.until(`${rows}.some((text) => text.includes("hand: mat"))`);
+});
+
+const SAID = 'document.getElementById("mind-said").textContent';
+
+test("what touches mean to the robot is above the picture, and opened by the keyboard", async () => {
+  await browser.until("taxel.store.states.robot_intent?.touches.length > 5");
+  await drawn(browser);
+  assert.match(await browser.value(SAID), /^(none|kindness|threat|attack)(; .+ -?\d\.\d\d)*$/);
+  const bars = 'document.querySelectorAll("#mind-concepts li").length';
+  assert.equal(await browser.value(bars), 0);
+  await browser.value('document.querySelector("#mind summary").focus()');
+  await browser.key(" ");
+  await browser.until(`${bars} > 10`);
+  const concepts = "Object.keys(taxel.store.states.robot_intent.concepts).length";
+  assert.equal(await browser.value(bars), await browser.value(concepts));
+  // Nobody has told anything, and nothing is known of the joints.
+  assert.match(await browser.value('document.getElementById("mind-defaults").textContent'), /vision/);
+  const touches = '[...document.querySelectorAll("#mind-touches tbody tr")].map((row) => row.textContent)';
+  await browser.until(`${touches}.some((text) => text.startsWith("hand "))`);
+  const rows = await browser.value(touches);
+  assert.ok(rows.some((text) => text.startsWith("torso ") && text.includes("unsure")), rows.join("\n"));
+  assert.deepEqual(await violations(browser), []);
+  await browser.key(" ");
+  await browser.until('!document.getElementById("mind-details").open');
+});
+
+test("what is told reaches the robot of the page", async () => {
+  view.tell("told vision -1");
+  await browser.until('!taxel.store.states.robot_intent.defaults.includes("vision")');
 });
 
 test("the page of a board is that of its garment, and grey while it is not live", async () => {

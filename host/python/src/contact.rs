@@ -101,26 +101,68 @@ impl Field {
     }
 }
 
-fn fields() -> impl Iterator<Item = (&'static str, Field)> {
-    FIELDS.into_iter().chain([AGE])
+/// Fields of a contact between two scans: those that can be interpolated, and which contact it is.
+const MOMENT: [(&str, Field); 15] = [
+    ("id", Field::Whole(4)),
+    ("panel", Field::Whole(1)),
+    ("panel_name", Field::Text(16)),
+    ("total", Field::Whole(4)),
+    ("force_n", Field::Number),
+    ("peak", Field::Whole(2)),
+    ("area", Field::Whole(2)),
+    ("x", Field::Number),
+    ("y", Field::Number),
+    ("vx", Field::Number),
+    ("vy", Field::Number),
+    ("top", Field::Whole(2)),
+    ("bottom", Field::Whole(2)),
+    ("left", Field::Whole(2)),
+    ("right", Field::Whole(2)),
+];
+
+fn fields() -> Vec<(&'static str, Field)> {
+    FIELDS.into_iter().chain([AGE]).collect()
 }
 
 /// NumPy's type of one contact.
 pub fn dtype(py: Python<'_>) -> PyResult<Bound<'_, PyArrayDescr>> {
     static DTYPE: PyOnceLock<Py<PyArrayDescr>> = PyOnceLock::new();
+    dtype_of(py, &DTYPE, &fields())
+}
+
+/// NumPy's type of one contact between two scans.
+pub fn moment_dtype(py: Python<'_>) -> PyResult<Bound<'_, PyArrayDescr>> {
+    static DTYPE: PyOnceLock<Py<PyArrayDescr>> = PyOnceLock::new();
+    dtype_of(py, &DTYPE, &MOMENT)
+}
+
+fn dtype_of<'py>(
+    py: Python<'py>,
+    made: &PyOnceLock<Py<PyArrayDescr>>,
+    fields: &[(&'static str, Field)],
+) -> PyResult<Bound<'py, PyArrayDescr>> {
     let make = || {
-        let fields: Vec<_> = fields().map(|(name, field)| (name, field.code())).collect();
+        let fields: Vec<_> = fields.iter().map(|(name, field)| (*name, field.code())).collect();
         Ok::<_, PyErr>(PyArrayDescr::new(py, fields)?.unbind())
     };
-    Ok(DTYPE.get_or_try_init(py, make)?.bind(py).clone())
+    Ok(made.get_or_try_init(py, make)?.bind(py).clone())
 }
 
 /// A read-only array of contacts, from a list of their JSON objects.
 pub fn contacts<'py>(py: Python<'py>, list: &Value) -> PyResult<Bound<'py, PyAny>> {
+    array::records(py, bytes(list, &fields()), &dtype(py)?)
+}
+
+/// A read-only array of contacts between two scans, from a list of JSON objects with these fields.
+pub fn moment_contacts<'py>(py: Python<'py>, list: &Value) -> PyResult<Bound<'py, PyAny>> {
+    array::records(py, bytes(list, &MOMENT), &moment_dtype(py)?)
+}
+
+fn bytes(list: &Value, fields: &[(&str, Field)]) -> Vec<u8> {
     let list = list.as_array().map_or(&[][..], Vec::as_slice);
     let mut bytes = Vec::with_capacity(512 * list.len());
     for contact in list {
-        fields().for_each(|(name, field)| field.write(contact.get(name), &mut bytes));
+        fields.iter().for_each(|(name, field)| field.write(contact.get(*name), &mut bytes));
     }
-    array::records(py, bytes, &dtype(py)?)
+    bytes
 }

@@ -11,6 +11,7 @@
 //! | `event` | events as Python objects |
 //! | `request` | requests to a board |
 //! | `stream` | `Stream`: a board's stream |
+//! | `moments` | `Moment`: what the boards of a robot have said lately, by the time that they share |
 //! | `robot` | `Robot`: all boards of a robot as one stream |
 //! | `board` | `Board`: the very board, stepped by hand |
 //! | `stepped_robot` | `SteppedRobot`: the very boards of a robot and its mind, stepped by hand |
@@ -34,6 +35,8 @@ mod event;
 mod request;
 
 mod stream;
+
+mod moments;
 
 mod robot;
 
@@ -60,10 +63,12 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     error::add(module)?;
     event::add(module)?;
     module.add("CONTACT", contact::dtype(module.py())?)?;
+    module.add("MOMENT", contact::moment_dtype(module.py())?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(program::run_program, module)?)?;
     module.add_class::<stream::Stream>()?;
+    module.add_class::<moments::Moment>()?;
     module.add_class::<robot::Robot>()?;
     module.add_class::<board::Board>()?;
     module.add_class::<stepped_robot::SteppedRobot>()?;

@@ -2,18 +2,20 @@
 
 use crate::error::{argument, raised};
 use crate::event::{self, Fact, Teller};
+use crate::moments::{KeptMoments, Moment};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel::client::{Client, Event};
-use taxel::mind::{BoardSense, MindReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
+use taxel::mind::{BoardHeard, HeardReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
 use taxel::record::Stamp;
 use taxel::robot::{
-    BoardEvent, BoardLine, BoardOrder, BoardScan, ReadRobot, RobotBoard, RobotContacts, RobotContactsLine,
-    RobotEvent, RobotSession, ScanReader, Teller as BoardTeller, WhenFull,
+    BoardEvent, BoardLine, BoardOrder, ReadRobot, RobotContacts, RobotContactsLine, RobotEvent, RobotSession,
+    Teller as BoardTeller, WhenFull,
 };
 use taxel::source::{SceneFile, SourceOptions};
 
@@ -36,6 +38,8 @@ struct OpenRobot {
     contacts: Option<RobotContacts>,
     /// None unless all boards are at one time.
     mind: Option<RobotMind>,
+    /// None if nothing is kept.
+    kept: Option<KeptMoments>,
     /// Host time of the begin, us.
     begun_us: u64,
     /// What is told next.
@@ -45,16 +49,14 @@ struct OpenRobot {
 /// What is made of a board's event, in the board's thread.
 struct BoardFact {
     fact: Fact,
-    scan: Option<BoardScan>,
-    sense: Option<BoardSense>,
+    heard: BoardHeard,
 }
 
 /// Makes facts of a board's events.
 struct FactTeller {
     board: String,
     teller: Teller,
-    reader: ScanReader,
-    mind: Option<MindReader>,
+    reader: HeardReader,
 }
 
 impl FactTeller {
@@ -69,35 +71,35 @@ impl FactTeller {
 impl BoardTeller<BoardFact> for FactTeller {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
         let fact = self.teller.fact(client, event, stamp.host_ns());
-        let scan = self.reader.scan(client, event);
-        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, scan.as_ref()));
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan, sense }))
+        let heard = self.reader.read(client, event);
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), heard }))
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
         let fact = self.teller.note(client, note, stamp.host_ns());
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), scan: None, sense: None }))
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), heard: BoardHeard::default() }))
     }
 }
 
 impl OpenRobot {
-    fn open(path: PathBuf, options: &SourceOptions) -> anyhow::Result<OpenRobot> {
+    /// Opens it; what its boards have said is kept for so long.
+    fn open(path: PathBuf, options: &SourceOptions, keep: Duration) -> anyhow::Result<OpenRobot> {
         let robot = ReadRobot::read(&path)?;
-        let is_minded = options.realtime || robot.boards.iter().all(RobotBoard::is_real);
+        let is_minded = robot.is_at_one_time(options.realtime);
         let mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
         let teller = |number: usize| -> Box<dyn BoardTeller<BoardFact>> {
             Box::new(FactTeller {
                 board: robot.boards[number].name.clone(),
                 teller: Teller::default(),
-                reader: ScanReader::new(&robot, number),
-                mind: is_minded.then(|| MindReader::new(&robot, number)),
+                reader: HeardReader::new(&robot, number, is_minded),
             })
         };
         let limit = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let session = RobotSession::start(robot.plans(options, limit, teller), WhenFull::DropImages)?;
         let contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
         let begun_us = session.now_us();
-        Ok(OpenRobot { robot, session, contacts, mind, begun_us, waiting: VecDeque::new() })
+        let kept = (!keep.is_zero()).then(|| KeptMoments::new(robot.boards.len(), keep));
+        Ok(OpenRobot { robot, session, contacts, mind, kept, begun_us, waiting: VecDeque::new() })
     }
 
     /// Looks for what is told next; none if nothing has come for a while.
@@ -148,17 +150,30 @@ impl OpenRobot {
             self.waiting.push_back(Fact::alone(serde_json::to_value(line)?, stamp.host_ns()));
         }
         let joined = self.contacts.as_mut().map_or(Vec::new(), |contacts| match &what {
-            BoardEvent::News(BoardFact { scan: Some(scan), .. }) => contacts.scan(board, scan, host_us),
+            BoardEvent::News(BoardFact { heard: BoardHeard { scan: Some(scan), .. }, .. }) => {
+                contacts.scan(board, scan, host_us)
+            }
             BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
                 contacts.forget(board, host_us)
             }
             _ => Vec::new(),
         });
+        if let Some(kept) = &mut self.kept {
+            match &what {
+                BoardEvent::News(BoardFact { fact, heard }) => {
+                    let contacts = heard.scan.as_ref().and_then(|scan| scan.contacts.as_ref());
+                    kept.take(board, stamp, fact, contacts);
+                }
+                BoardEvent::Lost { .. } | BoardEvent::Failed(_) => kept.forget(board),
+                BoardEvent::Over => kept.end(board),
+                _ => {}
+            }
+        }
         let is_gone = matches!(what, BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_));
         let mut sense = None;
         if let BoardEvent::News(news) = what {
             self.waiting.push_back(news.fact);
-            sense = news.sense;
+            sense = news.heard.sense;
         }
         if !joined.is_empty() {
             let line = serde_json::to_value(RobotContactsLine::of(&self.robot, host_us, &joined))?;
@@ -226,16 +241,52 @@ impl Robot {
     }
 }
 
+impl Robot {
+    /// What is kept, as `find` finds it.
+    fn kept<T>(&self, find: impl FnOnce(&KeptMoments) -> T) -> anyhow::Result<T> {
+        let open = self.interrupt();
+        let Some(robot) = open.as_ref() else { return Err(argument("the robot is closed").into()) };
+        match &robot.kept {
+            Some(kept) => Ok(find(kept)),
+            None => Err(argument("nothing is kept: open the robot with keep=1.0, seconds").into()),
+        }
+    }
+
+    /// By the names of the boards, in their order.
+    fn by_board<'py, T>(
+        &self,
+        py: Python<'py>,
+        all: Vec<Option<T>>,
+        object: impl Fn(T) -> PyResult<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for (name, one) in self.names.iter().zip(all) {
+            dict.set_item(name, one.map(&object).transpose()?)?;
+        }
+        Ok(dict)
+    }
+}
+
 #[pymethods]
 impl Robot {
     #[new]
-    #[pyo3(signature = (path, *, realtime=false, seconds=None))]
-    fn new(py: Python<'_>, path: PathBuf, realtime: bool, seconds: Option<f64>) -> PyResult<Robot> {
+    #[pyo3(signature = (path, *, realtime=false, seconds=None, keep=0.0))]
+    fn new(
+        py: Python<'_>,
+        path: PathBuf,
+        realtime: bool,
+        seconds: Option<f64>,
+        keep: f64,
+    ) -> PyResult<Robot> {
+        if !(0.0..=3600.0).contains(&keep) {
+            return Err(crate::error::usage("keep must be a time of 0 to 3600 seconds"));
+        }
         if seconds.is_some_and(|seconds| !(0.0..=1e9).contains(&seconds)) {
             return Err(crate::error::usage("seconds must be a time of 0 or more"));
         }
         let options = SourceOptions { realtime, seconds, ..SourceOptions::default() };
-        let open = py.detach(|| OpenRobot::open(path, &options)).map_err(raised)?;
+        let open =
+            py.detach(|| OpenRobot::open(path, &options, Duration::from_secs_f64(keep))).map_err(raised)?;
         let names = open.session.names().map(String::from).collect();
         Ok(Robot { open: Mutex::new(Some(open)), asking: AtomicUsize::new(0), names })
     }
@@ -259,6 +310,24 @@ impl Robot {
     #[getter]
     fn boards(&self) -> Vec<String> {
         self.names.clone()
+    }
+
+    /// The newest image of each board, a `Frame` or None, until this time of the host, ns; by default until all
+    /// boards have told theirs.
+    #[pyo3(signature = (host_ns=None))]
+    fn frames<'py>(&self, py: Python<'py>, host_ns: Option<u64>) -> PyResult<Bound<'py, PyDict>> {
+        let host_us = host_ns.map(|ns| ns / 1000);
+        let all = py.detach(|| self.kept(|kept| kept.frames(host_us))).map_err(raised)?;
+        self.by_board(py, all, |fact| event::object(py, fact))
+    }
+
+    /// The contacts of each board, a `Moment` or None, at this time of the host, ns; by default the newest that
+    /// all boards have told of.
+    #[pyo3(signature = (host_ns=None))]
+    fn contacts<'py>(&self, py: Python<'py>, host_ns: Option<u64>) -> PyResult<Bound<'py, PyDict>> {
+        let host_us = host_ns.map(|ns| ns / 1000);
+        let all = py.detach(|| self.kept(|kept| kept.contacts(host_us))).map_err(raised)?;
+        self.by_board(py, all, |fact| Ok(Py::new(py, Moment::object(py, &fact)?)?.into_any()))
     }
 
     /// Closes all connections; then there are no more events.

@@ -92,6 +92,51 @@ def test_a_board_is_asked_by_its_name(file: Path) -> None:
         robot.tare()
 
 
+def test_images_and_contacts_of_all_boards_are_aligned(file: Path) -> None:
+    with pytest.raises(taxel.UsageError, match="keep must be a time of 0 to 3600 seconds"):
+        taxel.open_robot(file, keep=-1.0)
+    told: dict[str, list[taxel.Contacts]] = {"torso": [], "hand": []}
+    newest: dict[str, taxel.Frame] = {}
+    with taxel.open_robot(file, seconds=2, keep=3600) as robot:
+        for event in robot:
+            board = event.board or ""
+            if isinstance(event, taxel.Frame):
+                newest[board] = event
+            if isinstance(event, taxel.Contacts):
+                told[board].append(event)
+            if isinstance(event, taxel.BoardState) and event.state == "over" and board == "hand":
+                assert robot.frames(host_ns=1) == {"torso": None, "hand": None}
+        # Between two lists a contact is between them.
+        one, two = next(
+            pair for pair in zip(told["hand"], told["hand"][1:], strict=False) if len(pair[0].contacts) and len(pair[1].contacts)
+        )
+        middle = (one.host_ns + two.host_ns) // 2
+        moment = robot.contacts(middle)["hand"]
+        assert moment is not None and moment.contacts.dtype == taxel.MOMENT and not moment.contacts.flags.writeable
+        assert abs(moment.host_ns - middle) < 1000 and moment.contacts["panel_name"][0] == "mat"
+        for field in ("x", "y", "total"):
+            between = (float(one.contacts[field][0]) + float(two.contacts[field][0])) / 2
+            assert abs(float(moment.contacts[field][0]) - between) <= 1.0 + 1e-3 * between
+        assert np.isnan(moment.contacts["force_n"]).all()
+        # The newest image until a time is that event.
+        frames = robot.frames(2**63)
+        for name, event in newest.items():
+            frame = frames[name]
+            assert frame is not None and frame.image is not None and event.image is not None
+            assert frame.host_ns == event.host_ns and np.array_equal(frame.image, event.image)
+        # By default: the newest that all have told of.
+        aligned = robot.contacts()
+        last = min(events[-1].host_ns for events in told.values())
+        assert {name: moment is not None and moment.host_ns <= last + 1000 for name, moment in aligned.items()} == {
+            "torso": True,
+            "hand": True,
+        }
+    with pytest.raises(taxel.UsageError, match="the robot is closed"):
+        robot.frames()
+    with taxel.open_robot(file, seconds=0.1) as robot, pytest.raises(taxel.UsageError, match="keep=1.0"):
+        robot.contacts()
+
+
 HUG = """name = "two"
 urdf = "reference"
 [[boards]]

@@ -7,10 +7,10 @@ import fields
 import pytest
 from conftest import NEWEST, stamp_us, taxel
 from diagnostic_msgs.msg import DiagnosticArray
-from sensor_msgs.msg import Image
-from std_msgs.msg import String
+from sensor_msgs.msg import Image, JointState
+from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
-from taxel_msgs.msg import Contacts, RobotContacts
+from taxel_msgs.msg import Contacts, RobotContacts, RobotIntent, RobotTouch
 
 ROBOT = """name = "three"
 [[boards]]
@@ -88,6 +88,48 @@ def test_the_robot_says_what_touches_it_and_who_is_missing(listener, robot):
             assert one.parts[0].board == one.board and one.total == one.parts[0].total
     begun = [one.id for one in touches(contacts) if one.phase == one.ONSET]
     assert len(begun) == len(set(begun)) > 1
+
+
+def test_the_robot_says_what_touches_mean_and_hears_what_is_told(listener, robot):
+    meant = listener.hear(RobotIntent, "/robot_intent")
+    vision = listener.node.create_publisher(Float64, "/taxel/told/vision", 10)
+
+    def is_told():
+        vision.publish(Float64(data=-0.5))
+        return any("vision" not in message.defaults for message in meant.messages)
+
+    with taxel(robot, command=("robot", "ros2")):
+        listener.spin(lambda: {touch.board for one in meant.messages for touch in one.touches} == BOARDS, 30)
+        listener.spin(is_told, 30)
+        # Without a description the robot has no joints.
+        assert listener.node.count_subscribers("/joint_states") == 2
+    for message in meant.messages:
+        assert len(message.concepts) == len(message.activations) > 10
+        known = dict(zip(message.concepts, message.activations))
+        assert message.leading == "none" or known[message.leading] > 0
+        assert {*message.holding} | {*message.defaults} <= {*known}
+        for touch in message.touches:
+            assert touch.board in BOARDS and touch.region and touch.mover == RobotTouch.UNSURE
+            assert math.isnan(touch.approach_normal) and math.isnan(touch.hardness)
+    told = [(message.leading, [*message.holding]) for message in meant.messages]
+    assert all(one != other for one, other in zip(told, told[1:]))
+    assert any("vision" in message.defaults for message in meant.messages)
+
+
+def test_joint_states_say_how_the_robot_moves(listener, robot):
+    with open(robot) as file:
+        text = file.read()
+    with open(robot, "w") as file:
+        file.write(text.replace('"three"\n', '"three"\nurdf = "reference"\n'))
+    meant = listener.hear(RobotIntent, "/robot_intent")
+    states = listener.node.create_publisher(JointState, "/joint_states", 10)
+
+    def moves():
+        states.publish(JointState(name=["waist", "nobody_s"], position=[0.1, 7.0]))
+        return any("in motion" not in message.defaults for message in meant.messages)
+
+    with taxel(robot, command=("robot", "ros2")):
+        listener.spin(moves, 30)
 
 
 BOARDS = {"torso", "left-hand"}

@@ -4,6 +4,7 @@
 pub mod acquisition;
 pub mod amplifier;
 pub mod chart;
+pub mod mind;
 pub mod nmi;
 mod outline;
 pub mod record;

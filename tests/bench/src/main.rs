@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use taxel::files::output;
 use taxel::tell::words;
-use taxel_bench::{Report, acquisition, amplifier, nmi, record, stages};
+use taxel_bench::{Report, acquisition, amplifier, mind, nmi, record, stages};
 use taxel_cli::fault;
 use taxel_cli::watch::Overwrite;
 
@@ -40,6 +40,9 @@ enum TableArg {
     /// Cost of recording beside perceiving, and speed of replay
     #[command(after_help = "Example:\n  cargo xtask bench record")]
     Record(record::RecordBench),
+    /// Cost of the mind of a robot of 1 to 100 boards
+    #[command(after_help = "Example:\n  cargo xtask bench mind")]
+    Mind(mind::MindBench),
 }
 
 /// Options besides the text table.
@@ -73,6 +76,7 @@ fn run(args: BenchArgs) -> Result<()> {
         TableArg::Amplifier(output) => output.put(|| Ok(amplifier::report())),
         TableArg::Nmi(output) => output.put(nmi::report),
         TableArg::Record(args) => record::run(&args),
+        TableArg::Mind(args) => mind::run(&args),
     }
 }
 

@@ -16,6 +16,7 @@
 //! | `concepts.rs` | concepts on their way to the board |
 //! | `services.rs` | services, and the board's answers to them |
 //! | `show.rs` | [`RosShow`]: hands the stream to all of them |
+//! | `told.rs` | what others tell a robot of several boards, on its way to its mind |
 //! | `robot.rs` | [`RobotNode`]: the node of a robot of several boards |
 
 mod concepts;
@@ -29,6 +30,7 @@ mod raw;
 mod robot;
 mod services;
 mod show;
+mod told;
 
 pub use names::RosPlace;
 pub use node::{DOMAINS, RosNode};

@@ -124,7 +124,7 @@ impl Postures {
 
 /// When joint states with this stamp, seconds and nanoseconds, were read: now, if there is none, else by
 /// `time`.
-fn at((sec, nanosec): (i32, u32), time: impl Fn(u64) -> JointTime) -> JointTime {
+pub fn at((sec, nanosec): (i32, u32), time: impl Fn(u64) -> JointTime) -> JointTime {
     let us = u64::try_from(sec).unwrap_or(0) * 1_000_000 + u64::from(nanosec / 1000);
     if us == 0 { JointTime::Now } else { time(us) }
 }

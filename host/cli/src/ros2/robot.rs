@@ -1,13 +1,14 @@
-//! The node of a robot: what touches all of its boards, and which of them are not there.
+//! The node of a robot: what touches all of its boards, what that means, and which of them are not there.
 
 use super::node::RosNode;
+use super::told::RobotTold;
 use anyhow::Result;
 use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
-use taxel::client::clock::SteadyTime;
-use taxel::robot::{BoardEvent, BoardScan, ReadRobot, RobotContacts, RobotEvent, robot_contacts_message};
+use taxel::mind::{BoardHeard, RobotMeaning, RobotMeaningLine, RobotMind, robot_intent_message};
+use taxel::robot::{BoardEvent, ReadRobot, RobotContacts, RobotEvent, robot_contacts_message};
 use taxel::ros2::messages::{self, BoardState};
-use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_CONTACTS};
+use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_CONTACTS, ROBOT_INTENT};
 use taxel::tell::words;
 
 /// Time between two diagnostics of a board that is not there.
@@ -19,26 +20,41 @@ pub struct RobotNode<'a> {
     robot: &'a ReadRobot,
     /// None if no boards are sewn together.
     contacts: Option<RobotContacts>,
+    mind: RobotMind,
+    taken: RobotTold,
     /// Why a board is not there; none if it is.
     gone: Vec<Option<String>>,
-    time: SteadyTime,
     told: Instant,
 }
 
 impl<'a> RobotNode<'a> {
-    /// Offers everything.
+    /// Offers everything. Error as of [`RobotMind::new`], or if the network refuses a topic.
     pub fn open(mut node: RosNode, robot: &'a ReadRobot) -> Result<RobotNode<'a>> {
         node.offer(&DIAGNOSTICS, "")?;
         let contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(robot));
         if contacts.is_some() {
             node.offer(&ROBOT_CONTACTS, "")?;
         }
+        node.offer(&ROBOT_INTENT, "")?;
+        let mind = RobotMind::new(robot)?;
+        let taken = RobotTold::open(&mut node, robot, &mind)?;
         let gone = vec![None; robot.boards.len()];
-        Ok(RobotNode { node, robot, contacts, gone, time: SteadyTime::start(), told: Instant::now() })
+        Ok(RobotNode { node, robot, contacts, mind, taken, gone, told: Instant::now() })
+    }
+
+    /// The mind of the robot, to be told what others know; what it says then is for [`RobotNode::mean`].
+    pub fn mind(&mut self) -> &mut RobotMind {
+        &mut self.mind
+    }
+
+    /// Publishes what touches mean.
+    pub fn mean(&mut self, meaning: &RobotMeaning) -> Result<()> {
+        let line = RobotMeaningLine::of(&self.mind, meaning);
+        self.node.publish(&ROBOT_INTENT, "", robot_intent_message(self.robot, &line))
     }
 
     /// Handles an event of a board.
-    pub fn event(&mut self, event: &RobotEvent<BoardScan>) -> Result<()> {
+    pub fn event(&mut self, event: &RobotEvent<BoardHeard>) -> Result<()> {
         let gone = match &event.what {
             BoardEvent::News(_) | BoardEvent::Dropped { .. } => None,
             BoardEvent::Met | BoardEvent::Back { .. } => Some(None),
@@ -55,14 +71,20 @@ impl<'a> RobotNode<'a> {
             }
             self.gone[event.board] = gone;
         }
-        self.join(event)
+        self.join(event)?;
+        match self.mind.event(event, |heard| heard.sense.as_ref()).cloned() {
+            Some(meaning) => self.mean(&meaning),
+            None => Ok(()),
+        }
     }
 
     /// Publishes the robot's contacts, if the event has changed them.
-    fn join(&mut self, event: &RobotEvent<BoardScan>) -> Result<()> {
+    fn join(&mut self, event: &RobotEvent<BoardHeard>) -> Result<()> {
         let (Some(contacts), host_us) = (&mut self.contacts, event.stamp.host_us) else { return Ok(()) };
         let joined = match &event.what {
-            BoardEvent::News(scan) => contacts.scan(event.board, scan, host_us),
+            BoardEvent::News(BoardHeard { scan: Some(scan), .. }) => {
+                contacts.scan(event.board, scan, host_us)
+            }
             _ if self.gone[event.board].is_some() => contacts.forget(event.board, host_us),
             _ => Vec::new(),
         };
@@ -72,13 +94,19 @@ impl<'a> RobotNode<'a> {
         self.node.publish(&ROBOT_CONTACTS, "", robot_contacts_message(self.robot, host_us, &joined))
     }
 
-    /// Publishes the diagnostics of boards that are not there, if they are due.
-    pub fn turn(&mut self) -> Result<()> {
+    /// Tells the mind what has come, and that it is this time of the host, us, if no board says anything.
+    /// Publishes what touches mean then if that is news, and the diagnostics of boards that are not there, if
+    /// they are due.
+    pub fn turn(&mut self, now_us: u64, is_quiet: bool) -> Result<()> {
+        let mut news = self.taken.turn(&self.node, self.robot, &mut self.mind, now_us);
+        if is_quiet {
+            news = self.mind.pass(now_us).cloned().or(news);
+        }
+        news.map_or(Ok(()), |meaning| self.mean(&meaning))?;
         if self.told.elapsed() < PERIOD {
             return Ok(());
         }
         self.told = Instant::now();
-        let now_us = self.time.now_us();
         for (board, why) in self.robot.boards.iter().zip(&self.gone) {
             if let Some(why) = why {
                 let told = messages::diagnostics(&board.name, now_us, "", BoardState::Lost(why));

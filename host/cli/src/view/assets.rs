@@ -59,6 +59,7 @@ const FILES: &[(&str, Asset)] = files![
     SCRIPT "cloth.js",
     SCRIPT "regions.js",
     SCRIPT "robot.js",
+    SCRIPT "mind.js",
     SCRIPT "orbit.js",
     SCRIPT "drawing.js",
     SCRIPT "fcm.js",

@@ -7,6 +7,7 @@ use serde::Serialize;
 use taxel::json::lines::{FrameLine, HelloLine, PressingLine};
 #[cfg(feature = "schema")]
 use taxel::json::schema::TypeIs;
+use taxel::mind::RobotMeaningLine;
 use taxel_core::garment::Absent;
 
 /// Garment, scene and firmware of the board, and how the page shows them.
@@ -380,4 +381,15 @@ pub struct RobotBoardLine<'a> {
     pub why: Option<String>,
     /// Contacts on it.
     pub contacts: usize,
+}
+
+/// What the touches of all boards mean to the robot.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RobotIntentLine {
+    /// The robot's own.
+    #[serde(flatten)]
+    pub line: RobotMeaningLine,
+    /// The announced intention and what holds, in words.
+    pub text: String,
 }

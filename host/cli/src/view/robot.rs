@@ -1,13 +1,14 @@
-//! Tells the pages of a robot's boards how all boards are, and what touches the robot.
+//! Tells the pages of a robot's boards how all boards are, what touches the robot, and what that means.
 
 use super::hub::PageHub;
 use super::hubs::PageHubs;
-use super::lines::{RobotBoardLine, RobotLine};
+use super::lines::{RobotBoardLine, RobotIntentLine, RobotLine};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use taxel::Result;
+use taxel::mind::{BoardHeard, ROBOT_INTENT, RobotMeaningLine, RobotMind};
 use taxel::robot::{
-    BoardEvent, BoardScan, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContacts, RobotContactsLine,
-    RobotEvent,
+    BoardEvent, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContacts, RobotContactsLine, RobotEvent,
 };
 use taxel::tell::words;
 use taxel_core::contact::Phase;
@@ -30,12 +31,15 @@ pub struct RobotPages<'a> {
     contacts: Option<RobotContacts>,
     /// The robot's contacts at a host time, us, if they were told otherwise.
     news: Option<(u64, Vec<RobotContact>)>,
+    mind: RobotMind,
+    /// What touches mean as it was told last, without its time.
+    meant: Option<RobotMeaningLine>,
     told: Instant,
 }
 
 impl<'a> RobotPages<'a> {
-    /// Pages on which all boards are absent.
-    pub fn new(robot: &'a ReadRobot) -> RobotPages<'a> {
+    /// Pages on which all boards are absent. Error as of [`RobotMind::new`].
+    pub fn new(robot: &'a ReadRobot) -> Result<RobotPages<'a>> {
         let count = robot.boards.len();
         let (state, since_us, why, contacts) = ("absent", None, None, 0);
         let boards = robot.boards.iter().map(|board| RobotBoardLine {
@@ -53,10 +57,17 @@ impl<'a> RobotPages<'a> {
             told_boards: Instant::now(),
             contacts: (!robot.seams.is_empty()).then(|| RobotContacts::new(robot)),
             news: None,
+            mind: RobotMind::new(robot)?,
+            meant: None,
             told: Instant::now(),
         };
         pages.tell_boards();
-        pages
+        Ok(pages)
+    }
+
+    /// The mind of the robot, to be told what others know.
+    pub fn mind(&mut self) -> &mut RobotMind {
+        &mut self.mind
     }
 
     /// The hub of a board.
@@ -71,13 +82,14 @@ impl<'a> RobotPages<'a> {
     }
 
     /// Handles an event of a board.
-    pub fn event(&mut self, event: &RobotEvent<BoardScan>) {
+    pub fn event(&mut self, event: &RobotEvent<BoardHeard>) {
+        self.mind.event(event, |heard| heard.sense.as_ref());
         let host_us = event.stamp.host_us;
         let board = &mut self.boards[event.board];
         let before = board.clone();
         match &event.what {
-            BoardEvent::News(scan) => {
-                if let Some(contacts) = &scan.contacts {
+            BoardEvent::News(heard) => {
+                if let Some(contacts) = heard.scan.as_ref().and_then(|scan| scan.contacts.as_ref()) {
                     board.contacts = contacts.len();
                 }
             }
@@ -99,7 +111,9 @@ impl<'a> RobotPages<'a> {
         let is_gone = board.state != "live";
         if let Some(contacts) = &mut self.contacts {
             let joined = match &event.what {
-                BoardEvent::News(scan) => contacts.scan(event.board, scan, host_us),
+                BoardEvent::News(BoardHeard { scan: Some(scan), .. }) => {
+                    contacts.scan(event.board, scan, host_us)
+                }
                 _ if is_gone => contacts.forget(event.board, host_us),
                 _ => Vec::new(),
             };
@@ -107,6 +121,11 @@ impl<'a> RobotPages<'a> {
                 self.news = Some((host_us, joined));
             }
         }
+    }
+
+    /// It is this time of the host, us, and no board says anything.
+    pub fn pass(&mut self, host_us: u64) {
+        self.mind.pass(host_us);
     }
 
     /// Sends what is new to the pages.
@@ -123,6 +142,20 @@ impl<'a> RobotPages<'a> {
             let line = RobotContactsLine::of(self.robot, host_us, &contacts);
             self.hubs.iter().for_each(|hub| hub.state(ROBOT_CONTACTS, &line));
         }
+        self.tell_mind();
+    }
+
+    fn tell_mind(&mut self) {
+        let Some(meaning) = self.mind.meaning() else { return };
+        let line = RobotMeaningLine::of(&self.mind, meaning);
+        // That time has passed is no news.
+        let meant = Some(RobotMeaningLine { host_time_us: 0, ..line.clone() });
+        if meant == self.meant {
+            return;
+        }
+        self.meant = meant;
+        let line = RobotIntentLine { text: line.text(), line };
+        self.hubs.iter().for_each(|hub| hub.state(ROBOT_INTENT, &line));
     }
 
     fn tell_boards(&mut self) {

@@ -2,7 +2,7 @@
 
 use super::lines::{
     EndLine, GlowLine, ImageHead, LinkLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine,
-    RobotLine, SayLine, TaxelLine,
+    RobotIntentLine, RobotLine, SayLine, TaxelLine,
 };
 use super::message::PageWish;
 use crate::folding::FoldingLine;
@@ -33,6 +33,7 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("PlayerLine", of::<PlayerLine>()),
         ("OverviewLine", of::<OverviewLine<'static>>()),
         ("RobotLine", of::<RobotLine<'static>>()),
+        ("RobotIntentLine", of::<RobotIntentLine>()),
         ("RobotContactsLine", of::<RobotContactsLine<'static>>()),
         ("PageWish", of::<PageWish>()),
     ]

@@ -4,10 +4,11 @@ use super::socket::Socket;
 use super::validator::wrong;
 use crate::start::{root, taxel};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use taxel::mind::{ROBOT_INTENT, ROBOT_INTENT_SCHEMA, ROBOT_TOLD, ROBOT_TOLD_SCHEMA};
 use taxel::recording::Messages;
 use taxel::robot::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA};
 
@@ -334,6 +335,76 @@ fn embraced(name: &str) -> PathBuf {
         std::fs::write(folder.join(format!("{name}.toml")), script).unwrap();
     }
     folder
+}
+
+/// Messages of a topic about the robot, with the times at which they were logged, us.
+fn of_robot(file: &Path, name: &str) -> Vec<(u64, Value)> {
+    let mut messages = Messages::of_topic(file, &format!("/taxel/{name}")).unwrap();
+    let mut all = Vec::new();
+    while let Some(message) = messages.next_message().unwrap() {
+        all.push((message.header.log_time / 1000, serde_json::from_slice(message.data).unwrap()));
+    }
+    all
+}
+
+#[test]
+fn record_has_what_touches_mean_and_what_was_told() {
+    let folder = embraced("recorded-mind");
+    std::fs::write(folder.join("told.txt"), "told vision 0.5 40\ntold visoin 1\n").unwrap();
+    let args = ["robot", "record", "robot.toml", "-o", "touch.mcap", "--force", "--requests", "told.txt"];
+    let done = run(&folder, &[&args[..], &["--realtime"]].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(text(&done.stderr).contains("did you mean \"vision\"?"), "{}", text(&done.stderr));
+    let file = folder.join("touch.mcap");
+    let told = of_robot(&file, ROBOT_TOLD);
+    let [(told_us, told)] = &told[..] else { panic!("one line is right: {told:?}") };
+    assert_eq!((&told["told"], &told["age_ms"]), (&json!({ "vision": 0.5 }), &json!(40)));
+    assert_eq!(told["host_time_us"], *told_us);
+    let meant = of_robot(&file, ROBOT_INTENT);
+    let schemas = [ROBOT_TOLD_SCHEMA, ROBOT_INTENT_SCHEMA].map(|text| serde_json::from_str(text).unwrap());
+    assert_eq!(wrong(told, &schemas[0]), None);
+    assert!(meant.iter().all(|(_, line)| wrong(line, &schemas[1]).is_none()), "{meant:?}");
+    // As `live`, it tells what is news alone.
+    let news = |(_, line): &(u64, Value)| (line["leading"].clone(), line["holding"].clone());
+    assert!(meant.windows(2).all(|two| news(&two[0]) != news(&two[1])), "{meant:?}");
+    let holds = |line: &Value, what: &str| line["holding"].as_array().unwrap().contains(&json!(what));
+    assert!(meant.iter().any(|(_, line)| line["leading"] == "kindness" && holds(line, "hug")), "{meant:?}");
+    assert_eq!(meant.last().unwrap().1["leading"], "none");
+    assert!(meant.iter().all(|(us, line)| line["host_time_us"] == *us && us >= told_us), "{meant:?}");
+    let hug = &meant.iter().find(|(_, line)| holds(line, "hug")).unwrap().1;
+    assert_eq!(hug["touches"].as_array().unwrap().len(), 2, "{hug}");
+    // The boards are as without it.
+    let info = run(&folder, &["info", "touch.mcap"]);
+    assert!(info.status.success() && text(&info.stdout).contains("front"), "{}", text(&info.stdout));
+    let board = run(&folder, &["live", "--source", "replay:touch.mcap#front@max", "--json"]);
+    let kinds = text(&board.stdout).lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let kinds: BTreeSet<String> = kinds.map(|line| line["type"].as_str().unwrap().into()).collect();
+    assert!(kinds.contains("frame") && !kinds.contains(ROBOT_INTENT), "{kinds:?}");
+    // At times of their own, boards have no mind.
+    let done = run(&folder, &args);
+    assert!(
+        text(&done.stderr).contains("told.txt, line 1: nobody hears what is told"),
+        "{}",
+        text(&done.stderr)
+    );
+    assert!(of_robot(&file, ROBOT_INTENT).is_empty());
+}
+
+#[test]
+fn what_follows_from_what_is_told_is_printed() {
+    let map = "version = 1\nname = \"trust\"\nrule = \"kosko\"\ntransfer = \"positive\"\nlambda = 3.5\n\
+               [[concept]]\nname = \"voice\"\n[[concept]]\nname = \"kindness\"\n\
+               [[input]]\nconcept = \"voice\"\nrobot = { told = \"voice\" }\nrise = [0, 32768]\n\
+               [[edge]]\nfrom = \"voice\"\nto = \"kindness\"\nweight = 1.0\nnote = \"who speaks kindly is kind\"\n";
+    let robot = "name = \"one\"\nmaps = [\"trust.toml\"]\n[[boards]]\nname = \"hand\"\nsource = \"sim:idle\"\n\
+                 garment = \"block-4x16\"\n";
+    let folder = folder("told", robot);
+    std::fs::write(folder.join("trust.toml"), map).unwrap();
+    std::fs::write(folder.join("told.txt"), "told voice 1\n").unwrap();
+    let args = ["robot", "live", "robot.toml", "--realtime", "--seconds", "1", "--requests", "told.txt"];
+    let done = run(&folder, &args);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert_eq!(text(&done.stdout).matches("robot kindness").count(), 1, "{}", text(&done.stdout));
 }
 
 #[test]

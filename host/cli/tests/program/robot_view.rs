@@ -4,6 +4,7 @@ use super::robot::folder;
 use super::socket::Socket;
 use crate::start::taxel;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
@@ -106,6 +107,19 @@ fn each_board_has_its_page_and_each_page_tells_of_all_boards() {
     line(&mut other, "robot_contacts", |line| is_on(line, "torso"));
     line(&mut torso, "robot_contacts", |line| is_on(line, "hand"));
     line(&mut viewed.page("/boards/torso/socket"), "body", |_| true);
+    // So is what their touches mean together.
+    for page in [&mut torso, &mut other] {
+        let meant =
+            line(page, "robot_intent", |line| line["touches"].as_array().is_some_and(|all| all.len() > 5));
+        assert!(meant["text"].as_str().unwrap().starts_with(meant["leading"].as_str().unwrap()), "{meant}");
+        let boards: BTreeSet<u64> = meant["touches"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|touch| touch["board"].as_u64().unwrap())
+            .collect();
+        assert_eq!(boards, [0, 1].into());
+    }
     hand.plug(None);
     let lost = line(&mut torso, "robot", |line| state(line, 1, "lost"));
     assert!(

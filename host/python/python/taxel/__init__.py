@@ -27,6 +27,7 @@ from ._recording import Images, Message, Recording, _whole, features, moments, r
 from ._requests import Requests
 from ._taxel import (
     CONTACT,
+    MOMENT,
     Answer,
     Back,
     BoardError,
@@ -46,6 +47,7 @@ from ._taxel import (
     Intent,
     Log,
     Lost,
+    Moment,
     Folds,
     Pressing,
     Raw,
@@ -69,6 +71,7 @@ from ._taxel import (
 
 __all__ = [
     "CONTACT",
+    "MOMENT",
     "Answer",
     "Back",
     "Board",
@@ -91,6 +94,7 @@ __all__ = [
     "Log",
     "Lost",
     "Message",
+    "Moment",
     "Folds",
     "Pressing",
     "Raw",
@@ -155,6 +159,16 @@ class Robot(_taxel.Robot):
     Each event has the name of its ``board``. ``tare``, ``set_scene`` and ``self_test`` are for all boards, or for the
     one of this name; a board that is lost gets them once it is back. ``tell`` and ``set_joints`` tell the robot's map
     what others know, and how the robot moves.
+
+    Opened with ``keep``, it has what its boards have said lately, by the name of the board: ``frames`` the newest image
+    until a time, ``contacts`` the contacts at a time, interpolated between two scans. ``host_ns`` is the time that all
+    boards share, as in events; without it, it is the newest that all boards have told of. They know what has been read.
+    A board that is lost, or has said nothing until then, has None.
+
+    >>> import taxel
+    >>> with taxel.open_robot("robot.toml", keep=1.0) as robot:  # doctest: +SKIP
+    ...     for event in robot:
+    ...         images = {name: frame.image for name, frame in robot.frames().items() if frame}
     """
 
     def why(self, of: str | None = None) -> dict[str, Any]:
@@ -305,15 +319,16 @@ def open(
 
 
 def open_robot(
-    path: str | os.PathLike[str], *, realtime: bool = False, seconds: float | None = None
+    path: str | os.PathLike[str], *, realtime: bool = False, seconds: float | None = None, keep: float = 0.0
 ) -> Robot:
     """Opens all boards of a robot's file, ``robot.toml``, and iterates over their events.
 
     - ``realtime``: simulations take their time; else they are as fast as they are read
     - ``seconds``: end after so much of each board's time
+    - ``keep``: seconds for which ``Robot.frames`` and ``Robot.contacts`` know what the boards have said
 
     A board that is lost does not hold up the others: ``BoardState`` events say how each board is, and ``RobotTouch``
     events what touches the robot, over the seams between boards. Of a program that is too slow for real boards,
     images are dropped and counted.
     """
-    return Robot(path, realtime=realtime, seconds=seconds)
+    return Robot(path, realtime=realtime, seconds=seconds, keep=keep)

@@ -17,6 +17,7 @@ pub enum Note {
 }
 
 /// An event.
+#[derive(Clone)]
 pub struct Fact {
     /// Its JSON line.
     pub line: Value,

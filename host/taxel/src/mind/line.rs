@@ -4,11 +4,20 @@ use super::mover::{Approach, Mover};
 use super::probe::Probe;
 use super::robot_mind::{RobotMeaning, RobotMind};
 use super::sensed_board::SensedTouch;
+#[cfg(feature = "schema")]
+use crate::json::schema::{self, TypeIs};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// Message about what the touches of all boards mean together.
+/// Topic of these messages in a recording, below `/taxel/`; also their type.
+pub const ROBOT_INTENT: &str = "robot_intent";
+/// Their schema, as [`robot_intent_schema`] derives it.
+pub const ROBOT_INTENT_SCHEMA: &str = include_str!("../../schemas/messages/robot_intent.json");
+
+/// What the touches of all boards mean together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("robot_intent")))]
 #[serde(tag = "type", rename = "robot_intent")]
 pub struct RobotMeaningLine {
     /// The host's time, us since 1970.
@@ -18,6 +27,7 @@ pub struct RobotMeaningLine {
     /// Names of the concepts with causes that hold: of at least 0.5, and then down to 0.4.
     pub holding: Vec<String>,
     /// Activation of each concept of the map, -1 to 1.
+    #[cfg_attr(feature = "schema", schemars(with = "std::collections::BTreeMap<String, f64>"))]
     pub concepts: Map<String, Value>,
     /// Inputs of the map for which nothing is known that is young enough, so that its default counts: names
     /// of their concepts.
@@ -28,6 +38,7 @@ pub struct RobotMeaningLine {
 
 /// A contact of a board.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotTouchLine {
     /// Number of the board, in the order of the robot's file.
     pub board: usize,
@@ -40,11 +51,14 @@ pub struct RobotTouchLine {
     /// Its pressure, counts; with a calibration in force its force, thousandths of a newton.
     pub load: u32,
     /// `own` if the robot's motion has caused it, `other` if that of what touches it, or `unsure`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub mover: Mover,
     /// How the robot's surface moved before the onset; absent if it is not known.
+    #[cfg_attr(feature = "schema", schemars(with = "Approach"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub approach: Option<Approach>,
     /// What the robot feels of the object that it has moved into; absent of what touches it.
+    #[cfg_attr(feature = "schema", schemars(with = "Probe"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub probe: Option<Probe>,
 }
@@ -100,4 +114,10 @@ impl RobotMeaningLine {
             (leading, false) => format!("{leading}; {}", others.join(", ")),
         }
     }
+}
+
+/// The schema as the structs give it: as programs for recordings want it, and as it is.
+#[cfg(feature = "schema")]
+pub fn robot_intent_schema() -> [Value; 2] {
+    [schema::plain::<RobotMeaningLine>(), schema::of::<RobotMeaningLine>()]
 }

@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `place.rs` | [`BodyPlace`]: where on the body a contact lies |
+//! | `part.rs` | parts of the body that the map names |
 //! | `felt.rs` | [`MindReader`]: what a board's events say of touches, in the board's thread |
 //! | `speeds.rs` | [`LinkSpeeds`]: how fast the robot's own links move |
 //! | `mover.rs` | [`Mover`]: whose motion has caused a touch |
@@ -11,7 +12,10 @@
 //! | `sensed_board.rs` | [`SensedTouch`]: what one board has said, and whose motion has caused it |
 //! | `senses.rs` | [`Senses`]: the newest of all of these, each with its age |
 //! | `robot_mind.rs` | [`RobotMind`]: the map of the robot over its senses |
+//! | `heard.rs` | [`BoardHeard`]: what a board's event says to the robot's contacts and to its mind |
+//! | `recorded.rs` | [`RecordedMind`]: the mind of a robot whose boards are recorded |
 //! | `line.rs` | what it means, as JSON and in words |
+//! | `intent_ros2.rs` | the same as a message of ROS 2 |
 //! | `reasons.rs` | why, down to the contacts |
 //! | `stepped_robot.rs` | [`SteppedRobot`]: the boards of a robot and its mind, stepped by hand |
 //!
@@ -20,11 +24,15 @@
 //! that is young enough has the default that the map states for it.
 
 mod felt;
+mod heard;
+mod intent_ros2;
 mod line;
 mod mover;
+mod part;
 mod place;
 mod probe;
 mod reasons;
+mod recorded;
 mod robot_mind;
 mod sensed_board;
 mod senses;
@@ -33,14 +41,21 @@ mod stepped_robot;
 mod told;
 
 pub use felt::{BoardSense, FeltContact, MindReader, WornMind};
-pub use line::{RobotMeaningLine, RobotTouchLine};
-pub use mover::{Approach, Mover, SurfaceSpot};
+pub use heard::{BoardHeard, HeardReader};
+pub use intent_ros2::robot_intent_message;
+#[cfg(feature = "schema")]
+pub use line::robot_intent_schema;
+pub use line::{ROBOT_INTENT, ROBOT_INTENT_SCHEMA, RobotMeaningLine, RobotTouchLine};
+pub use mover::{Approach, BasePlace, Mover, SurfaceSpot};
 pub use place::BodyPlace;
 pub use probe::{Probe, ProbeCourse};
 pub use reasons::{ReasonInput, RobotReasons};
+pub use recorded::{MindRecord, MindRecordTeller, RecordedMind};
 pub use robot_mind::{RobotMeaning, RobotMind};
 pub use sensed_board::SensedTouch;
 pub use senses::{SenseCause, SensedValue, Senses};
-pub use speeds::LinkSpeeds;
+pub use speeds::{LinkSpeeds, LinksAt};
 pub use stepped_robot::SteppedRobot;
-pub use told::ToldLine;
+#[cfg(feature = "schema")]
+pub use told::robot_told_schema;
+pub use told::{ROBOT_TOLD, ROBOT_TOLD_SCHEMA, RobotToldLine, ToldLine};

@@ -4,7 +4,7 @@
 //! not if it is touched. The velocity follows from the joints that are told. If both move, the robot's motion
 //! shows and the other's does not: such a touch is taken for the robot's own from its speed on.
 
-use super::speeds::LinkSpeeds;
+use super::speeds::{LinkSpeeds, LinksAt};
 use crate::body::DVec3;
 use serde::Serialize;
 
@@ -26,6 +26,8 @@ const OVER_US: u64 = 20_000;
 const NEAR_M: f64 = 0.06;
 /// Distance within which a contact belongs to a bump that has just begun, m: it has stopped the link.
 const BESIDE_M: f64 = 0.12;
+/// Distance beyond which neither is true, m.
+pub(super) const REACH_M: f64 = BESIDE_M;
 /// Cosine of the angle of their normals up to which they face each other.
 const FACING: f64 = -0.5;
 
@@ -43,6 +45,7 @@ pub enum Mover {
 
 /// How the robot's surface moved shortly before a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Approach {
     /// Speed along the normal, m/s; positive outwards.
     pub normal_m_s: f64,
@@ -64,6 +67,9 @@ impl Approach {
     }
 }
 
+/// Place and normal of a spot in the base.
+pub type BasePlace = (DVec3, DVec3);
+
 /// A point of the robot's surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceSpot {
@@ -79,15 +85,19 @@ impl SurfaceSpot {
     /// The motion with the greatest speed along the normal shortly before an onset at a time of the host, us.
     /// None if nothing is known of the robot's motion then.
     pub fn approach(&self, speeds: &LinkSpeeds, onset_us: u64) -> Option<Approach> {
-        let steps = (0..BEFORE_US / OVER_US).map(|step| onset_us.saturating_sub(step * OVER_US));
-        let motion = |to_us: u64| {
-            let from_us = to_us.saturating_sub(OVER_US);
-            let (before, _) = speeds.point(from_us, &self.link, self.at, self.normal)?;
-            let (after, normal) = speeds.point(to_us, &self.link, self.at, self.normal)?;
+        let times = (0..=BEFORE_US / OVER_US).map(|step| onset_us.saturating_sub(step * OVER_US));
+        let places: Vec<_> = times.map(|us| self.in_base(&speeds.at(us)?)).collect();
+        let motion = |pair: &[Option<BasePlace>]| {
+            let ((after, normal), (before, _)) = (pair[0]?, pair[1]?);
             let velocity = (after - before) / (OVER_US as f64 * 1e-6);
             Some(Approach { normal_m_s: velocity.dot(normal), speed_m_s: velocity.length() })
         };
-        steps.filter_map(motion).max_by(|a, b| a.normal_m_s.total_cmp(&b.normal_m_s))
+        places.windows(2).filter_map(motion).max_by(|a, b| a.normal_m_s.total_cmp(&b.normal_m_s))
+    }
+
+    /// Its place and its normal in the base; none if its link is unknown.
+    pub fn in_base(&self, links: &LinksAt<'_>) -> Option<BasePlace> {
+        links.point(&self.link, self.at, self.normal)
     }
 
     /// True if they are beside each other on one side of a link: of one bump, if they begin together.
@@ -96,13 +106,12 @@ impl SurfaceSpot {
         is_near && self.normal.dot(other.normal) > 0.0
     }
 
-    /// True if the robot's own surface touches itself at these two spots at a time of the host, us.
-    pub fn meets(&self, other: &SurfaceSpot, speeds: &LinkSpeeds, host_us: u64) -> bool {
+    /// True if the robot's own surface touches itself at these two spots, where the links are now.
+    pub fn meets(&self, other: &SurfaceSpot, links: &LinksAt<'_>) -> bool {
         if self.link == other.link {
             return false;
         }
-        let in_base = |spot: &SurfaceSpot| speeds.point(host_us, &spot.link, spot.at, spot.normal);
-        let (Some((a, normal)), Some((b, facing))) = (in_base(self), in_base(other)) else { return false };
-        a.distance(b) <= NEAR_M && normal.dot(facing) <= FACING
+        let both = self.in_base(links).zip(other.in_base(links));
+        both.is_some_and(|((a, normal), (b, facing))| a.distance(b) <= NEAR_M && normal.dot(facing) <= FACING)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::felt::FeltContact;
 use super::mover::SurfaceSpot;
-use super::speeds::LinkSpeeds;
+use super::speeds::LinksAt;
 use crate::body::DVec3;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -25,9 +25,11 @@ const QUIET_US: u64 = 100_000;
 
 /// What a limb feels of an object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Probe {
     /// Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before
     /// that depth or 2,000 counts.
+    #[cfg_attr(feature = "schema", schemars(with = "u32"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness: Option<u32>,
     /// Share of the force on the taxel with the greatest pressure, at the greatest force, percent.
@@ -65,21 +67,21 @@ pub struct ProbeCourse {
 }
 
 impl ProbeCourse {
-    /// Begins with the first moment of a contact, at the host's time, us.
-    pub fn begin(felt: &FeltContact, speeds: Option<&LinkSpeeds>, host_us: u64) -> ProbeCourse {
-        let began = felt.spot.as_ref().zip(speeds).and_then(|(spot, speeds)| {
-            let (at, normal) = speeds.point(host_us, &spot.link, spot.at, spot.normal)?;
+    /// Begins with the first moment of a contact, at the host's time, us, at which the links are there.
+    pub fn begin(felt: &FeltContact, links: Option<&LinksAt<'_>>, host_us: u64) -> ProbeCourse {
+        let began = felt.spot.as_ref().zip(links).and_then(|(spot, links)| {
+            let (at, normal) = spot.in_base(links)?;
             Some((spot.clone(), at, normal))
         });
         let mut course = ProbeCourse { began, onset_us: host_us, ..ProbeCourse::default() };
-        course.take(felt, speeds, host_us);
+        course.take(felt, links, host_us);
         course
     }
 
     /// Takes a later moment.
-    pub fn take(&mut self, felt: &FeltContact, speeds: Option<&LinkSpeeds>, host_us: u64) {
-        let depth_mm = self.began.as_ref().zip(speeds).and_then(|((spot, from, normal), speeds)| {
-            let (at, _) = speeds.point(host_us, &spot.link, spot.at, spot.normal)?;
+    pub fn take(&mut self, felt: &FeltContact, links: Option<&LinksAt<'_>>, host_us: u64) {
+        let depth_mm = self.began.as_ref().zip(links).and_then(|((spot, from, normal), links)| {
+            let (at, _) = spot.in_base(links)?;
             Some((at - *from).dot(*normal) * 1e3)
         });
         let moment =

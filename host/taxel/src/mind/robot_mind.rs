@@ -7,7 +7,7 @@ use super::told::{ToldLine, fraction};
 use crate::error::{Context, MapFileError, Result, UsageError};
 use crate::fcm::map::MapFile;
 use crate::fcm::robot_source::{RobotInput, RobotSource};
-use crate::robot::ReadRobot;
+use crate::robot::{BoardEvent, ReadRobot, RobotEvent};
 use crate::tell::words;
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{CONCEPTS, EDGES, Felt, Intent, IntentConfig, IntentState, Leading, Outcome};
@@ -66,7 +66,7 @@ impl RobotMind {
     }
 
     /// A mind with this map.
-    pub fn with(map: MapFile, senses: Senses) -> Result<RobotMind> {
+    pub fn with(map: MapFile, mut senses: Senses) -> Result<RobotMind> {
         let config = *map.to_config::<CONCEPTS, EDGES>()?;
         if let Some(input) = map.input.iter().find(|input| input.robot.is_none()) {
             let (name, concept) = (&map.name, &input.concept);
@@ -82,9 +82,11 @@ impl RobotMind {
             ..IntentConfig::new(config)
         };
         let stage = Intent::build(&config).with_context(|| format!("map {}", map.name))?;
+        let inputs = map.robot_inputs();
+        senses.know(&inputs);
         let is_driven = |at: &usize| map.is_driven(&map.concept[*at].name);
         Ok(RobotMind {
-            inputs: map.robot_inputs(),
+            inputs,
             driven: (0..map.concept.len()).filter(is_driven).collect(),
             stage: Box::new(stage),
             state: Box::default(),
@@ -139,14 +141,35 @@ impl RobotMind {
         self.inputs.iter().map(|input| self.senses.value(input, self.now_us)).collect()
     }
 
-    /// Takes what a board says of a time of the host, us; it thinks at every word of a board, else every 5
-    /// ms. Returns what that means if it is news: another intention leads, or other concepts hold.
+    /// Takes what a board says of a time of the host, us; it thinks when a board announces something else,
+    /// else every 5 ms. Returns what that means if it is news: another intention leads, or other concepts hold.
     pub fn board(&mut self, board: usize, sense: &BoardSense, host_us: u64) -> Option<&RobotMeaning> {
+        let announced = self.senses.report(board).map(|report| report.leading);
         self.senses.board(board, sense, host_us);
-        // Of a hundred boards that scan, not each scan is worth a thought; a word is.
-        let is_word = matches!(sense, BoardSense::Intent(_) | BoardSense::Begins(_));
+        // Of a hundred boards that scan, not each scan is worth a thought; a new word is.
+        let is_word = match sense {
+            BoardSense::Intent(report) => announced != Some(report.leading),
+            BoardSense::Begins(_) => true,
+            BoardSense::Contacts(_) | BoardSense::Alive => false,
+        };
         let due_us = self.thought_us.saturating_add(1000 * u64::from(PERIOD_MS));
         if is_word || host_us >= due_us { self.pass(host_us) } else { None }
+    }
+
+    /// Takes an event of a board, whose news say this of touches. Returns what that means if it is news.
+    pub fn event<T>(
+        &mut self,
+        event: &RobotEvent<T>,
+        sense: impl FnOnce(&T) -> Option<&BoardSense>,
+    ) -> Option<&RobotMeaning> {
+        let RobotEvent { board, stamp, what } = event;
+        match what {
+            BoardEvent::News(news) => self.board(*board, sense(news)?, stamp.host_us),
+            BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
+                self.forget(*board, stamp.host_us)
+            }
+            _ => None,
+        }
     }
 
     /// A board is lost: nothing that it said counts any longer.

@@ -1,9 +1,13 @@
 //! What one board has said: its contacts, present and just ended, and what it announces.
 
 use super::felt::{FeltContact, WornMind};
-use super::mover::{Approach, Mover};
+use super::mover::{Approach, BasePlace, Mover};
+use super::part::{Part, PartFlags};
+use super::place::BodyPlace;
 use super::probe::ProbeCourse;
-use super::speeds::LinkSpeeds;
+use super::speeds::{LinkSpeeds, LinksAt};
+use crate::fcm::robot_source::PartWords;
+use std::sync::Arc;
 use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
 use taxel_core::wire::IntentReport;
@@ -34,9 +38,20 @@ pub struct SensedTouch {
     pub mover: Mover,
     /// What it says of the object, if the robot has moved into it.
     pub course: ProbeCourse,
+    /// Parts of the body of which its place is.
+    parts: PartFlags,
+    /// Where it was in the base when it was told last, and the host's time of that, us; none if it is not known.
+    pub(super) in_base: Option<(BasePlace, u64)>,
+    /// Number of times that joints had been told when it was found whose motion has caused it.
+    judged: Option<u64>,
 }
 
 impl SensedTouch {
+    /// True if it lies on this part.
+    pub(super) fn is_of(&self, part: Part<'_>) -> bool {
+        part.has(&self.felt.place, &self.parts)
+    }
+
     /// True if it is present or has ended within [`HELD_US`].
     fn counts(&self, now_us: u64) -> bool {
         self.ended_us.is_none_or(|ended| now_us.saturating_sub(ended) < HELD_US)
@@ -50,8 +65,13 @@ impl SensedTouch {
         }
     }
 
-    /// Finds whose motion has caused it.
+    /// Finds whose motion has caused it, unless nothing was told of the joints since that was found.
     fn judge(&mut self, speeds: Option<&LinkSpeeds>) {
+        let taken = speeds.map(LinkSpeeds::taken);
+        if taken.is_some() && taken == self.judged {
+            return;
+        }
+        self.judged = taken;
         self.approach = self.felt.spot.as_ref().zip(speeds).and_then(|(spot, speeds)| {
             // Where the contact is later says nothing of how it began.
             spot.approach(speeds, self.since_us)
@@ -60,12 +80,26 @@ impl SensedTouch {
     }
 }
 
+/// When contacts are told, and what is known of the robot then.
+pub(super) struct ListedAt<'a> {
+    /// The host's time, us.
+    pub(super) host_us: u64,
+    /// The robot's motion; none without a description of it.
+    pub(super) speeds: Option<&'a LinkSpeeds>,
+    /// Where its links are then; none if it is not known.
+    pub(super) links: Option<&'a LinksAt<'a>>,
+    /// Parts of the body that have a number.
+    pub(super) parts: &'a [PartWords],
+}
+
 /// What a board has said.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SensedBoard {
     /// Host time of what it said last, us; none while it is not there.
     pub(super) heard_us: Option<u64>,
     pub(super) worn: Option<WornMind>,
+    /// Its places, and the parts of the body of which each is.
+    places: Vec<(Arc<BodyPlace>, PartFlags)>,
     /// Present contacts, and those that have ended within [`HELD_US`].
     pub(super) contacts: Vec<SensedTouch>,
     pub(super) report: Option<Box<IntentReport>>,
@@ -78,24 +112,38 @@ impl SensedBoard {
         lasts_ms.is_none_or(|lasts_ms| age_ms < lasts_ms).then_some(age_ms)
     }
 
+    /// A board that begins, and wears this.
+    pub(super) fn begin(worn: &WornMind, parts: &[PartWords]) -> SensedBoard {
+        let flags = |place: &Arc<BodyPlace>| (place.clone(), place.parts(parts));
+        let places = worn.places.iter().map(flags).collect();
+        SensedBoard { worn: Some(worn.clone()), places, ..SensedBoard::default() }
+    }
+
+    /// The same board, lost: nothing that it said counts.
+    pub(super) fn forget(&mut self) {
+        let (worn, places) = (self.worn.take(), std::mem::take(&mut self.places));
+        *self = SensedBoard { worn, places, ..SensedBoard::default() };
+    }
+
     /// True if its garment covers some of this part.
-    pub(super) fn covers(&self, part: &[String]) -> bool {
-        self.worn.iter().flat_map(|worn| &worn.places).any(|place| place.is_of(part))
+    pub(super) fn covers(&self, part: Part<'_>) -> bool {
+        self.places.iter().any(|(place, flags)| part.has(place, flags))
     }
 
     /// Contacts on a part that are present or have ended within [`HELD_US`].
     pub(super) fn touches<'a>(
         &'a self,
-        part: &'a [String],
+        part: Part<'a>,
         now_us: u64,
     ) -> impl Iterator<Item = &'a SensedTouch> {
         let counts = move |touch: &&SensedTouch| touch.counts(now_us);
-        self.contacts.iter().filter(counts).filter(|touch| touch.felt.place.is_of(part))
+        self.contacts.iter().filter(counts).filter(move |touch| touch.is_of(part))
     }
 
     /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be told
     /// that were read before.
-    pub(super) fn list(&mut self, contacts: &[FeltContact], speeds: Option<&LinkSpeeds>, host_us: u64) {
+    pub(super) fn list(&mut self, contacts: &[FeltContact], told: &ListedAt<'_>) {
+        let ListedAt { speeds, links, host_us, .. } = *told;
         let is_recent =
             |touch: &SensedTouch| touch.ended_us.is_none_or(|ended| host_us.saturating_sub(ended) < HELD_US);
         self.contacts.retain(is_recent);
@@ -105,14 +153,19 @@ impl SensedBoard {
             }
         }
         for felt in contacts {
+            let in_base = felt.spot.as_ref().zip(links).and_then(|(spot, links)| spot.in_base(links));
+            let in_base = in_base.map(|place| (place, host_us));
             let known = self.contacts.iter_mut().find(|touch| touch.felt.contact == felt.contact);
             match known {
                 Some(touch) => {
                     let is_new = host_us.saturating_sub(touch.since_us) < TOGETHER_US;
-                    (touch.felt, touch.ended_us) = (felt.clone(), None);
+                    if !Arc::ptr_eq(&touch.felt.place, &felt.place) {
+                        touch.parts = flags(&self.places, &felt.place, told.parts);
+                    }
+                    (touch.felt, touch.ended_us, touch.in_base) = (felt.clone(), None, in_base);
                     touch.most = touch.most.max(felt.load);
                     touch.load(host_us);
-                    touch.course.take(felt, speeds, host_us);
+                    touch.course.take(felt, links, host_us);
                     if is_new && touch.mover != Mover::Own {
                         touch.judge(speeds);
                     }
@@ -126,7 +179,10 @@ impl SensedBoard {
                         recent: (felt.load, host_us),
                         approach: None,
                         mover: Mover::Unsure,
-                        course: ProbeCourse::begin(felt, speeds, host_us),
+                        course: ProbeCourse::begin(felt, links, host_us),
+                        parts: flags(&self.places, &felt.place, told.parts),
+                        in_base,
+                        judged: None,
                     };
                     touch.judge(speeds);
                     self.contacts.push(touch);
@@ -152,4 +208,10 @@ impl SensedBoard {
         let at = concepts.iter().position(|concept| concept.name == leading.as_str())?;
         report.concepts.get(at).copied()
     }
+}
+
+/// The parts of which a place is, mostly one of those of the board.
+fn flags(known: &[(Arc<BodyPlace>, PartFlags)], place: &Arc<BodyPlace>, parts: &[PartWords]) -> PartFlags {
+    let mut known = known.iter().filter(|(other, _)| Arc::ptr_eq(other, place));
+    known.next().map_or_else(|| place.parts(parts), |(_, flags)| flags.clone())
 }

@@ -2,16 +2,21 @@
 //! age.
 
 use super::felt::{BoardSense, WornMind};
-use super::mover::Mover;
+use super::mover::{Mover, REACH_M};
+use super::part::{Part, parts_of};
 use super::place::BodyPlace;
 use super::probe::Probe;
-use super::sensed_board::{SensedBoard, SensedTouch, TOGETHER_US};
-use super::speeds::LinkSpeeds;
-use crate::fcm::robot_source::{RobotInput, RobotSource};
+use super::sensed_board::{ListedAt, SensedBoard, SensedTouch, TOGETHER_US};
+use super::speeds::{LinkSpeeds, LinksAt};
+use crate::fcm::robot_source::{PartWords, RobotInput, RobotSource};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
 use taxel_core::wire::IntentReport;
+
+/// Greatest speed of a link, m/s: what was farther away than that allows is not near now.
+const FASTEST_M_S: f64 = 10.0;
 
 /// A value for an input of the robot's map.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,7 +33,7 @@ pub struct SenseCause {
     /// Number of the board; none if it is no board's.
     pub board: Option<usize>,
     /// Id of the board's contact, and where it lies; none if it is no contact.
-    pub contact: Option<(u32, BodyPlace)>,
+    pub contact: Option<(u32, Arc<BodyPlace>)>,
     /// What it adds, in the unit of the source.
     pub value: i32,
     /// Its age, ms.
@@ -40,7 +45,7 @@ impl SenseCause {
     fn of(board: usize, touch: &SensedTouch, value: u64, age_ms: u32) -> SenseCause {
         SenseCause {
             board: Some(board),
-            contact: Some((touch.felt.contact, (*touch.felt.place).clone())),
+            contact: Some((touch.felt.contact, touch.felt.place.clone())),
             value: i32::try_from(value).unwrap_or(i32::MAX),
             age_ms,
         }
@@ -54,60 +59,48 @@ pub struct Senses {
     speeds: Option<LinkSpeeds>,
     /// Values by name, with the host's time from which they are, us.
     told: BTreeMap<String, (Q15, u64)>,
+    /// Parts of the body that have a number.
+    parts: Vec<PartWords>,
 }
 
 impl Senses {
     /// Of so many boards, of which nothing is known; without a description of the robot nothing is known of
     /// its motion.
     pub fn new(boards: usize, speeds: Option<LinkSpeeds>) -> Senses {
-        Senses { boards: vec![SensedBoard::default(); boards], speeds, told: BTreeMap::new() }
+        Senses {
+            boards: vec![SensedBoard::default(); boards],
+            speeds,
+            told: BTreeMap::new(),
+            parts: Vec::new(),
+        }
+    }
+
+    /// Values of these inputs will be asked for: gives a number to each part that they name.
+    pub(super) fn know(&mut self, inputs: &[RobotInput]) {
+        self.parts = parts_of(inputs);
     }
 
     /// Takes what a board says of a time of the host, us.
     pub fn board(&mut self, board: usize, sense: &BoardSense, host_us: u64) {
-        let Some(sensed) = self.boards.get_mut(board) else { return };
+        let Senses { boards, speeds, parts, .. } = self;
+        let Some(sensed) = boards.get_mut(board) else { return };
         match sense {
-            BoardSense::Begins(worn) => {
-                *sensed = SensedBoard { worn: Some(worn.clone()), ..SensedBoard::default() };
+            BoardSense::Begins(worn) => *sensed = SensedBoard::begin(worn, parts),
+            BoardSense::Contacts(contacts) => {
+                let speeds = speeds.as_ref();
+                let has_spot = contacts.iter().any(|felt| felt.spot.is_some());
+                let links = speeds.filter(|_| has_spot).and_then(|speeds| speeds.at(host_us));
+                let links = links.as_ref();
+                sensed.list(contacts, &ListedAt { host_us, speeds, links, parts });
+                if speeds.is_some() {
+                    pair(boards, board, links, host_us);
+                }
             }
-            BoardSense::Contacts(contacts) => sensed.list(contacts, self.speeds.as_ref(), host_us),
             BoardSense::Intent(report) => sensed.report = Some(report.clone()),
             BoardSense::Alive => {}
         }
+        let Some(sensed) = self.boards.get_mut(board) else { return };
         sensed.heard_us = Some(sensed.heard_us.map_or(host_us, |heard| heard.max(host_us)));
-        if matches!(sense, BoardSense::Contacts(_)) {
-            self.pair(board, host_us);
-        }
-    }
-
-    /// Where the robot's own surfaces face each other and both are pressed, the robot touches itself, and one
-    /// of them may be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of
-    /// a board and all others that are present.
-    fn pair(&mut self, board: usize, now_us: u64) {
-        let Some(speeds) = &self.speeds else { return };
-        let all = || self.boards.iter().flat_map(|board| &board.contacts);
-        let is_own = |touch: &SensedTouch| {
-            let Some(spot) = touch.felt.spot.as_ref().filter(|_| touch.mover != Mover::Own) else {
-                return false;
-            };
-            all().any(|other| {
-                let Some(facing) = &other.felt.spot else { return false };
-                let began_with = other.since_us.abs_diff(touch.since_us) <= TOGETHER_US;
-                let is_bump = other.mover == Mover::Own && began_with && spot.is_beside(facing);
-                let is_pressed = other.ended_us.is_none() && touch.ended_us.is_none();
-                is_bump || is_pressed && spot.meets(facing, speeds, now_us)
-            })
-        };
-        let mut own = Vec::new();
-        for (number, sensed) in self.boards.iter().enumerate() {
-            let is_concerned = |touch: &&SensedTouch| number == board || touch.ended_us.is_none();
-            let touches = sensed.contacts.iter().filter(is_concerned).filter(|touch| is_own(touch));
-            own.extend(touches.map(|touch| (number, touch.felt.contact)));
-        }
-        for (number, contact) in own {
-            let touches = self.boards[number].contacts.iter_mut();
-            touches.filter(|touch| touch.felt.contact == contact).for_each(|touch| touch.mover = Mover::Own);
-        }
     }
 
     /// Number of boards.
@@ -123,7 +116,7 @@ impl Senses {
     /// A board is lost: nothing that it said counts any longer.
     pub fn forget(&mut self, board: usize) {
         if let Some(sensed) = self.boards.get_mut(board) {
-            *sensed = SensedBoard { worn: sensed.worn.take(), ..SensedBoard::default() };
+            sensed.forget();
         }
     }
 
@@ -156,9 +149,15 @@ impl Senses {
         sensed.unwrap_or(SensedValue { value: input.otherwise, age_ms: None })
     }
 
+    /// The part that these words name.
+    fn part<'a>(&self, words: &'a [String]) -> Part<'a> {
+        Part::of(words, &self.parts)
+    }
+
     /// Value of an input and its age, ms; none if nothing is known that is young enough.
     fn sensed(&self, input: &RobotInput, now_us: u64) -> Option<(i64, u32)> {
-        let present = |part: &[String]| {
+        let present = |words: &[String]| {
+            let part = self.part(words);
             let boards = self.boards.iter().filter(|board| board.covers(part));
             let ages = boards.filter_map(|board| board.age_ms(input.lasts_ms, now_us));
             ages.max()
@@ -205,7 +204,8 @@ impl Senses {
     }
 
     /// Onset of the oldest contact on a part, us.
-    fn onset_us(&self, part: &[String], lasts_ms: Option<u32>, now_us: u64) -> Option<u64> {
+    fn onset_us(&self, words: &[String], lasts_ms: Option<u32>, now_us: u64) -> Option<u64> {
+        let part = self.part(words);
         let boards = self.boards.iter().filter(|board| board.age_ms(lasts_ms, now_us).is_some());
         boards.flat_map(|board| board.touches(part, now_us)).map(|touch| touch.since_us).min()
     }
@@ -218,10 +218,11 @@ impl Senses {
     }
 
     /// Of what a part has moved into, the contact with the greatest force; its board, and the age of that, ms.
-    fn met(&self, part: &[String], input: &RobotInput, now_us: u64) -> Option<(usize, u32, &SensedTouch)> {
+    fn met(&self, words: &[String], input: &RobotInput, now_us: u64) -> Option<(usize, u32, &SensedTouch)> {
+        let part = self.part(words);
         let own = self.live(input, now_us).flat_map(|(number, age_ms, board)| {
             let own = board.contacts.iter().filter(|touch| touch.mover == Mover::Own);
-            own.filter(|touch| touch.felt.place.is_of(part)).map(move |touch| (number, age_ms, touch))
+            own.filter(move |touch| touch.is_of(part)).map(move |touch| (number, age_ms, touch))
         });
         own.max_by_key(|(.., touch)| touch.most)
     }
@@ -230,7 +231,8 @@ impl Senses {
     /// intention: the boards that announce it.
     pub fn causes(&self, input: &RobotInput, now_us: u64) -> Vec<SenseCause> {
         let boards = || self.live(input, now_us);
-        let touches = |part: &[String], value: &dyn Fn(&SensedTouch) -> u64| -> Vec<SenseCause> {
+        let touches = |words: &[String], value: &dyn Fn(&SensedTouch) -> u64| -> Vec<SenseCause> {
+            let part = self.part(words);
             let of = |(number, age_ms, board): (usize, u32, &SensedBoard)| -> Vec<SenseCause> {
                 let cause = |touch: &SensedTouch| SenseCause::of(number, touch, value(touch), age_ms);
                 board.touches(part, now_us).map(cause).collect()
@@ -289,4 +291,51 @@ impl Senses {
             }
         }
     }
+}
+
+/// Where the robot's own surfaces face each other and both are pressed, the robot touches itself, and one of
+/// them may be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of a board,
+/// which has just told them, and at all others; the links are there then, if that is known.
+fn pair(boards: &mut [SensedBoard], board: usize, links: Option<&LinksAt<'_>>, now_us: u64) {
+    let mut own = Vec::new();
+    for (number, sensed) in boards.iter().enumerate() {
+        for other in &sensed.contacts {
+            // Most are far from each other, and nothing more is looked at.
+            for mine in boards[board].contacts.iter().filter(|mine| !is_far(mine, other, now_us)) {
+                let meets = || meet(mine, other, links);
+                if mine.mover != Mover::Own && (is_of_bump(mine, other) || meets()) {
+                    own.push((board, mine.felt.contact));
+                }
+                let is_concerned = number != board && other.ended_us.is_none();
+                if is_concerned && other.mover != Mover::Own && (is_of_bump(other, mine) || meets()) {
+                    own.push((number, other.felt.contact));
+                }
+            }
+        }
+    }
+    for (number, contact) in own {
+        let touches = boards[number].contacts.iter_mut();
+        touches.filter(|touch| touch.felt.contact == contact).for_each(|touch| touch.mover = Mover::Own);
+    }
+}
+
+/// True if two touches cannot be near each other, by where they were when they were told last.
+fn is_far(touch: &SensedTouch, other: &SensedTouch, now_us: u64) -> bool {
+    let (Some(((a, _), a_us)), Some(((b, _), b_us))) = (touch.in_base, other.in_base) else { return false };
+    let passed_s = (now_us.abs_diff(a_us) + now_us.abs_diff(b_us)) as f64 * 1e-6;
+    a.distance_squared(b) > (REACH_M + FASTEST_M_S * passed_s).powi(2)
+}
+
+/// True if a touch begins beside a bump of the robot, and with it.
+fn is_of_bump(touch: &SensedTouch, bump: &SensedTouch) -> bool {
+    let began_with = || bump.since_us.abs_diff(touch.since_us) <= TOGETHER_US;
+    let spots = || touch.felt.spot.as_ref().zip(bump.felt.spot.as_ref());
+    bump.mover == Mover::Own && began_with() && spots().is_some_and(|(spot, at)| spot.is_beside(at))
+}
+
+/// True if two touches that are present are the robot's own surface touching itself.
+fn meet(touch: &SensedTouch, other: &SensedTouch, links: Option<&LinksAt<'_>>) -> bool {
+    let is_pressed = touch.ended_us.is_none() && other.ended_us.is_none();
+    let spots = touch.felt.spot.as_ref().zip(other.felt.spot.as_ref()).zip(links).filter(|_| is_pressed);
+    spots.is_some_and(|((spot, facing), links)| spot.meets(facing, links))
 }

@@ -2,7 +2,7 @@
 
 use crate::body::DVec3;
 use crate::body::posture::{JointHistory, Motion};
-use crate::body::robot::Robot;
+use crate::body::robot::{Poses, Robot};
 use crate::error::Result;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -22,6 +22,23 @@ pub struct LinkSpeeds {
     robot: Arc<Robot>,
     history: JointHistory,
     told: BTreeSet<usize>,
+    /// Number of times that positions were taken.
+    taken: u64,
+}
+
+/// Where the links of a robot are at a time.
+#[derive(Debug, Clone)]
+pub struct LinksAt<'a> {
+    robot: &'a Robot,
+    poses: Poses,
+}
+
+impl LinksAt<'_> {
+    /// A point of a link and a direction there in the base; none without such a link.
+    pub fn point(&self, link: &str, at: DVec3, direction: DVec3) -> Option<(DVec3, DVec3)> {
+        let pose = self.poses.of(self.robot.link(link).ok()?, 0)?;
+        Some((pose.point(at), pose.direction(direction)))
+    }
 }
 
 impl LinkSpeeds {
@@ -29,7 +46,7 @@ impl LinkSpeeds {
     pub fn new(robot: Arc<Robot>) -> Result<LinkSpeeds> {
         let mut history = JointHistory::new(robot.clone(), Motion::default())?;
         history.need(&[]);
-        Ok(LinkSpeeds { robot, history, told: BTreeSet::new() })
+        Ok(LinkSpeeds { robot, history, told: BTreeSet::new(), taken: 0 })
     }
 
     /// Takes positions of joints, rad or m, at a time of the host, us. Joints that were never told rest.
@@ -40,6 +57,7 @@ impl LinkSpeeds {
         positions: impl IntoIterator<Item = (&'a str, f64)> + Clone,
     ) -> Result<()> {
         self.history.take(Micros(host_us), positions.clone())?;
+        self.taken += 1;
         for (name, _) in positions {
             let joint = self.robot.joint(name)?;
             self.told.extend(self.robot.free().iter().position(|free| *free == joint));
@@ -48,9 +66,13 @@ impl LinkSpeeds {
         Ok(())
     }
 
-    /// A point of a link and a direction there in the base at a time of the host, us. None without such a
-    /// link, or if nothing is known of the joints at that time.
-    pub fn point(&self, host_us: u64, link: &str, at: DVec3, direction: DVec3) -> Option<(DVec3, DVec3)> {
+    /// Number of times that positions were taken: while it is the same, so is all that is known of a time.
+    pub fn taken(&self) -> u64 {
+        self.taken
+    }
+
+    /// Where the links are at a time of the host, us; none if nothing is known of the joints at that time.
+    pub fn at(&self, host_us: u64) -> Option<LinksAt<'_>> {
         if self.told.is_empty() {
             return None;
         }
@@ -58,8 +80,7 @@ impl LinkSpeeds {
         if estimate.age > SILENT {
             return None;
         }
-        let pose = self.robot.poses(&estimate.posture).of(self.robot.link(link).ok()?, 0)?;
-        Some((pose.point(at), pose.direction(direction)))
+        Some(LinksAt { robot: &self.robot, poses: self.robot.poses(&estimate.posture) })
     }
 
     /// Speed of the fastest of the links that are meant, mm/s, and the age of the joints, ms. The speed of a

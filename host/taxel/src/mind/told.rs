@@ -1,9 +1,16 @@
 //! What others know: values that somebody tells a robot by name, and the positions of its joints, as lines.
 
 use crate::error::{Result, UsageError};
-use serde::Deserialize;
+#[cfg(feature = "schema")]
+use crate::json::schema::{self, TypeIs};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use taxel_core::format::Q15;
+
+/// Topic of what is told in a recording, below `/taxel/`; also the type of its messages.
+pub const ROBOT_TOLD: &str = "robot_told";
+/// Their schema, as [`robot_told_schema`] derives it.
+pub const ROBOT_TOLD_SCHEMA: &str = include_str!("../../schemas/messages/robot_told.json");
 
 /// A line of JSON:
 ///
@@ -32,6 +39,36 @@ impl ToldLine {
             )
         })
     }
+}
+
+/// What others have told the robot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("robot_told")))]
+#[serde(tag = "type", rename = "robot_told")]
+pub struct RobotToldLine<'a> {
+    /// Host time at which it was told, us since 1970.
+    pub host_time_us: u64,
+    /// Values by name, -1 to 1.
+    pub told: &'a BTreeMap<String, f64>,
+    /// Positions of joints by name, rad or m.
+    pub positions: &'a BTreeMap<String, f64>,
+    /// Age of all of them then, ms.
+    pub age_ms: u32,
+}
+
+impl<'a> RobotToldLine<'a> {
+    /// The message of what was told at a host time.
+    pub fn of(line: &'a ToldLine, host_time_us: u64) -> RobotToldLine<'a> {
+        let ToldLine { told, positions, age_ms } = line;
+        RobotToldLine { host_time_us, told, positions, age_ms: *age_ms }
+    }
+}
+
+/// The schema as the struct gives it: as programs for recordings want it, and as it is.
+#[cfg(feature = "schema")]
+pub fn robot_told_schema() -> [serde_json::Value; 2] {
+    [schema::plain::<RobotToldLine<'static>>(), schema::of::<RobotToldLine<'static>>()]
 }
 
 /// A value of -1 to 1 in units of 2^-15. Error, with its name, if it is outside.

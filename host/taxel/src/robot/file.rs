@@ -49,6 +49,11 @@ pub struct ReadRobot {
 }
 
 impl ReadRobot {
+    /// True if its boards are at one time: real ones always are, simulations and recordings at real time.
+    pub fn is_at_one_time(&self, realtime: bool) -> bool {
+        realtime || self.boards.iter().all(RobotBoard::is_real)
+    }
+
     /// Reads a robot's file and the files that it names. Errors name file, line, board and key.
     pub fn read(path: &Path) -> Result<ReadRobot> {
         let file = path.display().to_string();

@@ -85,7 +85,7 @@ pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
-pub use recorder::{BoardRecord, RecordTeller, RobotRecorder};
+pub use recorder::{BoardRecord, RecordTeller, RobotRecorder, RobotTopic};
 pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;

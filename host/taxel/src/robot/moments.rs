@@ -51,6 +51,13 @@ impl<T> RobotMoments<T> {
         self.boards.get_mut(board).into_iter().for_each(VecDeque::clear);
     }
 
+    /// The newest time of the host, us, until which all of these boards have said something. Boards that have
+    /// said nothing yet do not count; none if none has.
+    pub fn told_by_all(&self, boards: impl IntoIterator<Item = usize>) -> Option<u64> {
+        let newest = |board: usize| Some(self.boards.get(board)?.back()?.stamp.host_us);
+        boards.into_iter().filter_map(newest).min()
+    }
+
     /// The newest that a board has said until a time of the host, us; none if that is forgotten, or it had said
     /// nothing yet.
     pub fn latest(&self, board: usize, host_us: u64) -> Option<&BoardMoment<T>> {
@@ -158,6 +165,10 @@ mod tests {
             [3_999, 4_000, 5_000, 9_000].map(|us| latest(&moments, us)),
             [None, Some(4_000), Some(4_000), Some(6_500)]
         );
+        assert_eq!([moments.told_by_all([0]), moments.told_by_all([0, 1, 2])], [None, Some(6_500)]);
+        moments.take(0, stamp(6_000, 5), 0);
+        assert_eq!(moments.told_by_all([0, 1]), Some(6_000));
+        moments.forget(0);
         assert!(moments.latest(0, 9_000).is_none() && moments.latest(2, 9_000).is_none());
         // A clock that is learned anew may go back.
         moments.take(1, stamp(5_000, 5), 1);

@@ -3,8 +3,9 @@
 //! An MCAP file like that of one board, with the topics of each board below its name: `/taxel/BOARD/wire`,
 //! `/taxel/BOARD/frames` and so on, and attachments and metadata such as `BOARD/garment.toml`, `BOARD/taxel`,
 //! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards.
-//! If boards are sewn together, `/taxel/robot_contacts` has the robot's contacts. Log time is the host's time,
-//! which all boards share.
+//! If boards are sewn together, `/taxel/robot_contacts` has the robot's contacts;
+//! [others](RobotRecorder::topic) may add topics about the robot. Log time is the host's time, which all boards
+//! share.
 
 use super::contact::RobotContact;
 use super::contacts::RobotContacts;
@@ -14,11 +15,12 @@ use super::file::ReadRobot;
 use super::scan::{BoardScan, ScanReader};
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Worn, request_name};
-use crate::error::{Context, Result};
+use crate::error::{Context, RecordingError, Result};
 use crate::files::output::{Force, Output};
 use crate::record::{COUNTS, Encoded, NS, Origin, RecordTopic, Stamp, Tally, Topics, attach};
 use crate::recording::{Format, HELLO, Writer, attachment_of};
 use crate::source::Source;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -36,7 +38,8 @@ pub struct BoardRecord {
     /// The board's description, if it is new, and the frame of its `Hello`.
     described: Option<Box<Described>>,
     tally: Tally,
-    scan: Option<BoardScan>,
+    /// The scan that it is about.
+    pub scan: Option<BoardScan>,
     /// Why the board refuses a request.
     pub refusal: Option<String>,
 }
@@ -111,11 +114,24 @@ pub struct RobotRecorder {
     boards: Vec<RecordedBoard>,
     robot: ReadRobot,
     contacts: RobotContacts,
-    /// Channel of the robot's contacts; none if no boards are sewn together.
-    joined: Option<u16>,
+    /// Topic of the robot's contacts; none if no boards are sewn together.
+    joined: Option<RobotTopic>,
     kept: Instant,
     /// Bytes of the file.
     bytes: u64,
+}
+
+/// A topic of a recording about the robot as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RobotTopic(u16);
+
+impl RobotTopic {
+    /// Declares `/taxel/NAME`, whose messages are JSON of this schema.
+    fn open(writer: &mut Writer<File>, name: &str, schema: &str) -> Result<RobotTopic> {
+        let title = format!("taxel.{name}");
+        let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text: schema };
+        Ok(RobotTopic(writer.channel(&format!("/taxel/{name}"), &format)?))
+    }
 }
 
 /// What is recorded of a board.
@@ -149,11 +165,8 @@ impl RobotRecorder {
                 frames_us: None,
             });
         }
-        let title = format!("taxel.{ROBOT_CONTACTS}");
-        let text = ROBOT_CONTACTS_SCHEMA;
-        let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text };
-        let topic = format!("/taxel/{ROBOT_CONTACTS}");
-        let sewn = (!robot.seams.is_empty()).then(|| writer.channel(&topic, &format));
+        let sewn = (!robot.seams.is_empty())
+            .then(|| RobotTopic::open(&mut writer, ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA));
         let joined = sewn.transpose().with_context(what)?;
         let names: Vec<&str> = robot.boards.iter().map(|board| board.name.as_str()).collect();
         let words = [("name", robot.name.clone()), ("boards", names.join(","))];
@@ -185,6 +198,22 @@ impl RobotRecorder {
     pub fn lost(&mut self, board: usize, host_us: u64) -> Result<()> {
         let contacts = self.contacts.forget(board, host_us);
         let done = self.write_contacts(host_us, &contacts);
+        self.guard(done)
+    }
+
+    /// Adds a topic about the robot as a whole, `/taxel/NAME`, whose messages are JSON of this schema. Error as
+    /// of [`RobotRecorder::take`].
+    pub fn topic(&mut self, name: &str, schema: &str) -> Result<RobotTopic> {
+        let Some(writer) = &mut self.writer else {
+            fail!(RecordingError::Record, "{}: it has ended", self.path.display());
+        };
+        let opened = RobotTopic::open(writer, name, schema);
+        self.guard(opened)
+    }
+
+    /// Writes a message of such a topic, at a host time, us. Error as of [`RobotRecorder::take`].
+    pub fn line(&mut self, topic: RobotTopic, host_us: u64, line: &impl Serialize) -> Result<()> {
+        let done = write_line(&mut self.writer, topic, host_us, line);
         self.guard(done)
     }
 
@@ -230,13 +259,8 @@ impl RobotRecorder {
 
     /// Writes the robot's contacts, if there are any.
     fn write_contacts(&mut self, host_us: u64, contacts: &[RobotContact]) -> Result<()> {
-        let (Some(writer), Some(channel)) = (&mut self.writer, self.joined) else { return Ok(()) };
-        if contacts.is_empty() {
-            return Ok(());
-        }
-        let line = serde_json::to_vec(&RobotContactsLine::of(&self.robot, host_us, contacts))?;
-        let ns = host_us.saturating_mul(NS);
-        writer.message(channel, ns, ns, &line)
+        let Some(topic) = self.joined.filter(|_| !contacts.is_empty()) else { return Ok(()) };
+        write_line(&mut self.writer, topic, host_us, &RobotContactsLine::of(&self.robot, host_us, contacts))
     }
 
     fn write(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
@@ -279,8 +303,11 @@ impl RobotRecorder {
     }
 
     /// Ends the recording on a write error.
-    fn guard(&mut self, done: Result<()>) -> Result<()> {
-        let Err(error) = done else { return Ok(()) };
+    fn guard<T>(&mut self, done: Result<T>) -> Result<T> {
+        let error = match done {
+            Ok(done) => return Ok(done),
+            Err(error) => error,
+        };
         // The first of two errors is reported.
         let kept = match self.writer.take().map(Writer::finish) {
             Some(Ok(bytes)) => {
@@ -291,4 +318,16 @@ impl RobotRecorder {
         };
         Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
     }
+}
+
+/// Writes a message about the robot, unless the recording has ended.
+fn write_line(
+    writer: &mut Option<Writer<File>>,
+    topic: RobotTopic,
+    host_us: u64,
+    line: &impl Serialize,
+) -> Result<()> {
+    let Some(writer) = writer else { return Ok(()) };
+    let ns = host_us.saturating_mul(NS);
+    writer.message(topic.0, ns, ns, &serde_json::to_vec(line)?)
 }

@@ -15,7 +15,7 @@ pub struct RosQos {
 /// A topic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RosTopic {
-    /// Its name; `PANEL`, `LINK` and `CONCEPT` stand for one topic each. A name that does not begin with `/`
+    /// Its name; `PANEL`, `LINK`, `CONCEPT` and `NAME` stand for one topic each. A name that does not begin with `/`
     /// lies in the node's namespace, behind the node's name if it begins with `~/`.
     pub name: &'static str,
     /// Package and name of its type.
@@ -75,8 +75,11 @@ pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
 /// Contacts of a robot of several boards, by the node of the robot.
 pub const ROBOT_CONTACTS: RosTopic = topic("robot_contacts", "taxel_msgs", "RobotContacts", EVERY);
 
+/// What touches mean to a robot of several boards, by the node of the robot.
+pub const ROBOT_INTENT: RosTopic = topic("robot_intent", "taxel_msgs", "RobotIntent", EVERY);
+
 /// What the nodes publish.
-pub const PUBLISHED: [RosTopic; 18] = [
+pub const PUBLISHED: [RosTopic; 19] = [
     CONTACTS,
     SYMBOLS,
     REACTIONS,
@@ -95,15 +98,18 @@ pub const PUBLISHED: [RosTopic; 18] = [
     DIAGNOSTICS,
     CLOCK,
     ROBOT_CONTACTS,
+    ROBOT_INTENT,
 ];
 
 /// Joint states, taken as posture.
 pub const JOINT_STATES: RosTopic = topic("joint_states", "sensor_msgs", "JointState", NEWEST);
 /// A concept that the scene's map lets the host feed.
 pub const CONCEPT: RosTopic = topic("~/concepts/CONCEPT", "std_msgs", "Float64", EVERY);
+/// What others tell the robot's map by a name, to the node of the robot.
+pub const TOLD: RosTopic = topic("~/told/NAME", "std_msgs", "Float64", EVERY);
 
-/// What the node subscribes to.
-pub const TAKEN: [RosTopic; 2] = [JOINT_STATES, CONCEPT];
+/// What the nodes subscribe to.
+pub const TAKEN: [RosTopic; 3] = [JOINT_STATES, CONCEPT, TOLD];
 
 /// A service: its name, and package and name of its type.
 pub type RosService = (&'static str, (&'static str, &'static str));

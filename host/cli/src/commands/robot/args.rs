@@ -22,8 +22,8 @@ pub struct RobotFileArgs {
     /// Scene to send to all boards, or to this one: a TOML file
     #[arg(long, value_name = "[BOARD=]FILE")]
     pub scene: Vec<ForBoards<PathBuf>>,
-    /// Ask boards while they are followed, by lines: tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD];
-    /// - is the standard input
+    /// Ask boards while they are followed, by lines: tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD],
+    /// told NAME VALUE [AGE_MS]; - is the standard input
     #[arg(long, value_name = "FILE")]
     pub requests: Option<PathBuf>,
 }

@@ -7,9 +7,9 @@ use anyhow::{Context, Error, Result};
 use clap::Args;
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
-use taxel::mind::{RobotMeaning, RobotMeaningLine, RobotMind};
+use taxel::mind::{BoardHeard, RobotMeaning, RobotMeaningLine, RobotMind};
 use taxel::robot::{
-    BoardEvent, BoardLine, RobotBoard, RobotContacts, RobotContactsLine, RobotEvent, RobotSession, Teller,
+    BoardEvent, BoardLine, RobotContact, RobotContacts, RobotContactsLine, RobotEvent, RobotSession, Teller,
     WhenFull,
 };
 use taxel::source::SourceOptions;
@@ -48,8 +48,7 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let mut requests = args.robot.requests()?;
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
-    // Simulations and recordings are at one time only at real time.
-    let is_minded = args.realtime || robot.boards.iter().all(RobotBoard::is_real);
+    let is_minded = robot.is_at_one_time(args.realtime);
     let mut mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
     let names = robot.boards.iter().map(|board| board.name.len());
     let wide = names.chain(is_minded.then_some(ROBOT.len())).max().unwrap_or(0);
@@ -66,7 +65,10 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let mut contacts = (args.json && !robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session, mind.as_mut()));
+        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, mind.as_mut()));
+        for (mind, meaning) in told.iter().filter_map(|told| mind.as_ref().zip(told.news.as_ref())) {
+            write_meaning(args.json, wide, mind, meaning, &mut out)?;
+        }
         let Some(event) = session.wait(LOOK) else {
             let now_us = session.now_us();
             mind.as_mut()
@@ -80,20 +82,15 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
             (Some(line), _) if args.json => writeln!(out, "{}", serde_json::to_string(&line)?)?,
             (_, what) => said(what).map_or(Ok(()), |said| writeln!(out, "{name:wide$} {said}"))?,
         }
-        let host_us = event.stamp.host_us;
-        let joined = contacts.as_mut().map(|contacts| match &event.what {
-            BoardEvent::News(BoardNews { scan: Some(scan), .. }) => contacts.scan(event.board, scan, host_us),
-            BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
-                contacts.forget(event.board, host_us)
-            }
-            _ => Vec::new(),
-        });
+        let joined = contacts.as_mut().map(|contacts| join(contacts, &event));
         if let Some(joined) = joined.filter(|joined| !joined.is_empty()) {
-            let line = RobotContactsLine::of(&robot, host_us, &joined);
+            let line = RobotContactsLine::of(&robot, event.stamp.host_us, &joined);
             writeln!(out, "{}", serde_json::to_string(&line)?)?;
         }
         if let Some(mind) = &mut mind {
-            meant(args.json, wide, mind, &mut out, |mind| hear(mind, &event))?;
+            meant(args.json, wide, mind, &mut out, |mind| {
+                mind.event(&event, |news| news.heard.sense.as_ref())
+            })?;
         }
         ended = ended.and(failed(name, event.what));
     }
@@ -101,15 +98,17 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     ended
 }
 
-/// Lets the mind of the robot hear an event. Returns what it means if that is news.
-pub fn hear<'a>(mind: &'a mut RobotMind, event: &RobotEvent<BoardNews>) -> Option<&'a RobotMeaning> {
+/// The robot's contacts, if an event has changed them.
+fn join(contacts: &mut RobotContacts, event: &RobotEvent<BoardNews>) -> Vec<RobotContact> {
     let RobotEvent { board, stamp, what } = event;
     match what {
-        BoardEvent::News(BoardNews { sense: Some(sense), .. }) => mind.board(*board, sense, stamp.host_us),
-        BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
-            mind.forget(*board, stamp.host_us)
+        BoardEvent::News(BoardNews { heard: BoardHeard { scan: Some(scan), .. }, .. }) => {
+            contacts.scan(*board, scan, stamp.host_us)
         }
-        _ => None,
+        BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
+            contacts.forget(*board, stamp.host_us)
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -122,7 +121,18 @@ fn meant(
     hear: impl FnOnce(&mut RobotMind) -> Option<&RobotMeaning>,
 ) -> Result<()> {
     let Some(meaning) = hear(mind).cloned() else { return Ok(()) };
-    let line = RobotMeaningLine::of(mind, &meaning);
+    write_meaning(json, wide, mind, &meaning, out)
+}
+
+/// Writes what touches mean.
+fn write_meaning(
+    json: bool,
+    wide: usize,
+    mind: &RobotMind,
+    meaning: &RobotMeaning,
+    out: &mut impl Write,
+) -> Result<()> {
+    let line = RobotMeaningLine::of(mind, meaning);
     match json {
         true => writeln!(out, "{}", serde_json::to_string(&line)?)?,
         false => writeln!(out, "{ROBOT:wide$} {}", line.text())?,

@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Read, stdin};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
-use taxel::mind::{RobotMind, ToldLine};
+use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
 use taxel::robot::{BoardOrder, RobotSession};
 use taxel::source::SceneFile;
 use taxel::tell::words;
@@ -57,19 +57,38 @@ impl RequestLines {
     }
 
     /// Asks what the lines say that have come since, and tells the mind of the robot what they tell. What
-    /// cannot be asked is told, and the rest goes on.
-    pub fn ask<T: Send + 'static>(&mut self, session: &RobotSession<T>, mut mind: Option<&mut RobotMind>) {
+    /// cannot be asked is told, and the rest goes on. Returns what the mind was told.
+    pub fn ask<T: Send + 'static>(
+        &mut self,
+        session: &RobotSession<T>,
+        mut mind: Option<&mut RobotMind>,
+    ) -> Vec<Told> {
+        let mut all = Vec::new();
         while let Ok(line) = self.lines.try_recv() {
             self.count += 1;
             let asked = line.map_err(anyhow::Error::from).and_then(|line| match told(line.trim())? {
-                Some(told) => tell(&told, session.now_us(), mind.as_deref_mut()),
-                None => ask(line.trim(), session),
+                Some(told) => tell(told, session.now_us(), mind.as_deref_mut()).map(Some),
+                None => ask(line.trim(), session).map(|()| None),
             });
-            if let Err(error) = asked {
-                eprintln!("{}, line {}: {}", self.name, self.count, words::sentence(error.as_ref()));
+            match asked {
+                Ok(told) => all.extend(told),
+                Err(error) => {
+                    eprintln!("{}, line {}: {}", self.name, self.count, words::sentence(error.as_ref()));
+                }
             }
         }
+        all
     }
+}
+
+/// What a mind was told.
+pub struct Told {
+    /// Host time at which it was told, us.
+    pub host_us: u64,
+    /// What.
+    pub line: ToldLine,
+    /// What touches mean then, if that is news.
+    pub news: Option<RobotMeaning>,
 }
 
 /// What a line tells: `told NAME VALUE [AGE_MS]`, or the same as JSON; none if it asks something.
@@ -88,10 +107,10 @@ fn told(line: &str) -> Result<Option<ToldLine>> {
     Ok(Some(ToldLine { told: [(name.to_string(), value)].into(), age_ms, ..ToldLine::default() }))
 }
 
-fn tell(told: &ToldLine, now_us: u64, mind: Option<&mut RobotMind>) -> Result<()> {
-    let mind = mind.context("nobody hears what is told: `taxel robot live` does, of boards at one time")?;
-    mind.tell(told, now_us)?;
-    Ok(())
+fn tell(line: ToldLine, host_us: u64, mind: Option<&mut RobotMind>) -> Result<Told> {
+    let mind = mind.context("nobody hears what is told: the boards are not at one time, see --realtime")?;
+    let news = mind.tell(&line, host_us)?.cloned();
+    Ok(Told { host_us, line, news })
 }
 
 /// Asks what a line says: `tare [BOARD] [N]`, `scene [BOARD] FILE`, `self-test [BOARD]`.

@@ -11,7 +11,8 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::time::Duration;
 use taxel::body;
-use taxel::robot::{BoardScan, ReadRobot, RobotSession, Teller, WhenFull};
+use taxel::mind::BoardHeard;
+use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
 use taxel::ros2::topic_part;
 use taxel::source::{Source, SourceOptions};
 
@@ -50,7 +51,7 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     let boards = robot.boards.iter();
     let nodes = boards.map(|board| open(place.of_board(&board.name), board.source.to_string()));
     let mut nodes = nodes.map(|node| node.map(Some)).collect::<Result<Vec<_>>>()?;
-    let teller = |number: usize| -> Box<dyn Teller<BoardScan>> {
+    let teller = |number: usize| -> Box<dyn Teller<BoardHeard>> {
         let (mut node, body) = (nodes[number].take(), robot.boards[number].body.clone());
         let open = move |source: &Source| shown(node.take(), source, body.as_deref());
         Box::new(ShownTeller::new(&robot, number, open))
@@ -62,12 +63,14 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     println!("{at} (Ctrl-C ends)");
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session, None));
-        if let Some(event) = session.wait(LOOK) {
+        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(node.mind())));
+        told.iter().filter_map(|told| told.news.as_ref()).try_for_each(|meaning| node.mean(meaning))?;
+        let event = session.wait(LOOK);
+        node.turn(session.now_us(), event.is_none())?;
+        if let Some(event) = event {
             node.event(&event)?;
             ended = ended.and(failed(&robot.boards[event.board].name, event.what));
         }
-        node.turn()?;
     }
     ended
 }

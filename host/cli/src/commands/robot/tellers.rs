@@ -3,9 +3,9 @@
 use crate::terminal::Lines;
 use taxel::client::{Client, Event};
 use taxel::json::MessagePrinter;
-use taxel::mind::{BoardSense, MindReader};
+use taxel::mind::{BoardHeard, HeardReader};
 use taxel::record::Stamp;
-use taxel::robot::{BoardScan, ReadRobot, ScanReader, Teller};
+use taxel::robot::{ReadRobot, Teller};
 use taxel::session::Show;
 use taxel::source::Source;
 use taxel::{Error, Result};
@@ -14,39 +14,15 @@ use taxel::{Error, Result};
 pub struct BoardNews {
     /// Lines, each with its end.
     pub lines: String,
-    /// The scan that it is about.
-    pub scan: Option<BoardScan>,
     /// What it says of touches.
-    pub sense: Option<BoardSense>,
-}
-
-/// Reads scans, and what is said of touches.
-pub struct Readers {
-    scans: ScanReader,
-    /// None if nobody wants to know what touches mean to the robot.
-    mind: Option<MindReader>,
-}
-
-impl Readers {
-    /// Of a board of a robot.
-    pub fn new(robot: &ReadRobot, number: usize, is_minded: bool) -> Readers {
-        let mind = is_minded.then(|| MindReader::new(robot, number));
-        Readers { scans: ScanReader::new(robot, number), mind }
-    }
-
-    /// The event with its lines.
-    pub fn news(&mut self, client: &Client, event: &Event, lines: String) -> BoardNews {
-        let scan = self.scans.scan(client, event);
-        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, scan.as_ref()));
-        BoardNews { lines, scan, sense }
-    }
+    pub heard: BoardHeard,
 }
 
 /// Makes JSON of a board's events.
 pub struct JsonTeller {
     board: String,
     printer: MessagePrinter<std::io::Empty>,
-    readers: Readers,
+    reader: HeardReader,
 }
 
 impl JsonTeller {
@@ -56,7 +32,7 @@ impl JsonTeller {
         JsonTeller {
             board: board.name.clone(),
             printer: MessagePrinter::new(pixels, std::io::empty()).calibrated(board.calibration.clone()),
-            readers: Readers::new(robot, number, is_minded),
+            reader: HeardReader::new(robot, number, is_minded),
         }
     }
 }
@@ -66,7 +42,7 @@ impl Teller<BoardNews> for JsonTeller {
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
         stamp.mark(&mut line);
-        Ok(Some(self.readers.news(client, event, format!("{line}\n"))))
+        Ok(Some(BoardNews { lines: format!("{line}\n"), heard: self.reader.read(client, event) }))
     }
 }
 
@@ -76,13 +52,13 @@ pub struct TextTeller {
     head: String,
     /// None before the source is open.
     lines: Option<Lines<Vec<u8>>>,
-    readers: Readers,
+    reader: HeardReader,
 }
 
 impl TextTeller {
     /// Of a board of a robot, whose lines begin with this, and what it says of touches.
     pub fn new(robot: &ReadRobot, number: usize, head: String, is_minded: bool) -> TextTeller {
-        TextTeller { head, lines: None, readers: Readers::new(robot, number, is_minded) }
+        TextTeller { head, lines: None, reader: HeardReader::new(robot, number, is_minded) }
     }
 
     /// What has been written since, with the board before each line.
@@ -101,15 +77,14 @@ impl Teller<BoardNews> for TextTeller {
 
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.event(client, event)).map_err(other)?;
-        let lines = self.told();
-        let news = self.readers.news(client, event, lines);
-        Ok((!news.lines.is_empty() || news.sense.is_some()).then_some(news))
+        let news = BoardNews { lines: self.told(), heard: self.reader.read(client, event) };
+        Ok((!news.lines.is_empty() || news.heard.sense.is_some()).then_some(news))
     }
 
     fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.end(client)).map_err(other)?;
         let lines = self.told();
-        Ok((!lines.is_empty()).then_some(BoardNews { lines, scan: None, sense: None }))
+        Ok((!lines.is_empty()).then_some(BoardNews { lines, heard: BoardHeard::default() }))
     }
 }
 

@@ -12,8 +12,9 @@ use clap::Args;
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
+use taxel::mind::BoardHeard;
 use taxel::record::Origin;
-use taxel::robot::{BoardScan, ReadRobot, RobotSession, Teller, WhenFull};
+use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
 use taxel::source::{Source, SourceOptions};
 
 /// Longest wait before pages are told what is new.
@@ -40,14 +41,14 @@ pub struct RobotViewArgs {
 pub fn run(args: &RobotViewArgs) -> Result<()> {
     let robot = args.robot.read()?;
     let mut requests = args.robot.requests()?;
-    let mut pages = RobotPages::new(&robot);
+    let mut pages = RobotPages::new(&robot)?;
     for number in 0..robot.boards.len() {
         wearer(&robot, number)?.into_iter().for_each(|wearer| pages.hub(number).wear(wearer));
     }
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
     let options =
         SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
-    let teller = |number: usize| -> Box<dyn Teller<BoardScan>> {
+    let teller = |number: usize| -> Box<dyn Teller<BoardHeard>> {
         let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
         let open = move |source: &Source| {
             Ok(viewer(
@@ -66,11 +67,14 @@ pub fn run(args: &RobotViewArgs) -> Result<()> {
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
     let mut ended = Ok(());
     while !session.is_over() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session, None));
-        if let Some(event) = session.wait(LOOK) {
-            pages.event(&event);
-            let name = &robot.boards[event.board].name;
-            ended = ended.and(failed(name, event.what));
+        requests.iter_mut().for_each(|requests| drop(requests.ask(&session, Some(pages.mind()))));
+        match session.wait(LOOK) {
+            Some(event) => {
+                pages.event(&event);
+                let name = &robot.boards[event.board].name;
+                ended = ended.and(failed(name, event.what));
+            }
+            None => pages.pass(session.now_us()),
         }
         pages.turn();
     }

@@ -1,14 +1,13 @@
 //! `taxel robot why`: explains what touches mean to the robot, down to the contacts of its boards.
 
 use super::args::RobotFileArgs;
-use super::live::{failed, hear};
-use super::tellers::{BoardNews, Readers};
+use super::live::failed;
 use crate::watch::{seconds, stop};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::time::Duration;
 use taxel::client::{Client, Event};
-use taxel::mind::{RobotMind, RobotReasons};
+use taxel::mind::{BoardHeard, HeardReader, RobotMeaning, RobotMind, RobotReasons};
 use taxel::record::Stamp;
 use taxel::robot::{ReadRobot, RobotSession, WhenFull};
 use taxel::source::SourceOptions;
@@ -56,24 +55,27 @@ fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result
     let mut requests = args.robot.requests()?;
     let options = SourceOptions { realtime: true, ..SourceOptions::default() };
     let plans = robot.plans(&options, None, |number| {
-        let mut readers = Readers::new(robot, number, true);
+        let mut reader = HeardReader::new(robot, number, true);
         Box::new(move |client: &Client, event: &Event, _: Stamp| {
-            let news = readers.news(client, event, String::new());
-            news.sense.is_some().then_some(news)
+            let heard = reader.read(client, event);
+            heard.sense.is_some().then_some(heard)
         })
     });
-    let mut session: RobotSession<BoardNews> = RobotSession::start(plans, WhenFull::DropImages)?;
+    let mut session: RobotSession<BoardHeard> = RobotSession::start(plans, WhenFull::DropImages)?;
     let begun_us = session.now_us();
     let since = |now_us: u64| now_us.saturating_sub(begun_us) as f64 / 1e6;
+    let is_found = |meaning: &RobotMeaning| args.at.is_none() && meaning.leading != Leading::None;
     while !session.is_over() && !stop::asked() {
-        requests.iter_mut().for_each(|requests| requests.ask(&session, Some(&mut mind)));
+        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(&mut mind)));
         let now_us = session.now_us();
+        if told.iter().filter_map(|told| told.news.as_ref()).any(is_found) {
+            return Ok((mind, since(now_us)));
+        }
         if args.at.is_some_and(|at| since(now_us) >= at) {
             return Ok((mind, since(now_us)));
         }
         let Some(event) = session.wait(LOOK) else { continue };
-        let news = hear(&mut mind, &event);
-        if args.at.is_none() && news.is_some_and(|meaning| meaning.leading != Leading::None) {
+        if mind.event(&event, |heard| heard.sense.as_ref()).is_some_and(is_found) {
             return Ok((mind, since(now_us)));
         }
         failed(&robot.boards[event.board].name, event.what)?;

@@ -34,25 +34,20 @@ export function contacts(table, count, store) {
 }
 
 /** Activation of each concept as a bar from the middle. */
-export class Concepts {
-  /**
-   * @param {HTMLElement} list
-   * @param {HTMLElement} leading
-   */
-  constructor(list, leading) {
+export class Bars {
+  /** @param {HTMLElement} list */
+  constructor(list) {
     this.list = list;
-    this.leading = leading;
     this.key = "";
     /** @type {{ name: string, item: HTMLElement, bar: HTMLElement, value: HTMLElement }[]} */
     this.parts = [];
   }
 
-  /** @param {import("./store.js").Store} store */
-  draw(store) {
-    const shown = store.shown();
-    if (!shown) return;
-    const { concepts, leading } = shown.head.frame.intent;
-    say(this.leading, leading);
+  /**
+   * @param {Record<string, number>} concepts
+   * @param {string} leading
+   */
+  draw(concepts, leading) {
     const names = Object.keys(concepts);
     if (names.join() !== this.key) this.build(names);
     for (const { name, item, bar, value } of this.parts) {
@@ -74,5 +69,26 @@ export class Concepts {
       return { name, item, bar, value };
     });
     this.list.replaceChildren(...this.parts.map(({ item }) => item));
+  }
+}
+
+/** The intention and the concepts of the image that is shown. */
+export class Concepts {
+  /**
+   * @param {HTMLElement} list
+   * @param {HTMLElement} leading
+   */
+  constructor(list, leading) {
+    this.bars = new Bars(list);
+    this.leading = leading;
+  }
+
+  /** @param {import("./store.js").Store} store */
+  draw(store) {
+    const shown = store.shown();
+    if (!shown) return;
+    const { concepts, leading } = shown.head.frame.intent;
+    say(this.leading, leading);
+    this.bars.draw(concepts, leading);
   }
 }

@@ -9,6 +9,7 @@ import { legend } from "./folds.js";
 import { Health } from "./health.js";
 import { Hover } from "./hover.js";
 import { Link } from "./link.js";
+import { Mind } from "./mind.js";
 import { Panels } from "./panels.js";
 import { Player } from "./player.js";
 import { Robot } from "./robot.js";
@@ -51,6 +52,7 @@ const ask = (wish) => socket.ask(wish);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
 const robot = new Robot();
+const mind = new Mind();
 const speaker = new Speaker();
 const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
@@ -99,8 +101,13 @@ function draw() {
   beside(settings);
 }
 
-/** What is said to whoever does not see the picture: the taxel that the keys read, else the intention. */
+/**
+ * What is said to whoever does not see the picture: the taxel that the keys read, else the intention, of the robot
+ * if it has one.
+ */
 function spoken() {
+  const meant = store.states.robot_intent?.leading ?? "none";
+  if (meant !== "none") return hover.told(store) ?? `intention of the robot: ${meant}`;
   const leading = store.shown()?.head.frame.intent.leading ?? "none";
   return hover.told(store) ?? (leading === "none" ? "" : `intention: ${leading}`);
 }
@@ -113,6 +120,7 @@ function beside(settings) {
   say($("spoken"), speaker.next(spoken(), performance.now()));
   concepts.draw(store);
   robot.draw(store);
+  mind.draw(store);
   contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);
   ranges.draw(one(HTMLCanvasElement, "ranges"), store, settings);
   if (!store.recorded) strips.draw(one(HTMLCanvasElement, "strips"), store);
@@ -121,6 +129,7 @@ function beside(settings) {
 requestAnimationFrame(draw);
 
 window.addEventListener("resize", changed);
+$("mind-details").addEventListener("toggle", changed);
 // The absence of messages must show without a message.
 setInterval(() => link.absence(store) && changed(), 500);
 window.addEventListener("keydown", (event) => {
@@ -129,7 +138,7 @@ window.addEventListener("keydown", (event) => {
   // Until the next frame is drawn, the focus may be left in a dialog or a menu that has just closed.
   const typed =
     target.matches("input, select") ||
-    (key === " " && target.matches("button")) ||
+    (key === " " && target.matches("button, summary")) ||
     target.closest("dialog[open], [role=menu]:not([hidden])");
   if (typed || ctrlKey || altKey || metaKey || !controls.settings.keys) return;
   if (key === "s") save.toggle();

@@ -1,6 +1,6 @@
 // Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs,
-// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines and
-// host/taxel/src/robot/contacts_line.rs. Made from these by host/cli/tests/program/page_types.rs:
+// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines,
+// host/taxel/src/robot/contacts_line.rs and host/taxel/src/mind/line.rs. Made from these by host/cli/tests/program/page_types.rs:
 // TAXEL_BLESS=1 updates it.
 
 /** Garment, scene and firmware of the board, and how the page shows them. */
@@ -559,6 +559,57 @@ export type RobotLine = {
     /** Contacts on it. */
     contacts: number;
   }[];
+};
+
+/** What the touches of all boards mean to the robot. */
+export type RobotIntentLine = {
+  /** Type of the message. */
+  type: "robot_intent";
+  /** The host's time, us since 1970. */
+  host_time_us: number;
+  /** The announced intention: `none`, `kindness`, `threat` or `attack`. */
+  leading: string;
+  /** Names of the concepts with causes that hold: of at least 0.5, and then down to 0.4. */
+  holding: string[];
+  /** Activation of each concept of the map, -1 to 1. */
+  concepts: Record<string, number>;
+  /** Inputs of the map for which nothing is known that is young enough, so that its default counts: names of their concepts. */
+  defaults: string[];
+  /** What touches the robot, and whose motion has caused it. */
+  touches: {
+    /** Number of the board, in the order of the robot's file. */
+    board: number;
+    /** Id of the board's contact. */
+    contact: number;
+    /** Region on which it lies. */
+    region: string;
+    /** Link on which it lies. */
+    link: string;
+    /** Its pressure, counts; with a calibration in force its force, thousandths of a newton. */
+    load: number;
+    /** `own` if the robot's motion has caused it, `other` if that of what touches it, or `unsure`. */
+    mover: string;
+    /** How the robot's surface moved before the onset; absent if it is not known. */
+    approach?: {
+      /** Speed along the normal, m/s; positive outwards. */
+      normal_m_s: number;
+      /** Whole speed, m/s. */
+      speed_m_s: number;
+    };
+    /** What the robot feels of the object that it has moved into; absent of what touches it. */
+    probe?: {
+      /** Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before that depth or 2,000 counts. */
+      hardness?: number;
+      /** Share of the force on the taxel with the greatest pressure, at the greatest force, percent. */
+      point: number;
+      /** Greatest speed of the contact along the surface, mm/s. */
+      slide: number;
+      /** Greatest change of the force while the limb was still, percent. */
+      stir: number;
+    };
+  }[];
+  /** The announced intention and what holds, in words. */
+  text: string;
 };
 
 /** Contacts of all boards of a robot; what touches both sides of a seam between boards is one contact. */

@@ -18,6 +18,7 @@ import type {
   PlayerLine,
   PosesLine,
   RobotContactsLine,
+  RobotIntentLine,
   RobotLine,
   SayLine,
   TaxelLine,
@@ -111,6 +112,7 @@ export interface States {
   overview?: Overview;
   robot?: RobotLine;
   robot_contacts?: RobotContactsLine;
+  robot_intent?: RobotIntentLine;
 }
 
 /** A text message. */

@@ -7,5 +7,6 @@ mod mover;
 mod probed;
 mod probes;
 mod reasons;
+mod schemas;
 mod spread;
 mod worn;

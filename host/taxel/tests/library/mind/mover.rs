@@ -110,7 +110,7 @@ fn a_folded_arm_touches_itself_though_one_side_is_still() {
     // The same point of space on both links, whose surfaces face each other there.
     let speeds = |spot: &SurfaceSpot| {
         let mut speeds = mind.senses().clone();
-        speeds.speeds().unwrap().point(1_000_000, &spot.link, spot.at, spot.normal).unwrap()
+        speeds.speeds().unwrap().at(1_000_000).unwrap().point(&spot.link, spot.at, spot.normal).unwrap()
     };
     let upper = spot(LINK, [0.04, 0.0, -0.25], [1.0, 0.0, 0.0]);
     let (at, normal) = speeds(&upper);

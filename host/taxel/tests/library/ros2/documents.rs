@@ -59,8 +59,17 @@ fn the_documentation_has_every_topic_service_and_parameter() {
 }
 
 /// Messages that the node publishes.
-const WHOLE: [&str; 8] =
-    ["BodyRegions", "Contacts", "Health", "Intent", "Pressing", "Reaction", "RobotContacts", "Symbols"];
+const WHOLE: [&str; 9] = [
+    "BodyRegions",
+    "Contacts",
+    "Health",
+    "Intent",
+    "Pressing",
+    "Reaction",
+    "RobotContacts",
+    "RobotIntent",
+    "Symbols",
+];
 
 #[test]
 fn our_messages_are_those_of_the_package() {
@@ -87,6 +96,7 @@ fn ours_are_known(all: &Definitions) -> bool {
         "Region",
         "RobotContact",
         "RobotContactPart",
+        "RobotTouch",
         "Symbol",
         "Uncertain",
     ];

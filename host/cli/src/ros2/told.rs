@@ -1,0 +1,92 @@
+//! What others tell the robot: values on their way to its mind, and its joints.
+
+use super::node::RosNode;
+use super::posture::at;
+use super::raw::JointState;
+use anyhow::Result;
+use ros2_client::Subscription;
+use ros2_client::log::LogLevel;
+use std::time::{Duration, Instant};
+use taxel::fcm::robot_source::RobotSource;
+use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
+use taxel::robot::ReadRobot;
+use taxel::ros2::topic_part;
+use taxel::ros2::topics::{JOINT_STATES, TOLD};
+use taxel::session::JointTime;
+use taxel::tell::words;
+
+/// Shortest time between two looks: the mind does not think more often.
+const PAUSE: Duration = Duration::from_millis(5);
+/// Shortest time between two complaints.
+const COMPLAINT: Duration = Duration::from_secs(5);
+
+/// Subscriptions to what the robot's map hears by a name, and to the robot's joints.
+pub struct RobotTold {
+    values: Vec<(String, Subscription<f64>)>,
+    /// None without a description of the robot.
+    joints: Option<Subscription<JointState>>,
+    looked: Instant,
+    complained: Option<Instant>,
+}
+
+impl RobotTold {
+    /// Subscribes to what the mind hears, and to no others.
+    pub fn open(node: &mut RosNode, robot: &ReadRobot, mind: &RobotMind) -> Result<RobotTold> {
+        let mut values: Vec<(String, Subscription<f64>)> = Vec::new();
+        for input in mind.inputs() {
+            let RobotSource::Told(name) = &input.source else { continue };
+            if !values.iter().any(|(known, _)| known == name) {
+                values.push((name.clone(), node.subscribe(&TOLD, &topic_part(name))?));
+            }
+        }
+        let joints = robot.robot.as_ref().map(|_| node.subscribe(&JOINT_STATES, "")).transpose()?;
+        Ok(RobotTold { values, joints, looked: Instant::now(), complained: None })
+    }
+
+    /// Tells the mind what has come until now, the host's time, us. Returns what touches mean then, if that is
+    /// news.
+    pub fn turn(
+        &mut self,
+        node: &RosNode,
+        robot: &ReadRobot,
+        mind: &mut RobotMind,
+        now_us: u64,
+    ) -> Option<RobotMeaning> {
+        if self.looked.elapsed() < PAUSE {
+            return None;
+        }
+        self.looked = Instant::now();
+        let (mut news, mut wrong) = (None, None);
+        let mut tell = |line: &ToldLine, host_us: u64, topic: &str| match mind.tell(line, host_us) {
+            Ok(None) => {}
+            Ok(meaning) => news = meaning.cloned(),
+            Err(error) => wrong = Some(format!("{topic}: {}", words::sentence(&error))),
+        };
+        for (name, values) in &mut self.values {
+            // What cannot be read is another program's mistake.
+            while let Some((value, _)) = values.take().ok().flatten() {
+                let line = ToldLine { told: [(name.clone(), value)].into(), ..ToldLine::default() };
+                tell(&line, now_us, TOLD.name);
+            }
+        }
+        while let Some((state, _)) = self.joints.as_mut().and_then(|joints| joints.take().ok().flatten()) {
+            let host_us = match at(state.header.stamp, JointTime::Host) {
+                JointTime::Host(us) => us.min(now_us),
+                _ => now_us,
+            };
+            tell(&positions(robot, &state), host_us, JOINT_STATES.name);
+        }
+        if let Some(wrong) = wrong.filter(|_| self.complained.is_none_or(|told| told.elapsed() > COMPLAINT)) {
+            self.complained = Some(Instant::now());
+            node.log(LogLevel::Warn, &wrong);
+        }
+        news
+    }
+}
+
+/// The positions of the robot's own joints: others may be told, too.
+fn positions(robot: &ReadRobot, state: &JointState) -> ToldLine {
+    let is_own = |joint: &String| robot.robot.as_ref().is_some_and(|robot| robot.joint(joint).is_ok());
+    let own = state.name.iter().zip(&state.position).filter(|(joint, _)| is_own(joint));
+    ToldLine { positions: own.map(|(joint, at)| (joint.clone(), *at)).collect(), ..ToldLine::default() }
+}
