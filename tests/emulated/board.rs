@@ -37,6 +37,8 @@ pub struct Emulated {
     seq: Option<u32>,
     /// Messages may be damaged or missing: a cable was pulled.
     pub forgiving: bool,
+    /// Wiring and codes, which the harness reads again after each reset.
+    files: [PathBuf; 2],
 }
 
 impl Emulated {
@@ -55,6 +57,7 @@ impl Emulated {
         let circuit = Circuit::build(garment, &layout, Pins::ANY).unwrap();
         let wiring = wiring_json(garment, &layout, &circuit).unwrap().to_string();
         let codes: Vec<u8> = codes.iter().flat_map(|code| code.to_le_bytes()).collect();
+        let files = [file("json", wiring.as_bytes()), file("bin", &codes)];
         let mut child = Command::new("node")
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("emulator/emulator.mjs"))
             .arg("--image")
@@ -62,9 +65,9 @@ impl Emulated {
             .args(["--port", "0"])
             .args(options)
             .arg("--wiring")
-            .arg(file("json", wiring.as_bytes()))
+            .arg(&files[0])
             .arg("--codes")
-            .arg(file("bin", &codes))
+            .arg(&files[1])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -88,6 +91,7 @@ impl Emulated {
             wire_bytes: 0,
             seq: None,
             forgiving: false,
+            files,
         }
     }
 
@@ -203,6 +207,7 @@ impl Drop for Emulated {
         // Has no effect on a harness that has ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
+        self.files.iter().for_each(|file| drop(std::fs::remove_file(file)));
     }
 }
 
@@ -228,10 +233,12 @@ impl Message {
     }
 }
 
-/// A file for the harness, of which there may be several at a time.
+/// A file for the harness, of which there may be several at a time, also by other programs: checks run side
+/// by side.
 fn file(kind: &str, content: &[u8]) -> PathBuf {
     static FILES: AtomicU32 = AtomicU32::new(0);
-    let name = format!("{}-{}.{kind}", env!("CARGO_CRATE_NAME"), FILES.fetch_add(1, Ordering::Relaxed));
+    let (program, number) = (std::process::id(), FILES.fetch_add(1, Ordering::Relaxed));
+    let name = format!("{}-{program}-{number}.{kind}", env!("CARGO_CRATE_NAME"));
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::write(&path, content).unwrap();
     path
