@@ -86,7 +86,9 @@ impl ProbeCourse {
         });
         let moment =
             ProbeMoment { us: host_us, at_mm: felt.at_mm, panel: felt.panel, load: felt.load, depth_mm };
-        while self.last.front().is_some_and(|first| host_us.saturating_sub(first.us) > KEPT_US) {
+        // Of the same time and later ones nothing is known any longer: the board's clock has been learned anew.
+        self.last.retain(|before| before.us < host_us);
+        while self.last.front().is_some_and(|first| host_us - first.us > KEPT_US) {
             self.last.pop_front();
         }
         self.last.push_back(moment);

@@ -126,3 +126,15 @@ fn a_folded_arm_touches_itself_though_one_side_is_still() {
     mind.board(1, &BoardSense::Contacts(vec![contact(1, 4000, lower)]), 1_005_000);
     assert_eq!([0, 1].map(|board| mind.senses().touches(board)[0].mover), [Mover::Own; 2]);
 }
+
+/// The host's time of a board is known better and better: a later scan may be at an earlier time.
+#[test]
+fn times_that_go_back_do_no_harm() {
+    let mut mind = swinging("left_shoulder_pitch", 0.5, 1_000_000);
+    for us in [1_000_000, 1_400_000, 1_390_000, 1_700_000, 900_000, 0, 2_000_000] {
+        let spot = spot(LINK, [0.04, 0.0, -0.2], [1.0, 0.0, 0.0]);
+        mind.board(0, &BoardSense::Contacts(vec![contact(1, 3000, spot)]), us);
+        let probe = mind.senses().touches(0)[0].course.probe();
+        assert_eq!((probe.slide, probe.stir), (0, 0), "it rests, {us} us");
+    }
+}
