@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `place.rs` | [`BodyPlace`]: where on the body a contact lies |
-//! | `part.rs` | parts of the body that the map names |
+//! | `body_part.rs` | parts of the body that the map names |
 //! | `felt.rs` | [`MindReader`]: what a board's events say of touches, in the board's thread |
 //! | `speeds.rs` | [`LinkSpeeds`]: how fast the robot's own links move |
 //! | `mover.rs` | [`Mover`]: whose motion has caused a touch |
@@ -23,12 +23,12 @@
 //! board's own; only its inputs are others ([`crate::fcm::robot_source`]). An input of which nothing is known
 //! that is young enough has the default that the map states for it.
 
+mod body_part;
 mod felt;
 mod heard;
 mod intent_ros2;
 mod line;
 mod mover;
-mod part;
 mod place;
 mod probe;
 mod reasons;

@@ -1,8 +1,8 @@
 //! What one board has said: its contacts, present and just ended, and what it announces.
 
+use super::body_part::{BodyPart, PartFlags};
 use super::felt::{FeltContact, WornMind};
 use super::mover::{Approach, BasePlace, Mover};
-use super::part::{Part, PartFlags};
 use super::place::BodyPlace;
 use super::probe::ProbeCourse;
 use super::speeds::{LinkSpeeds, LinksAt};
@@ -48,7 +48,7 @@ pub struct SensedTouch {
 
 impl SensedTouch {
     /// True if it lies on this part.
-    pub(super) fn is_of(&self, part: Part<'_>) -> bool {
+    pub(super) fn is_of(&self, part: BodyPart<'_>) -> bool {
         part.has(&self.felt.place, &self.parts)
     }
 
@@ -126,14 +126,14 @@ impl SensedBoard {
     }
 
     /// True if its garment covers some of this part.
-    pub(super) fn covers(&self, part: Part<'_>) -> bool {
+    pub(super) fn covers(&self, part: BodyPart<'_>) -> bool {
         self.places.iter().any(|(place, flags)| part.has(place, flags))
     }
 
     /// Contacts on a part that are present or have ended within [`HELD_US`].
     pub(super) fn touches<'a>(
         &'a self,
-        part: Part<'a>,
+        part: BodyPart<'a>,
         now_us: u64,
     ) -> impl Iterator<Item = &'a SensedTouch> {
         let counts = move |touch: &&SensedTouch| touch.counts(now_us);

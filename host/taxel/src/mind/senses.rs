@@ -1,9 +1,9 @@
 //! What a robot senses now: the newest of each board, of its joints and of what others tell, each with its
 //! age.
 
+use super::body_part::{BodyPart, parts_of};
 use super::felt::{BoardSense, WornMind};
 use super::mover::{Mover, REACH_M};
-use super::part::{Part, parts_of};
 use super::place::BodyPlace;
 use super::probe::Probe;
 use super::sensed_board::{ListedAt, SensedBoard, SensedTouch, TOGETHER_US};
@@ -150,8 +150,8 @@ impl Senses {
     }
 
     /// The part that these words name.
-    fn part<'a>(&self, words: &'a [String]) -> Part<'a> {
-        Part::of(words, &self.parts)
+    fn part<'a>(&self, words: &'a [String]) -> BodyPart<'a> {
+        BodyPart::of(words, &self.parts)
     }
 
     /// Value of an input and its age, ms; none if nothing is known that is young enough.

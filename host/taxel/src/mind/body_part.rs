@@ -9,16 +9,16 @@ pub type PartFlags = Arc<[bool]>;
 
 /// A part of the body.
 #[derive(Debug, Clone, Copy)]
-pub struct Part<'a> {
+pub struct BodyPart<'a> {
     words: &'a [String],
     /// Its number; none if it has none.
     number: Option<usize>,
 }
 
-impl Part<'_> {
+impl BodyPart<'_> {
     /// The part that these words name, among those that have a number.
-    pub fn of<'a>(words: &'a [String], known: &[PartWords]) -> Part<'a> {
-        Part { words, number: known.iter().position(|part| part == words) }
+    pub fn of<'a>(words: &'a [String], known: &[PartWords]) -> BodyPart<'a> {
+        BodyPart { words, number: known.iter().position(|part| part == words) }
     }
 
     /// True if a place, which is of these parts, is of this one.
