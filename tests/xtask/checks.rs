@@ -168,7 +168,8 @@ fn fmt(log: &Path) -> End {
 fn clippy(log: &Path) -> End {
     let within = |folder, which: &[&str]| {
         let args = [&["clippy"], which, &["--", "--deny", "warnings"]].concat();
-        process::run_into(&mut cargo(&args, folder), log)
+        // One target folder for all: what lies beside sources is not ignored.
+        process::run_into(cargo(&args, folder).env("CARGO_TARGET_DIR", paths::target()), log)
     };
     let run = |which: &[&str]| within(paths::root(), which);
     let apart: Vec<&str> = targets::APART
