@@ -21,6 +21,8 @@ use taxel_core::wire::StartOfFrame;
 const FRAME_US: i64 = 1_000;
 /// Numbers of frames, after which they repeat.
 const NUMBERS: i64 = 2_048;
+/// Most controllers: a board whose clock jumps seems to be on another one each time.
+const MOST: usize = 64;
 /// Starts kept of a board: those of 16 s.
 const KEPT: usize = 16;
 /// Least time between two starts that tell a board's rate, us: notices are off by 20 us.
@@ -63,19 +65,22 @@ impl Buses {
     }
 
     /// The controller on which a frame of this number started then, and the number since 1970: the nearest
-    /// that the bounds of both times allow, or else a new one.
-    fn find(&self, number: u16, host: Within) -> (usize, i64) {
+    /// that the bounds of both times allow, or else a new one; none if there are too many.
+    fn find(&self, number: u16, host: Within) -> Option<(usize, i64)> {
         let (host_us, uncertainty_us) = host;
         let mut clocks = self.clocks();
         let near = clocks.iter().enumerate().filter_map(|(bus, clock)| {
             let at = clock.board_time(host_us)?;
             let bound = clock.host_time(at)?.uncertainty_us.saturating_add(uncertainty_us);
             let frame = nearest(at.0, number);
-            let off = (at.0 as i64).abs_diff(frame * FRAME_US);
+            let off = (at.0 as i64).abs_diff(frame.saturating_mul(FRAME_US));
             (off <= bound).then_some((off, bus, frame))
         });
         if let Some((_, bus, frame)) = near.min() {
-            return (bus, frame);
+            return Some((bus, frame));
+        }
+        if clocks.len() >= MOST {
+            return None;
         }
         let frame = nearest(host_us, number);
         let (received, sent) = (time_of(frame), time_of(frame));
@@ -84,7 +89,7 @@ impl Buses {
         let mut clock = HostClock::default();
         clock.take(&RoundTrip { asked, received, sent, answered });
         clocks.push(clock);
-        (clocks.len() - 1, frame)
+        Some((clocks.len() - 1, frame))
     }
 }
 
@@ -97,7 +102,7 @@ fn nearest(us: u64, number: u16) -> i64 {
 
 /// When a frame started, by the bus.
 fn time_of(frame: i64) -> Micros {
-    Micros((frame * FRAME_US).max(0) as u64)
+    Micros(frame.saturating_mul(FRAME_US).max(0) as u64)
 }
 
 impl BusSeat {
@@ -119,8 +124,11 @@ impl BusSeat {
     /// Takes a start that the board has noticed. `own`: the board's clock by its own round trips.
     pub fn take(&mut self, start: &StartOfFrame, own: &HostClock) {
         let Some(host) = own.host_time(start.noticed) else { return };
-        let (bus, frame) =
-            self.buses.find(start.number, (host.us, host.uncertainty_us + u64::from(start.late_us)));
+        let uncertainty_us = host.uncertainty_us.saturating_add(start.late_us.into());
+        let Some((bus, frame)) = self.buses.find(start.number, (host.us, uncertainty_us)) else {
+            self.seat = None;
+            return;
+        };
         let seat = self.seat.get_or_insert_with(|| Seat { bus, starts: VecDeque::new(), late_us: 0 });
         if seat.bus != bus || !seat.leads_to(frame, start.noticed) {
             *seat = Seat { bus, starts: VecDeque::new(), late_us: 0 };
@@ -167,7 +175,7 @@ impl Seat {
         }
         let late = f64::from(self.late_us);
         let (rate, unsure) = match known >= RATE_US {
-            true => (((last - first) * FRAME_US) as f64 / known, late / known + WANDERS),
+            true => ((last - first).saturating_mul(FRAME_US) as f64 / known, late / known + WANDERS),
             false => (1.0, RATE_LIMIT),
         };
         let us = Micros(time_of(*last).0.saturating_add_signed((passed * rate).round() as i64));
@@ -177,7 +185,7 @@ impl Seat {
     /// True if this may be the start of that frame.
     fn leads_to(&self, frame: i64, noticed: Micros) -> bool {
         self.starts.back().is_none_or(|(last, then)| {
-            let (frames, passed) = (((frame - last) * FRAME_US) as f64, span(*then, noticed));
+            let (frames, passed) = ((frame - last).saturating_mul(FRAME_US) as f64, span(*then, noticed));
             passed > 0.0 && (frames - passed).abs() <= f64::from(self.late_us) + 1.0 + RATE_LIMIT * passed
         })
     }

@@ -78,7 +78,7 @@ impl Syncs {
     pub fn board_time(&self, host_us: u64) -> Option<Micros> {
         let mut board = self.clock.board_time(host_us)?;
         for _ in 0..2 {
-            let off = host_us as i64 - self.host_time(board)?.us as i64;
+            let off = host_us.wrapping_sub(self.host_time(board)?.us) as i64;
             board = Micros(board.0.saturating_add_signed(off));
         }
         Some(board)
