@@ -5,6 +5,8 @@
 use crate::delays::{Delays, Link};
 use crate::timed_line::{Controller, DriftingClock, EPOCH, TimedLine};
 use taxel::client::Buses;
+use taxel_core::format::Micros;
+use taxel_core::wire::{Report, StartOfFrame, encode};
 
 const SECOND: f64 = 1e6;
 /// Time between two scans, and from the start of one until its frame is read, us.
@@ -125,4 +127,29 @@ fn controllers_that_are_taken_for_one_break_no_bound() {
             lines.iter_mut().for_each(|line| _ = scan(line, started));
         }
     }
+}
+
+/// A board may say anything of its frames and of its time.
+#[test]
+fn nonsense_of_a_board_does_no_harm() {
+    let mut line = lines(&[Some(controller(30.0, -5_000.0))]).remove(0);
+    let mut started = 0.0;
+    while started < 3.0 * SECOND {
+        started += SCAN;
+        scan(&mut line, started);
+    }
+    let mut seq = 1_000;
+    for (number, noticed) in
+        (0..400).flat_map(|of: u64| [(of as u16 * 163, of << 55), (u16::MAX, u64::MAX - of), (0, of)])
+    {
+        seq += 1;
+        let start = StartOfFrame { number, noticed: Micros(noticed), late_us: u16::MAX };
+        let mut wire = [0; 64];
+        let bytes = encode(&(seq, Report::StartOfFrame(start)), &mut wire).unwrap();
+        bytes.iter().for_each(|byte| drop(line.client.push(*byte)));
+        for time in [0, 1, noticed, u64::MAX] {
+            let _ = (line.client.host_time(Micros(time)), line.client.board_time_at(time));
+        }
+    }
+    assert!(line.client.bus().is_none_or(|bus| bus < 64), "{:?}", line.client.bus());
 }
