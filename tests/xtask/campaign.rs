@@ -37,7 +37,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 31] = [
+const RUNS: [(&str, Run, &str); 32] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -68,6 +68,11 @@ const RUNS: [(&str, Run, &str); 31] = [
         "baseline",
         Run::Core("baseline::"),
         "the core alone: an hour of drift, idle and with a touch that is held (simulated)",
+    ),
+    (
+        "impulses",
+        Run::Core("impulses"),
+        "the core alone: impulses of one frame, 100,000 frames each (simulated)",
     ),
     ("link", Run::Library("link::"), "link: 10,000,000 messages through each kind of fault"),
     ("health", Run::Library("health::"), "health: every fault, and 10,000 healthy frames (simulated)"),

@@ -229,11 +229,12 @@ fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
     began
 }
 
-/// The figures of docs/reflex.md: `cargo test -p taxel-core --test core -- reflex::impulses --nocapture`.
+/// The figures of docs/reflex.md, with `TAXEL_CAMPAIGN=1`; else of fewer frames.
+/// `cargo test -p taxel-core --test core -- reflex::impulses --nocapture`
 #[test]
 fn impulses() {
     let second = |began: usize, frames: usize| began as f64 * 195.3 / frames as f64;
-    let frames = 100_000;
+    let frames = if crate::is_campaign() { 100_000 } else { 20_000 };
     let two = false_reflexes(Agree::Two, true, frames);
     println!("two that agree, impulses apart: {two} reflexes in {frames} frames");
     let alone = false_reflexes(Agree::Two, false, 20_000);

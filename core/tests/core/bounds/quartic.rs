@@ -61,10 +61,11 @@ fn patch(noise: &mut Noise, side: u64) -> Vec<u16> {
 #[test]
 fn ratios_are_those_of_the_definition() {
     let layout = Layout::build(&Garment::recorded(PANEL[0], PANEL[1]), 2048, u16::MAX).unwrap();
+    let patches = if crate::is_campaign() { 2000 } else { 500 };
     for (side, bound) in [(4, 10.0), (16, 30.0), (32, 50.0)] {
         let mut noise = Noise(side);
         let mut worst = [0.0f64; 3];
-        for _ in 0..2000 {
+        for _ in 0..patches {
             let values = patch(&mut noise, side);
             let have = ratios(seen(&layout, &values));
             for (worst, (have, want)) in worst.iter_mut().zip(have.into_iter().zip(defined(&values))) {
