@@ -30,6 +30,8 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
     })?;
     // The panels are the last key: their text goes before the ends of the list and of the message.
     message.truncate(message.len() - 2);
+    // A zero and its comma take two bytes.
+    message.reserve(3 * panels.iter().flat_map(|panel| &panel.rows).map(|row| row.len()).sum::<usize>());
     panel_image::append(&mut message, &panels)?;
     message.extend_from_slice(b"]}");
     Ok(message)

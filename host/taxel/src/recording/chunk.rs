@@ -2,11 +2,11 @@
 
 use super::append::append;
 use super::lz4;
-use crate::error::{Context, Error, RecordingError, Result};
-use lz4_flex::frame::{FrameDecoder, FrameEncoder};
+use crate::error::{Context, RecordingError, Result};
+use lz4_flex::frame::FrameDecoder;
 use mcap::records::{ChunkHeader, ChunkIndex, MessageHeader, MessageIndex, MessageIndexEntry, op};
 use std::collections::BTreeMap;
-use std::io::{Read, Write};
+use std::io::Read;
 
 /// Compression of our chunks, in MCAP's words.
 pub const LZ4: &str = "lz4";
@@ -26,6 +26,8 @@ pub type Index = BTreeMap<u16, Vec<MessageIndexEntry>>;
 #[derive(Debug, Default)]
 pub struct Chunk {
     body: Vec<u8>,
+    /// The body, compressed: kept for its room.
+    packed: Vec<u8>,
     index: Index,
     span: Option<[u64; 2]>,
 }
@@ -50,19 +52,18 @@ impl Chunk {
     /// message.
     pub fn close(&mut self, offset: u64, out: &mut Vec<u8>) -> Result<Option<Closed>> {
         let Some([first, last]) = self.span.take() else { return Ok(None) };
-        let mut encoder = FrameEncoder::new(Vec::new());
-        encoder.write_all(&self.body)?;
-        let data = encoder.finish().map_err(Error::other).context("a chunk cannot be compressed")?;
+        self.packed.clear();
+        lz4::encode(&self.body, &mut self.packed);
         let header = ChunkHeader {
             message_start_time: first,
             message_end_time: last,
             uncompressed_size: self.body.len() as u64,
             uncompressed_crc: crc32fast::hash(&self.body),
             compression: LZ4.into(),
-            compressed_size: data.len() as u64,
+            compressed_size: self.packed.len() as u64,
         };
         let start = out.len();
-        append(out, op::CHUNK, &header, &data)?;
+        append(out, op::CHUNK, &header, &self.packed)?;
         let length = (out.len() - start) as u64;
         let closed = Closed::indexed(&header, &self.index, offset, length, out)?;
         self.body.clear();

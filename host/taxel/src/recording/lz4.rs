@@ -1,10 +1,9 @@
-//! Decodes LZ4 frames directly into the caller's buffer, without copies or allocation.
+//! LZ4 frames, encoded and decoded from one buffer of the caller's into the other, without copies between.
 //!
 //! Supports frames of independent blocks without a dictionary, as in our chunks and most others. Checksums
 //! (of block and content) are ignored, because a chunk of MCAP has its own.
 
-use lz4_flex::frame::{BlockSize, FrameEncoder, FrameInfo};
-use std::sync::LazyLock;
+use lz4_flex::block::{compress_into, get_maximum_output_size};
 
 const MAGIC: u32 = 0x184D_2204;
 /// Bits of the frame's first byte.
@@ -17,20 +16,37 @@ const DICTIONARY: u8 = 0b0000_0001;
 /// Flag of a block's length: the block is uncompressed.
 const PLAIN: u32 = 1 << 31;
 
+/// Largest block of a frame of ours, bytes, and the frame's head: a longer body has larger blocks.
+const HEADS: [(usize, [u8; 7]); 3] = [
+    (64 << 10, [0x04, 0x22, 0x4D, 0x18, 0x60, 0x40, 0x82]),
+    (256 << 10, [0x04, 0x22, 0x4D, 0x18, 0x60, 0x50, 0xFB]),
+    (4 << 20, [0x04, 0x22, 0x4D, 0x18, 0x60, 0x70, 0x73]),
+];
+
 /// True if a frame's head is one that chunks of this program have. Other heads must be checked against their
 /// own checksum, which [`decode`] ignores.
 pub fn is_ours(frame: &[u8]) -> bool {
-    static HEADS: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
-        [BlockSize::Max64KB, BlockSize::Max256KB, BlockSize::Max4MB].into_iter().filter_map(head).collect()
-    });
-    HEADS.iter().any(|head| frame.starts_with(head))
+    HEADS.iter().any(|(_, head)| frame.starts_with(head))
 }
 
-/// Head of a frame with this block size and no other options.
-fn head(size: BlockSize) -> Option<Vec<u8>> {
-    let empty = FrameEncoder::with_frame_info(FrameInfo::new().block_size(size), Vec::new()).finish().ok()?;
-    // An empty frame ends with a block length of 0.
-    empty.strip_suffix(&[0; 4]).map(<[u8]>::to_vec)
+/// Appends a frame that holds `body`.
+pub fn encode(body: &[u8], out: &mut Vec<u8>) {
+    let [.., largest] = HEADS;
+    let (most, head) = HEADS.into_iter().find(|(most, _)| body.len() <= *most).unwrap_or(largest);
+    out.extend_from_slice(&head);
+    for block in body.chunks(most) {
+        let (at, start) = (out.len(), out.len() + 4);
+        out.resize(start + get_maximum_output_size(block.len()), 0);
+        let packed = compress_into(block, &mut out[start..]).ok().filter(|packed| *packed < block.len());
+        let size = packed.map_or(block.len() as u32 | PLAIN, |packed| packed as u32);
+        out[at..start].copy_from_slice(&size.to_le_bytes());
+        out.truncate(start + packed.unwrap_or(0));
+        if packed.is_none() {
+            out.extend_from_slice(block);
+        }
+    }
+    // A block of no length ends the frame.
+    out.extend([0; 4]);
 }
 
 /// Decodes a frame that fills `out` exactly. Returns false if it is of another kind or damaged; then the
@@ -78,8 +94,8 @@ fn number(frame: &mut &[u8]) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lz4_flex::frame::BlockMode;
-    use std::io::Write;
+    use lz4_flex::frame::{BlockMode, BlockSize, FrameDecoder, FrameEncoder, FrameInfo};
+    use std::io::{Read, Write};
 
     fn frame(info: FrameInfo, body: &[u8]) -> Vec<u8> {
         let mut encoder = FrameEncoder::with_frame_info(info, Vec::new());
@@ -119,12 +135,29 @@ mod tests {
     }
 
     #[test]
+    fn a_frame_of_ours_is_that_of_the_library_and_comes_back() {
+        let long = body().repeat(11);
+        for length in [0, 1, 12, 65_536, 65_537, 262_144, 262_145, 470_000, 4 << 20, long.len()] {
+            // Runs first, and noise first, which does not become shorter.
+            for body in [&long[..length], &long[long.len() - length..]] {
+                let mut ours = b"before".to_vec();
+                encode(body, &mut ours);
+                let ours = ours.strip_prefix(b"before").unwrap();
+                assert!(ours == frame(FrameInfo::new(), body), "{length}");
+                let mut out = vec![0; body.len()];
+                assert!(decode(ours, &mut out) && out == body, "{length}");
+                out.clear();
+                FrameDecoder::new(ours).read_to_end(&mut out).unwrap();
+                assert!(out == body, "{length}");
+            }
+        }
+    }
+
+    #[test]
     fn a_frame_of_ours_is_known_by_its_head_and_any_other_head_is_not() {
         for length in [0, 1, 70_000, 300_000, 400_000] {
-            // As chunks are written.
-            let mut encoder = FrameEncoder::new(Vec::new());
-            encoder.write_all(&body()[..length]).unwrap();
-            let whole = encoder.finish().unwrap();
+            let mut whole = Vec::new();
+            encode(&body()[..length], &mut whole);
             assert!(is_ours(&whole), "{length}");
             for (at, bit) in (0..7).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
                 let mut damaged = whole.clone();
