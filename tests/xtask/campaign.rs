@@ -1,6 +1,7 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
-use crate::{browser, lerobot, paths, physics, python, ros2, targets, ways, wheels};
+use crate::guests::{self, Guest};
+use crate::{browser, paths, physics, python, ros2, targets, ways, wheels};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -26,8 +27,8 @@ enum Run {
     OtherWheels,
     /// The ROS 2 node with each distribution.
     Ros2,
-    /// The plug-in in LeRobot itself.
-    Lerobot,
+    /// The Python package beside a program of other people.
+    Beside(Guest),
     /// MuJoCo's judgement of places and forces.
     Physics,
     /// Tests of files on a failing disk.
@@ -37,7 +38,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 32] = [
+const RUNS: [(&str, Run, &str); 33] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -131,7 +132,7 @@ const RUNS: [(&str, Run, &str); 32] = [
     ),
     (
         "lerobot",
-        Run::Lerobot,
+        Run::Beside(guests::LEROBOT),
         "LeRobot itself: a minute of simulated touch beside a camera, every scan once (simulated)",
     ),
     (
@@ -161,6 +162,11 @@ const RUNS: [(&str, Run, &str); 32] = [
         "taxel robot: what a frame costs with 1 to 100 boards, two moving contacts each, by the build of the tests (simulated)",
     ),
     ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
+    (
+        "fleet",
+        Run::Beside(guests::RAY),
+        "the example of many recordings: 1,000 of them in one process, and by Ray (simulated)",
+    ),
     ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
 ];
 
@@ -210,7 +216,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Wheels => python::campaign(log, &longer)?,
         Run::Ros2 => ros2::campaign(log, &longer)?,
         Run::OtherWheels => wheels::campaign(log)?,
-        Run::Lerobot => lerobot::campaign(log, &longer)?,
+        Run::Beside(guest) => guests::campaign(guest, log, &longer)?,
         Run::Physics => physics::campaign(log, &longer)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),

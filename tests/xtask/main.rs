@@ -14,11 +14,11 @@ mod excerpt;
 mod features;
 mod firmware;
 mod fuzz;
+mod guests;
 mod install;
 mod interpreter;
 #[cfg(test)]
 mod layers;
-mod lerobot;
 mod locks;
 mod mutants;
 mod names;
