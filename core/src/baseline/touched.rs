@@ -47,20 +47,16 @@ impl Touched {
         }
     }
 
-    /// True if there are no contacts.
-    pub fn is_empty(&self) -> bool {
-        self.is_empty
+    /// All bits of each byte, of four, whose taxel is one of them.
+    #[inline(always)]
+    pub fn bytes(&self, taxels: &[u16; 4]) -> u32 {
+        if self.is_empty { 0 } else { self.bytes_of(taxels) }
     }
 
-    /// For each of four taxels the second value if it is one of them, else the first.
     #[inline(never)] // own registers
-    pub fn choose(&self, taxels: &[u16; 4], mut values: [u16; 4], touched: [u16; 4]) -> [u16; 4] {
-        for ((taxel, value), touched) in taxels.iter().zip(&mut values).zip(touched) {
-            if self.has((*taxel).into()) {
-                *value = touched;
-            }
-        }
-        values
+    fn bytes_of(&self, taxels: &[u16; 4]) -> u32 {
+        let bytes = |taxel: &u16| if self.has((*taxel).into()) { 0xFF } else { 0 };
+        taxels.iter().rev().fold(0, |all, taxel| all << 8 | bytes(taxel))
     }
 
     /// True if a taxel is one of them.

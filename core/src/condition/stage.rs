@@ -55,7 +55,7 @@ impl Condition {
             points.forget();
             if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
                 // The garment at rest is not bent.
-                folds.renew(sampled.now, true, |_, _, _| ());
+                folds.renew(sampled.now, true, |_| 0, |_, _| ());
                 folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
             }
         } else {
@@ -63,11 +63,12 @@ impl Condition {
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
                 let touched = Touched::of(layout, feedback, 1);
-                folds.renew(sampled.now, renewed, |taxels, begins, goes_on| {
-                    let levels =
-                        if touched.is_empty() { begins } else { touched.choose(taxels, begins, goes_on) };
-                    calibration.set_levels(taxels, &levels, terms);
-                });
+                folds.renew(
+                    sampled.now,
+                    renewed,
+                    |taxels| touched.bytes(taxels),
+                    |taxels, levels| calibration.set_levels(taxels, &levels, terms),
+                );
             }
             self.perceive(calibration, images, points, folds, layout, sampled);
             if self.config.track_baseline {

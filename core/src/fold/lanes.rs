@@ -69,6 +69,13 @@ pub(super) fn whole_bytes(flags: u32) -> u32 {
     (flags >> 7).wrapping_mul(0xFF)
 }
 
+/// The sum of each two bytes, times `unit`, at most 128: each product fits in its half of a word.
+#[inline(always)]
+pub(super) fn summed(a: u32, b: u32, unit: u32) -> [u16; 4] {
+    let [even, odd] = [0, 8].map(|shift| ((a >> shift & EVEN) + (b >> shift & EVEN)) * unit);
+    [even as u16, odd as u16, (even >> 16) as u16, (odd >> 16) as u16]
+}
+
 /// Byte number `lane`, 0 ..= 3.
 pub(super) fn byte(bytes: u32, lane: usize) -> u8 {
     bytes.to_le_bytes().get(lane).copied().unwrap_or(0)
@@ -121,6 +128,13 @@ mod tests {
             prop_assert_eq!(found.to_le_bytes(), bytes.map(|byte| if byte == 0 { 0x80 } else { 0 }));
             let whole = whole_bytes(found).to_le_bytes();
             prop_assert_eq!(whole, bytes.map(|byte| if byte == 0 { 0xFF } else { 0 }));
+        }
+
+        #[test]
+        fn sums_are_those_of_the_bytes(a in any::<[u8; 4]>(), b in any::<[u8; 4]>(), unit in 0u32..=128) {
+            let [x, y] = [a, b].map(u32::from_le_bytes);
+            let want = core::array::from_fn(|i| ((u32::from(a[i]) + u32::from(b[i])) * unit) as u16);
+            prop_assert_eq!(summed(x, y, unit), want);
         }
 
         #[test]

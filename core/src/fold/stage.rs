@@ -1,7 +1,7 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::Bend;
-use super::lanes::{LaneSums, WHOLE, ZERO, byte, set_byte, whole_bytes, zeros};
+use super::lanes::{LaneSums, WHOLE, ZERO, byte, set_byte, summed, whole_bytes, zeros};
 use super::posture::PostureState;
 use super::record::FoldRecord;
 use super::table::{FoldStart, FoldTable};
@@ -144,13 +144,14 @@ impl FoldState {
     }
 
     /// Renews the taxels whose turn it is, all of them if `whole`, and hands over four at a time, with the
-    /// levels beyond which a touch begins there, and those beyond which one that is there goes on, counts.
+    /// levels beyond which a touch begins there, counts, or goes on where `touched` has all bits of their bytes.
     #[inline(never)]
     pub(crate) fn renew(
         &mut self,
         now: Micros,
         whole: bool,
-        mut set: impl FnMut(&[u16; 4], [u16; 4], [u16; 4]),
+        touched: impl Fn(&[u16; 4]) -> u32,
+        mut set: impl FnMut(&[u16; 4], [u16; 4]),
     ) {
         let Some(worn) = self.in_force.first_mut() else { return };
         let Some(table) = worn.table else { return };
@@ -196,9 +197,9 @@ impl FoldState {
                         hold(&mut self.held, taxels, is);
                     }
                     let [expected, doubt] = *felt;
-                    // What is unknown is no lower for a touch that is there.
-                    let goes_on = if bend.is_known { expected } else { doubt };
-                    set(taxels, levels(expected, doubt, unit), levels(goes_on, 0, unit));
+                    // A touch that is there is in no doubt, unless the posture is unknown.
+                    let certain = if bend.is_known { touched(taxels) } else { 0 };
+                    set(taxels, summed(expected, doubt & !certain, unit));
                 }
             }
             at = at.after(fold);
@@ -409,12 +410,6 @@ fn add_means(means: &mut [(LaneSums, u32)], (cells, corrections): (&[[u32; 3]], 
         // 128 stands for a correction of 0.
         sums.add_both([*mean, correction | none], weight);
     }
-}
-
-/// Levels of four taxels, counts. A unit of at most 128 keeps them within 16 bits.
-#[inline(always)]
-fn levels(expected: u32, doubt: u32, unit: u32) -> [u16; 4] {
-    [0, 8, 16, 24].map(|lane| (((expected >> lane & 0xFF) + (doubt >> lane & 0xFF)) * unit) as u16)
 }
 
 /// The fold's quads within a range of the table's.
