@@ -1,0 +1,47 @@
+//! `cargo xtask campaign --only zenoh`: boards between machines (`tests/zenoh`), on network namespaces, with routers
+//! by Zenoh's own Python package. No check compiles Zenoh; this does.
+
+use crate::cargo::cargo;
+use crate::end::End;
+use crate::{install, paths, process};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Programs that make machines of namespaces, and what they are for.
+const TOOLS: [(&str, &str); 2] = [("ip", "network namespaces"), ("nft", "loss of packets")];
+
+/// Tests the library with Zenoh, builds the program, and runs the cases. Returns what they print. Not run without
+/// the tools, or if the user may make no machines.
+pub fn campaign(log: &Path) -> End<Vec<String>> {
+    if let Some((tool, what)) = TOOLS.into_iter().find(|(tool, _)| !process::exists(tool)) {
+        return Err(format!("there is no {tool}, for {what}"));
+    }
+    if process::output(Command::new("id").arg("-u")).as_deref() != Some("0") {
+        return Err("only root may make network namespaces".into());
+    }
+    install::python3("python3")?;
+    let folder = paths::target().join("xtask/zenoh");
+    let python = install::python_in("python3", &folder, &cases().join("requirements.txt"))?;
+    Ok(built(log).and_then(|program| run(&python, &program, log)))
+}
+
+/// Runs the library's tests with Zenoh, and builds the program.
+fn built(log: &Path) -> Result<PathBuf, String> {
+    let options = ["--package", "taxel", "--package", "taxel-cli", "--features", "full,zenoh"];
+    let test = [&["test"], &options[..], &["--test", "zenoh", "--", "--test-threads=2"]].concat();
+    process::run_into(&mut cargo(&test, paths::root()), log)?;
+    process::run_into(&mut cargo(&[&["build"], &options[..]].concat(), paths::root()), log)?;
+    Ok(paths::target().join("debug/taxel"))
+}
+
+fn run(python: &Path, program: &Path, log: &Path) -> Result<Vec<String>, String> {
+    let before = std::fs::read_to_string(log).unwrap_or_default().len();
+    process::run_into(Command::new(python).arg(cases().join("campaign.py")).arg(program), log)?;
+    let said = std::fs::read_to_string(log).unwrap_or_default();
+    Ok(said.get(before..).unwrap_or_default().lines().map(String::from).collect())
+}
+
+/// The cases.
+fn cases() -> PathBuf {
+    paths::root().join("tests/zenoh")
+}
