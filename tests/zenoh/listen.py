@@ -34,11 +34,12 @@ def everything(session: zenoh.Session) -> None:
     for key in ("taxel/**", "taxel/*/*/state"):
         replies += sum(1 for reply in session.get(key, timeout=2.0) if reply.ok)
     tokens = sum(1 for reply in session.liveliness().get("taxel/**", timeout=2.0) if reply.ok)
+    time.sleep(2.0)
+    print(json.dumps({**count, "replies": replies, "tokens": tokens}), flush=True)
     # Frames of its own are not to reach anybody.
     for _ in range(100):
         session.put("taxel/arm/left/wire/main", b"\x01\x02\x00")
-    time.sleep(2.0)
-    print(json.dumps({**count, "replies": replies, "tokens": tokens}), flush=True)
+    time.sleep(1.0)
 
 
 try:

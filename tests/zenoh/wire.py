@@ -4,8 +4,9 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
-#: Numbers of the reports that hold an image or raw codes, and of contacts.
+#: Numbers of the reports that hold an image or raw codes, of the first one, and of contacts.
 IMAGES = (1, 10)
+HELLO = 0
 CONTACTS = 2
 
 

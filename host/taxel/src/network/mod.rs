@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `place.rs` | [`BoardPlace`]: the name of a board, and its keys |
 //! | `cut.rs` | [`FrameCutter`]: cuts a board's bytes into whole frames, and tells images apart |
-//! | `piece.rs` | [`Piece`]: a frame on its way, and the stamp that says where it belongs |
+//! | `piece.rs` | [`WirePiece`]: a frame on its way, and the stamp that says where it belongs |
 //! | `order.rs` | [`PieceOrder`]: puts contacts and images back into the board's order |
 //! | `config.rs` | Zenoh's configuration, of which nothing listens to other machines unless it says so |
 //!
@@ -25,5 +25,5 @@ pub(crate) use config::said;
 pub use config::{NetworkEnd, open};
 pub use cut::FrameCutter;
 pub use order::{PATIENCE, PieceOrder};
-pub use piece::{Piece, PieceKind, PieceStamp};
+pub use piece::{PieceKind, PieceStamp, WirePiece};
 pub use place::BoardPlace;

@@ -6,7 +6,7 @@
 //! later is dropped, and missing from the board's numbers like what the network has dropped itself. An image never
 //! passes a frame that was published before it.
 
-use super::piece::{Piece, PieceKind, PieceStamp};
+use super::piece::{PieceKind, PieceStamp, WirePiece};
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
@@ -20,8 +20,8 @@ const IMAGES: usize = 64;
 pub struct PieceOrder {
     publisher: u64,
     /// What has come by each way, and when.
-    main: VecDeque<(Instant, Piece)>,
-    images: VecDeque<Piece>,
+    main: VecDeque<(Instant, WirePiece)>,
+    images: VecDeque<WirePiece>,
     /// Numbers of what was handed on last.
     passed: Option<PieceStamp>,
     dropped: u64,
@@ -40,7 +40,7 @@ impl PieceOrder {
     }
 
     /// Takes a piece that came at `now`.
-    pub fn push(&mut self, now: Instant, piece: Piece) {
+    pub fn push(&mut self, now: Instant, piece: WirePiece) {
         if piece.stamp.publisher != self.publisher {
             return;
         }
@@ -57,7 +57,7 @@ impl PieceOrder {
     }
 
     /// Returns the next piece, if it is known at `now` which one that is.
-    pub fn next(&mut self, now: Instant) -> Option<Piece> {
+    pub fn next(&mut self, now: Instant) -> Option<WirePiece> {
         while self.images.front().is_some_and(|image| self.is_late(image)) {
             self.images.pop_front();
             self.dropped += 1;
@@ -100,13 +100,13 @@ impl PieceOrder {
     }
 
     /// True if a frame that was published after this image has been handed on.
-    fn is_late(&self, image: &Piece) -> bool {
+    fn is_late(&self, image: &WirePiece) -> bool {
         self.passed.is_some_and(|passed| image.stamp.images <= passed.images)
     }
 
     /// True if all frames without an image before this image have been handed on, or are lost. Before the first one
     /// nothing is known.
-    fn is_next(&self, image: &Piece) -> bool {
+    fn is_next(&self, image: &WirePiece) -> bool {
         self.passed.is_some_and(|passed| image.stamp.main <= passed.main)
             || self.main.front().is_some_and(|(_, main)| image.stamp.main < main.stamp.main)
     }
@@ -118,11 +118,11 @@ mod tests {
     use PieceKind::{Image, Main};
 
     /// What a board has sent: kinds in its order, each with its number.
-    fn published(kinds: &[PieceKind]) -> Vec<Piece> {
+    fn published(kinds: &[PieceKind]) -> Vec<WirePiece> {
         let mut stamp = PieceStamp { publisher: 5, main: 0, images: 0 };
         let next = |(number, kind): (usize, &PieceKind)| {
             stamp = stamp.next(*kind);
-            Piece { kind: *kind, stamp, bytes: vec![number as u8] }
+            WirePiece { kind: *kind, stamp, bytes: vec![number as u8] }
         };
         kinds.iter().enumerate().map(next).collect()
     }
@@ -161,7 +161,7 @@ mod tests {
         // Two mains are lost: an image waits until it is clear that they do not come.
         order.push(now, sent[7].clone());
         assert_eq!((all(&mut order, now), order.wait(now)), (vec![], None));
-        let later = Piece { stamp: PieceStamp { main: 9, ..sent[7].stamp }, ..sent[6].clone() };
+        let later = WirePiece { stamp: PieceStamp { main: 9, ..sent[7].stamp }, ..sent[6].clone() };
         order.push(now, later);
         assert_eq!((all(&mut order, now), order.dropped()), (vec![7, 6], 0));
     }
@@ -172,7 +172,7 @@ mod tests {
         for _ in 0..2000 {
             let kinds: Vec<_> = (0..40).map(|_| if random.bool() { Main } else { Image }).collect();
             let sent = published(&kinds);
-            let kept = |piece: &&Piece| piece.kind == Main || random.f32() > 0.2;
+            let kept = |piece: &&WirePiece| piece.kind == Main || random.f32() > 0.2;
             let arrived: Vec<_> = sent.iter().filter(kept).cloned().collect();
             let (mut ways, mut order) = ([VecDeque::new(), VecDeque::new()], PieceOrder::new(5));
             arrived.into_iter().for_each(|piece| ways[usize::from(piece.kind == Image)].push_back(piece));

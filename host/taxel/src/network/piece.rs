@@ -49,7 +49,7 @@ impl PieceStamp {
 
 /// A frame and its stamp.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
+pub struct WirePiece {
     /// How it has travelled.
     pub kind: PieceKind,
     /// Where it belongs.

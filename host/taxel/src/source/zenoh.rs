@@ -2,7 +2,7 @@
 
 use super::{Port, Source};
 use crate::error::{Result, SourceError};
-use crate::network::{self, BoardPlace, NetworkEnd, Piece, PieceKind, PieceOrder, PieceStamp};
+use crate::network::{self, BoardPlace, NetworkEnd, PieceKind, PieceOrder, PieceStamp, WirePiece};
 use crate::source::shared::Shared;
 use std::collections::VecDeque;
 use std::io;
@@ -72,6 +72,8 @@ struct Inbox {
     news: VecDeque<String>,
     /// Requests that have no answer yet.
     open: usize,
+    /// The last request that was answered was not handed over.
+    is_unheard: bool,
     /// Nobody reads any longer.
     is_closed: bool,
 }
@@ -211,7 +213,11 @@ struct Ticket(Arc<Shared<Inbox>>);
 
 impl Ticket {
     fn answered(&self, reply: &Reply) {
-        if let Err(why) = reply.result() {
+        let result = reply.result();
+        let was_unheard = std::mem::replace(&mut self.0.lock().is_unheard, result.is_err());
+        if let Err(why) = result
+            && !was_unheard
+        {
             let why = why.payload().try_to_string().map_or("it is not read".into(), |why| why.into_owned());
             self.0.change(|inbox| inbox.news.push_back(format!("a request was not handed over: {why}")));
         }
@@ -267,7 +273,7 @@ fn chosen(inbox: &Shared<Inbox>, place: &BoardPlace, before: Option<u64>, longes
 fn take(inbox: &Shared<Inbox>, kind: PieceKind, sample: &Sample) {
     let stamp = sample.attachment().and_then(|bytes| PieceStamp::from_bytes(&bytes.to_bytes()));
     let Some(stamp) = stamp else { return };
-    let piece = Piece { kind, stamp, bytes: sample.payload().to_bytes().into_owned() };
+    let piece = WirePiece { kind, stamp, bytes: sample.payload().to_bytes().into_owned() };
     let mut known = inbox.lock();
     // The network waits with us, as a cable would.
     while kind == PieceKind::Main
