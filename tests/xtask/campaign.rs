@@ -1,7 +1,7 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
 use crate::guests::{self, Guest};
-use crate::{browser, paths, physics, python, ros2, targets, ways, wheels};
+use crate::{browser, paths, physics, python, ros2, targets, ways, wheels, zenoh};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -31,6 +31,8 @@ enum Run {
     Beside(Guest),
     /// MuJoCo's judgement of places and forces.
     Physics,
+    /// Boards between machines.
+    Zenoh,
     /// Tests of files on a failing disk.
     Disk,
     /// The image by each toolchain.
@@ -38,7 +40,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 33] = [
+const RUNS: [(&str, Run, &str); 34] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -145,6 +147,11 @@ const RUNS: [(&str, Run, &str); 33] = [
         Run::Physics,
         "physics: random presses on two bodies in MuJoCo, against places and forces, before noise and on the board",
     ),
+    (
+        "zenoh",
+        Run::Zenoh,
+        "Zenoh: a board of 2,048 taxels between machines with routers, by the build of the tests (simulated, network namespaces)",
+    ),
     ("disk", Run::Disk, "files: every command that writes, each fault of a disk at each call"),
     (
         "view",
@@ -218,6 +225,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::OtherWheels => wheels::campaign(log)?,
         Run::Beside(guest) => guests::campaign(guest, log, &longer)?,
         Run::Physics => physics::campaign(log, &longer)?,
+        Run::Zenoh => zenoh::campaign(log)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Ways => ways::measured(log),
     };

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// Options shared by all builds of the workspace, so that they reuse each other's products: cargo unifies the
-/// features of dependencies over all selected packages and targets.
-pub const WHOLE: &[&str] = &["--workspace", "--all-features"];
+/// features of dependencies over all selected packages and targets. All features but `zenoh`, which takes the
+/// compiler minutes: the packages that have features list the others as `full`.
+pub const WHOLE: &[&str] = &["--workspace", "--features", "full"];
 
 /// Cargo in a folder, without incremental builds unless the user enables them: writing their data takes
 /// longer than it saves here.

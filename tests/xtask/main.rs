@@ -37,6 +37,7 @@ mod targets;
 mod uf2;
 mod ways;
 mod wheels;
+mod zenoh;
 
 use std::process::ExitCode;
 

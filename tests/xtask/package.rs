@@ -1,7 +1,7 @@
 //! `cargo xtask package`: the crates that others can depend on. Builds each from its package alone, and all
 //! with the oldest dependencies that the manifests allow; compares their interfaces with the last release.
 
-use crate::cargo::cargo;
+use crate::cargo::{WHOLE, cargo};
 use crate::end::End;
 use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ fn build_with_oldest() -> Result<(), String> {
     let copy = copy_of("HEAD", "oldest")?;
     let resolve = ["run", "nightly", "cargo", "update", "--quiet", "-Zdirect-minimal-versions"];
     process::run(Command::new("rustup").args(resolve).current_dir(&copy))?;
-    process::run(&mut cargo(&["check", "--quiet", "--workspace", "--all-features"], copy))
+    process::run(&mut cargo(&[&["check", "--quiet"], WHOLE].concat(), copy))
 }
 
 /// Compares the interfaces of the last commit with those of the last tag: what the version does not allow to

@@ -18,7 +18,7 @@ use crate::commands::garment::scenes::{self, ScenesArgs};
 use crate::commands::garment::settle::{self, SettleArgs};
 use crate::commands::garment::setup::{self, SetupArgs};
 use crate::commands::maps::{self, FcmArgs};
-#[cfg(not(all(feature = "foxglove", feature = "index", feature = "ros2")))]
+#[cfg(not(all(feature = "foxglove", feature = "index", feature = "ros2", feature = "zenoh")))]
 use crate::commands::not_built;
 #[cfg(not(feature = "foxglove"))]
 use crate::commands::not_built::NotBuiltArgs as FoxgloveArgs;
@@ -26,6 +26,8 @@ use crate::commands::not_built::NotBuiltArgs as FoxgloveArgs;
 use crate::commands::not_built::NotBuiltArgs as IndexArgs;
 #[cfg(not(feature = "ros2"))]
 use crate::commands::not_built::NotBuiltArgs as Ros2Args;
+#[cfg(not(feature = "zenoh"))]
+use crate::commands::not_built::NotBuiltArgs as ServeArgs;
 use crate::commands::recordings::export::{self, ExportArgs};
 #[cfg(feature = "index")]
 use crate::commands::recordings::index::{self, IndexArgs};
@@ -42,6 +44,8 @@ use crate::commands::views::foxglove::{self, FoxgloveArgs};
 use crate::commands::views::live;
 #[cfg(feature = "ros2")]
 use crate::commands::views::ros2::{self, Ros2Args};
+#[cfg(feature = "zenoh")]
+use crate::commands::views::serve::{self, ServeArgs};
 use crate::commands::views::view::{self, ViewArgs};
 use crate::watch::LiveArgs;
 use anyhow::Result;
@@ -79,6 +83,10 @@ enum Command {
     #[cfg_attr(not(feature = "ros2"), doc = "(needs a build with `--features ros2`)")]
     #[command(after_help = ROS2)]
     Ros2(Ros2Args),
+    /// Offer a board to other machines over Zenoh; there it is `--source zenoh:ROBOT/BOARD`
+    #[cfg_attr(not(feature = "zenoh"), doc = "(needs a build with `--features zenoh`)")]
+    #[command(after_help = SERVE)]
+    Serve(ServeArgs),
     /// Record a board's stream for Foxglove, Rerun, Python and ROS 2
     #[command(after_help = RECORD)]
     Record(RecordArgs),
@@ -183,6 +191,10 @@ impl Cli {
             Command::Ros2(args) => ros2::run(args),
             #[cfg(not(feature = "ros2"))]
             Command::Ros2(args) => not_built::ros2(&args),
+            #[cfg(feature = "zenoh")]
+            Command::Serve(args) => serve::run(args),
+            #[cfg(not(feature = "zenoh"))]
+            Command::Serve(args) => not_built::serve(&args),
             Command::Record(args) => record::run(args),
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),

@@ -74,6 +74,10 @@ pub struct Client {
     message: Vec<u8>,
     /// Bytes since the last 0x00.
     line: Vec<u8>,
+    /// Messages before these bytes that have brought no event.
+    unheard: Vec<u8>,
+    /// The last message has brought an event.
+    is_heard: bool,
     requests: Vec<u8>,
     /// Requests held back until the board has answered others.
     held: VecDeque<(Vec<u8>, Option<Sets>)>,
@@ -130,6 +134,8 @@ impl Client {
             receiver: Box::new(Receiver::new()),
             message: Vec::new(),
             line: Vec::new(),
+            unheard: Vec::new(),
+            is_heard: false,
             // Terminates a partial frame that the board may have received before.
             requests: vec![0],
             held: VecDeque::new(),
@@ -179,6 +185,7 @@ impl Client {
             Some(Event::Refused(error))
         });
         self.message = message;
+        self.is_heard = event.is_some();
         event
     }
 
@@ -187,9 +194,16 @@ impl Client {
         self.counts = Counts::default();
     }
 
-    /// Keeps a byte for [`Client::line`]; only the beginning of an overlong frame is kept.
+    /// Keeps a byte for [`Client::line`]; only the beginning of an overlong frame is kept, and of what brings no
+    /// event.
     fn keep(&mut self, byte: u8) {
         if self.line.last() == Some(&0) {
+            if self.is_heard {
+                self.unheard.clear();
+            } else if self.unheard.len() < LONGEST_REPORT {
+                self.unheard.extend_from_slice(&self.line);
+            }
+            self.is_heard = false;
             self.line.clear();
         }
         if self.line.len() < LONGEST_REPORT || byte == 0 {

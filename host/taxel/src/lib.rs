@@ -20,10 +20,12 @@
 //! | [`client`] | the host's end of the wire: bytes in, events out, with host times |
 //! | [`recording`] | MCAP files: read, written and repaired |
 //! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
-//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, emulator, file, recording |
+//! | [`network`] | boards between machines: names, order, configuration |
+//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, Zenoh, emulator, file, recording |
 //! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
 //! | [`stepped`] | the very board, stepped by hand with codes and a time |
 //! | [`json`] | a stream's JSON |
+//! | `offer` | a board, offered to other machines over Zenoh (feature `zenoh`) |
 //! | [`moments`] | moments, NMI and axis of one image |
 //! | [`ros2`] | messages of ROS 2 and their layout |
 //! | [`record`] | recordings of a stream and their topics |
@@ -72,6 +74,8 @@ pub mod recording;
 
 pub mod fcm;
 
+pub mod network;
+
 pub mod source;
 
 pub mod session;
@@ -79,6 +83,9 @@ pub mod session;
 pub mod stepped;
 
 pub mod json;
+
+#[cfg(feature = "zenoh")]
+pub mod offer;
 
 pub mod moments;
 

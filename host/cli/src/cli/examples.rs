@@ -45,6 +45,17 @@ const NODE: &str = "Examples:
   taxel ros2 --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32 --namespace /left
   taxel ros2 --source sim:five --body reference --robot reference";
 
+pub(super) const SERVE: &str = if cfg!(feature = "zenoh") { OFFERED } else { NO_SERVE };
+
+/// The example of a build without the feature.
+const NO_SERVE: &str = "Example, in the folder of taxel:
+  cargo run --release --features zenoh -- serve --source sim:pat --name arm/left";
+
+const OFFERED: &str = "Examples:
+  taxel serve --source sim:pat --name arm/left
+  taxel serve --source usb --name arm/left --zenoh router.json5
+  taxel live --source zenoh:arm/left@router.json5";
+
 pub(super) const RECORD: &str = "Examples:
   taxel record -o touch.mcap
   taxel record --source sim:pat -o pat.mcap --ros2

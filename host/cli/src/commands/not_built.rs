@@ -35,6 +35,18 @@ pub fn robot_ros2(args: &NotBuiltArgs) -> Result<()> {
     refuse("ROS 2", "ros2", "robot ros2", args)
 }
 
+/// Stand-in for `taxel serve`: returns the error that says how the command is built in.
+#[cfg(not(feature = "zenoh"))]
+pub fn serve(args: &NotBuiltArgs) -> Result<()> {
+    refuse("Zenoh", "zenoh", "serve", args)
+}
+
+/// Stand-in for `taxel robot serve`: returns the error that says how the command is built in.
+#[cfg(not(feature = "zenoh"))]
+pub fn robot_serve(args: &NotBuiltArgs) -> Result<()> {
+    refuse("Zenoh", "zenoh", "robot serve", args)
+}
+
 fn refuse(what: &str, feature: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {
     let asked = args.args.iter().map(|arg| format!(" {}", arg.display())).collect::<String>();
     bail!(Fault::usage(format!(

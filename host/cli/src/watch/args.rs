@@ -14,8 +14,8 @@ use taxel_core::intent::Feed;
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Args)]
 pub struct BoardArgs {
-    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `emulator[:TOUCHES]`,
-    /// `file:FILE` or `replay:FILE[#BOARD][@SPEED]`
+    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD[@FILE]`,
+    /// `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[#BOARD][@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Garment to send to the board, real or simulated: a preset or a TOML file

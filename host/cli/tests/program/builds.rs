@@ -27,6 +27,21 @@ fn a_build_without_ros2_says_how_to_build_it() {
 }
 
 #[test]
+#[cfg(not(feature = "zenoh"))]
+fn a_build_without_zenoh_says_how_to_build_it() {
+    for words in ["serve --source sim:pat --name arm/left", "robot serve robot.toml"] {
+        let output = taxel(&Vec::from_iter(words.split(' ')));
+        let error = String::from_utf8(output.stderr).unwrap();
+        let how = format!("`cargo run --release --features zenoh -- {words}`");
+        assert!(output.status.code() == Some(2) && error.contains(&how), "{error}");
+    }
+    let output = taxel(&["live", "--source", "zenoh:arm/left"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    let why = "source zenoh:arm/left: this program was built without Zenoh (feature `zenoh`)";
+    assert!(output.status.code() == Some(2) && error.contains(why), "{error}");
+}
+
+#[test]
 #[cfg(not(feature = "index"))]
 fn a_build_without_the_index_says_how_to_build_it() {
     let output = taxel(&["index", "recordings", "-o", "index.parquet"]);
@@ -50,7 +65,7 @@ fn shells_complete_subcommands_and_options() {
         let output = taxel(&["completions", shell]);
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success() && text.contains("taxel"), "{shell}");
-        for word in ["live", "calibrate", "foxglove", "ros2", "garment", "verbose"] {
+        for word in ["live", "calibrate", "foxglove", "ros2", "serve", "garment", "verbose"] {
             assert!(text.contains(word), "{shell}: {word}");
         }
     }

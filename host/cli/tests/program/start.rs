@@ -48,7 +48,7 @@ fn build(folder: &Path, what: &[&str]) {
     let mut command = Command::new(cargo);
     command
         .current_dir(root())
-        .args(["build", "--quiet", "--workspace", "--all-features", "--profile", profile])
+        .args(["build", "--quiet", "--workspace", "--features", "full", "--profile", profile])
         .args(what);
     let status = command.arg("--target-dir").arg(folder.parent().unwrap()).status().unwrap();
     assert!(status.success(), "the example cannot be built");

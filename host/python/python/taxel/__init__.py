@@ -275,7 +275,7 @@ def open(
     """Opens a board, and iterates over its events.
 
     ``source`` is ``auto``, ``usb``, ``sim[:TOUCHES]``, ``serial:PATH[@BAUD]``, ``tcp:HOST:PORT``,
-    ``file:FILE`` or ``replay:FILE[@SPEED]``.
+    ``zenoh:ROBOT/BOARD[@FILE]`` (if the package was built with it), ``file:FILE`` or ``replay:FILE[@SPEED]``.
 
     - ``seed``: of a simulation, instead of its script's
     - ``garment``: a preset or a TOML file, for the board

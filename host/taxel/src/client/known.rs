@@ -25,6 +25,12 @@ impl Client {
         &self.line
     }
 
+    /// Bytes of the messages before the last one that have brought no event, because they belong to it; valid as
+    /// [`Client::line`] is.
+    pub fn unheard(&self) -> &[u8] {
+        &self.unheard
+    }
+
     /// Garment, scene and firmware; none before the first `Hello`.
     pub fn worn(&self) -> Option<&Worn> {
         self.worn.as_ref()

@@ -47,8 +47,8 @@ pub struct BoardGarment {
 impl RobotBoard {
     /// True if its source is a board that may be plugged in later.
     pub fn is_real(&self) -> bool {
-        use SourceSpec::{Auto, Serial, Tcp, Usb};
-        matches!(self.source, Auto | Usb | Serial { .. } | Tcp(_))
+        use SourceSpec::{Auto, Serial, Tcp, Usb, Zenoh};
+        matches!(self.source, Auto | Usb | Serial { .. } | Tcp(_) | Zenoh { .. })
     }
 
     /// True unless its source is a recording, whose board takes no requests.

@@ -204,6 +204,10 @@ impl BoardReader<'_> {
             SourceSpec::Replay { path, board, speed } => {
                 SourceSpec::Replay { path: beside(&path.display().to_string()).into(), board, speed }
             }
+            SourceSpec::Zenoh { place, config } => {
+                let config = config.map(|file| beside(&file.display().to_string()).into());
+                SourceSpec::Zenoh { place, config }
+            }
             found => found,
         })
     }
@@ -244,6 +248,7 @@ impl BoardReader<'_> {
         let place = |board: &RobotBoard| match &board.source {
             SourceSpec::Serial { path, .. } => Some(path.clone()),
             SourceSpec::Tcp(address) => Some(address.clone()),
+            SourceSpec::Zenoh { place, .. } => Some(place.to_string()),
             _ => board.usb_serial.clone(),
         };
         let same = earlier

@@ -259,7 +259,12 @@ impl Session {
         let requests = self.client.take_requests();
         sent(&self.client, &requests)?;
         self.outgoing.add(&requests);
-        match self.exchange() {
+        let exchanged = self.exchange();
+        if let Some(news) = self.source.port.news() {
+            let text = format!("{}: {news}", self.source.label);
+            self.say(Level::Warn, text);
+        }
+        match exchanged {
             Ok(true) => {
                 self.tell_time();
                 let told = self.source.port.told();

@@ -1,4 +1,4 @@
-//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, the emulator, a file, a
+//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, Zenoh, the emulator, a file, a
 //! recording.
 
 mod auto;
@@ -13,6 +13,8 @@ pub mod shared;
 mod sim;
 mod spec;
 mod tcp;
+#[cfg(feature = "zenoh")]
+mod zenoh;
 
 pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
@@ -21,6 +23,8 @@ pub(crate) use sim::{info as simulated_info, lasting};
 pub use spec::{SourceSpec, is_board};
 
 use crate::error::Result;
+#[cfg(not(feature = "zenoh"))]
+use crate::error::UsageError;
 use crate::sim::Script;
 use crate::tell::verbose;
 use std::io;
@@ -39,6 +43,10 @@ pub trait Port: Send {
     /// joints of its script.
     fn told(&mut self) -> Vec<u8> {
         Vec::new()
+    }
+    /// What has become known of the link, to be told at once.
+    fn news(&mut self) -> Option<String> {
+        None
     }
     /// A remark to print at the end.
     fn remark(&self) -> Option<String> {
@@ -166,6 +174,15 @@ fn of_kind(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::Sim(scene) => sim::open(scene, options),
         SourceSpec::Serial { path, baud } => auto::port(path, *baud),
         SourceSpec::Tcp(address) => tcp(address, tcp::CONNECT),
+        #[cfg(feature = "zenoh")]
+        SourceSpec::Zenoh { place, config } => zenoh::open(place, config.as_deref()),
+        #[cfg(not(feature = "zenoh"))]
+        SourceSpec::Zenoh { .. } => {
+            fail!(
+                UsageError::Unknown,
+                "source {spec}: this program was built without Zenoh (feature `zenoh`)"
+            )
+        }
         SourceSpec::Emulator(scene) => emulator::open(scene, options),
         SourceSpec::File(path) => {
             let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);

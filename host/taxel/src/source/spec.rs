@@ -1,6 +1,7 @@
 //! Parses a source from the command line.
 
 use super::replay::Speed;
+use crate::network::BoardPlace;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -28,6 +29,13 @@ pub enum SourceSpec {
     },
     /// `HOST:PORT`
     Tcp(String),
+    /// A board that another machine offers over Zenoh.
+    Zenoh {
+        /// Its name.
+        place: BoardPlace,
+        /// Zenoh's configuration; none for that of the environment, else for this machine.
+        config: Option<PathBuf>,
+    },
     /// The firmware image in the emulator, with this script of touches.
     Emulator(String),
     /// Saved bytes.
@@ -54,6 +62,7 @@ impl SourceSpec {
         match self {
             SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Some(path.clone()),
             SourceSpec::Sim(scene) | SourceSpec::Emulator(scene) => Some(scene.into()),
+            SourceSpec::Zenoh { config, .. } => config.clone(),
             _ => None,
         }
     }
@@ -73,11 +82,12 @@ impl FromStr for SourceSpec {
             ("emulator", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Emulator(scene.into())),
             ("serial", Some(port)) if !port.is_empty() => serial(port),
             ("tcp", Some(address)) => tcp(address),
+            ("zenoh", Some(place)) => zenoh(place),
             ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
             ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
             _ => Err(
-                "known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:TOUCHES], \
-                      file:FILE, replay:FILE[#BOARD][@SPEED]"
+                "known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], \
+                      emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]"
                     .into(),
             ),
         }
@@ -123,6 +133,14 @@ fn tcp(address: &str) -> Result<SourceSpec, String> {
     }
 }
 
+fn zenoh(text: &str) -> Result<SourceSpec, String> {
+    let (place, config) = text.split_once('@').map_or((text, None), |(place, file)| (place, Some(file)));
+    if config.is_some_and(str::is_empty) {
+        return Err("zenoh:ROBOT/BOARD@FILE needs a file".into());
+    }
+    Ok(SourceSpec::Zenoh { place: place.parse()?, config: config.map(PathBuf::from) })
+}
+
 impl fmt::Display for SourceSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -131,6 +149,10 @@ impl fmt::Display for SourceSpec {
             SourceSpec::Sim(scene) => write!(f, "sim:{scene}"),
             SourceSpec::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
             SourceSpec::Tcp(address) => write!(f, "tcp:{address}"),
+            SourceSpec::Zenoh { place, config } => {
+                let config = config.as_ref().map_or(String::new(), |file| format!("@{}", file.display()));
+                write!(f, "zenoh:{place}{config}")
+            }
             SourceSpec::Emulator(scene) => write!(f, "emulator:{scene}"),
             SourceSpec::File(path) => write!(f, "file:{}", path.display()),
             SourceSpec::Replay { path, board, speed } => {
@@ -153,6 +175,8 @@ mod tests {
             "sim:pat",
             "serial:/dev/ttyACM0@115200",
             "tcp:[::1]:80",
+            "zenoh:arm/left",
+            "zenoh:arm/left@a/b@c.json5",
             "file:a b",
             "sim:x/y.toml",
             "replay:a@b.mcap",
@@ -179,6 +203,10 @@ mod tests {
             "tcp:a",
             "tcp:a:99999",
             "tcp::1",
+            "zenoh",
+            "zenoh:arm",
+            "zenoh:arm/left/2",
+            "zenoh:arm/left@",
             "file",
             "usb:",
             "replay:",

@@ -5,7 +5,7 @@
 use fastrand::Rng;
 use taxel::client::{Client, Event};
 use taxel_core::format::Micros;
-use taxel_core::wire::{Report, SyncReport, encode};
+use taxel_core::wire::{RegionNames, Report, SyncReport, encode};
 
 /// Messages per batch.
 const BATCH: usize = 64;
@@ -186,4 +186,23 @@ fn nothing_wrong_is_delivered_and_every_loss_is_counted() {
             link.outcome.touched, link.outcome.lost
         );
     }
+}
+
+#[test]
+fn messages_that_belong_to_the_next_one_are_there_with_it() {
+    let sync = |token| Report::Sync(SyncReport { token, received: Micros(1), sent: Micros(2) });
+    let names = || Report::RegionNames(RegionNames { names: Default::default() });
+    let reports = [sync(1), names(), names(), sync(2), sync(3)];
+    let (mut client, mut told) = (Client::new(), Vec::new());
+    let mut frames = Vec::new();
+    for (seq, report) in reports.iter().enumerate() {
+        let frame = encode(&(seq as u32, report), &mut [0; 64]).unwrap().to_vec();
+        for byte in &frame {
+            if client.push(*byte).is_some() {
+                told.push([client.unheard(), client.line()].concat());
+            }
+        }
+        frames.push(frame);
+    }
+    assert_eq!(told, [frames[0].clone(), frames[1..4].concat(), frames[4].clone()]);
 }

@@ -23,7 +23,8 @@ use taxel_core::wire::Request;
 /// Arguments of `taxel health`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HealthArgs {
-    /// `auto`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `file:FILE` or `replay:FILE`
+    /// `auto`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `file:FILE` or
+    /// `replay:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Images to wait for; each of 2,048 taxels is judged once in 90 frames. Touch the garment meanwhile to

@@ -32,7 +32,7 @@ pub struct FitArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..=100))]
     pick: Option<u16>,
     /// The board that feels the touches of the marks: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
-    /// `sim[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
+    /// `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto", conflicts_with = "touches")]
     source: SourceSpec,
     /// The body file to write, which says how each panel is worn; - for the standard output

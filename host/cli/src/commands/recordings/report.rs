@@ -23,7 +23,7 @@ pub struct ReportArgs {
     #[arg(conflicts_with = "source")]
     pub file: Option<PathBuf>,
     /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
-    /// `emulator[:TOUCHES]` or `file:FILE`
+    /// `zenoh:ROBOT/BOARD`, `emulator[:TOUCHES]` or `file:FILE`
     #[arg(long, value_name = "SOURCE")]
     pub source: Option<SourceSpec>,
     /// Page to write (.html), `-` for standard output

@@ -8,13 +8,19 @@ mod record;
 mod requests;
 #[cfg(feature = "ros2")]
 mod ros2;
+#[cfg(feature = "zenoh")]
+mod serve;
 mod shown;
 mod tellers;
 mod view;
 mod why;
 
+#[cfg(not(all(feature = "ros2", feature = "zenoh")))]
+use crate::commands::not_built;
 #[cfg(not(feature = "ros2"))]
-use crate::commands::not_built::{self, NotBuiltArgs as RobotRos2Args};
+use crate::commands::not_built::NotBuiltArgs as RobotRos2Args;
+#[cfg(not(feature = "zenoh"))]
+use crate::commands::not_built::NotBuiltArgs as RobotServeArgs;
 use anyhow::Result;
 use clap::{Args, Subcommand};
 use doctor::RobotDoctorArgs;
@@ -22,6 +28,8 @@ use live::RobotLiveArgs;
 use record::RobotRecordArgs;
 #[cfg(feature = "ros2")]
 use ros2::RobotRos2Args;
+#[cfg(feature = "zenoh")]
+use serve::RobotServeArgs;
 use std::path::PathBuf;
 use view::RobotViewArgs;
 use why::RobotWhyArgs;
@@ -62,6 +70,10 @@ enum RobotTask {
     #[cfg_attr(not(feature = "ros2"), doc = "(needs a build with `--features ros2`)")]
     #[command(after_help = "Example:\n  taxel robot ros2 robot.toml --domain 7")]
     Ros2(RobotRos2Args),
+    /// Offer all boards to other machines over Zenoh, by the name of the robot and their own
+    #[cfg_attr(not(feature = "zenoh"), doc = "(needs a build with `--features zenoh`)")]
+    #[command(after_help = "Example:\n  taxel robot serve robot.toml --zenoh router.json5")]
+    Serve(RobotServeArgs),
     /// Diagnose all boards: what is wrong, and what to do about it
     #[command(after_help = "Example:\n  taxel robot doctor robot.toml --json")]
     Doctor(RobotDoctorArgs),
@@ -79,6 +91,10 @@ pub fn run(args: &RobotArgs) -> Result<()> {
         RobotTask::Ros2(args) => ros2::run(args),
         #[cfg(not(feature = "ros2"))]
         RobotTask::Ros2(args) => not_built::robot_ros2(args),
+        #[cfg(feature = "zenoh")]
+        RobotTask::Serve(args) => serve::run(args),
+        #[cfg(not(feature = "zenoh"))]
+        RobotTask::Serve(args) => not_built::robot_serve(args),
         RobotTask::Doctor(args) => doctor::run(args),
     }
 }

@@ -96,7 +96,7 @@ const MISTAKES: [(&str, &str, &str); 31] = [
     (
         "sim:pat",
         "sum:pat",
-        "robot.toml, line 6, `boards[0].source`: board torso: there is no source \"sum:pat\": known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]",
+        "robot.toml, line 6, `boards[0].source`: board torso: there is no source \"sum:pat\": known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]",
     ),
     (
         "sim:pat",

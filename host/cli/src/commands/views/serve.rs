@@ -1,0 +1,54 @@
+//! `taxel serve`: offers a board to other machines over Zenoh.
+
+use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, seconds, stop};
+use anyhow::Result;
+use clap::Args;
+use std::path::PathBuf;
+use taxel::network::{self, BoardPlace, NetworkEnd};
+use taxel::offer::BoardOffer;
+use taxel::source::SourceOptions;
+
+/// Arguments of `taxel serve`.
+#[derive(Debug, Clone, Args)]
+pub struct ServeArgs {
+    /// The board.
+    #[command(flatten)]
+    pub board: BoardArgs,
+    /// Name of the robot and of its board: others follow it as zenoh:ROBOT/BOARD
+    #[arg(long, value_name = "ROBOT/BOARD", default_value = "robot/board")]
+    pub name: BoardPlace,
+    /// The network.
+    #[command(flatten)]
+    pub network: NetworkArgs,
+    /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub seconds: Option<f64>,
+    /// Also save the bytes of the board, for --source file:FILE
+    #[arg(long, value_name = "FILE")]
+    pub save: Option<PathBuf>,
+    /// Whether an existing file is replaced.
+    #[command(flatten)]
+    pub force: Overwrite,
+}
+
+/// The network in which boards are offered.
+#[derive(Debug, Clone, Args)]
+pub struct NetworkArgs {
+    /// Zenoh's configuration, JSON5: endpoints, TLS, users, access rules [default: the file that ZENOH_CONFIG
+    /// names, else this machine alone]
+    #[arg(long, value_name = "FILE")]
+    pub zenoh: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(args: ServeArgs) -> Result<()> {
+    let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
+    let network = network::open(NetworkEnd::Offer, args.network.zenoh.as_deref())?;
+    let mut offer = BoardOffer::open(&network, &args.name)?;
+    let (source, _) = args.board.open(options)?;
+    // Others learn at once that the board is no longer offered.
+    stop::catch()?;
+    println!("{} as zenoh:{} (Ctrl-C ends)", source.label, args.name);
+    let ServeArgs { board, seconds, save, force, .. } = args;
+    watch::watch(&LiveArgs { seconds, save, force, ..LiveArgs::on(board) }, source, &mut offer)
+}

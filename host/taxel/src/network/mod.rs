@@ -1,0 +1,29 @@
+//! Boards between machines, over Zenoh: names of the keys, how a stream is cut and put together, and how a
+//! session is opened. The feature `zenoh` builds the last one; everything else needs no network.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `place.rs` | [`BoardPlace`]: the name of a board, and its keys |
+//! | `cut.rs` | [`FrameCutter`]: cuts a board's bytes into whole frames, and tells images apart |
+//! | `piece.rs` | [`WirePiece`]: a frame on its way, and the stamp that says where it belongs |
+//! | `order.rs` | [`PieceOrder`]: puts contacts and images back into the board's order |
+//! | `config.rs` | Zenoh's configuration, of which nothing listens to other machines unless it says so |
+//!
+//! A board's bytes go through unchanged: a frame of the wire is one sample. What was lost between two machines is
+//! missing from the board's own numbers, and the [`Client`](crate::client::Client) counts it like any other loss.
+
+#[cfg(feature = "zenoh")]
+mod config;
+mod cut;
+mod order;
+mod piece;
+mod place;
+
+#[cfg(feature = "zenoh")]
+pub(crate) use config::said;
+#[cfg(feature = "zenoh")]
+pub use config::{NetworkEnd, open};
+pub use cut::FrameCutter;
+pub use order::{PATIENCE, PieceOrder};
+pub use piece::{PieceKind, PieceStamp, WirePiece};
+pub use place::BoardPlace;

@@ -1,0 +1,253 @@
+//! Publishes what a board says.
+
+use super::asks::Asks;
+use super::state::OfferState;
+use crate::client::{Client, Event};
+use crate::error::{Error, Result, SourceError, UsageError};
+use crate::json;
+use crate::network::{self, BoardPlace, FrameCutter, PieceKind, PieceStamp};
+use crate::session::Show;
+use crate::tell::verbose;
+use serde::Serialize;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+use taxel_core::wire::Level;
+use zenoh::liveliness::LivelinessToken;
+use zenoh::pubsub::{Publisher, Subscriber};
+use zenoh::qos::{CongestionControl, Priority};
+use zenoh::query::Queryable;
+use zenoh::sample::SampleKind;
+use zenoh::{Session, Wait};
+
+/// Time in which another program that offers the board makes itself known.
+const RIVALS: Duration = Duration::from_secs(1);
+
+/// An offered board: a receiver of its stream.
+pub struct BoardOffer {
+    place: BoardPlace,
+    session: Session,
+    cutter: FrameCutter,
+    stamp: PieceStamp,
+    main: Wire,
+    images: Wire,
+    state_key: Publisher<'static>,
+    health_key: Publisher<'static>,
+    state: OfferState,
+    /// The state as JSON, for whoever asks.
+    told: Arc<Mutex<String>>,
+    asks: Arc<Asks>,
+    /// There while the board is.
+    token: Option<LivelinessToken>,
+    /// Why something could not be published.
+    failed: Option<Error>,
+    _queryables: [Queryable<()>; 2],
+    _rivals: Subscriber<()>,
+}
+
+/// A way of frames.
+struct Wire {
+    publisher: Publisher<'static>,
+    /// Somebody listens.
+    is_watched: Arc<AtomicBool>,
+}
+
+impl Wire {
+    fn open(session: &Session, key: String, kind: PieceKind) -> zenoh::Result<Wire> {
+        let (control, priority) = match kind {
+            PieceKind::Main => (CongestionControl::Block, Priority::InteractiveHigh),
+            PieceKind::Image => (CongestionControl::Drop, Priority::DataLow),
+        };
+        let publisher = session.declare_publisher(key).congestion_control(control).priority(priority);
+        let publisher = publisher.express(kind == PieceKind::Main).wait()?;
+        let is_watched = Arc::new(AtomicBool::new(publisher.matching_status().wait()?.matching()));
+        let told = is_watched.clone();
+        let listener = publisher.matching_listener();
+        listener
+            .callback(move |status| told.store(status.matching(), Ordering::Relaxed))
+            .background()
+            .wait()?;
+        Ok(Wire { publisher, is_watched })
+    }
+}
+
+impl BoardOffer {
+    /// Offers a board by its name. Error if another program offers it already.
+    pub fn open(session: &Session, place: &BoardPlace) -> Result<BoardOffer> {
+        refuse_second(session, place)?;
+        let publisher = fastrand::u64(..);
+        let state = OfferState::new(place, publisher);
+        BoardOffer::declare(session, place, publisher, state)
+            .map_err(|why| error!(SourceError::NoBoard, "{place} cannot be offered: {}", network::said(&why)))
+    }
+
+    fn declare(
+        session: &Session,
+        place: &BoardPlace,
+        publisher: u64,
+        state: OfferState,
+    ) -> zenoh::Result<BoardOffer> {
+        let (asks, told) = (Arc::new(Asks::default()), Arc::new(Mutex::new(line(&state))));
+        let taken = asks.clone();
+        let queries =
+            session.declare_queryable(place.ask(publisher)).callback(move |query| taken.push(query));
+        let (kept, key) = (told.clone(), place.state());
+        let states = session.declare_queryable(place.state()).callback(move |query| {
+            let line = kept.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            drop(query.reply(&key, line).wait());
+        });
+        let shown = place.clone();
+        let rivals = session.liveliness().declare_subscriber(place.all_alive()).callback(move |sample| {
+            let id = BoardPlace::publisher(sample.key_expr().as_str());
+            if sample.kind() == SampleKind::Put && id.is_some_and(|id| id != publisher) {
+                eprintln!(
+                    "{shown} is offered by another program, too ({:016x}): whoever follows it stays with the one \
+                     that it has.",
+                    id.unwrap_or_default()
+                );
+            }
+        });
+        let plain = |key: String| session.declare_publisher(key).priority(Priority::DataHigh).wait();
+        Ok(BoardOffer {
+            place: place.clone(),
+            session: session.clone(),
+            cutter: FrameCutter::default(),
+            stamp: PieceStamp { publisher, main: 0, images: 0 },
+            main: Wire::open(session, place.main(), PieceKind::Main)?,
+            images: Wire::open(session, place.images(), PieceKind::Image)?,
+            state_key: plain(place.state())?,
+            health_key: plain(place.health())?,
+            state,
+            told,
+            asks,
+            token: None,
+            failed: None,
+            _queryables: [queries.wait()?, states.wait()?],
+            _rivals: rivals.wait()?,
+        })
+    }
+
+    /// Who offers the board: what the keys of requests and of signs of life end with.
+    pub fn publisher(&self) -> u64 {
+        self.stamp.publisher
+    }
+
+    /// Publishes frames; images only if somebody listens.
+    fn publish(&mut self, bytes: &[u8]) {
+        let BoardOffer { cutter, stamp, main, images, failed, .. } = self;
+        cutter.push(bytes, |kind, frame| {
+            let wire = match kind {
+                PieceKind::Main => &*main,
+                PieceKind::Image => &*images,
+            };
+            if kind == PieceKind::Image && !wire.is_watched.load(Ordering::Relaxed) {
+                return;
+            }
+            *stamp = stamp.next(kind);
+            let put = wire.publisher.put(frame).attachment(stamp.to_bytes().as_slice()).wait();
+            put.unwrap_or_else(|why| *failed = Some(of_zenoh(&why)));
+        });
+    }
+
+    /// The board is there: says so, and what it is.
+    fn meet(&mut self, client: &Client) -> zenoh::Result<()> {
+        let Some(worn) = client.worn() else { return Ok(()) };
+        self.state.meet(worn);
+        self.tell_state()?;
+        if self.token.is_none() {
+            let token = self.session.liveliness().declare_token(self.place.alive(self.publisher()));
+            self.token = Some(token.wait()?);
+            verbose::tell(format_args!("{} is offered as {:016x}", self.place, self.publisher()));
+        }
+        Ok(())
+    }
+
+    /// The board is lost, or the stream has ended.
+    fn part(&mut self) -> zenoh::Result<()> {
+        self.cutter.reset();
+        self.state.live = false;
+        self.tell_state()?;
+        self.token.take().map_or(Ok(()), |token| token.undeclare().wait())
+    }
+
+    fn tell_state(&mut self) -> zenoh::Result<()> {
+        let line = line(&self.state);
+        self.told.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&line);
+        self.state_key.put(line).wait()
+    }
+
+    /// Handles what may fail.
+    fn done(&mut self, done: zenoh::Result<()>) -> Result<()> {
+        done.map_err(|why| of_zenoh(&why))?;
+        self.failed.take().map_or(Ok(()), Err)
+    }
+}
+
+impl<E: From<Error>> Show<E> for BoardOffer {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.publish(bytes);
+    }
+
+    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
+        let done = match event {
+            Event::Hello => self.meet(client),
+            Event::Health(_) => match json::line(client, event).map(|told| line(&told)) {
+                Some(told) => self.health_key.put(told).wait(),
+                None => Ok(()),
+            },
+            _ => Ok(()),
+        };
+        Ok(self.done(done)?)
+    }
+
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<(), E> {
+        let done = match note {
+            Event::Log { level: Level::Error, text, .. } => {
+                eprintln!("{text}");
+                self.part()
+            }
+            Event::Log { text, .. } => {
+                eprintln!("{text}");
+                self.meet(client)
+            }
+            _ => Ok(()),
+        };
+        Ok(self.done(done)?)
+    }
+
+    fn idle(&mut self, client: &mut Client) -> Result<bool, E> {
+        self.asks.hand_over(client, self.token.is_some());
+        self.done(Ok(()))?;
+        Ok(true)
+    }
+
+    fn end(&mut self, _: &Client) -> Result<(), E> {
+        let parted = self.part();
+        Ok(self.done(parted)?)
+    }
+}
+
+/// Error if a board is offered by somebody.
+fn refuse_second(session: &Session, place: &BoardPlace) -> Result<()> {
+    let known = session.liveliness().get(place.all_alive()).timeout(RIVALS).wait();
+    let known = known.map_err(|why| of_zenoh(&why))?;
+    while let Ok(reply) = known.recv() {
+        let Ok(sample) = reply.result() else { continue };
+        if let Some(id) = BoardPlace::publisher(sample.key_expr().as_str()) {
+            fail!(
+                UsageError::Argument,
+                "{place} is offered by another program ({id:016x}): give another name"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// JSON in one line.
+fn line(told: &impl Serialize) -> String {
+    serde_json::to_string(told).unwrap_or_default()
+}
+
+fn of_zenoh(why: &zenoh::Error) -> Error {
+    SourceError::NoBoard(network::said(why)).into()
+}

@@ -1,0 +1,56 @@
+//! What an offered board is, as JSON for other programs.
+
+use crate::client::Worn;
+use crate::network::BoardPlace;
+use serde::Serialize;
+
+/// State of an offered board.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OfferState {
+    /// Name of the robot.
+    pub robot: String,
+    /// Name of the board.
+    pub board: String,
+    /// Who offers it: 16 hexadecimal digits, as in the keys of requests.
+    pub publisher: String,
+    /// True while the board is there.
+    pub live: bool,
+    /// Name of the firmware.
+    pub firmware: String,
+    /// Name of the garment that it wears.
+    pub garment: String,
+    /// Number of taxels of the garment.
+    pub taxels: usize,
+    /// Name of the scene in force.
+    pub scene: String,
+    /// Calibration in force; empty if pressure is in counts.
+    pub calibration: String,
+}
+
+impl OfferState {
+    /// Of a board that is not known yet.
+    pub fn new(place: &BoardPlace, publisher: u64) -> OfferState {
+        let empty = String::new;
+        OfferState {
+            robot: place.robot().into(),
+            board: place.board().into(),
+            publisher: format!("{publisher:016x}"),
+            live: false,
+            firmware: empty(),
+            garment: empty(),
+            taxels: 0,
+            scene: empty(),
+            calibration: empty(),
+        }
+    }
+
+    /// The board is there, and is this.
+    pub fn meet(&mut self, worn: &Worn) {
+        self.live = true;
+        self.firmware.clone_from(&worn.firmware);
+        self.garment = worn.garment.name.to_string();
+        self.taxels = worn.layout.taxels();
+        self.scene = worn.scene.name.to_string();
+        self.calibration.clone_from(&worn.calibration);
+    }
+}

@@ -1,0 +1,54 @@
+//! `cargo xtask campaign --only zenoh`: boards between machines (`tests/zenoh`), on network namespaces, with routers
+//! by Zenoh's own Python package. No check compiles Zenoh; this does.
+
+use crate::cargo::cargo;
+use crate::end::End;
+use crate::{install, paths, process};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Programs that make machines of namespaces, and what they are for.
+const TOOLS: [(&str, &str); 2] = [("ip", "network namespaces"), ("nft", "loss of packets")];
+
+/// Beginnings of the names of variables that cargo sets for what it runs.
+const TOLD: [&str; 2] = ["CARGO_MANIFEST_", "CARGO_PKG_"];
+
+/// Tests library and program with Zenoh, and runs the cases. Returns what they print. Not run without
+/// the tools, or if the user may make no machines.
+pub fn campaign(log: &Path) -> End<Vec<String>> {
+    let is_there = |tool: &str| process::output(Command::new(tool).arg("-V")).is_some();
+    if let Some((tool, what)) = TOOLS.into_iter().find(|(tool, _)| !is_there(tool)) {
+        return Err(format!("there is no {tool}, for {what}"));
+    }
+    if process::output(Command::new("id").arg("-u")).as_deref() != Some("0") {
+        return Err("only root may make network namespaces".into());
+    }
+    install::python3("python3")?;
+    let folder = paths::target().join("xtask/zenoh");
+    let python = install::python_in("python3", &folder, &cases().join("requirements.txt"))?;
+    Ok(tested(log).and_then(|program| run(&python, &program, log)))
+}
+
+/// Runs the tests with Zenoh; returns the program that they are of.
+fn tested(log: &Path) -> Result<PathBuf, String> {
+    let test = ["test", "--package", "taxel", "--package", "taxel-cli", "--features", "full,zenoh"];
+    let mut cargo = cargo(&[&test[..], &["--test", "zenoh"]].concat(), paths::root());
+    // What cargo tells this program of itself: `ring` would be built anew for it, and all that is above.
+    let told = std::env::vars_os().map(|(name, _)| name);
+    let told = told.filter(|name| name.to_str().is_some_and(|name| TOLD.iter().any(|t| name.starts_with(t))));
+    told.for_each(|name| _ = cargo.env_remove(name));
+    process::run_into(&mut cargo, log)?;
+    Ok(paths::target().join("debug/taxel"))
+}
+
+fn run(python: &Path, program: &Path, log: &Path) -> Result<Vec<String>, String> {
+    let before = std::fs::read_to_string(log).unwrap_or_default().len();
+    process::run_into(Command::new(python).arg(cases().join("campaign.py")).arg(program), log)?;
+    let said = std::fs::read_to_string(log).unwrap_or_default();
+    Ok(said.get(before..).unwrap_or_default().lines().map(String::from).collect())
+}
+
+/// The cases.
+fn cases() -> PathBuf {
+    paths::root().join("tests/zenoh")
+}
