@@ -64,7 +64,7 @@ impl<S: Store> Copy<S> {
             self.chunk_us = stamp.board_us;
             self.file.close()?;
         }
-        self.file.wire(stamp, self.client.line())?;
+        self.client.lines().try_for_each(|line| self.file.wire(stamp, line))?;
         Ok(self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)?)
     }
 

@@ -25,10 +25,11 @@ impl Client {
         &self.line
     }
 
-    /// Bytes of the messages before the last one that have brought no event, because they belong to it; valid as
-    /// [`Client::line`] is.
-    pub fn unheard(&self) -> &[u8] {
-        &self.unheard
+    /// Bytes of the messages of the last event, each with its 0x00: those before the last one that have brought no
+    /// event, because they belong to it, and [`Client::line`]; valid as that is.
+    pub fn lines(&self) -> impl Iterator<Item = &[u8]> {
+        let before = self.unheard.split_inclusive(|byte| *byte == 0).filter(|line| line.len() > 1);
+        before.chain(std::iter::once(self.line()))
     }
 
     /// Garment, scene and firmware; none before the first `Hello`.

@@ -28,9 +28,9 @@ pub struct Encoded {
 }
 
 impl Encoded {
-    /// The frame of the wire that the client has read last.
-    pub fn frame(client: &Client, stamp: Stamp) -> Encoded {
-        Encoded { topic: RecordTopic::Wire, stamp, bytes: client.line().to_vec() }
+    /// The frames of the wire of the client's last event.
+    pub fn frames(client: &Client, stamp: Stamp) -> impl Iterator<Item = Encoded> {
+        client.lines().map(move |line| Encoded { topic: RecordTopic::Wire, stamp, bytes: line.to_vec() })
     }
 
     /// An event as JSON; none if it is only on the wire.

@@ -165,7 +165,7 @@ impl Recorder {
             self.chunk_us = stamp.board_us;
             file.close()?;
         }
-        file.wire(stamp, client.line())?;
+        client.lines().try_for_each(|line| file.wire(stamp, line))?;
         file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
@@ -193,7 +193,7 @@ impl Recorder {
         if let Some(worn) = &self.worn {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
         }
-        for bytes in self.standing.frames(recording::sequence(client.line())?)? {
+        for bytes in self.standing.frames(recording::sequence(client.lines().next().unwrap_or_default())?)? {
             file.wire(stamp, &bytes)?;
         }
         Ok(())

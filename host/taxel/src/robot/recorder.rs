@@ -75,7 +75,7 @@ impl Teller<BoardRecord> for RecordTeller {
     }
 
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let mut messages = vec![Encoded::frame(client, stamp)];
+        let mut messages: Vec<Encoded> = Encoded::frames(client, stamp).collect();
         messages.extend(Encoded::event(client, event, stamp)?);
         let mut described = None;
         if *event == Event::Hello && client.worn() != self.worn.as_ref() {

@@ -199,7 +199,7 @@ fn messages_that_belong_to_the_next_one_are_there_with_it() {
         let frame = encode(&(seq as u32, report), &mut [0; 64]).unwrap().to_vec();
         for byte in &frame {
             if client.push(*byte).is_some() {
-                told.push([client.unheard(), client.line()].concat());
+                told.push(client.lines().collect::<Vec<_>>().concat());
             }
         }
         frames.push(frame);

@@ -48,8 +48,7 @@ impl<S: Show<anyhow::Error> + Send> Teller<BoardHeard> for ShownTeller<S> {
 
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardHeard>> {
         if let Some(show) = self.show()? {
-            show.bytes(client.unheard());
-            show.bytes(client.line());
+            client.lines().for_each(|line| show.bytes(line));
             show.event(client, event).map_err(Error::other)?;
         }
         let heard = self.reader.read(client, event);

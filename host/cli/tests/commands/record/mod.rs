@@ -1,6 +1,7 @@
 //! `taxel record`, `replay`, `export` and `report` through the library: nothing that a board sends is lost or
 //! changed.
 
+mod belonging;
 mod calibrated;
 mod exports;
 mod lerobot;

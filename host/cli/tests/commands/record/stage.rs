@@ -20,7 +20,7 @@ pub struct Seen {
 
 impl Show<anyhow::Error> for Seen {
     fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
-        self.wire.extend_from_slice(client.line());
+        client.lines().for_each(|line| self.wire.extend_from_slice(line));
         match event {
             Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
                 self.frames.push((*frame, time.0, client.image().unwrap().1.to_vec()));
