@@ -94,8 +94,8 @@ impl<'a> RobotNode<'a> {
         self.node.publish(&ROBOT_CONTACTS, "", robot_contacts_message(self.robot, host_us, &joined))
     }
 
-    /// Tells mind and boards what has come, and the mind that time passes, if no board says anything. Publishes what touches mean then if that is news, and the diagnostics of boards that are not there, if
-    /// they are due.
+    /// Tells mind and boards what has come, and the mind that time passes, if no board says anything. Publishes
+    /// what touches mean then if that is news, and the diagnostics of boards that are not there, if they are due.
     pub fn turn(&mut self, session: &RobotSession<BoardHeard>, is_quiet: bool) -> Result<()> {
         let now_us = session.now_us();
         let mut news = self.taken.turn(&self.node, self.robot, &mut self.mind, session);
