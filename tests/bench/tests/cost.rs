@@ -12,7 +12,9 @@ fn costs_are_printed() {
     assert!(cost.frames > 400 && (5000.0..5300.0).contains(&cost.period), "{cost:?}");
     let rows = cost.json()["rows"].as_array().unwrap().clone();
     assert!(rows.iter().all(|row| cost.table().contains(row[0].as_str().unwrap())));
-    assert!(cost.perceived > 0.0 && cost.replayed > 0.0, "{cost:?}");
+    assert!(cost.perceived.elapsed > 0.0 && cost.replayed.elapsed > 0.0, "{cost:?}");
+    let told = std::fs::exists("/proc/thread-self/schedstat").unwrap();
+    assert_eq!(cost.recorded.cpu.is_some_and(|us| us > 0.0), told, "{cost:?}");
     println!("{}", cost.table());
 }
 
