@@ -101,8 +101,8 @@ test("an image keeps the posture in which it was taken", async () => {
   // The links stand straight again before the images do: one that is under way is of the posture before.
   await browser.until("taxel.store.shown().head.poses.links.torso.turn[2] === 0");
   await pauseAtTouch(browser, 1000);
-  const turn = () => browser.value(`taxel.views.body.scene(taxel.store, taxel.store.garment, taxel.store.shown(),
-    taxel.settings, taxel.store.states.body).poses.torso.turn[2]`);
+  const turn = () => browser.value(`taxel.views.body.parts(taxel.store, taxel.store.garment, taxel.store.shown(),
+    taxel.settings)[0].poses.torso.turn[2]`);
   assert.equal(await turn(), 0);
   view.tell('{"positions": {"waist": 0.5235987755982988}}');
   await browser.until("taxel.store.states.poses.links.torso.turn[2] > 0.2");

@@ -6,6 +6,10 @@ use taxel_bench::stages::case::Variant;
 use taxel_bench::stages::format::INFERENCE;
 use taxel_bench::stages::row::Row;
 use taxel_bench::stages::table::Table;
+use taxel_core::fold::FOLDED;
+use taxel_core::pipeline::Stage;
+use taxel_suite::chain::PERIOD_US;
+use taxel_suite::pattern::TouchPattern;
 
 /// What a scene or a kernel may cost, in cycles.
 struct Bar {
@@ -73,6 +77,17 @@ fn reading(table: &Table) -> u64 {
     table.forms.first().map_or(1, |row| row.cost.max(1))
 }
 
+/// What a change of posture costs, cycles for each taxel that folds: all that a bending arm adds to an empty
+/// frame, by the taxels that are renewed in it. All of them are in 20 ms.
+fn bending(table: &Table) -> Option<u64> {
+    let condition = |variant| {
+        let mut rows = table.rows.iter().filter(|row| row.name == TouchPattern::Empty.name());
+        Some(rows.find(|row| row.variant == variant)?.stage(Stage::Condition))
+    };
+    let more = condition(Variant::Bending)?.saturating_sub(condition(Variant::Shipped)?);
+    Some(more * 20_000 / (FOLDED as u64 * PERIOD_US))
+}
+
 /// The bars for people, each beside the cost of merely reading each taxel.
 pub fn text(table: &Table) -> String {
     let line = |(bar, cost): (&Bar, u64)| {
@@ -84,7 +99,12 @@ pub fn text(table: &Table) -> String {
         )
     };
     let stack = table.rows.iter().filter_map(|row| row.stack).max().unwrap_or(0);
-    bars(table).map(line).collect::<String>() + &format!("deepest stack of a frame: {stack} bytes\n")
+    let posture = bending(table).map(|cycles| {
+        format!("bending: {cycles} cycles a change of posture and taxel that folds, comparisons included\n")
+    });
+    bars(table).map(line).collect::<String>()
+        + &posture.unwrap_or_default()
+        + &format!("deepest stack of a frame: {stack} bytes\n")
 }
 
 /// For other programs.

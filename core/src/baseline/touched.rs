@@ -24,26 +24,31 @@ impl Touched {
             let [left, top] = [rect.left, rect.top].map(|first| first.saturating_sub(beside));
             let right = rect.right.saturating_add(beside + 1).min(area.columns);
             let bottom = rect.bottom.saturating_add(beside + 1).min(area.rows);
-            for row in top..bottom {
-                let first = usize::from(area.base) + usize::from(row) * usize::from(area.columns);
-                touched.mark(first + usize::from(left), right.saturating_sub(left));
+            let columns = usize::from(area.columns);
+            let mut corner = usize::from(area.base) + usize::from(top) * columns + usize::from(left);
+            let mut count = right.saturating_sub(left);
+            // As many columns at a time as a word has bits.
+            while count > 0 {
+                let bits = u32::MAX >> 32u16.saturating_sub(count);
+                let mut first = corner;
+                for _ in top..bottom {
+                    touched.mark(first, bits);
+                    first += columns;
+                }
+                (corner, count) = (corner + 32, count.saturating_sub(32));
             }
         }
         touched
     }
 
-    /// Marks `count` taxels from `first` on.
-    fn mark(&mut self, mut first: usize, mut count: u16) {
-        while count > 0 {
-            let bits = u32::MAX >> 32u16.saturating_sub(count);
-            let (word, bit) = (first / 32, first % 32);
-            if let Some([word, next]) = self.taxels.get_mut(word..).and_then(|words| words.first_chunk_mut())
-            {
-                *word |= bits << bit;
-                // In two steps: by 32 nothing can be shifted.
-                *next |= bits >> 1 >> (31 - bit);
-            }
-            (first, count) = (first + 32, count.saturating_sub(32));
+    /// Marks taxels from `first` on, by bits.
+    #[inline(always)]
+    fn mark(&mut self, first: usize, bits: u32) {
+        let (word, bit) = (first / 32, first % 32);
+        if let Some([word, next]) = self.taxels.get_mut(word..).and_then(|words| words.first_chunk_mut()) {
+            *word |= bits << bit;
+            // In two steps: by 32 nothing can be shifted.
+            *next |= bits >> 1 >> (31 - bit);
         }
     }
 

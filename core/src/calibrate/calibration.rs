@@ -85,20 +85,37 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
 
     /// Sets the limits of taxels on which so many counts press that are no touch; other numbers than those of
     /// taxels are left out.
+    pub fn set_levels(&mut self, taxels: &[[u16; 4]], levels: &[[u16; 4]], terms: LimitTerms) {
+        if terms.is_falling() {
+            self.set_levels_of::<true>(taxels, levels, terms);
+        } else {
+            self.set_levels_of::<false>(taxels, levels, terms);
+        }
+    }
+
+    /// [`TaxelCalibration::set_levels`] in one direction.
     #[inline(never)] // own registers
-    pub fn set_levels(&mut self, taxels: &[u16; 4], levels: &[u16; 4], terms: LimitTerms) {
+    fn set_levels_of<const FALLING: bool>(
+        &mut self,
+        taxels: &[[u16; 4]],
+        levels: &[[u16; 4]],
+        terms: LimitTerms,
+    ) {
         let of_unity = u32::from(terms.margin_of_unity());
-        for (taxel, level) in taxels.iter().zip(levels) {
+        for (taxel, level) in taxels.as_flattened().iter().zip(levels.as_flattened()) {
             let taxel = usize::from(*taxel);
             let calibration =
                 self.baseline.get(taxel).zip(self.gain.get(taxel)).zip(self.limit.get_mut(taxel));
             let Some(((rest, gain), limit)) = calibration else { continue };
-            let margin = match *gain {
+            *limit = match *gain {
                 // The same, without a division.
-                UNITY => (of_unity + u32::from(*level)).min(0xFFFF) as u16,
-                gain => terms.beyond(*level).margin(gain),
+                UNITY => {
+                    let (rest, margin) = (u32::from(*rest), of_unity + u32::from(*level));
+                    let limit = if FALLING { rest.saturating_sub(margin) } else { rest + margin };
+                    u16::try_from(limit).unwrap_or(u16::MAX)
+                }
+                gain => terms.limit(*rest, terms.beyond(*level).margin(gain)),
             };
-            *limit = terms.limit(*rest, margin);
         }
     }
 

@@ -27,7 +27,8 @@ impl LimitTerms {
         LimitTerms { floor: self.floor.saturating_add(level), ..*self }
     }
 
-    fn is_falling(&self) -> bool {
+    /// True if pressure lowers the code.
+    pub fn is_falling(&self) -> bool {
         self.direction == Direction::Falling
     }
 

@@ -67,7 +67,7 @@ impl Condition {
                     sampled.now,
                     renewed,
                     |taxels| touched.bytes(taxels),
-                    |taxels, levels| calibration.set_levels(taxels, &levels, terms),
+                    |taxels, levels| calibration.set_levels(taxels, levels, terms),
                 );
             }
             self.perceive(calibration, images, points, folds, layout, sampled);
@@ -135,10 +135,12 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     feedback: &Feedback<CONTACTS>,
 ) {
     let touched = Touched::of(layout, feedback, BESIDE);
+    let is_on = |panel| sampled.panels >> panel & 1 == 1;
+    let all_read = (0..layout.areas().len()).all(is_on);
     folds.learn(|taxel| {
         let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
         // M0+: the place needs a division.
-        let is_read = || layout.place(taxel).is_some_and(|place| sampled.panels >> place.panel & 1 == 1);
+        let is_read = || all_read || layout.place(taxel).is_some_and(|place| is_on(place.panel.into()));
         let code = sampled.codes.get(taxel).filter(|_| is_quiet && is_read())?;
         Some(calibration.pressure(taxel, *code, sampled.falling))
     });

@@ -45,15 +45,22 @@ impl LaneSums {
     /// Each sum divided by [`WHOLE`], less `less` (at most 128), within 0 and 255.
     #[inline(always)]
     pub fn bytes(self, less: u32) -> u32 {
-        let within = |sums: u32| {
-            let sums = sums >> SHIFT & (ONE * 0x1FF);
-            // The highest bit of a sum stays as long as the sum is not less.
-            let rest = (sums | ONE << 15).wrapping_sub(ONE * less);
-            let rest = rest & (rest >> 15 & ONE).wrapping_mul(0x7FFF);
-            (rest | (rest >> 8 & ONE).wrapping_mul(0xFF)) & EVEN
-        };
-        within(self.even) | within(self.odd) << 8
+        // The highest bit of a sum stays as long as the sum is not less.
+        let reduced = |sums: u32| (sums >> SHIFT & (ONE * 0x1FF) | ONE << 15).wrapping_sub(ONE * less);
+        let (even, odd) = (reduced(self.even), reduced(self.odd));
+        // Below 0 as above 255, this bit is set.
+        if (even | odd) & ONE << 8 == 0 {
+            return even & EVEN | (odd & EVEN) << 8;
+        }
+        within(even) | within(odd) << 8
     }
+}
+
+/// Differences, which have their highest bit as long as they are not below 0, within 0 and 255.
+#[inline(never)] // seldom
+fn within(rest: u32) -> u32 {
+    let rest = rest & (rest >> 15 & ONE).wrapping_mul(0x7FFF);
+    (rest | (rest >> 8 & ONE).wrapping_mul(0xFF)) & EVEN
 }
 
 /// The highest bit of each byte that is 0.

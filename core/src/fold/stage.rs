@@ -22,7 +22,7 @@ const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0
 /// Joints of a table.
 const KNOWN: usize = if cfg!(feature = "folds") { JOINTS } else { 0 };
 /// Quads that are renewed at once.
-const AT_ONCE: usize = 8;
+const AT_ONCE: usize = 16;
 /// Most days' worth of comparisons at a knot that count: a correction then moves by an eighth.
 const MOST_PASSES: u8 = 7;
 
@@ -143,15 +143,16 @@ impl FoldState {
         self.table().is_some() && taxels.into_iter().any(|taxel| self.holds(taxel))
     }
 
-    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over four at a time, with the
-    /// levels beyond which a touch begins there, counts, or goes on where `touched` has all bits of their bytes.
+    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over some at a time, in fours, with
+    /// the levels beyond which a touch begins there, counts, or goes on where `touched` has all bits of their
+    /// bytes.
     #[inline(never)]
     pub(crate) fn renew(
         &mut self,
         now: Micros,
         whole: bool,
         touched: impl Fn(&[u16; 4]) -> u32,
-        mut set: impl FnMut(&[u16; 4], [u16; 4]),
+        mut set: impl FnMut(&[[u16; 4]], &[[u16; 4]]),
     ) {
         let Some(worn) = self.in_force.first_mut() else { return };
         let Some(table) = worn.table else { return };
@@ -166,6 +167,7 @@ impl FoldState {
         *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
         let unit = u32::from(table.unit());
         let mut at = FoldStart::FIRST;
+        let (mut felt, mut levels) = ([[0; 2]; AT_ONCE], [[0; 4]; AT_ONCE]);
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
                 let joint = self.joints.get(usize::from(joint)).copied().flatten()?;
@@ -181,16 +183,17 @@ impl FoldState {
                 let some = quads.start..quads.end.min(quads.start + AT_ONCE);
                 quads.start = some.end;
                 let own = some.start - at.quad..some.end - at.quad;
-                let mut felt = [[0; 2]; AT_ONCE];
                 if bend.is_known {
                     corners.felt(&self.corrections, own, &mut felt);
                 } else {
                     let most = table.most(fold, &at).and_then(|most| most.get(own)).unwrap_or(&[]);
-                    felt.iter_mut().zip(most).for_each(|([_, doubt], most)| *doubt = *most);
+                    felt.iter_mut().zip(most).for_each(|(felt, most)| *felt = [0, *most]);
                 }
                 let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
                 let before = self.felt.get_mut(some).unwrap_or_default();
-                for ((before, felt), taxels) in before.iter_mut().zip(&felt).zip(taxels) {
+                for (((before, felt), taxels), levels) in
+                    before.iter_mut().zip(&felt).zip(taxels).zip(&mut levels)
+                {
                     let [was, is] = [*before, *felt].map(|[expected, doubt]| zeros(expected | doubt));
                     *before = *felt;
                     if was != is {
@@ -199,8 +202,9 @@ impl FoldState {
                     let [expected, doubt] = *felt;
                     // A touch that is there is in no doubt, unless the posture is unknown.
                     let certain = if bend.is_known { touched(taxels) } else { 0 };
-                    set(taxels, summed(expected, doubt & !certain, unit));
+                    *levels = summed(expected, doubt & !certain, unit);
                 }
+                set(taxels, &levels);
             }
             at = at.after(fold);
         }
@@ -255,15 +259,13 @@ impl FoldState {
             if expected | doubt == 0 {
                 continue;
             }
-            let mut expected = *expected;
-            for taxel in taxels {
+            for (lane, taxel) in taxels.iter().enumerate() {
                 let taxel = usize::from(*taxel);
                 if let Some(value) = values.get_mut(taxel)
                     && *value > 0
                 {
-                    *value = pressure(taxel).saturating_sub((expected as u8 as u16).saturating_mul(unit));
+                    *value = beyond(&pressure, taxel, expected >> (8 * lane), unit);
                 }
-                expected >>= 8;
             }
         }
     }
@@ -389,9 +391,9 @@ impl Corners<'_> {
             add_means(&mut means, corner.of(corrections, &quads), corner.weight);
         }
         let (cells, _) = self.nearest.of(corrections, &quads);
-        for ((felt, (means, new)), [_, spread, days]) in felt.iter_mut().zip(means).zip(cells) {
+        for ((felt, (means, new)), [_, spread, days]) in felt.iter_mut().zip(&means).zip(cells) {
             // The doubt of days is whole where a knot around was not compared yet.
-            let whole = days & whole_bytes(new);
+            let whole = days & whole_bytes(*new);
             let mut doubt = LaneSums::ALMOST;
             doubt.add_both([*spread, whole], WHOLE.into());
             doubt.add(days ^ whole, self.nearest.weight);
@@ -410,6 +412,12 @@ fn add_means(means: &mut [(LaneSums, u32)], (cells, corrections): (&[[u32; 3]], 
         // 128 stands for a correction of 0.
         sums.add_both([*mean, correction | none], weight);
     }
+}
+
+/// What a taxel feels less what is expected of it, the lowest byte of `expected`, units.
+#[inline(never)] // few taxels of a fold press, and the others need the registers
+fn beyond(pressure: impl Fn(usize) -> u16, taxel: usize, expected: u32, unit: u16) -> u16 {
+    pressure(taxel).saturating_sub((expected as u8 as u16).saturating_mul(unit))
 }
 
 /// The fold's quads within a range of the table's.

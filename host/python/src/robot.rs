@@ -130,7 +130,7 @@ impl OpenRobot {
         Ok(())
     }
 
-    /// Tells the mind what others know.
+    /// Tells the mind what others know, and the boards the robot's posture.
     fn tell(&mut self, line: &ToldLine) -> anyhow::Result<()> {
         let mut told =
             Err(argument("the boards are not at one time: open the robot with realtime=True").into());
@@ -140,7 +140,7 @@ impl OpenRobot {
             told = news.map(drop).map_err(anyhow::Error::from);
             is_news
         })?;
-        told
+        told.map(|()| self.session.take_joints(line.from_us(self.session.now_us()), line.joints()))
     }
 
     fn take(&mut self, event: RobotEvent<BoardFact>) -> anyhow::Result<()> {

@@ -31,6 +31,7 @@ const onRobot = told.body && {
   poses: told.poses?.links ?? null,
   panels: garment.panels,
   image: told.image,
+  unknown: null,
   top: told.top,
   pressing: told.pressing,
   folding: told.folding?.taxels ?? [],

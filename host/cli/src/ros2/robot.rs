@@ -6,7 +6,7 @@ use anyhow::Result;
 use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
 use taxel::mind::{BoardHeard, RobotMeaning, RobotMeaningLine, RobotMind, robot_intent_message};
-use taxel::robot::{BoardEvent, ReadRobot, RobotContacts, RobotEvent, robot_contacts_message};
+use taxel::robot::{BoardEvent, ReadRobot, RobotContacts, RobotEvent, RobotSession, robot_contacts_message};
 use taxel::ros2::messages::{self, BoardState};
 use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_CONTACTS, ROBOT_INTENT};
 use taxel::tell::words;
@@ -94,11 +94,11 @@ impl<'a> RobotNode<'a> {
         self.node.publish(&ROBOT_CONTACTS, "", robot_contacts_message(self.robot, host_us, &joined))
     }
 
-    /// Tells the mind what has come, and that it is this time of the host, us, if no board says anything.
-    /// Publishes what touches mean then if that is news, and the diagnostics of boards that are not there, if
-    /// they are due.
-    pub fn turn(&mut self, now_us: u64, is_quiet: bool) -> Result<()> {
-        let mut news = self.taken.turn(&self.node, self.robot, &mut self.mind, now_us);
+    /// Tells mind and boards what has come, and the mind that time passes, if no board says anything. Publishes
+    /// what touches mean then if that is news, and the diagnostics of boards that are not there, if they are due.
+    pub fn turn(&mut self, session: &RobotSession<BoardHeard>, is_quiet: bool) -> Result<()> {
+        let now_us = session.now_us();
+        let mut news = self.taken.turn(&self.node, self.robot, &mut self.mind, session);
         if is_quiet {
             news = self.mind.pass(now_us).cloned().or(news);
         }

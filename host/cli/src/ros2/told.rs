@@ -9,7 +9,7 @@ use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
 use taxel::fcm::robot_source::RobotSource;
 use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
-use taxel::robot::ReadRobot;
+use taxel::robot::{ReadRobot, RobotSession};
 use taxel::ros2::topic_part;
 use taxel::ros2::topics::{JOINT_STATES, TOLD};
 use taxel::session::JointTime;
@@ -43,23 +43,26 @@ impl RobotTold {
         Ok(RobotTold { values, joints, looked: Instant::now(), complained: None })
     }
 
-    /// Tells the mind what has come until now, the host's time, us. Returns what touches mean then, if that is
-    /// news.
-    pub fn turn(
+    /// Tells the mind what has come until now, and the boards the robot's posture. Returns what touches mean
+    /// then, if that is news.
+    pub fn turn<T: Send + 'static>(
         &mut self,
         node: &RosNode,
         robot: &ReadRobot,
         mind: &mut RobotMind,
-        now_us: u64,
+        session: &RobotSession<T>,
     ) -> Option<RobotMeaning> {
         if self.looked.elapsed() < PAUSE {
             return None;
         }
         self.looked = Instant::now();
+        let now_us = session.now_us();
         let (mut news, mut wrong) = (None, None);
         let mut tell = |line: &ToldLine, host_us: u64, topic: &str| match mind.tell(line, host_us) {
-            Ok(None) => {}
-            Ok(meaning) => news = meaning.cloned(),
+            Ok(meaning) => {
+                news = meaning.cloned().or(news.take());
+                session.take_joints(host_us, line.joints());
+            }
             Err(error) => wrong = Some(format!("{topic}: {}", words::sentence(&error))),
         };
         for (name, values) in &mut self.values {

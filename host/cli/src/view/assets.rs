@@ -58,6 +58,8 @@ const FILES: &[(&str, Asset)] = files![
     SCRIPT "on-robot.js",
     SCRIPT "cloth.js",
     SCRIPT "regions.js",
+    SCRIPT "others.js",
+    SCRIPT "whole.js",
     SCRIPT "robot.js",
     SCRIPT "mind.js",
     SCRIPT "orbit.js",

@@ -3,10 +3,11 @@
 use super::hub::PageHub;
 use super::hubs::PageHubs;
 use super::lines::{RobotBoardLine, RobotIntentLine, RobotLine};
+use super::said::Said;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::Result;
-use taxel::mind::{BoardHeard, ROBOT_INTENT, RobotMeaningLine, RobotMind};
+use taxel::mind::{BoardHeard, ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
 use taxel::robot::{
     BoardEvent, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContacts, RobotContactsLine, RobotEvent,
 };
@@ -119,6 +120,19 @@ impl<'a> RobotPages<'a> {
             };
             if !joined.is_empty() {
                 self.news = Some((host_us, joined));
+            }
+        }
+    }
+
+    /// The mind was told this: pages show the robot in its posture.
+    pub fn told(&self, line: &ToldLine) {
+        let positions: Vec<_> = line.joints().map(|(joint, at)| (joint.to_string(), at)).collect();
+        if positions.is_empty() {
+            return;
+        }
+        for hub in &self.hubs {
+            if let Err(error) = hub.joints(&positions) {
+                hub.say(&Said::note(format!("the robot: {error:#}")));
             }
         }
     }

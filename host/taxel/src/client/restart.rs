@@ -20,7 +20,7 @@ impl Client {
         self.syncs.restart();
         self.picture = Default::default();
         (self.life.met, self.life.started, self.life.hellos) = (false, false, 0);
-        self.life.reopened = self.worn.is_some();
+        self.life.reopened = true;
         self.ask_to_start();
     }
 
@@ -93,6 +93,10 @@ impl Client {
                 self.life.lived_on = true;
                 let wishes = self.life.wanted.unproven();
                 self.life.again.begin(wishes);
+            } else if self.worn.is_none() {
+                // It was lost before it had said what it is: it need not have restarted.
+                self.set_again();
+                self.life.lived_on = goes_on;
             } else {
                 self.counts.restarts += 1;
                 self.begun_anew();

@@ -181,7 +181,7 @@ impl RobotMind {
     /// Takes what is told at a time of the host, us. Error, and nothing is taken, if the map hears nothing by
     /// such a name, the robot has no such joint, or a value is out of its range.
     pub fn tell(&mut self, line: &ToldLine, host_us: u64) -> Result<Option<&RobotMeaning>> {
-        let from_us = host_us.saturating_sub(1000 * u64::from(line.age_ms));
+        let from_us = line.from_us(host_us);
         let mut told = Vec::new();
         for (name, value) in &line.told {
             let known = self.inputs.iter().filter_map(|input| match &input.source {
@@ -197,7 +197,7 @@ impl RobotMind {
             let Some(speeds) = self.senses.speeds() else {
                 fail!(UsageError::Argument, "the robot's file names no `urdf`, and so it has no joints");
             };
-            speeds.take(from_us, line.positions.iter().map(|(joint, at)| (joint.as_str(), *at)))?;
+            speeds.take(from_us, line.joints())?;
         }
         told.into_iter().for_each(|(name, value)| self.senses.tell(name, value, from_us));
         Ok(self.pass(host_us))

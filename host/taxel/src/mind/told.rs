@@ -39,6 +39,16 @@ impl ToldLine {
             )
         })
     }
+
+    /// Host time of what is told at a time of the host, us.
+    pub fn from_us(&self, host_us: u64) -> u64 {
+        host_us.saturating_sub(1000 * u64::from(self.age_ms))
+    }
+
+    /// Positions of joints by name, rad or m.
+    pub fn joints(&self) -> impl Iterator<Item = (&str, f64)> + Clone {
+        self.positions.iter().map(|(joint, at)| (joint.as_str(), *at))
+    }
 }
 
 /// What others have told the robot.

@@ -2,11 +2,14 @@
 
 use super::identity::Identity;
 use super::recognise::recognised;
+use crate::body::posture::Motion;
+use crate::body::{self, robot::Robot};
 use crate::client::Client;
 use crate::error::Result;
 use crate::files::calibrate::Calibration;
-use crate::session::setting;
+use crate::session::{POSES_HZ, Posing, setting};
 use crate::source::{self, SceneFile, Source, SourceOptions, SourceSpec};
+use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::wire::Request;
 
@@ -104,5 +107,11 @@ impl RobotBoard {
             client.request(&Request::SetPressing(u16::MAX))?;
         }
         Ok(())
+    }
+
+    /// Who tells it the posture of its robot; none without a body, or if it does not listen.
+    pub fn posing(&self, robot: Arc<Robot>) -> Result<Option<Posing>> {
+        let body = self.body.as_deref().filter(|_| self.listens());
+        body.map(|body| Posing::new(body::read(body)?, robot, Motion::default(), POSES_HZ)).transpose()
     }
 }

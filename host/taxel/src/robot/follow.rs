@@ -25,11 +25,11 @@ const TRY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(1)];
 pub const PATIENCE: Duration = Duration::from_secs(10);
 
 /// What is asked of a board while it is followed.
-pub type Ask = Box<dyn FnOnce(&mut Client) -> Result<()> + Send>;
+pub type Ask = Box<dyn FnOnce(&mut Session) -> Result<()> + Send>;
 /// Opens a board's source for the first time.
 pub type Opener = Box<dyn FnMut() -> Result<Source> + Send>;
-/// Queues the requests with which a board begins.
-pub type Begin = Box<dyn FnOnce(&mut Client, &Source) -> Result<()> + Send>;
+/// Queues the requests with which a board begins, and names its body and its robot.
+pub type Begin = Box<dyn FnOnce(&mut Session) -> Result<()> + Send>;
 
 /// A board to be followed.
 pub struct BoardPlan<T> {
@@ -144,13 +144,13 @@ impl<T> Follower<T> {
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
         let returns = self.limit.map_or(Returns::Always, |_| Returns::Within(PATIENCE));
         let mut session = Session::by(self.time, source, returns);
+        session.parts().0.share(buses);
+        begin(&mut session)?;
         let (client, source) = session.parts();
-        client.share(buses);
-        begin(client, source)?;
         self.required = if source.listens { Required::of(client) } else { Required::default() };
         let mut gap: Option<Instant> = None;
         while !self.queue.is_closed() {
-            asks.try_iter().try_for_each(|ask| ask(session.parts().0))?;
+            asks.try_iter().try_for_each(|ask| ask(&mut session))?;
             let turn = session.turn::<Error>(&mut |client, bytes| self.asked(client, bytes))?;
             while !self.is_done
                 && let Some(event) = session.next_event()

@@ -32,13 +32,20 @@ impl ReadRobot {
     ) -> Vec<BoardPlan<T>> {
         let plan = |(number, board): (usize, &RobotBoard)| {
             let (options, opens, begins) = (options.clone(), board.clone(), board.clone());
+            let robot = self.robot.clone();
             BoardPlan {
                 name: board.name.clone(),
                 open: Box::new(move || opens.open_any(&options)),
                 waits: board.is_real(),
                 listens: board.listens(),
                 identity: board.identity(),
-                begin: Box::new(move |client, source| begins.begin(client, source)),
+                begin: Box::new(move |session| {
+                    let (client, source) = session.parts();
+                    begins.begin(client, source)?;
+                    let posing = robot.map(|robot| begins.posing(robot)).transpose()?.flatten();
+                    posing.into_iter().for_each(|posing| session.pose_by(posing));
+                    Ok(())
+                }),
                 teller: teller(number),
                 limit,
             }

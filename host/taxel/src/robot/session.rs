@@ -7,6 +7,7 @@ use super::queue::{EventQueue, WhenFull};
 use crate::client::clock::SteadyTime;
 use crate::client::{Buses, Client};
 use crate::error::{Result, UsageError};
+use crate::session::{JointTime, Session};
 use crate::tell::words;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
@@ -120,11 +121,20 @@ impl<T: Send + 'static> RobotSession<T> {
         board: usize,
         ask: impl FnOnce(&mut Client) -> Result<()> + Send + 'static,
     ) -> Result<()> {
+        self.have(board, move |session| ask(session.parts().0))
+    }
+
+    /// Has something done in a board's thread.
+    fn have(
+        &self,
+        board: usize,
+        act: impl FnOnce(&mut Session) -> Result<()> + Send + 'static,
+    ) -> Result<()> {
         let Some(followed) = self.boards.get(board) else {
             fail!(UsageError::Argument, "the robot has no board number {board}");
         };
         let over = |_| UsageError::Argument(format!("board {} is over", followed.name));
-        Ok(followed.asks.send(Box::new(ask)).map_err(over)?)
+        Ok(followed.asks.send(Box::new(act)).map_err(over)?)
     }
 
     /// Gives an order to the board of this name, or to all boards that listen and are not over. Returns the
@@ -153,6 +163,29 @@ impl<T: Send + 'static> RobotSession<T> {
         );
         ask(number)?;
         Ok(vec![number])
+    }
+
+    /// Takes positions of the robot's joints, rad or m, at a time of the host, us: every board that has a body
+    /// is told its links' poses, 50 times a second. What a board cannot place in its own time, because it has just
+    /// begun anew, does not count for it; nor do names and positions that its robot does not have, which a
+    /// robot's mind refuses with a reason.
+    pub fn take_joints<'a>(&self, host_us: u64, positions: impl IntoIterator<Item = (&'a str, f64)>) {
+        let positions: Arc<[(String, f64)]> =
+            positions.into_iter().map(|(joint, at)| (joint.to_string(), at)).collect();
+        if positions.is_empty() {
+            return;
+        }
+        for board in 0..self.boards.len() {
+            let positions = positions.clone();
+            // A board that is over has no posture.
+            let _ = self.have(board, move |session| {
+                if session.posing().is_some() {
+                    let positions = positions.iter().map(|(joint, at)| (joint.as_str(), *at));
+                    let _ = session.take_joints(JointTime::Host(host_us), positions);
+                }
+                Ok(())
+            });
+        }
     }
 }
 

@@ -73,9 +73,13 @@ struct WornBody {
 }
 
 impl Posing {
-    /// Reads a body and a robot: presets or files. `hz` poses a second, 0.1 to 1000, are sent at most;
-    /// `motion` bounds the errors.
+    /// Reads a body and a robot: presets or files. Else as [`Posing::new`].
     pub fn open(body: &str, robot: &str, motion: Motion, hz: f64) -> Result<Posing> {
+        Posing::new(body::read(body)?, Arc::new(robot::read(robot)?), motion, hz)
+    }
+
+    /// Of a body on a robot. `hz` poses a second, 0.1 to 1000, are sent at most; `motion` bounds the errors.
+    pub fn new(body: ReadBody, robot: Arc<Robot>, motion: Motion, hz: f64) -> Result<Posing> {
         require!(
             POSES.contains(&hz),
             UsageError::Argument,
@@ -83,9 +87,8 @@ impl Posing {
             POSES.start(),
             POSES.end()
         );
-        let robot = Arc::new(robot::read(robot)?);
         Ok(Posing {
-            body: body::read(body)?,
+            body,
             history: JointHistory::new(robot.clone(), motion)?,
             robot,
             period_us: (1e6 / hz) as u64,

@@ -74,8 +74,10 @@ pub enum Variant {
     Taught,
     /// With a report of what presses on the robot for each frame.
     Pressing,
-    /// With the left arm bending, all of which folds.
+    /// With the left arm, all of which folds, all but still.
     Folds,
+    /// With the left arm bending, by 4.8 degrees from one posture to the next.
+    Bending,
     /// One panel of 64 x 32 taxels.
     Columns32,
     /// One panel of 64 x 27 taxels.
@@ -96,6 +98,7 @@ impl Variant {
             Variant::Taught => "taught",
             Variant::Pressing => "pressing",
             Variant::Folds => "folds",
+            Variant::Bending => "bending",
             Variant::Columns32 => "32 columns",
             Variant::Columns27 => "27 columns",
             Variant::Block => "4 x 16",
@@ -151,6 +154,15 @@ impl Variant {
         Ok(client.queued().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
     }
 
+    /// Angle by which its elbow bends from frame to frame, hundredths of a degree; none if nothing folds.
+    const fn bends(self) -> Option<i16> {
+        match self {
+            Variant::Folds => Some(30),
+            Variant::Bending => Some(120),
+            _ => None,
+        }
+    }
+
     fn gestures(self) -> Option<GestureConfig> {
         let often = GestureConfig { decide_ms: 50, onset_ms: 0, ..GestureConfig::default() };
         (self == Variant::Gestures).then_some(often)
@@ -188,6 +200,7 @@ impl Case {
             (TouchPattern::Empty, Variant::Folds),
             (TouchPattern::Five, Variant::Folds),
             (TouchPattern::Texture, Variant::Folds),
+            (TouchPattern::Empty, Variant::Bending),
             (TouchPattern::Texture, Variant::Off),
             (TouchPattern::Texture, Variant::Median),
         ]);
@@ -260,13 +273,15 @@ impl Case {
         .map(ask)
         .collect::<Result<Vec<Step>>>()?;
         steps.extend(self.variant.taught()?);
-        steps.push(Step::Fold(self.variant == Variant::Folds));
+        steps.push(Step::Fold(self.variant.bends().is_some()));
         let (rest, touch) = self.frames.split_at(TARE.into());
         steps.extend(rest.iter().cloned().map(Step::Scan));
         steps.push(ask(&Request::Start)?);
         for (number, codes) in (0..).zip(touch) {
-            if self.variant == Variant::Folds && number % 4 == 0 {
-                let angle = JointAngle { joint: 0, centidegrees: 30 * number };
+            if let Some(turn) = self.variant.bends()
+                && number % 4 == 0
+            {
+                let angle = JointAngle { joint: 0, centidegrees: turn * number };
                 steps.push(ask(&Request::Posture(Posture { joints: [angle].into_iter().collect() }))?);
             }
             steps.push(Step::Scan(codes.clone()));

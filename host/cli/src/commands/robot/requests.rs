@@ -67,7 +67,7 @@ impl RequestLines {
         while let Ok(line) = self.lines.try_recv() {
             self.count += 1;
             let asked = line.map_err(anyhow::Error::from).and_then(|line| match told(line.trim())? {
-                Some(told) => tell(told, session.now_us(), mind.as_deref_mut()).map(Some),
+                Some(told) => tell(told, session, mind.as_deref_mut()).map(Some),
                 None => ask(line.trim(), session).map(|()| None),
             });
             match asked {
@@ -107,9 +107,16 @@ fn told(line: &str) -> Result<Option<ToldLine>> {
     Ok(Some(ToldLine { told: [(name.to_string(), value)].into(), age_ms, ..ToldLine::default() }))
 }
 
-fn tell(line: ToldLine, host_us: u64, mind: Option<&mut RobotMind>) -> Result<Told> {
+/// Tells the mind, and the boards the robot's posture.
+fn tell<T: Send + 'static>(
+    line: ToldLine,
+    session: &RobotSession<T>,
+    mind: Option<&mut RobotMind>,
+) -> Result<Told> {
+    let host_us = session.now_us();
     let mind = mind.context("nobody hears what is told: the boards are not at one time, see --realtime")?;
     let news = mind.tell(&line, host_us)?.cloned();
+    session.take_joints(line.from_us(host_us), line.joints());
     Ok(Told { host_us, line, news })
 }
 

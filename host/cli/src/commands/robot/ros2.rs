@@ -66,7 +66,7 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(node.mind())));
         told.iter().filter_map(|told| told.news.as_ref()).try_for_each(|meaning| node.mean(meaning))?;
         let event = session.wait(LOOK);
-        node.turn(session.now_us(), event.is_none())?;
+        node.turn(&session, event.is_none())?;
         if let Some(event) = event {
             node.event(&event)?;
             ended = ended.and(failed(&robot.boards[event.board].name, event.what));

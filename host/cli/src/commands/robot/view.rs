@@ -67,7 +67,9 @@ pub fn run(args: &RobotViewArgs) -> Result<()> {
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
     let mut ended = Ok(());
     while !session.is_over() {
-        requests.iter_mut().for_each(|requests| drop(requests.ask(&session, Some(pages.mind()))));
+        let told =
+            requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(pages.mind())));
+        told.iter().for_each(|told| pages.told(&told.line));
         match session.wait(LOOK) {
             Some(event) => {
                 pages.event(&event);

@@ -1,35 +1,49 @@
-// The view of the robot's body: the garment on its links or, where nobody said how it lies, by regions.
+// The view of the robot's body: the garments of all its boards on its links or, where nobody said how the board's own
+// lies, that by regions.
 
 import { make } from "./dom.js";
 import { placeOf } from "./garment.js";
 import { OnRobot } from "./on-robot.js";
 import { folding } from "./folds.js";
 import { Regions } from "./regions.js";
-import { force } from "./units.js";
+import { force, isPascal, pascalsOf } from "./units.js";
+import { Whole } from "./whole.js";
 
 /**
  * @typedef {import("./types.d.ts").Garment} Garment
  * @typedef {import("./types.d.ts").Settings} Settings
  * @typedef {import("./types.d.ts").Shown} Shown
+ * @typedef {import("./on-robot.js").BodyScene} BodyScene
  * @typedef {import("./store.js").Store} Store
+ * @typedef {import("./whole.js").Part} Part
  */
+
+/** Longest time for which an image stands for a moment of another board, ms. */
+const STANDS_MS = 500;
 
 /** The view. */
 export class Body {
   /**
    * @param {HTMLElement} root
    * @param {import("./hover.js").Hover} hover
+   * @param {import("./others.js").Others} others
    * @param {() => void} changed
    */
-  constructor(root, hover, changed) {
+  constructor(root, hover, others, changed) {
     this.hover = hover;
+    this.others = others;
+    this.whole = new Whole();
     /** @type {Garment | null} */
     this.garment = null;
     this.robot = make("div", { class: "robot" });
     this.plain = make("div", { class: "plain", tabindex: "0", role: "group", "aria-label": "Panels by region" });
     root.append(this.robot, this.plain);
-    const point = (/** @type {number | null} */ taxel, /** @type {number} */ x, /** @type {number} */ y) =>
-      hover.set(taxel === null || !this.garment ? null : { ...placeOf(this.garment, taxel), x, y });
+    // The taxels of the board's own garment come first; those of others are read on their own pages.
+    const point = (/** @type {number | null} */ taxel, /** @type {number} */ x, /** @type {number} */ y) => {
+      const { garment } = this;
+      const isOwn = taxel !== null && garment && taxel < garment.taxels;
+      hover.set(isOwn ? { ...placeOf(garment, taxel), x, y } : null);
+    };
     this.onRobot = new OnRobot(this.robot, { changed, point });
     this.regions = new Regions(this.plain);
     // A picture of WebGL lasts until the browser has shown it: whoever saves it has it drawn again.
@@ -42,41 +56,99 @@ export class Body {
    */
   draw(store, settings) {
     const { garment } = store;
-    const { body } = store.states;
     const shown = store.shown();
     if (!garment || !shown) return;
     this.garment = garment;
-    const known = body && body.taxels.length === garment.taxels ? body : null;
-    this.robot.hidden = !known;
-    this.plain.hidden = Boolean(known);
-    this.last = known
-      ? () => this.onRobot.draw(this.scene(store, garment, shown, settings, known))
+    const parts = this.parts(store, garment, shown, settings);
+    const isKnown = parts.some(({ body }) => body);
+    this.robot.hidden = !isKnown;
+    this.plain.hidden = isKnown;
+    this.robot.classList.toggle("whole", parts.length > 1);
+    this.last = isKnown
+      ? () => this.onRobot.draw(this.scene(garment, parts, settings))
       : () => this.regions.draw(store, settings);
     this.last();
   }
 
   /**
+   * The boards of the robot, the page's own first.
    * @param {Store} store
    * @param {Garment} garment
    * @param {Shown} shown
    * @param {Settings} settings
-   * @param {import("./types.d.ts").BodyState} body
-   * @returns {import("./on-robot.js").BodyScene}
+   * @returns {Part[]}
    */
-  scene({ held, states }, garment, shown, settings, body) {
+  parts(store, garment, shown, settings) {
+    const { robot } = store.states;
+    const isLive = (/** @type {string} */ board) => robot?.boards.find(({ name }) => name === board)?.state === "live";
+    const own = partOf(robot?.board ?? "", store, garment, shown, settings);
+    const moment = store.paused ? shown.head.came : Infinity;
+    const others = (robot?.boards ?? []).flatMap(({ name }) => {
+      const other = this.others.of(name);
+      const worn = other?.garment;
+      if (!other || !worn) return [];
+      const then = other.newestAt(moment);
+      const stands = then && (store.paused ? moment - then.head.came < STANDS_MS : isLive(name));
+      return [partOf(name, other, worn, stands ? then : null, settings, garment)];
+    });
+    if (robot && others.length && !store.paused && !isLive(robot.board)) Object.assign(own, { image: null, pressing: null });
+    return [own, ...others];
+  }
+
+  /**
+   * @param {Garment} garment
+   * @param {Part[]} parts
+   * @param {Settings} settings
+   * @returns {BodyScene}
+   */
+  scene(garment, parts, settings) {
     const { place } = this.hover;
-    const { frame, poses } = shown.head;
+    const [own] = parts;
+    const { body, image } = own ?? {};
+    const alone = parts.length === 1 && own && body && image && { ...own, body, image, unknown: null };
     return {
-      body,
-      // An image from before the page was opened has none of its own.
-      poses: (poses ?? states.poses)?.links ?? null,
-      panels: garment.panels,
-      image: settings.held && held ? held : shown.image,
+      ...(alone || this.whole.scene(parts)),
       top: settings.top,
-      pressing: settings.contacts && !settings.held ? (frame.pressing ?? null) : null,
-      folding: folding(shown, settings),
       force: (counts) => force(garment, counts),
       chosen: place && place.panel.base + place.row * place.panel.columns + place.column,
     };
   }
+}
+
+/**
+ * A board of the robot.
+ * @param {string} name
+ * @param {Store} store
+ * @param {Garment} garment
+ * @param {Shown | null} shown null if it is not known what presses
+ * @param {Settings} settings
+ * @param {Garment} shows the garment whose counts are those of the picture
+ * @returns {Part}
+ */
+function partOf(name, { held, states }, garment, shown, settings, shows = garment) {
+  const { body } = states;
+  const image = settings.held && held ? held : shown?.image;
+  const isPressing = settings.contacts && !settings.held;
+  return {
+    name,
+    panels: garment.panels,
+    body: body && body.taxels.length === garment.taxels ? body : null,
+    // An image from before the page was opened has none of its own.
+    poses: (shown?.head.poses ?? states.poses)?.links ?? null,
+    image: (shown && image) ?? null,
+    pressing: isPressing ? (shown?.head.frame.pressing ?? null) : null,
+    folding: shown ? folding(shown, settings) : [],
+    scale: scaleOf(garment, shows),
+  };
+}
+
+/**
+ * Counts of one garment for a count of another: of equal pressure, and of equal force.
+ * @param {Garment} of
+ * @param {Garment} shows
+ */
+function scaleOf(of, shows) {
+  const pressure = isPascal(of) && isPascal(shows) ? pascalsOf(of) / pascalsOf(shows) : 1;
+  const [own, shown] = [of.counts_per_newton ?? 0, shows.counts_per_newton ?? 0];
+  return { pressure, force: own > 0 && shown > 0 ? shown / own : 1 };
 }

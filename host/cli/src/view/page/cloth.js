@@ -249,6 +249,9 @@ function grow({ least, most }, point) {
   }
 }
 
+/** Share of the ramp that stands for a pressure that is not known: it is grey. */
+const UNKNOWN = -1;
+
 /** Numbers of a corner in what `shade` and `light` fill, as in a relief: nothing, share of the ramp, and light. */
 export const STRIDE = 3;
 
@@ -258,9 +261,13 @@ export const STRIDE = 3;
  * @param {Cloth} cloth
  * @param {ArrayLike<number>} image counts
  * @param {number} top end of the colours, counts
+ * @param {ArrayLike<number> | null} unknown 1 on taxels of which it is not known what presses
  */
-export function shade(data, { taxels }, image, top) {
-  for (let at = 0; at < taxels.length; at += 1) data[STRIDE * at + 1] = Math.min(1, (image[taxels[at] ?? 0] ?? 0) / top);
+export function shade(data, { taxels }, image, top, unknown = null) {
+  for (let at = 0; at < taxels.length; at += 1) {
+    const taxel = taxels[at] ?? 0;
+    data[STRIDE * at + 1] = unknown?.[taxel] ? UNKNOWN : Math.min(1, (image[taxel] ?? 0) / top);
+  }
 }
 
 /**

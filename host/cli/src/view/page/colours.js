@@ -11,6 +11,9 @@
  */
 export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions: {}, pixels: new Uint32Array(0) };
 
+/** Where it is not known what presses: no colour of the ramp. */
+export const GREY = 0.45;
+
 /**
  * Takes the palette.
  * @param {Palette} told

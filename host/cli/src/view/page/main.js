@@ -10,6 +10,7 @@ import { Health } from "./health.js";
 import { Hover } from "./hover.js";
 import { Link } from "./link.js";
 import { Mind } from "./mind.js";
+import { Others } from "./others.js";
 import { Panels } from "./panels.js";
 import { Player } from "./player.js";
 import { Robot } from "./robot.js";
@@ -53,6 +54,7 @@ const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
 const robot = new Robot();
 const mind = new Mind();
+const others = new Others(() => (stale = true));
 const speaker = new Speaker();
 const player = new Player(store, ask, changed);
 const concepts = new Concepts($("concepts"), $("leading"));
@@ -60,7 +62,7 @@ const concepts = new Concepts($("concepts"), $("leading"));
 const views = {
   panels: new Panels($("view-panels"), hover),
   surface: new Surface($("view-surface"), hover, changed),
-  body: new Body($("view-body"), hover, changed),
+  body: new Body($("view-body"), hover, others, changed),
   map: new CognitiveMap($("view-map")),
   health: new Health($("view-health")),
 };
@@ -92,6 +94,7 @@ function draw() {
   controls.scale();
   // First, because it decides how much room is left.
   if (due) player.draw();
+  others.follow(settings.view === "body" ? store.states.robot : undefined);
   views[settings.view]?.draw(store, settings);
   scale.draw(store, settings);
   hover.draw(store);

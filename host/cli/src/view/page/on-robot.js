@@ -13,7 +13,7 @@ import { GlPainter } from "./relief-gl.js";
  * @typedef {import("./types.d.ts").Triple} Triple
  * @typedef {import("./types.d.ts").BodyState} BodyState
  * @typedef {import("./types.d.ts").PoseOfLink} PoseOfLink
- * @typedef {import("./types.d.ts").Pressing} Pressing
+ * @typedef {import("./types.d.ts").Pushed} Pushed
  * @typedef {import("./camera.js").Camera} Camera
  * @typedef {import("./camera.js").Sight} Sight
  * @typedef {object} BodyScene
@@ -21,8 +21,9 @@ import { GlPainter } from "./relief-gl.js";
  * @property {Record<string, PoseOfLink> | null} poses of the links; null without a robot
  * @property {import("./types.d.ts").Panel[]} panels
  * @property {ArrayLike<number>} image counts
+ * @property {Uint8Array | null} unknown 1 on taxels of which it is not known what presses
  * @property {number} top end of the colours, counts
- * @property {Pressing | null} pressing
+ * @property {Pushed | null} pressing
  * @property {number[]} folding taxels on which the garment folds
  * @property {(counts: number) => string} force in words
  * @property {number | null} chosen a taxel that is marked
@@ -137,7 +138,7 @@ export class OnRobot {
     this.look(width, height);
     const { cloth, data, painter } = this;
     if (!cloth) return false;
-    shade(data, cloth, scene.image, scene.top);
+    shade(data, cloth, scene.image, scene.top, scene.unknown);
     const { ratio, size } = this.drawing.sharpness();
     const [first] = this.aspects;
     if (painter instanceof GlPainter) first && painter.draw(first.sight, { data }, size);
@@ -287,9 +288,9 @@ export class OnRobot {
         const isBehind = normal.reduce((sum, part, axis) => sum + part * (aspect.viewer[axis] ?? 0), 0) < 0;
         // One of two sides shows it.
         if (isBehind && !this.turns) return [];
-        const { id } = touch;
-        const words = `${id} · ${scene.force(Math.hypot(...touch.force))}`;
-        return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), id, isBehind, words }];
+        const name = touch.board ? `${touch.board} ${touch.id}` : String(touch.id);
+        const words = `${name} · ${scene.force(Math.hypot(...touch.force))}`;
+        return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), name, isBehind, words }];
       }),
     );
     grown(this.forces, arrows.length, marker).forEach((group, at) => {
@@ -300,7 +301,7 @@ export class OnRobot {
       set(group, "opacity", one.isBehind ? "0.4" : "1");
       for (const path of [halo, line]) set(path, "d", one.d);
       set(words, "transform", `translate(${text([one.at[0], one.at[1] - 7])})`);
-      if (isDue || !words.textContent?.startsWith(`${one.id} `)) say(words, one.words);
+      if (isDue || !words.textContent?.startsWith(`${one.name} ·`)) say(words, one.words);
     });
     if (isDue) this.name(scene);
     this.choose(scene.chosen);

@@ -22,13 +22,16 @@ export function decode(buffer) {
  * @param {(line: import("./types.d.ts").Line) => void} on.line
  * @param {(connected: boolean) => void} on.connected
  * @param {() => void} on.heard
- * @returns {{ ask: import("./types.d.ts").Ask }}
+ * @param {string} place of the socket, beside the page
+ * @returns {{ ask: import("./types.d.ts").Ask, close: () => void }}
  */
-export function connect(on) {
+export function connect(on, place = "socket") {
   /** @type {WebSocket | null} */
   let socket = null;
+  let isClosed = false;
   const open = () => {
-    const next = new WebSocket(new URL("socket", location.href.replace(/^http/, "ws")));
+    if (isClosed) return;
+    const next = new WebSocket(new URL(place, location.href.replace(/^http/, "ws")));
     socket = next;
     next.binaryType = "arraybuffer";
     next.onopen = () => on.connected(true);
@@ -37,6 +40,7 @@ export function connect(on) {
       setTimeout(open, AGAIN_MS);
     };
     next.onmessage = ({ data }) => {
+      if (isClosed) return;
       on.heard();
       if (typeof data === "string") on.line(JSON.parse(data));
       else on.image(decode(data));
@@ -46,6 +50,10 @@ export function connect(on) {
   return {
     ask: (wish) => {
       if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(wish));
+    },
+    close: () => {
+      isClosed = true;
+      socket?.close();
     },
   };
 }

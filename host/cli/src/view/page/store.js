@@ -25,7 +25,9 @@ const TWICE = 500_000;
 
 /** Everything shown. `shown()` is the image at the cursor, or the newest. */
 export class Store {
-  constructor() {
+  /** @param {number} kept seconds that can be stepped back */
+  constructor(kept = KEPT_S) {
+    this.kept = kept;
     /** @type {Garment | null} */
     this.garment = null;
     /** @type {import("./types.d.ts").States} */
@@ -36,7 +38,7 @@ export class Store {
     this.marks = [];
     /** @type {number | null} */
     this.seeks = null;
-    this.size = KEPT_S * RATE;
+    this.size = Math.ceil(kept * RATE);
     /** @type {number | null} */
     this.cursor = null;
     /** @type {Still | null} */
@@ -105,7 +107,7 @@ export class Store {
   mark({ time_us: time, kind, said }) {
     if (time < (this.marks.at(-1)?.[0] ?? 0)) this.marks = [];
     this.marks.push([time, kind, said]);
-    const oldest = time - 2 * KEPT_S * 1e6;
+    const oldest = time - 2 * this.kept * 1e6;
     while ((this.marks[0]?.[0] ?? oldest) < oldest) this.marks.shift();
   }
 
@@ -128,6 +130,7 @@ export class Store {
       ...head,
       poses: this.states.poses ?? null,
       folding: this.states.folding ?? null,
+      came: performance.now(),
       samples: Float64Array.from(samples.flat()),
     };
     this.count += 1;
@@ -166,7 +169,7 @@ export class Store {
   span() {
     const { heads, latest } = this;
     let first = Math.max(0, this.count - this.size);
-    const oldest = latest ? latest.head.frame.time_us - KEPT_S * 1e6 : 0;
+    const oldest = latest ? latest.head.frame.time_us - this.kept * 1e6 : 0;
     while (first < this.count && (heads[first % this.size]?.frame.time_us ?? 0) < oldest) first += 1;
     return [first, this.count];
   }
@@ -195,6 +198,17 @@ export class Store {
    */
   shown() {
     return this.still ?? this.latest;
+  }
+
+  /**
+   * The image that was the newest at a moment of the page, ms; null if that is not kept.
+   * @param {number} moment
+   */
+  newestAt(moment) {
+    let number = this.count - 1;
+    const first = Math.max(0, this.count - this.size);
+    while (number >= first && this.at(number).head.came > moment) number -= 1;
+    return number >= first ? this.at(number) : null;
   }
 
   /** Time of the right end of the live half minute, us; it is fixed while paused. */

@@ -63,6 +63,8 @@ export interface Head extends Omit<ImageHead, "samples"> {
   poses: PosesLine | null;
   /** Where the garment folded then; null if that is not known. */
   folding: FoldingLine | null;
+  /** When it came, ms of the page. */
+  came: number;
 }
 
 /** An image, as it comes. */
@@ -91,6 +93,21 @@ export type Overview = OverviewLine;
 export type BodyState = BodyLine;
 export type PoseOfLink = PosesLine["links"][string];
 export type Pressing = NonNullable<Frame["pressing"]>;
+
+/** What presses on a robot, as it is drawn: places and directions in the frames of the links, forces in counts. */
+export interface Pushed {
+  contacts: {
+    id: number;
+    /** Its board, if there are several. */
+    board?: string;
+    link: string;
+    at_m: Triple;
+    normal: Triple;
+    force: Triple;
+  }[];
+  links: { link: string; pressed: number }[];
+}
+
 export type PlayerState = PlayerLine;
 export type TaxelState = TaxelLine;
 

@@ -66,7 +66,8 @@ impl Bench {
                 waits: true,
                 listens: true,
                 identity: identity(number),
-                begin: Box::new(|client, _| {
+                begin: Box::new(|session| {
+                    let client = session.parts().0;
                     client.start(0)?;
                     Ok(client.request(&Request::SetRaw { hz: u16::MAX })?)
                 }),
@@ -265,7 +266,7 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
             waits: true,
             listens: true,
             identity: Identity::default(),
-            begin: Box::new(|client, _| Ok(client.start(0)?)),
+            begin: Box::new(|session| Ok(session.parts().0.start(0)?)),
             teller: Box::new(|_: &Client, event: &Event, _: Stamp| match event {
                 Event::Frame { frame, .. } => Some(("frame", *frame)),
                 Event::Contacts { frame, .. } => Some(("contacts", *frame)),

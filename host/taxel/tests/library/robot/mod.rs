@@ -10,5 +10,6 @@ mod newtons;
 mod one_bus;
 mod one_time;
 mod orders;
+mod posture;
 mod recorded;
 mod scanning;

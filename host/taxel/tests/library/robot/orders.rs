@@ -40,7 +40,7 @@ fn three(names: [&str; 3]) -> ([Arc<Mutex<Rig>>; 3], RobotSession<Answered>) {
             waits: true,
             listens: true,
             identity: Identity::default(),
-            begin: Box::new(|client, _| Ok(client.start(0)?)),
+            begin: Box::new(|session| Ok(session.parts().0.start(0)?)),
             teller: Box::new(tell),
             limit: None,
         }

@@ -103,6 +103,21 @@ fn a_source_is_waited_for_as_long_as_it_takes() {
 }
 
 #[test]
+fn a_board_that_is_lost_before_it_has_said_what_it_is_comes_back_like_any_other() {
+    let rig = Arc::new(Mutex::new(Rig::new()));
+    let mut session = Session::new(source(&rig), Returns::Always);
+    session.parts().0.start(8).unwrap();
+    rig.lock().unwrap().cut();
+    told(&mut session, "is gone");
+    assert!(session.client().worn().is_none());
+    let text = told(&mut session, "is back after");
+    assert!(text.ends_with("set again: start, tare"), "{text}");
+    assert!(session.gap().is_none());
+    until(&mut session, |event| matches!(event, Event::Frame { .. }));
+    assert_eq!(session.client().counts().restarts, 0);
+}
+
+#[test]
 fn a_board_that_does_not_read_holds_nothing_up() {
     let rig = Arc::new(Mutex::new(Rig::new()));
     let mut session = Session::new(source(&rig), Returns::Never);
