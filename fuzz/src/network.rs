@@ -33,7 +33,7 @@ fn follow(bytes: &mut Bytes<'_>) {
     let (mut order, mut now) = (PieceOrder::new(0), Instant::now());
     let (mut stamp, mut got) = (PieceStamp { publisher: 0, main: 0, images: 0 }, VecDeque::new());
     while !bytes.is_empty() {
-        let kind = if bytes.byte() % 2 == 0 { PieceKind::Main } else { PieceKind::Image };
+        let kind = if bytes.byte().is_multiple_of(2) { PieceKind::Main } else { PieceKind::Image };
         match bytes.byte() % 8 {
             0 => stamp.main = stamp.main.wrapping_add(1 << (bytes.byte() % 64)),
             1 => stamp.images = stamp.images.wrapping_sub(1 << (bytes.byte() % 64)),

@@ -1,6 +1,6 @@
 //! Cuts a board's bytes into whole frames of the wire, and tells images apart.
 
-use super::piece::PieceKind;
+use super::stamp::PieceKind;
 
 /// Longest frame; what is longer is none, and is passed on in parts.
 const LONGEST: usize = 16 * 1024;

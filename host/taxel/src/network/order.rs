@@ -9,7 +9,8 @@
 //! The while is long enough for a hiccup of either machine as long as all images come, and short from the first one
 //! that does not: then the network drops them, and contacts are not to wait for what will not come.
 
-use super::piece::{PieceKind, PieceStamp, WirePiece};
+use super::piece::WirePiece;
+use super::stamp::{PieceKind, PieceStamp};
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
