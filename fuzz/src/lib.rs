@@ -11,6 +11,7 @@
 //! | [`arrays`] | an array file | frames are as large as they say |
 //! | [`texts`] | a garment, scene, script, map, table or calibration | what was read and is written is read again |
 //! | [`store`] | what a flash holds | what is saved then is loaded |
+//! | [`network`] | what others in the network send: frames, stamps, requests, names, answers | only what a program sends is taken, in its order; memory is bounded |
 //! | [`page`] | what a browser sends | no more waits than there is room for |
 #![forbid(unsafe_code)]
 
@@ -19,6 +20,7 @@ pub mod board;
 mod bytes;
 pub mod client;
 mod mcap;
+pub mod network;
 pub mod page;
 mod plain;
 pub mod recording;
@@ -31,10 +33,11 @@ pub mod texts;
 pub type Target = fn(&[u8]);
 
 /// All of them by the names of their corpora.
-pub const TARGETS: [(&str, Target); 8] = [
+pub const TARGETS: [(&str, Target); 9] = [
     ("arrays", arrays::run),
     ("board", board::run),
     ("client", client::run),
+    ("network", network::run),
     ("page", page::run),
     ("recording", recording::run),
     ("robots", robots::run),

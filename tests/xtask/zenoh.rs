@@ -13,7 +13,7 @@ const TOOLS: [(&str, &str); 2] = [("ip", "network namespaces"), ("nft", "loss of
 /// Beginnings of the names of variables that cargo sets for what it runs.
 const TOLD: [&str; 2] = ["CARGO_MANIFEST_", "CARGO_PKG_"];
 
-/// Tests library and program with Zenoh, and runs the cases. Returns what they print. Not run without
+/// Tests library and program with Zenoh, checks the types of the cases, and runs them. Returns what they print. Not run without
 /// the tools, or if the user may make no machines.
 pub fn campaign(log: &Path) -> End<Vec<String>> {
     let is_there = |tool: &str| process::output(Command::new(tool).arg("-V")).is_some();
@@ -42,6 +42,9 @@ fn tested(log: &Path) -> Result<PathBuf, String> {
 }
 
 fn run(python: &Path, program: &Path, log: &Path) -> Result<Vec<String>, String> {
+    let mut mypy = Command::new(python);
+    mypy.args(["-m", "mypy", "--strict", "--cache-dir"]).arg(paths::target().join("xtask/mypy"));
+    process::run_into(mypy.arg(".").current_dir(cases()), log)?;
     let before = std::fs::read_to_string(log).unwrap_or_default().len();
     process::run_into(Command::new(python).arg(cases().join("campaign.py")).arg(program), log)?;
     let said = std::fs::read_to_string(log).unwrap_or_default();

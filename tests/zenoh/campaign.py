@@ -61,7 +61,7 @@ class Process:
             if (at := self.said(words)) is not None:
                 return at
             time.sleep(0.02)
-        raise SystemExit(f"{self.process.args}: has not said {words!r}: {self.lines[-5:]}")
+        raise SystemExit(f"{self.process.args!r}: has not said {words!r}: {self.lines[-5:]}")
 
     def end(self, how: signal.Signals = signal.SIGINT, longest: float = 20.0) -> int:
         if self.process.poll() is None:

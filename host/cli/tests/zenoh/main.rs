@@ -80,6 +80,20 @@ fn a_board_is_followed_by_another_program_and_offered_once() {
 }
 
 #[test]
+fn at_the_fastest_rate_nothing_is_lost_between_two_programs() {
+    let folder = network("fastest");
+    let args = ["serve", "--source", "sim:five", "--garment", "block-4x16", "--name", "arm/left", "--zenoh"];
+    let _serving = Serving::start(&folder, &[&args[..], &["router.json5"]].concat());
+    let watched =
+        run(&folder, &["live", "--source", "zenoh:arm/left@client.json5", "--json", "--seconds", "4"]);
+    assert!(watched.status.success(), "{}", said(&watched));
+    let lines = lines(&watched);
+    let frames: Vec<_> = lines.iter().filter(|line| line["type"] == "frame").collect();
+    let lost = frames.last().map(|frame| &frame["lost"]);
+    assert!(frames.len() > 5000 && lost == Some(&0.into()), "{lost:?} lost of {} frames", frames.len());
+}
+
+#[test]
 fn the_boards_of_a_robot_are_offered_and_followed_as_a_robot() {
     let folder = network("robot");
     let robot = |sources: [&str; 2]| {

@@ -1,8 +1,8 @@
 //! Zenoh's configuration, and sessions that are opened by it.
 //!
 //! A file is Zenoh's own, and all that it says counts: endpoints, TLS, users, access rules. What it does not say is
-//! ours where Zenoh's default would reach beyond this machine: no scouting by multicast, and nothing is listened
-//! to. Without a file the network is this machine: whoever offers a board first routes for all others, by
+//! ours where Zenoh's default would reach beyond this machine: no scouting by multicast, nothing is listened
+//! to, and no message above 16 MiB is taken. Without a file the network is this machine: whoever offers a board first routes for all others, by
 //! the port that Zenoh's own router would take.
 
 use crate::error::{Context, FileError, Result, SourceError, UsageError};
@@ -13,6 +13,8 @@ use zenoh::{Config, Session, Wait};
 
 /// Variable of the environment that names a file, as for Zenoh's own programs.
 const VARIABLE: &str = "ZENOH_CONFIG";
+/// Longest message that is taken, bytes: far above all of taxel's, for what a router passes on for others.
+const LONGEST: usize = 16 << 20;
 /// Where programs on this machine meet.
 const MEETING: &str = "tcp/127.0.0.1:7447";
 
@@ -42,14 +44,16 @@ pub fn open(end: NetworkEnd, file: Option<&Path>) -> Result<Session> {
 fn alone(end: NetworkEnd) -> Result<Session> {
     let config = |settings: Value| Config::from_json5(&settings.to_string());
     if end == NetworkEnd::Offer {
-        let here = json!({ "mode": "router", "listen": { "endpoints": [MEETING] }, "scouting": quiet() });
+        let here = json!({ "mode": "router", "listen": { "endpoints": [MEETING] }, "scouting": quiet(),
+            "transport": bounded() });
         let opened = config(here).and_then(|config| zenoh::open(config).wait());
         if let Ok(session) = opened {
             return Ok(session);
         }
     }
     // The port is taken, by a router or by another program that offers boards; or nobody is there.
-    let there = json!({ "mode": "client", "connect": { "endpoints": [MEETING] }, "scouting": quiet() });
+    let there = json!({ "mode": "client", "connect": { "endpoints": [MEETING] }, "scouting": quiet(),
+        "transport": bounded() });
     let opened = config(there).and_then(|config| zenoh::open(config).wait());
     opened.map_err(|why| {
         error!(
@@ -65,6 +69,11 @@ fn quiet() -> Value {
     json!({ "multicast": { "enabled": false } })
 }
 
+/// Nothing endless is taken.
+fn bounded() -> Value {
+    json!({ "link": { "rx": { "max_message_size": LONGEST } } })
+}
+
 /// Reads a file, and adds what it leaves to us.
 fn read(file: &Path) -> Result<Map<String, Value>> {
     let text = std::fs::read_to_string(file)
@@ -78,6 +87,7 @@ fn read(file: &Path) -> Result<Map<String, Value>> {
     unless_said(&mut settings, &["listen", "endpoints"], json!([]));
     unless_said(&mut settings, &["scouting", "multicast", "enabled"], json!(false));
     unless_said(&mut settings, &["mode"], json!("client"));
+    unless_said(&mut settings, &["transport", "link", "rx", "max_message_size"], json!(LONGEST));
     Ok(settings)
 }
 

@@ -1,6 +1,6 @@
 //! Cuts a board's bytes into whole frames of the wire, and tells images apart.
 
-use super::piece::PieceKind;
+use super::stamp::PieceKind;
 
 /// Longest frame; what is longer is none, and is passed on in parts.
 const LONGEST: usize = 16 * 1024;
@@ -13,6 +13,8 @@ const IMAGES: [u8; 2] = [1, 10];
 pub struct FrameCutter {
     /// Bytes since the end of the last frame.
     begun: Vec<u8>,
+    /// One of them is not 0x00.
+    is_begun: bool,
 }
 
 impl FrameCutter {
@@ -20,10 +22,11 @@ impl FrameCutter {
     pub fn push(&mut self, bytes: &[u8], mut each: impl FnMut(PieceKind, &[u8])) {
         for byte in bytes {
             self.begun.push(*byte);
-            let is_end = *byte == 0 && self.begun.iter().any(|byte| *byte != 0);
+            let is_end = *byte == 0 && self.is_begun;
+            self.is_begun |= *byte != 0;
             if is_end || self.begun.len() >= LONGEST {
                 each(kind(&self.begun), &self.begun);
-                self.begun.clear();
+                self.reset();
             }
         }
     }
@@ -31,6 +34,20 @@ impl FrameCutter {
     /// Drops a partial frame: the link is lost.
     pub fn reset(&mut self) {
         self.begun.clear();
+        self.is_begun = false;
+    }
+}
+
+/// Kind of one piece that the cutter hands out. Error if it hands out none like this.
+pub(super) fn kind_of_piece(bytes: &[u8]) -> Result<PieceKind, &'static str> {
+    if bytes.len() > LONGEST {
+        return Err("it is too long");
+    }
+    let first = bytes.iter().position(|byte| *byte != 0).unwrap_or(bytes.len());
+    match bytes[first..].iter().position(|byte| *byte == 0) {
+        Some(end) if first + end + 1 < bytes.len() => Err("it is more than one frame"),
+        None if bytes.len() < LONGEST => Err("it has no end"),
+        _ => Ok(kind(bytes)),
     }
 }
 

@@ -5,8 +5,10 @@
 //! |---|---|
 //! | `place.rs` | [`BoardPlace`]: the name of a board, and its keys |
 //! | `cut.rs` | [`FrameCutter`]: cuts a board's bytes into whole frames, and tells images apart |
-//! | `piece.rs` | [`WirePiece`]: a frame on its way, and the stamp that says where it belongs |
+//! | `stamp.rs` | [`PieceKind`] and [`PieceStamp`]: how a frame travels, and where it belongs |
+//! | `piece.rs` | [`WirePiece`]: a frame on its way |
 //! | `order.rs` | [`PieceOrder`]: puts contacts and images back into the board's order |
+//! | `request.rs` | [`AskedFrame`]: a request on its way to a board, and the [`words`] of an answer |
 //! | `config.rs` | Zenoh's configuration, of which nothing listens to other machines unless it says so |
 //!
 //! A board's bytes go through unchanged: a frame of the wire is one sample. What was lost between two machines is
@@ -18,12 +20,16 @@ mod cut;
 mod order;
 mod piece;
 mod place;
+mod request;
+mod stamp;
 
 #[cfg(feature = "zenoh")]
 pub(crate) use config::said;
 #[cfg(feature = "zenoh")]
 pub use config::{NetworkEnd, open};
 pub use cut::FrameCutter;
-pub use order::{PATIENCE, PieceOrder};
-pub use piece::{PieceKind, PieceStamp, WirePiece};
+pub use order::{HASTE, PATIENCE, PieceOrder};
+pub use piece::WirePiece;
 pub use place::BoardPlace;
+pub use request::{AskedFrame, LONGEST_ASK, too_long, words};
+pub use stamp::{PieceKind, PieceStamp};

@@ -66,12 +66,12 @@ impl BoardPlace {
 
     /// Requests to the board through this publisher.
     pub fn ask(&self, publisher: u64) -> String {
-        self.key(&format!("ask/{publisher:016x}"))
+        self.key(&format!("ask/{}", hex(publisher)))
     }
 
     /// Sign of life of this publisher.
     pub fn alive(&self, publisher: u64) -> String {
-        self.key(&format!("alive/{publisher:016x}"))
+        self.key(&format!("alive/{}", hex(publisher)))
     }
 
     /// Signs of life of all publishers of the board.
@@ -81,13 +81,18 @@ impl BoardPlace {
 
     /// The publisher that a key of [`BoardPlace::alive`] is of.
     pub fn publisher(key: &str) -> Option<u64> {
-        let (_, id) = key.rsplit_once('/')?;
-        u64::from_str_radix(id, 16).ok().filter(|_| id.len() == 16)
+        let (_, digits) = key.rsplit_once('/')?;
+        u64::from_str_radix(digits, 16).ok().filter(|id| digits == hex(*id))
     }
 
     fn key(&self, rest: &str) -> String {
         format!("{ROOT}/{}/{}/{rest}", self.robot, self.board)
     }
+}
+
+/// A publisher as 16 digits.
+fn hex(publisher: u64) -> String {
+    format!("{publisher:016x}")
 }
 
 impl FromStr for BoardPlace {
@@ -117,7 +122,14 @@ mod tests {
         assert_eq!(place.main(), "taxel/arm/left-2/wire/main");
         assert_eq!(place.ask(0xab), "taxel/arm/left-2/ask/00000000000000ab");
         assert_eq!(BoardPlace::publisher(&place.alive(0xab)), Some(0xab));
-        for key in ["", "alive/ab", "alive/00000000000000ag", "alive/0000000000000000ab"] {
+        for key in [
+            "",
+            "alive/ab",
+            "alive/00000000000000ag",
+            "alive/0000000000000000ab",
+            "alive/+0000000000000ab",
+            "alive/00000000000000AB",
+        ] {
             assert_eq!(BoardPlace::publisher(key), None, "{key}");
         }
         for (text, why) in [

@@ -2,9 +2,9 @@
 //! which they came.
 
 use crate::client::Client;
+use crate::network::{AskedFrame, LONGEST_ASK, too_long};
 use crate::source::shared::Shared;
 use std::collections::VecDeque;
-use taxel_core::wire::{LONGEST_REQUEST, Receiver, Request, decode, frame_bound};
 use zenoh::Wait;
 use zenoh::query::Query;
 
@@ -16,8 +16,12 @@ const WAITING: usize = 256;
 pub struct Asks(Shared<VecDeque<Query>>);
 
 impl Asks {
-    /// Takes a query.
+    /// Takes a query; what is longer than any request is refused at once, and takes no room.
     pub fn push(&self, query: Query) {
+        let bytes = query.payload().map_or(0, |payload| payload.len());
+        if bytes > LONGEST_ASK {
+            return refuse(&query, &too_long(bytes));
+        }
         let mut waiting = self.0.lock();
         if waiting.len() < WAITING {
             return waiting.push_back(query);
@@ -48,14 +52,8 @@ impl Asks {
 
 /// Queues the request in a frame of the wire. Error if it is none.
 fn hand_over(client: &mut Client, frame: &[u8]) -> Result<(), String> {
-    let mut receiver = Receiver::<{ frame_bound(LONGEST_REQUEST) }>::new();
-    let [begun @ .., end] = frame else { return Err("it has no bytes".into()) };
-    if begun.iter().any(|byte| receiver.push(*byte).is_some()) {
-        return Err("it is more than one frame".into());
-    }
-    let message = receiver.push(*end).ok_or("it has no end")?.map_err(|why| why.to_string())?;
-    let request: Request<'_> = decode(message).map_err(|why| why.to_string())?;
-    client.request(&request).map_err(|why| why.to_string())
+    let mut asked = AskedFrame::default();
+    client.request(&asked.read(frame)?).map_err(|why| why.to_string())
 }
 
 fn refuse(query: &Query, why: &str) {
@@ -65,7 +63,7 @@ fn refuse(query: &Query, why: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel_core::wire::encode;
+    use taxel_core::wire::{Request, encode};
 
     #[test]
     fn a_request_is_handed_over_and_anything_else_refused() {

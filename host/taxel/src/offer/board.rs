@@ -17,11 +17,13 @@ use zenoh::liveliness::LivelinessToken;
 use zenoh::pubsub::{Publisher, Subscriber};
 use zenoh::qos::{CongestionControl, Priority};
 use zenoh::query::Queryable;
-use zenoh::sample::SampleKind;
+use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Session, Wait};
 
 /// Time in which another program that offers the board makes itself known.
 const RIVALS: Duration = Duration::from_secs(1);
+/// Most of them that are told of.
+const TOLD: usize = 64;
 
 /// An offered board: a receiver of its stream.
 pub struct BoardOffer {
@@ -69,6 +71,13 @@ impl Wire {
             .wait()?;
         Ok(Wire { publisher, is_watched })
     }
+
+    /// True if somebody listens. The listener hears of a new one a while after frames go there: it is asked for, so
+    /// that no image is left out behind the first frame of the other way.
+    fn is_watched(&self) -> bool {
+        self.is_watched.load(Ordering::Relaxed)
+            || self.publisher.matching_status().wait().is_ok_and(|status| status.matching())
+    }
 }
 
 impl BoardOffer {
@@ -96,17 +105,10 @@ impl BoardOffer {
             let line = kept.lock().unwrap_or_else(PoisonError::into_inner).clone();
             drop(query.reply(&key, line).wait());
         });
-        let shown = place.clone();
-        let rivals = session.liveliness().declare_subscriber(place.all_alive()).callback(move |sample| {
-            let id = BoardPlace::publisher(sample.key_expr().as_str());
-            if sample.kind() == SampleKind::Put && id.is_some_and(|id| id != publisher) {
-                eprintln!(
-                    "{shown} is offered by another program, too ({:016x}): whoever follows it stays with the one \
-                     that it has.",
-                    id.unwrap_or_default()
-                );
-            }
-        });
+        let rivals = session
+            .liveliness()
+            .declare_subscriber(place.all_alive())
+            .callback(told_of_rivals(place.clone(), publisher));
         let plain = |key: String| session.declare_publisher(key).priority(Priority::DataHigh).wait();
         Ok(BoardOffer {
             place: place.clone(),
@@ -140,7 +142,7 @@ impl BoardOffer {
                 PieceKind::Main => &*main,
                 PieceKind::Image => &*images,
             };
-            if kind == PieceKind::Image && !wire.is_watched.load(Ordering::Relaxed) {
+            if kind == PieceKind::Image && !wire.is_watched() {
                 return;
             }
             *stamp = stamp.next(kind);
@@ -224,6 +226,23 @@ impl<E: From<Error>> Show<E> for BoardOffer {
     fn end(&mut self, _: &Client) -> Result<(), E> {
         let parted = self.part();
         Ok(self.done(parted)?)
+    }
+}
+
+/// Says who else offers the board, each once.
+fn told_of_rivals(place: BoardPlace, publisher: u64) -> impl Fn(Sample) + Send + Sync {
+    let told = Mutex::new(Vec::new());
+    move |sample| {
+        let Some(id) = BoardPlace::publisher(sample.key_expr().as_str()) else { return };
+        let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_new = sample.kind() == SampleKind::Put && id != publisher && !told.contains(&id);
+        if is_new && told.len() < TOLD {
+            told.push(id);
+            eprintln!(
+                "{place} is offered by another program, too ({id:016x}): whoever follows it stays with the one that \
+                 it has."
+            );
+        }
     }
 }
 

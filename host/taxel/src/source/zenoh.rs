@@ -2,7 +2,7 @@
 
 use super::{Port, Source};
 use crate::error::{Result, SourceError};
-use crate::network::{self, BoardPlace, NetworkEnd, PieceKind, PieceOrder, PieceStamp, WirePiece};
+use crate::network::{self, BoardPlace, NetworkEnd, PieceKind, PieceOrder, WirePiece};
 use crate::source::shared::Shared;
 use std::collections::VecDeque;
 use std::io;
@@ -26,8 +26,8 @@ const HANDED: Duration = Duration::from_secs(3);
 const OPEN: usize = 16;
 /// Bytes that are enough for a read.
 const READY: usize = 1 << 16;
-/// Most frames without an image that wait for the reader; then the network waits, too.
-const WAITING: usize = 4096;
+/// Most publishers that are known, and most news that wait.
+const KNOWN: usize = 64;
 
 /// Opens a board by its name. Error if nobody can be reached, or offers it.
 pub fn open(place: &BoardPlace, config: Option<&Path>) -> Result<Source> {
@@ -74,8 +74,19 @@ struct Inbox {
     open: usize,
     /// The last request that was answered was not handed over.
     is_unheard: bool,
+    /// Ways by which something came that the publisher has not sent: it was told of.
+    strange: Vec<PieceKind>,
     /// Nobody reads any longer.
     is_closed: bool,
+}
+
+impl Inbox {
+    /// Adds what is to be told, unless nobody has listened for long.
+    fn tell(&mut self, news: String) {
+        if self.news.len() < KNOWN {
+            self.news.push_back(news);
+        }
+    }
 }
 
 /// The link to a board.
@@ -108,7 +119,7 @@ impl ZenohPort {
                 key if key == images => PieceKind::Image,
                 _ => return,
             };
-            take(&told, kind, &sample);
+            note_piece(&told, kind, &sample);
         });
         Ok(ZenohPort {
             publisher,
@@ -218,8 +229,8 @@ impl Ticket {
         if let Err(why) = result
             && !was_unheard
         {
-            let why = why.payload().try_to_string().map_or("it is not read".into(), |why| why.into_owned());
-            self.0.change(|inbox| inbox.news.push_back(format!("a request was not handed over: {why}")));
+            let why = network::words(&why.payload().to_bytes());
+            self.0.change(|inbox| inbox.tell(format!("a request was not handed over: {why}")));
         }
     }
 }
@@ -238,9 +249,12 @@ fn note_life(inbox: &Shared<Inbox>, sample: &Sample) {
         if sample.kind() == SampleKind::Delete {
             return;
         }
-        inbox.alive.push(id);
-        if let Some(ours) = inbox.order.as_ref().map(PieceOrder::publisher).filter(|ours| *ours != id) {
-            inbox.news.push_back(twice(ours, id));
+        let ours = inbox.order.as_ref().map(PieceOrder::publisher);
+        if inbox.alive.len() < KNOWN || ours == Some(id) {
+            inbox.alive.push(id);
+        }
+        if let Some(ours) = ours.filter(|ours| *ours != id) {
+            inbox.tell(twice(ours, id));
         }
     });
 }
@@ -264,26 +278,29 @@ fn chosen(inbox: &Shared<Inbox>, place: &BoardPlace, before: Option<u64>, longes
     let before = before.filter(|before| known.alive.contains(before));
     let ours = before.or(known.alive.iter().min().copied()).unwrap_or_default();
     let others: Vec<u64> = known.alive.iter().copied().filter(|id| *id != ours).collect();
-    known.news.extend(others.into_iter().map(|other| twice(ours, other)));
+    others.into_iter().for_each(|other| known.tell(twice(ours, other)));
     known.order = Some(PieceOrder::new(ours));
     Ok(ours)
 }
 
-/// Takes a frame.
-fn take(inbox: &Shared<Inbox>, kind: PieceKind, sample: &Sample) {
-    let stamp = sample.attachment().and_then(|bytes| PieceStamp::from_bytes(&bytes.to_bytes()));
-    let Some(stamp) = stamp else { return };
-    let piece = WirePiece { kind, stamp, bytes: sample.payload().to_bytes().into_owned() };
+/// Takes a frame; what the publisher has not sent is ignored, and told of once.
+fn note_piece(inbox: &Shared<Inbox>, kind: PieceKind, sample: &Sample) {
+    let stamp = sample.attachment().map(|bytes| bytes.to_bytes()).unwrap_or_default();
+    let piece = WirePiece::read(kind, &stamp, &sample.payload().to_bytes());
     let mut known = inbox.lock();
     // The network waits with us, as a cable would.
-    while kind == PieceKind::Main
-        && !known.is_closed
-        && known.order.as_ref().is_some_and(|order| order.waiting() >= WAITING)
+    while kind == PieceKind::Main && !known.is_closed && known.order.as_ref().is_some_and(PieceOrder::is_full)
     {
         known = inbox.wait(known, PATIENCE);
     }
-    if let Some(order) = &mut known.order {
-        order.push(Instant::now(), piece);
+    let Some(order) = &mut known.order else { return };
+    let taken = piece.and_then(|piece| order.push(Instant::now(), piece));
+    if let Err(why) = taken
+        && !known.strange.contains(&kind)
+    {
+        known.strange.push(kind);
+        let key = sample.key_expr();
+        known.tell(format!("something else writes to {key}, and is ignored: {why}"));
     }
     drop(known);
     inbox.wake();

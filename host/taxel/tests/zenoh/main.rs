@@ -2,6 +2,7 @@
 //! what goes wrong is said.
 
 mod errors;
+mod hostile;
 mod offered;
 mod requests;
 mod returns;
