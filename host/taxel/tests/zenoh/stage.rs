@@ -42,9 +42,16 @@ impl Network {
         Network { router: file("router", router.to_string()), client: file("client", client.to_string()) }
     }
 
-    /// Follows the board.
+    /// Follows the board, once it is offered.
     pub fn view(&self) -> Session {
-        Session::over(self.source().unwrap()).unwrap()
+        let until = Instant::now() + PATIENCE;
+        loop {
+            match self.source() {
+                Ok(source) => return Session::over(source).unwrap(),
+                // A busy machine begins the offer later than a viewer looks for one.
+                Err(error) => assert!(Instant::now() < until, "{error}"),
+            }
+        }
     }
 
     /// The board as a source.
