@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import fields
-from conftest import NEWEST, stamp_us, taxel
+from conftest import LONG, NEWEST, stamp_us, taxel
 from geometry_msgs.msg import WrenchStamped
 from joints import FASTNESS, SWING, waist
 from rcl_interfaces.msg import Log
@@ -53,7 +53,9 @@ def test_what_presses_on_a_robot_that_moves(listener):
     # By the stamp of the scan it is known where the torso was.
     worst, widest, judged = 0.0, 0.0, 0
     ages = sorted(one.pose_age for one in posed())
-    assert -0.02 < ages[len(ages) // 2] < 0.1, ages
+    age = ages[len(ages) // 2]
+    # A busy machine tells poses late. That they are old is then true, and what follows judges the bound for it.
+    assert age > -0.02 and (age < 0.1 or not LONG), ages
     for one in posed():
         angle = waist(stamp_us(one.header.stamp))
         for contact in [contact for contact in one.contacts if contact.link == "torso"]:
@@ -65,7 +67,7 @@ def test_what_presses_on_a_robot_that_moves(listener):
             worst, widest, judged = max(worst, off), max(widest, one.pose_error), judged + 1
     assert judged > 200
     print(f"ros2: {judged} contacts on a torso that turns: off by {1e3 * worst:.2f} mm at most, and the messages say "
-          f"{1e3 * widest:.2f} mm at most")
+          f"{1e3 * widest:.2f} mm at most; poses were {1e3 * age:.0f} ms old (median)")
     # Contacts lie where the board says.
     landed = {(one.frame, contact.id): contact for one in compared for contact in one.contacts}
     seen = 0
