@@ -1,5 +1,5 @@
 //! Cost of recording compared with perception, and speed of replay. What the processor does is told apart from
-//! what is waited for: a recording that takes a fifth of a second waits for the disk as long as one of an hour.
+//! what is waited for: the disk, and other programs.
 
 use anyhow::{Context, Result};
 use clap::Args;
