@@ -40,6 +40,7 @@ pub use crate::calibrate::certificate::Certificate;
 pub use crate::calibrate::sampled::Sampled;
 pub use crate::filter::kinds::Filter;
 pub use crate::filter::points::{MARGIN, POINTS};
+pub use crate::filter::withheld::WithheldTaxel;
 pub use crate::image::rows::Rows;
 pub use crate::image::view::Image;
 pub use config::ConditionConfig;

@@ -3,7 +3,8 @@
 use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
-use crate::filter::points::Points;
+use crate::filter::points::{POINTS, Points};
+use crate::filter::withheld::{WithheldTaxel, withheld};
 #[cfg(feature = "folds")]
 use crate::fold::FoldTable;
 use crate::fold::{FoldState, PostureState};
@@ -12,6 +13,7 @@ use crate::format::Code;
 use crate::format::Name;
 use crate::garment::Layout;
 use crate::image::images::Images;
+use heapless::Vec;
 
 /// Baseline, gain and image of every taxel.
 #[derive(Debug, Clone)]
@@ -29,6 +31,11 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// The last image before the filter.
     pub(crate) fn calibrated(&self) -> &[u16] {
         &self.images.calibrated
+    }
+
+    /// What the persistent filter withholds of the last frame at the edges of panels, ascending by taxel.
+    pub fn withheld(&self, layout: &Layout) -> Vec<WithheldTaxel, POINTS> {
+        withheld(&self.points, &self.images.filtered, layout)
     }
 
     /// State without a garment: every gain is 0. Call [`ConditionState::reset`] next.

@@ -2,19 +2,22 @@
 
 use super::state::CONTACTS;
 use crate::body::Placed;
-use crate::condition::Tare;
+use crate::condition::{POINTS, Tare, WithheldTaxel};
 use crate::format::Name;
 use crate::gesture::Gesture;
 use crate::intent::Meaning;
 use crate::react::ReactState;
 use crate::symbol::{Symbol, SymbolState};
 use crate::unsure::UnsureState;
+use heapless::Vec;
 
 /// Everything perceived in one frame.
 #[derive(Debug, Clone)]
 pub struct Percept<'a> {
     /// Conditioned image by taxel number, background zero.
     pub image: &'a [u16],
+    /// What the filter withholds of the image at the edges of panels.
+    pub withheld: Vec<WithheldTaxel, POINTS>,
     /// Present contacts.
     pub present: &'a [Placed],
     /// Age of the form of each present contact, frames; saturates at 255.

@@ -66,6 +66,7 @@ impl Pipeline {
         probe.begin(Stage::Idle);
         Percept {
             image: image.values,
+            withheld: condition.withheld(layout),
             present,
             form_ages: contact.form_ages(),
             released,

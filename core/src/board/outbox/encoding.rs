@@ -53,6 +53,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             put_shapes(tx_frame, about.taught)
         } else if core::mem::take(&mut self.ages_wait) {
             put_forms(tx_frame, &self.contacts, about.present, about.form_ages)
+        } else if let Some(report) = self.withheld.take() {
+            tx_frame.put(Report::WITHHELD, &report)
         } else if core::mem::take(&mut self.contacts.waits) {
             tx_frame.put(Report::CONTACTS, &List { queue: &self.contacts, present: about.present })
         } else if core::mem::take(&mut self.unsure) {

@@ -77,6 +77,7 @@ pub(super) struct Outbox<const TAXELS: usize> {
     symbols: SymbolList,
     symbols_wait: bool,
     contacts: ContactQueue,
+    withheld: Option<WithheldReport>,
     /// True if ages are requested and one of them is above 0.
     ages_wait: bool,
     tell_ages: bool,
@@ -134,6 +135,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             symbols: SymbolList { frame: 0, time: Micros(0), events: Vec::new(), regions: Vec::new() },
             symbols_wait: false,
             contacts: ContactQueue::new(),
+            withheld: None,
             ages_wait: false,
             tell_ages: false,
             unsure: false,
@@ -234,6 +236,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
         self.contacts.clear();
+        self.withheld = None;
         (self.symbols_wait, self.ages_wait, self.unsure) = (false, false, false);
     }
 

@@ -17,6 +17,7 @@
 
 use super::carried::CarriedTouch;
 use super::contact::RobotContact;
+use super::edges::SeamEdges;
 use super::file::ReadRobot;
 use super::joined::{JoinedTouches, STAYS, is_at, meet};
 use super::listed::{ListedBoard, ListedTouch};
@@ -38,6 +39,7 @@ const GATE_MM: f64 = 40.0;
 pub struct RobotContacts {
     planes: Vec<SeamPlane>,
     boards: Vec<ListedBoard>,
+    edges: SeamEdges,
     present: BTreeMap<u32, PresentContact>,
     ids: u32,
 }
@@ -54,7 +56,8 @@ impl RobotContacts {
     pub fn new(robot: &ReadRobot) -> RobotContacts {
         let planes = robot.seams.iter().filter_map(|seam| SeamPlane::of(seam, &robot.boards)).collect();
         let boards = (0..robot.boards.len()).map(ListedBoard::new).collect();
-        RobotContacts { planes, boards, present: BTreeMap::new(), ids: 0 }
+        let edges = SeamEdges::new(robot);
+        RobotContacts { planes, boards, edges, present: BTreeMap::new(), ids: 0 }
     }
 
     /// Takes a scan of a board, which began at the host's time, us. Returns the robot's contacts then, and
@@ -62,11 +65,20 @@ impl RobotContacts {
     pub fn scan(&mut self, board: usize, scan: &BoardScan, host_us: u64) -> Vec<RobotContact> {
         let Some(listed) = self.boards.get_mut(board) else { return Vec::new() };
         listed.scanned(host_us);
+        self.edges.note(board, scan, host_us);
         if let Some(faint) = &scan.faint {
             listed.image(faint, host_us);
         }
         match &scan.contacts {
-            Some(contacts) => self.take(board, contacts, host_us),
+            Some(contacts) => {
+                let mut contacts = contacts.clone();
+                for press in self.edges.pressed(board, &scan.withheld, host_us) {
+                    if let Some(touch) = contacts.iter_mut().find(|touch| touch.reaches(press.place)) {
+                        touch.press(&press);
+                    }
+                }
+                self.take(board, &contacts, host_us)
+            }
             None => self.pass(host_us),
         }
     }
@@ -95,6 +107,7 @@ impl RobotContacts {
     pub fn forget(&mut self, board: usize, host_us: u64) -> Vec<RobotContact> {
         if let Some(listed) = self.boards.get_mut(board) {
             *listed = ListedBoard::new(board);
+            self.edges.forget(board);
         }
         self.join(host_us)
     }

@@ -5,6 +5,7 @@
 //! begins: its board does not report it. It is found here, in the board's image.
 
 use super::file::ReadRobot;
+use super::seam_taxels::seam_taxels;
 use super::touched::BoardTouch;
 use crate::client::Client;
 use std::collections::BTreeMap;
@@ -28,10 +29,7 @@ impl FaintFinder {
             return FaintFinder::default();
         };
         let layout = worn.layout.clone();
-        let seams = robot.seams.iter().flat_map(|seam| [(seam.a, seam.length), (seam.b, seam.length)]);
-        let here = seams.filter(|(edge, _)| edge.board == board);
-        let edges = here.flat_map(|(edge, length)| edge.places(&layout, length));
-        let edges: Vec<usize> = edges.filter_map(|place| layout.taxel(place)).collect();
+        let edges: Vec<usize> = seam_taxels(robot, board).iter().map(|at| at.taxel.into()).collect();
         let sewn = if edges.is_empty() { BTreeMap::new() } else { sewn(&layout) };
         FaintFinder { layout, edges, sewn }
     }
@@ -41,6 +39,13 @@ impl FaintFinder {
         let (_, image) = client.image().filter(|_| !self.edges.is_empty())?;
         let low = client.worn()?.scene.contact.low;
         (image.len() == self.layout.taxels()).then(|| self.find_in(image, low, client.contacts()))
+    }
+
+    /// What presses along the seams in the client's image, counts by taxel; none if there is no image.
+    pub fn edge(&self, client: &Client) -> Option<BTreeMap<u16, u16>> {
+        let (_, image) = client.image()?;
+        let pressed = |edge: &usize| Some((*edge as u16, image.get(*edge).copied().filter(|v| *v > 0)?));
+        Some(self.edges.iter().filter_map(pressed).collect())
     }
 
     fn find_in(&self, image: &[u16], low: u16, contacts: &[Placed]) -> Vec<BoardTouch> {

@@ -20,9 +20,11 @@
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
+//! | `seam_taxels.rs` | the taxels of a board along its seams |
 //! | `touched.rs` | [`BoardTouch`]: what touches a board |
 //! | `faint.rs` | what touches a seam and is too faint to be a contact of its board |
 //! | `scan.rs` | [`ScanReader`]: contacts of a board's scan, and what is too faint for that |
+//! | `edges.rs` | what a board's filter withholds at a seam, and what presses beyond it |
 //! | `history.rs` | pressure and place of a touch in its last scans |
 //! | `carried.rs` | a touch of a board, carried on to the time of another board's scan |
 //! | `listed.rs` | what a board has told last of what touches it |
@@ -45,6 +47,7 @@ mod contact;
 mod contacts;
 mod contacts_line;
 mod contacts_ros2;
+mod edges;
 mod event;
 mod faint;
 mod file;
@@ -65,6 +68,7 @@ mod recorder;
 mod refused;
 mod scan;
 mod seam;
+mod seam_taxels;
 mod session;
 mod touch;
 mod touched;

@@ -5,15 +5,21 @@ use super::file::ReadRobot;
 use super::touched::BoardTouch;
 use crate::client::{Client, Event, ImageNews, Worn};
 use crate::files::calibrate::{Calibration, Forces};
+use std::collections::BTreeMap;
+use taxel_core::condition::WithheldTaxel;
 use taxel_core::garment::{Place, Rect};
 
 /// A scan of a board.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct BoardScan {
     /// Its contacts; none if they were not told with it.
     pub contacts: Option<Vec<BoardTouch>>,
     /// What touches a seam to another board and is too faint to be a contact; none if there is no image.
     pub faint: Option<Vec<BoardTouch>>,
+    /// What presses along the seams to other boards, counts by taxel; none if there is no image.
+    pub edge: Option<BTreeMap<u16, u16>>,
+    /// What the filter withholds of it at the edges of panels.
+    pub withheld: Vec<WithheldTaxel>,
 }
 
 /// Reads the scans of a board from its events.
@@ -37,15 +43,18 @@ impl ScanReader {
     /// The scan of an event, which the client already includes; none if the event is not about a scan.
     pub fn scan(&self, client: &Client, event: &Event) -> Option<BoardScan> {
         match event {
-            Event::Contacts { .. } => {
+            Event::Contacts { frame, .. } => {
                 let told = client.contacts().iter().map(|placed| BoardTouch::from(&placed.contact)).collect();
-                Some(BoardScan { contacts: Some(self.weighed(client, told)), faint: None })
+                let (contacts, withheld) =
+                    (Some(self.weighed(client, told)), client.withheld(*frame).to_vec());
+                Some(BoardScan { contacts, withheld, ..BoardScan::default() })
             }
-            Event::Frame { image: ImageNews::Whole, .. } => {
+            Event::Frame { image: ImageNews::Whole, frame, .. } => {
                 let faint = self.finder.find(client).map(|found| self.weighed(client, found));
-                Some(BoardScan { contacts: None, faint })
+                let (edge, withheld) = (self.finder.edge(client), client.withheld(*frame).to_vec());
+                Some(BoardScan { contacts: None, faint, edge, withheld })
             }
-            Event::Frame { .. } => Some(BoardScan { contacts: None, faint: None }),
+            Event::Frame { .. } => Some(BoardScan::default()),
             _ => None,
         }
     }
