@@ -300,6 +300,7 @@ mod tests {
             }
             let percept = Percept {
                 image: &[],
+                withheld: Vec::new(),
                 present: &present,
                 form_ages: &[],
                 released: &released,

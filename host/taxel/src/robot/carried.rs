@@ -2,6 +2,7 @@
 
 use super::history::{TouchHistory, TouchSample};
 use super::plane::{PlanePoint, PlaneSide};
+use super::seam_press::SeamPress;
 use super::touched::BoardTouch;
 
 /// A touch of a board as it was reported last.
@@ -53,6 +54,14 @@ impl CarriedTouch {
         }
         history.push(sample);
         CarriedTouch { board, touch, host_us, history, interval_us }
+    }
+
+    /// Adds what the board's filter withheld in that scan.
+    pub fn press(&mut self, press: &SeamPress) {
+        self.touch.press(press);
+        let (total, centroid) = (f64::from(self.touch.total), self.touch.centroid);
+        // Instead of the sample of the same time.
+        self.history.push(TouchSample { host_us: self.host_us, total, centroid });
     }
 
     /// The same, carried on for that long.

@@ -24,7 +24,6 @@ use super::listed::{ListedBoard, ListedTouch};
 use super::plane::SeamPlane;
 use super::scan::BoardScan;
 use super::touch::RobotTouchPart;
-use super::touched::BoardTouch;
 use std::collections::{BTreeMap, BTreeSet};
 use taxel_core::contact::Phase;
 
@@ -67,29 +66,23 @@ impl RobotContacts {
         listed.scanned(host_us);
         self.edges.note(board, scan, host_us);
         if let Some(faint) = &scan.faint {
-            listed.image(faint, host_us);
+            let mut faint = faint.clone();
+            for press in self.edges.pressed(board, &scan.withheld, host_us) {
+                let here = faint.iter_mut().find(|touch| touch.reaches(press.place, 1));
+                here.into_iter().for_each(|touch| touch.press(&press));
+            }
+            listed.image(&faint, host_us);
         }
         match &scan.contacts {
             Some(contacts) => {
-                let mut contacts = contacts.clone();
-                for press in self.edges.pressed(board, &scan.withheld, host_us) {
-                    if let Some(touch) = contacts.iter_mut().find(|touch| touch.reaches(press.place)) {
-                        touch.press(&press);
-                    }
-                }
-                self.take(board, &contacts, host_us)
+                let gone = listed.list(contacts, host_us);
+                listed.withhold(&scan.withheld, host_us);
+                gone.iter().for_each(|old| self.wait(old, host_us));
+                self.boards.iter_mut().for_each(|listed| listed.press(&self.edges));
+                self.join(host_us)
             }
             None => self.pass(host_us),
         }
-    }
-
-    /// Takes a board's list at the host's time of its frame, us. Returns the robot's contacts then, and
-    /// those just released, by their ids.
-    fn take(&mut self, board: usize, contacts: &[BoardTouch], host_us: u64) -> Vec<RobotContact> {
-        for old in self.boards[board].list(contacts, host_us) {
-            self.wait(&old, host_us);
-        }
-        self.join(host_us)
     }
 
     /// A board has scanned without a list. Returns the contacts that have waited in vain and are released,

@@ -6,7 +6,9 @@
 
 use super::file::ReadRobot;
 use super::scan::BoardScan;
+use super::seam_press::SeamPress;
 use super::seam_taxels::{SeamTaxel, seam_taxels};
+use super::touched::BoardTouch;
 use std::collections::{BTreeMap, VecDeque};
 use taxel_core::condition::WithheldTaxel;
 use taxel_core::garment::Place;
@@ -15,17 +17,6 @@ use taxel_core::garment::Place;
 const LASTS_US: u64 = 100_000;
 /// Scans of the board beyond that count: a touch may have come or gone between one and the next.
 const SCANS: usize = 2;
-
-/// What is pressed of what a filter withheld.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SeamPress {
-    /// Where.
-    pub place: Place,
-    /// Pressure of the taxel, counts.
-    pub value: u16,
-    /// How much of it the filter withheld, counts.
-    pub more: u16,
-}
 
 /// The edges of all boards at their seams.
 #[derive(Debug, Clone)]
@@ -57,15 +48,19 @@ impl SeamEdges {
         SeamEdges(boards)
     }
 
-    /// Notes what presses at the seams in an image of a board, at the host's time of its scan, us.
+    /// Notes what presses at the seams in a scan of a board, at the host's time of it, us: what its image says,
+    /// or, until that comes, the most that its contacts may press there.
     pub fn note(&mut self, board: usize, scan: &BoardScan, host_us: u64) {
         let Some(edges) = self.0.get_mut(board).filter(|edges| !edges.taxels.is_empty()) else { return };
-        if let Some(pressed) = &scan.edge {
-            let mut pressed = pressed.clone();
-            pressed.extend(scan.withheld.iter().map(|withheld| (withheld.taxel, withheld.value)));
-            edges.scans.truncate(SCANS - 1);
-            edges.scans.push_front((host_us, pressed));
-        }
+        let mut pressed = match (&scan.edge, &scan.contacts) {
+            (Some(edge), _) => edge.clone(),
+            (None, Some(contacts)) => edges.at_most(contacts),
+            (None, None) => return,
+        };
+        pressed.extend(scan.withheld.iter().map(|withheld| (withheld.taxel, withheld.value)));
+        edges.scans.retain(|(at, _)| *at < host_us);
+        edges.scans.truncate(SCANS - 1);
+        edges.scans.push_front((host_us, pressed));
     }
 
     /// What is pressed of what the filter of a board withheld in its scan at the host's time, us.
@@ -76,7 +71,7 @@ impl SeamEdges {
             let most = beyond.iter().map(|(board, taxel)| self.most(*board, *taxel, host_us)).max()?;
             let value = withheld.value.min(most);
             let more = value.checked_sub(withheld.filtered).filter(|more| *more > 0)?;
-            Some(SeamPress { place: *place, value, more })
+            Some(SeamPress { taxel: withheld.taxel, place: *place, value, more })
         };
         withheld.iter().filter_map(press).collect()
     }
@@ -93,5 +88,16 @@ impl SeamEdges {
         if let Some(edges) = self.0.get_mut(board) {
             edges.scans.clear();
         }
+    }
+}
+
+impl BoardEdges {
+    /// The most that these contacts may press at the seams, counts by taxel.
+    fn at_most(&self, contacts: &[BoardTouch]) -> BTreeMap<u16, u16> {
+        let peak = |place: Place| {
+            let here = contacts.iter().filter(|touch| touch.reaches(place, 0));
+            here.map(|touch| touch.peak).max()
+        };
+        self.taxels.iter().filter_map(|(taxel, (place, _))| Some((*taxel, peak(*place)?))).collect()
     }
 }

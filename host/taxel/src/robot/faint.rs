@@ -43,7 +43,7 @@ impl FaintFinder {
 
     /// What presses along the seams in the client's image, counts by taxel; none if there is no image.
     pub fn edge(&self, client: &Client) -> Option<BTreeMap<u16, u16>> {
-        let (_, image) = client.image()?;
+        let (_, image) = client.image().filter(|_| !self.edges.is_empty())?;
         let pressed = |edge: &usize| Some((*edge as u16, image.get(*edge).copied().filter(|v| *v > 0)?));
         Some(self.edges.iter().filter_map(pressed).collect())
     }

@@ -1,7 +1,9 @@
 //! What a board has told last of what touches it.
 
 use super::carried::CarriedTouch;
+use super::edges::SeamEdges;
 use super::touched::BoardTouch;
+use taxel_core::condition::WithheldTaxel;
 
 /// Time between two scans of a board that has not told two, us.
 const USUAL_US: u64 = 20_000;
@@ -23,6 +25,8 @@ pub struct ListedBoard {
     pub contacts: Vec<ListedTouch>,
     /// What touches a seam and is too faint to be a contact, then what was one.
     pub faint: Vec<ListedTouch>,
+    /// Host time of its last list of contacts, us, and what the filter withheld then and is not counted yet.
+    withheld: (u64, Vec<WithheldTaxel>),
 }
 
 /// A touch of a board, and the robot's contact that it belongs to.
@@ -53,8 +57,15 @@ impl ListedTouch {
 impl ListedBoard {
     /// A board that has told nothing yet.
     pub fn new(board: usize) -> ListedBoard {
-        let (contacts, faint) = (Vec::new(), Vec::new());
-        ListedBoard { board, scanned_us: None, interval_us: USUAL_US, imaged_us: None, contacts, faint }
+        ListedBoard {
+            board,
+            scanned_us: None,
+            interval_us: USUAL_US,
+            imaged_us: None,
+            contacts: Vec::new(),
+            faint: Vec::new(),
+            withheld: (0, Vec::new()),
+        }
     }
 
     /// Time between two scans, us.
@@ -121,6 +132,28 @@ impl ListedBoard {
         self.contacts.append(&mut gone);
         self.contacts.extend(before.iter().cloned().map(|old| old.over(host_us, interval_us)));
         before
+    }
+
+    /// Notes what the filter withheld of its last list of contacts.
+    pub fn withhold(&mut self, withheld: &[WithheldTaxel], host_us: u64) {
+        self.withheld = (host_us, withheld.to_vec());
+    }
+
+    /// Adds to the contacts of its last list what the filter withheld there, as far as the edges now tell that
+    /// it is pressed.
+    pub fn press(&mut self, edges: &SeamEdges) {
+        let (host_us, withheld) = &mut self.withheld;
+        for press in edges.pressed(self.board, withheld, *host_us) {
+            let is_pressed = |listed: &&mut ListedTouch| {
+                let CarriedTouch { touch, host_us: at_us, .. } = &listed.carried;
+                listed.is_contact() && at_us == host_us && touch.reaches(press.place, 1)
+            };
+            let Some(listed) = self.contacts.iter_mut().find(is_pressed) else { continue };
+            listed.carried.press(&press);
+            // What is counted is withheld no more.
+            let counted = withheld.iter_mut().filter(|withheld| withheld.taxel == press.taxel);
+            counted.for_each(|withheld| withheld.filtered = press.value);
+        }
     }
 
     /// Takes what is too faint in an image.

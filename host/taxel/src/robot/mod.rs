@@ -21,6 +21,7 @@
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
 //! | `seam_taxels.rs` | the taxels of a board along its seams |
+//! | `seam_press.rs` | what presses on a taxel at a seam, and its board's filter withheld |
 //! | `touched.rs` | [`BoardTouch`]: what touches a board |
 //! | `faint.rs` | what touches a seam and is too faint to be a contact of its board |
 //! | `scan.rs` | [`ScanReader`]: contacts of a board's scan, and what is too faint for that |
@@ -68,6 +69,7 @@ mod recorder;
 mod refused;
 mod scan;
 mod seam;
+mod seam_press;
 mod seam_taxels;
 mod session;
 mod touch;

@@ -1,6 +1,6 @@
 //! What touches a board: a contact, or what is too faint to be one.
 
-use super::edges::SeamPress;
+use super::seam_press::SeamPress;
 use taxel_core::contact::{Contact, Phase};
 use taxel_core::garment::{Place, Rect};
 
@@ -47,23 +47,25 @@ impl From<&Contact> for BoardTouch {
 }
 
 impl BoardTouch {
-    /// True if a taxel belongs to it, or adjoins its box.
-    pub fn reaches(&self, place: Place) -> bool {
+    /// True if a taxel is in its box, or at most `beside` taxels from it.
+    pub fn reaches(&self, place: Place, beside: u16) -> bool {
         let Rect { panel, top, bottom, left, right } = self.bounds;
-        let is_near = |at: u16, first: u16, last: u16| at + 1 >= first && at <= last + 1;
+        let is_near = |at: u16, first: u16, last: u16| {
+            at.saturating_add(beside) >= first && at <= last.saturating_add(beside)
+        };
         place.panel == panel && is_near(place.row, top, bottom) && is_near(place.column, left, right)
     }
 
     /// Adds what its board's filter withheld.
     pub fn press(&mut self, press: &SeamPress) {
-        let SeamPress { place: Place { row, column, .. }, value, more } = *press;
+        let SeamPress { place: Place { row, column, .. }, value, more, .. } = *press;
         let (before, added) = (f64::from(self.total), f64::from(more));
         for (centroid, at) in self.centroid.iter_mut().zip([column, row]) {
             *centroid += (f64::from(at) - *centroid) * added / (before + added);
         }
-        self.total += u32::from(more);
+        self.total = self.total.saturating_add(more.into());
         self.peak = self.peak.max(value);
-        self.area += u16::from(value == more);
+        self.area = self.area.saturating_add((value == more).into());
         (self.bounds.top, self.bounds.bottom) = (self.bounds.top.min(row), self.bounds.bottom.max(row));
         (self.bounds.left, self.bounds.right) = (self.bounds.left.min(column), self.bounds.right.max(column));
     }

@@ -282,6 +282,25 @@ fn share(sorted: &[f64], part: f64) -> f64 {
     100.0 * sorted[((sorted.len() - 1) as f64 * part) as usize]
 }
 
+/// What is told on the seam by both boards together: the host's time, us, and the total.
+fn on_seam(told: &Told) -> Vec<(u64, f64)> {
+    let mut lists = Vec::new();
+    for (_, contacts) in told {
+        let there: Vec<&RobotContact> = contacts.iter().filter(|c| c.touch.parts.len() == 2).collect();
+        if let [contact] = there[..] {
+            lists.push((contact.touch.host_us, f64::from(contact.touch.total)));
+        }
+    }
+    lists
+}
+
+/// What these scans tell of a time between two of them.
+fn at(scans: &[(u64, f64)], time: u64) -> Option<f64> {
+    let after = scans.partition_point(|(at, _)| *at <= time);
+    let [(t0, a), (t1, b)] = scans.get(after.checked_sub(1)?..=after)? else { return None };
+    Some(a + (b - a) * (time - t0) as f64 / (t1 - t0) as f64)
+}
+
 /// How far the force on a seam differs from that inside a panel, sorted: means of the passes, and single lists
 /// of all touches and of slow ones.
 fn differences(filter: Filter) -> [Vec<f64>; 3] {
@@ -291,14 +310,8 @@ fn differences(filter: Filter) -> [Vec<f64>; 3] {
         let pass = Pass::random(seed);
         let inside = inside(&pass, filter);
         let [mut sum, mut want_sum, mut count] = [0.0; 3];
-        for (_, contacts) in told(&pass, filter) {
-            let on_seam: Vec<&RobotContact> = contacts.iter().filter(|c| c.touch.parts.len() == 2).collect();
-            let [contact] = on_seam[..] else { continue };
-            let time = contact.touch.host_us;
-            let after = inside.partition_point(|(at, _)| *at <= time);
-            let [(t0, a), (t1, b)] = inside[after - 1..=after] else { continue };
-            let want = a + (b - a) * (time - t0) as f64 / (t1 - t0) as f64;
-            let total = f64::from(contact.touch.total);
+        for (time, total) in on_seam(&told(&pass, filter)) {
+            let Some(want) = at(&inside, time) else { continue };
             (sum, want_sum, count) = (sum + total, want_sum + want, count + 1.0);
             let difference = (total / want - 1.0).abs();
             moments.push(difference);
@@ -334,11 +347,56 @@ fn the_force_on_a_seam_is_that_inside_a_panel() {
     assert!(share(&means, 0.5) <= 0.1 && share(&slow, 0.99) <= 2.0);
 }
 
-/// To a board's filter a panel ends at the seam: a taxel there that exceeds its neighbours on the panel is an
-/// impulse until it lasts, and of a touch that is small and fast, none does.
+/// Moments of the first scan, parts of the time between two, at which a touch is scanned inside a panel.
+const MOMENTS: u64 = 4;
+
+/// Means of what a panel's filter leaves of the same touch inside the panel at these times, by the rate of either
+/// board and the moment of its first scan: of a touch that is small and fast, it depends on where the scans find
+/// it.
+fn left_inside(pass: &Pass, filter: Filter, times: &[u64]) -> Vec<f64> {
+    let mut left = vec![mean_at(&inside(pass, filter), times)];
+    for period_us in pass.periods_us {
+        for moment in 0..MOMENTS {
+            let mut scanned = pass.clone();
+            scanned.periods_us[pass.from] = period_us;
+            scanned.first_us[pass.from] = period_us * moment / MOMENTS;
+            left.push(mean_at(&inside(&scanned, filter), times));
+        }
+    }
+    left
+}
+
+fn mean_at(scans: &[(u64, f64)], times: &[u64]) -> f64 {
+    let told: Vec<f64> = times.iter().filter_map(|time| at(scans, *time)).collect();
+    told.iter().sum::<f64>() / told.len() as f64
+}
+
+/// Inside a panel, the filter takes up to a sixth of a touch of two taxels that moves by two taxels from scan to
+/// scan. On a seam it takes no more, and nothing is told twice: what is told lies between the least that a
+/// panel's filter leaves and what presses.
 #[test]
-fn a_filter_takes_little_of_a_touch_on_a_seam() {
-    let [means, _, slow] = differences(Filter::default());
+fn a_filter_takes_no_more_on_a_seam_than_inside_a_panel() {
+    let filter = Filter::default();
+    let mut off = Vec::new();
+    for seed in seeds() {
+        let pass = Pass::random(seed);
+        let told = on_seam(&told(&pass, filter));
+        let times: Vec<u64> = told.iter().map(|(time, _)| *time).collect();
+        assert!(!told.is_empty(), "seed {seed}: {pass:?}");
+        let total = told.iter().map(|(_, total)| total).sum::<f64>() / told.len() as f64;
+        let least = left_inside(&pass, filter, &times).into_iter().fold(f64::MAX, f64::min);
+        let most = mean_at(&inside(&pass, Filter::Off), &times);
+        let beyond = (total / least.min(most) - 1.0).min(0.0) + (total / most.max(least) - 1.0).max(0.0);
+        if beyond.abs() > BAR {
+            println!("seed {seed}: {total:.0} of {least:.0} to {most:.0}, {} lists, {pass:?}", told.len());
+        }
+        off.push(beyond.abs());
+    }
+    off.sort_by(f64::total_cmp);
+    let [median, most, worst] = [0.5, 0.99, 1.0].map(|part| share(&off, part));
+    println!("beyond what is left inside: median {median:.2} %, 99 % {most:.2} %, worst {worst:.2} %");
+    assert!(off.iter().all(|beyond| *beyond <= BAR));
+    let [means, _, slow] = differences(filter);
     let above = means.iter().filter(|difference| **difference > BAR).count();
-    assert!(above * 20 <= means.len() && share(&means, 0.5) <= 0.5 && share(&slow, 0.99) <= 5.0);
+    assert!(above * 100 <= means.len() && share(&means, 0.5) <= 0.5 && share(&slow, 0.99) <= 5.0);
 }

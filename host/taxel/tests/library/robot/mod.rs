@@ -13,3 +13,4 @@ mod orders;
 mod posture;
 mod recorded;
 mod scanning;
+mod withheld;
