@@ -19,8 +19,8 @@ const EACH: usize = 10;
 const LOOK: Duration = Duration::from_secs(10);
 /// How long a program may take longer than the streams: boards that are played late.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Time for what is under way when all is played.
-const UNDER_WAY: Duration = Duration::from_secs(2);
+/// The program rests once it takes less than this of the processor in this time, s: it has what was played.
+const REST: (f64, Duration) = (0.3, Duration::from_secs(1));
 /// Clock ticks of `/proc` in a second.
 const TICKS: f64 = 100.0;
 
@@ -33,7 +33,7 @@ pub struct Judged {
     pub seconds: f64,
     /// What each board has brought.
     pub each: Brought,
-    /// Processor time of the program, s.
+    /// Processor time of the program until it had all, s.
     pub cpu_s: f64,
     /// Its memory each ten seconds, MB.
     pub memory_mb: Vec<f64>,
@@ -99,8 +99,7 @@ pub fn judge(program: &Path, folder: &Path, stream: &Stream, seconds: f64, board
         line.split("127.0.0.1:").nth(1).and_then(|rest| rest.split('/').next()).context(line.clone())?;
     let viewer = view(port)?;
     let (memory_mb, late_ms) = watch(id, ports.len().div_ceil(EACH), &played, seconds)?;
-    let cpu_s = cpu_s(id)?;
-    thread::sleep(UNDER_WAY);
+    let cpu_s = rested(id)?;
     ensure!(Command::new("kill").args(["-INT", &id.to_string()]).status()?.success(), "kill failed");
     let said = || std::fs::read_to_string(folder.join("said.txt")).unwrap_or_default();
     ensure!(recorder.0.wait()?.success(), "the recording failed: {}", said());
@@ -175,6 +174,19 @@ fn watch(id: u32, players: usize, played: &Receiver<String>, seconds: f64) -> Re
     }
     memory_mb.push(self::memory_mb(id)?);
     Ok((memory_mb, late_us / 1e3))
+}
+
+/// Waits until the program has all that was played. Returns the processor time that it has taken, s.
+fn rested(id: u32) -> Result<f64> {
+    let (begun, mut before) = (Instant::now(), cpu_s(id)?);
+    while begun.elapsed() < PATIENCE {
+        thread::sleep(REST.1);
+        let now = cpu_s(id)?;
+        if now - std::mem::replace(&mut before, now) < REST.0 {
+            return Ok(now);
+        }
+    }
+    bail!("what was played is not recorded {} s later", PATIENCE.as_secs());
 }
 
 /// Processor time of a process so far, s.

@@ -62,10 +62,13 @@ pub fn serve(listener: &TcpListener, stream: &Stream, played: &Sender<Duration>)
         seq: 0,
         begun: None,
         next: 0,
+        outgoing: Vec::new(),
         late: Duration::ZERO,
     };
     while player.hear()? {
         let rest = player.play()?;
+        player.link.write_all(&player.outgoing)?;
+        player.outgoing.clear();
         if rest.is_none() && player.next == stream.messages.len() {
             player.next += 1;
             // Whoever is told may be gone.
@@ -86,6 +89,8 @@ struct Player<'a> {
     begun: Option<Instant>,
     /// Number of the next message.
     next: usize,
+    /// What is to be sent: all that is due leaves together, as from a board's ring.
+    outgoing: Vec<u8>,
     late: Duration,
 }
 
@@ -164,7 +169,7 @@ impl Player<'_> {
 
     fn send(&mut self, report: &[u8]) -> Result<()> {
         let mut room = [0; frame_bound(LONGEST)];
-        self.link.write_all(encode(&Numbered(self.seq, report), &mut room)?)?;
+        self.outgoing.extend_from_slice(encode(&Numbered(self.seq, report), &mut room)?);
         self.seq = self.seq.wrapping_add(1);
         Ok(())
     }
