@@ -3,7 +3,7 @@
 import { mkdtemp, writeFile } from "node:fs/promises";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import assert from "node:assert/strict";
 import { Chromium } from "./chromium.mjs";
@@ -13,6 +13,7 @@ import { drawn } from "./page.fixture.mjs";
 
 /** A place where no board is: whoever connects is sent away. */
 const nobody = createServer((stream) => stream.destroy());
+let file;
 let view;
 let browser;
 
@@ -28,7 +29,7 @@ before(async () => {
     '[[seams]]\na = { board = "torso", panel = "left arm", side = "bottom" }\n',
     'b = { board = "hand", panel = "mat", side = "top" }\nlength = 16\n',
   ].join("");
-  const file = join(await mkdtemp(join(tmpdir(), "taxel-boards-")), "robot.toml");
+  file = join(await mkdtemp(join(tmpdir(), "taxel-boards-")), "robot.toml");
   await writeFile(file, robot);
   view = await View.robot(file, "--requests", "-");
   browser = await Chromium.start();
@@ -108,4 +109,19 @@ test("the page of a board is that of its garment, and grey while it is not live"
   await new Promise((done) => setTimeout(done, 3500));
   assert.equal(await browser.value('document.getElementById("absence").hidden'), true);
   assert.equal(await browser.value("taxel.store.states.robot.boards[0].state"), "live");
+});
+
+test("a robot that is recorded is shown like one that is only watched", async () => {
+  const recorded = await View.run(
+    ...["robot", "record", file, "--output", join(dirname(file), "boards.mcap")],
+    ...["--realtime", "--seconds", "30", "--view"],
+  );
+  try {
+    await browser.open(`${recorded.url}boards/torso/`);
+    await browser.until("taxel.store.latest?.head.frame.contacts.length === 5");
+    await browser.until('taxel.store.states.robot.boards[2].state === "absent"');
+    await browser.until("taxel.store.states.robot_intent.leading");
+  } finally {
+    await recorded.stop();
+  }
 });

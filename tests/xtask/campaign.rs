@@ -1,7 +1,7 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
 use crate::guests::{self, Guest};
-use crate::{browser, paths, physics, python, ros2, targets, ways, wheels, zenoh};
+use crate::{boards, browser, paths, physics, python, ros2, targets, ways, wheels, zenoh};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -29,6 +29,8 @@ enum Run {
     Ros2,
     /// The Python package beside a program of other people.
     Beside(Guest),
+    /// Many boards recorded by the program itself.
+    Boards,
     /// MuJoCo's judgement of places and forces.
     Physics,
     /// Boards between machines.
@@ -165,8 +167,8 @@ const RUNS: [(&str, Run, &str); 34] = [
     ),
     (
         "boards",
-        Run::Program("robot_cost"),
-        "taxel robot: what a frame costs with 1 to 100 boards, two moving contacts each, by the build of the tests (simulated)",
+        Run::Boards,
+        "taxel robot record --view: 1 to 100 boards that other processes play, two moving contacts each, the release program (simulated)",
     ),
     ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     (
@@ -203,6 +205,9 @@ pub fn run(args: &[String]) -> Result<(), String> {
         println!("{lines}");
         if write {
             note(what, &lines).map_err(|error| format!("{}: {error}", written().display()))?;
+            if matches!(run, Run::Boards) {
+                boards::keep_chart()?;
+            }
         }
     }
     Ok(())
@@ -224,6 +229,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Ros2 => ros2::campaign(log, &longer)?,
         Run::OtherWheels => wheels::campaign(log)?,
         Run::Beside(guest) => guests::campaign(guest, log, &longer)?,
+        Run::Boards => boards::campaign(log),
         Run::Physics => physics::campaign(log, &longer)?,
         Run::Zenoh => zenoh::campaign(log)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,

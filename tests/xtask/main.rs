@@ -1,6 +1,7 @@
 //! `cargo xtask`: tasks beyond cargo's. It has no dependencies, so that it builds in a second.
 
 mod aarch64;
+mod boards;
 mod browser;
 mod campaign;
 mod cargo;
@@ -50,7 +51,7 @@ usage: cargo xtask COMMAND
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   cycles [--json|--write]
                         cost and error of the chain on the emulated board; --write updates docs/bench
-  bench [TABLE]         cost and error on this machine: stages, acquisition, amplifier, nmi, record or mind; `bench --help` has more
+  bench [TABLE]         cost and error on this machine: stages, acquisition, amplifier, nmi, record, mind or boards; `bench --help` has more
   recorded [--all]      run the recorded frames of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json|--write]
                         compare the core with imageproc, and with OpenCV if Python has it: microseconds per panel

@@ -3,6 +3,7 @@
 
 pub mod acquisition;
 pub mod amplifier;
+pub mod boards;
 pub mod chart;
 pub mod mind;
 pub mod nmi;

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use taxel::files::output;
 use taxel::tell::words;
+use taxel_bench::boards::{self, player};
 use taxel_bench::{Report, acquisition, amplifier, mind, nmi, record, stages};
 use taxel_cli::fault;
 use taxel_cli::watch::Overwrite;
@@ -40,9 +41,24 @@ enum TableArg {
     /// Cost of recording beside perceiving, and speed of replay
     #[command(after_help = "Example:\n  cargo xtask bench record")]
     Record(record::RecordBench),
+    /// Cost of recording a robot of 1 to 100 boards with a view open, played by other processes
+    #[command(after_help = "Example:\n  cargo xtask bench boards --seconds 5 --long 0")]
+    Boards(BoardsArgs),
+    /// Play boards for `boards`
+    #[command(hide = true)]
+    Play(player::PlayArgs),
     /// Cost of the mind of a robot of 1 to 100 boards
     #[command(after_help = "Example:\n  cargo xtask bench mind")]
     Mind(mind::MindBench),
+}
+
+/// Options of `boards`.
+#[derive(Debug, Clone, Args)]
+struct BoardsArgs {
+    #[command(flatten)]
+    bench: boards::BoardsBench,
+    #[command(flatten)]
+    output: Output,
 }
 
 /// Options besides the text table.
@@ -76,6 +92,16 @@ fn run(args: BenchArgs) -> Result<()> {
         TableArg::Amplifier(output) => output.put(|| Ok(amplifier::report())),
         TableArg::Nmi(output) => output.put(nmi::report),
         TableArg::Record(args) => record::run(&args),
+        TableArg::Boards(BoardsArgs { bench, output }) => {
+            let mut kept = Ok(());
+            output.put(|| {
+                let rows = boards::measure(&bench)?;
+                kept = boards::keeps(&rows);
+                Ok(boards::report(&rows))
+            })?;
+            kept
+        }
+        TableArg::Play(args) => player::run(&args),
         TableArg::Mind(args) => mind::run(&args),
     }
 }

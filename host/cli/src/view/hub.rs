@@ -142,7 +142,11 @@ impl PageHub {
 
     /// Sends a message to all pages, and to later ones until the next message of its kind.
     pub fn state(&self, kind: &'static str, line: &impl Serialize) {
-        let line = text(line);
+        self.tell(kind, text(line));
+    }
+
+    /// The same, of a message that is encoded already.
+    pub fn tell(&self, kind: &'static str, line: Arc<str>) {
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.state(kind, line.clone()));
         shared.known.insert(kind, line);

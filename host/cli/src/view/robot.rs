@@ -4,12 +4,13 @@ use super::hub::PageHub;
 use super::hubs::PageHubs;
 use super::lines::{RobotBoardLine, RobotIntentLine, RobotLine};
 use super::said::Said;
+use super::shot::text;
+use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use taxel::Result;
-use taxel::mind::{BoardHeard, ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
+use taxel::mind::{ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
 use taxel::robot::{
-    BoardEvent, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContacts, RobotContactsLine, RobotEvent,
+    BoardEvent, BoardScan, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContactsLine, RobotEvent,
 };
 use taxel::tell::words;
 use taxel_core::contact::Phase;
@@ -28,19 +29,16 @@ pub struct RobotPages<'a> {
     /// The boards were told otherwise, and when.
     is_new: bool,
     told_boards: Instant,
-    /// None if no boards are sewn together.
-    contacts: Option<RobotContacts>,
     /// The robot's contacts at a host time, us, if they were told otherwise.
-    news: Option<(u64, Vec<RobotContact>)>,
-    mind: RobotMind,
+    contacts: Option<(u64, Vec<RobotContact>)>,
     /// What touches mean as it was told last, without its time.
     meant: Option<RobotMeaningLine>,
     told: Instant,
 }
 
 impl<'a> RobotPages<'a> {
-    /// Pages on which all boards are absent. Error as of [`RobotMind::new`].
-    pub fn new(robot: &'a ReadRobot) -> Result<RobotPages<'a>> {
+    /// Pages on which all boards are absent.
+    pub fn new(robot: &'a ReadRobot) -> RobotPages<'a> {
         let count = robot.boards.len();
         let (state, since_us, why, contacts) = ("absent", None, None, 0);
         let boards = robot.boards.iter().map(|board| RobotBoardLine {
@@ -56,19 +54,12 @@ impl<'a> RobotPages<'a> {
             boards: boards.collect(),
             is_new: false,
             told_boards: Instant::now(),
-            contacts: (!robot.seams.is_empty()).then(|| RobotContacts::new(robot)),
-            news: None,
-            mind: RobotMind::new(robot)?,
+            contacts: None,
             meant: None,
             told: Instant::now(),
         };
         pages.tell_boards();
-        Ok(pages)
-    }
-
-    /// The mind of the robot, to be told what others know.
-    pub fn mind(&mut self) -> &mut RobotMind {
-        &mut self.mind
+        pages
     }
 
     /// The hub of a board.
@@ -82,15 +73,14 @@ impl<'a> RobotPages<'a> {
         PageHubs::Boards(names.zip(self.hubs.iter().cloned()).collect())
     }
 
-    /// Handles an event of a board.
-    pub fn event(&mut self, event: &RobotEvent<BoardHeard>) {
-        self.mind.event(event, |heard| heard.sense.as_ref());
+    /// Handles an event of a board; `scan` is what its news say of a scan.
+    pub fn event<T>(&mut self, event: &RobotEvent<T>, scan: impl Fn(&T) -> Option<&BoardScan>) {
         let host_us = event.stamp.host_us;
         let board = &mut self.boards[event.board];
         let before = board.clone();
         match &event.what {
-            BoardEvent::News(heard) => {
-                if let Some(contacts) = heard.scan.as_ref().and_then(|scan| scan.contacts.as_ref()) {
+            BoardEvent::News(news) => {
+                if let Some(contacts) = scan(news).and_then(|scan| scan.contacts.as_ref()) {
                     board.contacts = contacts.len();
                 }
             }
@@ -109,18 +99,13 @@ impl<'a> RobotPages<'a> {
             BoardEvent::Dropped { .. } => {}
         }
         self.is_new |= *board != before;
-        let is_gone = board.state != "live";
-        if let Some(contacts) = &mut self.contacts {
-            let joined = match &event.what {
-                BoardEvent::News(BoardHeard { scan: Some(scan), .. }) => {
-                    contacts.scan(event.board, scan, host_us)
-                }
-                _ if is_gone => contacts.forget(event.board, host_us),
-                _ => Vec::new(),
-            };
-            if !joined.is_empty() {
-                self.news = Some((host_us, joined));
-            }
+    }
+
+    /// These are the robot's contacts, at a time of the host, us; nothing happens if there are none: boards have
+    /// then told nothing new of them.
+    pub fn joined(&mut self, host_us: u64, contacts: Vec<RobotContact>) {
+        if !contacts.is_empty() {
+            self.contacts = Some((host_us, contacts));
         }
     }
 
@@ -137,13 +122,8 @@ impl<'a> RobotPages<'a> {
         }
     }
 
-    /// It is this time of the host, us, and no board says anything.
-    pub fn pass(&mut self, host_us: u64) {
-        self.mind.pass(host_us);
-    }
-
-    /// Sends what is new to the pages.
-    pub fn turn(&mut self) {
+    /// Sends what is new to the pages; `mind` is the robot's, if boards are at one time.
+    pub fn turn(&mut self, mind: Option<&RobotMind>) {
         if self.told.elapsed() < PERIOD {
             return;
         }
@@ -151,25 +131,31 @@ impl<'a> RobotPages<'a> {
         if self.is_new || self.told_boards.elapsed() >= ALIVE {
             self.tell_boards();
         }
-        if let Some((host_us, mut contacts)) = self.news.take() {
+        if let Some((host_us, mut contacts)) = self.contacts.take() {
             contacts.retain(|contact| contact.phase != Phase::Released);
-            let line = RobotContactsLine::of(self.robot, host_us, &contacts);
-            self.hubs.iter().for_each(|hub| hub.state(ROBOT_CONTACTS, &line));
+            self.tell(ROBOT_CONTACTS, &RobotContactsLine::of(self.robot, host_us, &contacts));
         }
-        self.tell_mind();
+        if let Some(mind) = mind {
+            self.tell_mind(mind);
+        }
     }
 
-    fn tell_mind(&mut self) {
-        let Some(meaning) = self.mind.meaning() else { return };
-        let line = RobotMeaningLine::of(&self.mind, meaning);
+    fn tell_mind(&mut self, mind: &RobotMind) {
+        let Some(meaning) = mind.meaning() else { return };
+        let line = RobotMeaningLine::of(mind, meaning);
         // That time has passed is no news.
         let meant = Some(RobotMeaningLine { host_time_us: 0, ..line.clone() });
         if meant == self.meant {
             return;
         }
         self.meant = meant;
-        let line = RobotIntentLine { text: line.text(), line };
-        self.hubs.iter().for_each(|hub| hub.state(ROBOT_INTENT, &line));
+        self.tell(ROBOT_INTENT, &RobotIntentLine { text: line.text(), line });
+    }
+
+    /// Sends a message to all pages: it is encoded once, however many boards there are.
+    fn tell(&self, kind: &'static str, line: &impl Serialize) {
+        let line = text(line);
+        self.hubs.iter().for_each(|hub| hub.tell(kind, line.clone()));
     }
 
     fn tell_boards(&mut self) {

@@ -38,6 +38,8 @@ pub struct Viewer {
     pace: Option<Pace>,
     raw: RawCodes,
     told: Instant,
+    /// It asks the board what only pages want to know: round trips, raw codes.
+    is_curious: bool,
     asked: Instant,
     token: u32,
     /// Half of the last round trip to the board.
@@ -58,10 +60,17 @@ impl Viewer {
             pace: source.label.starts_with("file:").then(Pace::default),
             raw: RawCodes::default(),
             told: now,
+            is_curious: true,
             asked: now,
             token: 0,
             latency: None,
         }
+    }
+
+    /// Shows what somebody else records, who must get the stream as if nobody watched: nothing waits, and the
+    /// board is asked nothing but a tare that somebody at a page wants.
+    pub fn beside_recording(self) -> Viewer {
+        Viewer { pace: None, is_curious: false, ..self }
     }
 
     /// Also shows where the garment folds.
@@ -98,7 +107,8 @@ impl Viewer {
     }
 
     fn link(&mut self, client: &Client) {
-        let line = message::link(client, self.rate.hz(), self.latency, self.hub.pages());
+        let latency = self.latency.or_else(|| client.round_trip().map(|trip| trip / 2));
+        let line = message::link(client, self.rate.hz(), latency, self.hub.pages());
         self.hub.state("link", &line);
     }
 }
@@ -144,7 +154,7 @@ impl Show<anyhow::Error> for Viewer {
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         let now = Instant::now();
-        if client.worn().is_some() && now.saturating_duration_since(self.asked) > ROUND {
+        if self.is_curious && client.worn().is_some() && now.saturating_duration_since(self.asked) > ROUND {
             self.token = self.token.wrapping_add(1);
             client.request(&Request::Sync { token: self.token })?;
             self.asked = now;
@@ -153,7 +163,9 @@ impl Show<anyhow::Error> for Viewer {
             client.request(&Request::Tare { frames })?;
             self.hub.say(&Said::note(format!("tare over {frames} frames")));
         }
-        self.raw.tend(client, self.hub.is_looked_at(), now)?;
+        if self.is_curious {
+            self.raw.tend(client, self.hub.is_looked_at(), now)?;
+        }
         if now.saturating_duration_since(self.told) >= LINK {
             self.told = now;
             self.link(client);

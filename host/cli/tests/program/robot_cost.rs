@@ -2,7 +2,7 @@
 //! streams that were made before. Nothing is lost, whatever their number.
 //!
 //! The time of the processor is that of the program's whole run; it is told where the system has `/proc`, and of
-//! use only if nothing else runs in this process (`cargo xtask campaign --only boards`).
+//! use only if nothing else runs in this process. A campaign judges it (`cargo xtask campaign --only boards`).
 
 use super::robot::folder;
 use crate::start::taxel;
@@ -12,14 +12,10 @@ use std::thread;
 use std::time::Duration;
 use taxel::recording::Overview;
 
-/// Numbers of boards, and seconds of each: the ordinary test, and a campaign.
-const BOARDS: [(&[usize], &str); 2] = [(&[1, 4], "0.5"), (&[1, 4, 16, 64, 100], "5")];
+/// Numbers of boards.
+const BOARDS: [usize; 2] = [1, 4];
 /// Two touches that move.
-const TWO: &str = "name = \"two\"\nduration_s = 60\n\
-    [[touch]]\npanel = \"chest\"\nshape = \"palm\"\nforce_n = 9\nat = [5, 7]\nsize_mm = [70, 60]\nstart_s = 0.1\n\
-    rise_s = 0.05\nhold_s = 59\nvelocity = [0.09, 0.3]\n\
-    [[touch]]\npanel = \"back\"\nshape = \"finger\"\nforce_n = 4\nat = [12, 2]\nsize_mm = 20\nstart_s = 0.1\nrise_s = 0.05\n\
-    hold_s = 59\nvelocity = [-0.1, 0.4]\n";
+const TWO: &str = include_str!("../../../../tests/bench/src/boards/two.toml");
 
 /// What a run has taken.
 struct Taken {
@@ -70,19 +66,15 @@ fn most_mb(id: u32) -> Option<f64> {
 
 #[test]
 fn robot_cost_by_number_of_boards() {
-    let (numbers, seconds) = BOARDS[usize::from(std::env::var_os("TAXEL_CAMPAIGN").is_some())];
     let folder = folder("cost", "");
     std::fs::write(folder.join("two.toml"), TWO).unwrap();
     let _ = std::fs::remove_file(folder.join("two.taxel"));
-    run(
-        &folder,
-        &["live", "--source", "sim:two.toml", "--seconds", seconds, "--json", "--save", "two.taxel"],
-    );
+    run(&folder, &["live", "--source", "sim:two.toml", "--seconds", "0.5", "--json", "--save", "two.taxel"]);
     println!("boards  frames   record: us a frame     MB   live --json: us a frame     MB");
     let mut alone = None;
-    for number in numbers {
+    for number in BOARDS {
         let board = |at: usize| format!("[[boards]]\nname = \"b{at}\"\nsource = \"file:two.taxel\"\n");
-        let robot: String = (0..*number).map(board).collect();
+        let robot: String = (0..number).map(board).collect();
         std::fs::write(folder.join("robot.toml"), format!("name = \"many\"\n{robot}")).unwrap();
         let record = run(&folder, &["robot", "record", "robot.toml", "-o", "out.mcap", "--force"]);
         let live = run(&folder, &["robot", "live", "robot.toml", "--json"]);
@@ -90,11 +82,11 @@ fn robot_cost_by_number_of_boards() {
         let count = |at: usize, topic: &str| overview.messages(&format!("/taxel/b{at}/{topic}"));
         let told = [count(0, "frames"), count(0, "contacts"), count(0, "wire")];
         assert_eq!(*alone.get_or_insert(told), told);
-        for at in 0..*number {
+        for at in 0..number {
             assert_eq!([count(at, "frames"), count(at, "contacts"), count(at, "wire")], told, "board {at}");
         }
         assert!(told[0] > 50 && told[1] > 50, "{told:?}");
-        let frames = told[0] * *number as u64;
+        let frames = told[0] * number as u64;
         let cost =
             |taken: &Taken| taken.cpu_s.map_or("-".into(), |s| format!("{:.1}", s * 1e6 / frames as f64));
         let memory = |taken: &Taken| taken.memory_mb.map_or("-".into(), |mb| format!("{mb:.0}"));

@@ -1,4 +1,4 @@
-//! `taxel robot view`: the pages of all boards, from outside.
+//! `taxel robot view` and `taxel robot record --view`: the pages of all boards, from outside.
 
 use super::robot::folder;
 use super::socket::Socket;
@@ -7,8 +7,10 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
+use taxel::recording::{Messages, Overview};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
@@ -31,9 +33,14 @@ struct Viewed(Child, u16);
 
 impl Viewed {
     fn start(name: &str, robot: &str) -> Viewed {
+        Viewed::run(&folder(name, robot), &["robot", "view", "robot.toml"])
+    }
+
+    fn run(folder: &Path, args: &[&str]) -> Viewed {
         let mut program = Command::new(taxel())
-            .current_dir(folder(name, robot))
-            .args(["robot", "view", "robot.toml", "--port", "0"])
+            .current_dir(folder)
+            .args(args)
+            .args(["--port", "0"])
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()
@@ -166,4 +173,76 @@ fn with_a_time_it_ends_and_a_board_that_never_comes_is_an_error() {
     assert_eq!(done.status.code(), Some(3));
     let error = String::from_utf8(done.stderr).unwrap();
     assert!(error.starts_with("error: board hand: serial port nowhere"), "{error}");
+}
+
+/// Two simulated boards that are sewn together.
+const SEWN: &str = "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim:five\"\ngarment = \"reference\"\n\
+    body = \"reference\"\n[[boards]]\nname = \"hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n\
+    [[seams]]\na = { board = \"torso\", panel = \"left arm\", side = \"bottom\" }\n\
+    b = { board = \"hand\", panel = \"mat\", side = \"top\" }\nlength = 16\n";
+
+/// What a recording holds of its boards, by topic: the bytes of the wire, and the JSON without the host's times.
+fn held(path: &Path) -> Vec<(String, Vec<Vec<u8>>)> {
+    let overview = Overview::of(path).unwrap();
+    let topics = overview.channels.iter().map(|info| info.channel.topic.clone());
+    let own = topics.filter(|topic| topic.starts_with("/taxel/torso/") || topic.starts_with("/taxel/hand/"));
+    let mut all: Vec<_> = own
+        .map(|topic| {
+            let (mut messages, mut told) = (Messages::of_topic(path, &topic).unwrap(), Vec::new());
+            while let Some(message) = messages.next_message().unwrap() {
+                let bytes = match serde_json::from_slice::<Value>(message.data) {
+                    Ok(mut line) => {
+                        line.as_object_mut().unwrap().remove("host_time_us");
+                        line.to_string().into_bytes()
+                    }
+                    Err(_) => message.data.to_vec(),
+                };
+                told.push(bytes);
+            }
+            (topic, told)
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
+    let folder = folder("record-view", SEWN);
+    let record = |file: &'static str| {
+        ["robot", "record", "robot.toml", "--realtime", "--seconds", "3", "--force", "-o", file]
+    };
+    let mut viewed = Viewed::run(&folder, &[&record("watched.mcap")[..], &["--view"]].concat());
+    let [mut torso, mut hand, _asleep] =
+        ["/boards/torso/socket", "/boards/hand/socket", "/boards/torso/socket"].map(|path| viewed.page(path));
+    torso.send(Message::text("{\"hover\": 9}")).unwrap();
+    line(&mut torso, "hello", |line| line["garment"] == "reference");
+    line(&mut hand, "hello", |line| line["garment"] == "block-4x16");
+    line(&mut torso, "robot", |line| {
+        line["boards"][0]["contacts"] == 5 && line["boards"][1]["state"] == "live"
+    });
+    line(&mut hand, "robot_contacts", |line| line["contacts"].as_array().unwrap().len() > 4);
+    line(&mut hand, "robot_intent", |line| line["touches"].as_array().is_some_and(|all| all.len() > 4));
+    while !torso.read().unwrap().is_binary() {}
+    // The other page has not read a byte.
+    assert!(viewed.0.wait().unwrap().success());
+    let alone = Command::new(taxel()).current_dir(&folder).args(record("alone.mcap")).output().unwrap();
+    assert!(alone.status.success());
+    let [watched, alone] = ["watched.mcap", "alone.mcap"].map(|file| held(&folder.join(file)));
+    assert_eq!(
+        watched.iter().map(|(topic, all)| (topic, all.len())).collect::<Vec<_>>(),
+        alone.iter().map(|(topic, all)| (topic, all.len())).collect::<Vec<_>>()
+    );
+    assert!(watched == alone);
+    assert!(alone.iter().any(|(topic, all)| topic == "/taxel/torso/frames" && all.len() > 500));
+}
+
+#[test]
+fn what_is_said_of_a_page_needs_one() {
+    let folder = folder("record-unseen", SEWN);
+    let args = ["robot", "record", "robot.toml", "-o", "out.mcap", "--port", "0"];
+    let done = Command::new(taxel()).current_dir(&folder).args(args).output().unwrap();
+    assert_eq!(done.status.code(), Some(2));
+    assert!(String::from_utf8(done.stderr).unwrap().contains("--view"));
+    assert!(!folder.join("out.mcap").exists());
 }

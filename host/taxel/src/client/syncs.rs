@@ -23,6 +23,8 @@ pub(super) struct Syncs {
     made: u32,
     token: u32,
     open: VecDeque<(u32, u64)>,
+    /// Time between the last request that was answered and its answer, us.
+    pub round_trip: Option<u64>,
     /// The model itself.
     clock: HostClock,
     /// The board's place on a USB that it may share with others; none if nobody has asked for that.
@@ -53,6 +55,7 @@ impl Syncs {
         let Some((_, asked)) = asked.and_then(|index| self.open.remove(index)) else { return };
         let Some(answered) = self.now else { return };
         let SyncReport { received, sent, .. } = *report;
+        self.round_trip = Some(answered.saturating_sub(asked));
         let trip = RoundTrip { asked, received, sent, answered };
         self.clock.take(&trip);
         self.bus.iter_mut().for_each(|bus| bus.trip(&trip));
@@ -89,6 +92,7 @@ impl Syncs {
         self.clock.forget();
         self.bus.iter_mut().for_each(BusSeat::leave);
         self.open.clear();
+        self.round_trip = None;
         (self.made, self.due) = (0, 0);
     }
 }

@@ -3,6 +3,7 @@
 use super::Client;
 use super::buses::{BusSeat, Buses};
 use super::clock::HostTime;
+use std::time::Duration;
 use taxel_core::format::Micros;
 
 impl Client {
@@ -23,6 +24,12 @@ impl Client {
     /// Number of the controller that the board is on, the same for all that share it; none until it is known.
     pub fn bus(&self) -> Option<usize> {
         self.syncs.bus.as_ref().and_then(BusSeat::bus)
+    }
+
+    /// Time from the last of these requests that was answered to its answer; none until the board has answered, or
+    /// if the host's time is not set.
+    pub fn round_trip(&self) -> Option<Duration> {
+        self.syncs.round_trip.map(Duration::from_micros)
     }
 
     /// Converts a board time to host time, with its uncertainty; none until the board has answered, or if the

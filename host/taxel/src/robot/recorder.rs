@@ -187,18 +187,19 @@ impl RobotRecorder {
         })
     }
 
-    /// Writes what is recorded of an event of a board. On error the recording ends: what was recorded before
-    /// stays, and the file is completed.
-    pub fn take(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
+    /// Writes what is recorded of an event of a board. Returns the robot's contacts, if boards are sewn together and
+    /// it tells anything new of them. On error the recording ends: what was recorded before stays, and the file is
+    /// completed.
+    pub fn take(&mut self, board: usize, record: &BoardRecord) -> Result<Vec<RobotContact>> {
         let done = self.write(board, record);
         self.guard(done)
     }
 
-    /// A board is lost: its part in the robot's contacts is over. Error as of [`RobotRecorder::take`].
-    pub fn lost(&mut self, board: usize, host_us: u64) -> Result<()> {
+    /// A board is lost: its part in the robot's contacts is over. Result as of [`RobotRecorder::take`].
+    pub fn lost(&mut self, board: usize, host_us: u64) -> Result<Vec<RobotContact>> {
         let contacts = self.contacts.forget(board, host_us);
         let done = self.write_contacts(host_us, &contacts);
-        self.guard(done)
+        self.guard(done).map(|()| contacts)
     }
 
     /// Adds a topic about the robot as a whole, `/taxel/NAME`, whose messages are JSON of this schema. Error as
@@ -263,9 +264,9 @@ impl RobotRecorder {
         write_line(&mut self.writer, topic, host_us, &RobotContactsLine::of(&self.robot, host_us, contacts))
     }
 
-    fn write(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
+    fn write(&mut self, board: usize, record: &BoardRecord) -> Result<Vec<RobotContact>> {
         let (Some(writer), Some(recorded)) = (&mut self.writer, self.boards.get_mut(board)) else {
-            return Ok(());
+            return Ok(Vec::new());
         };
         recorded.tally = record.tally;
         if let Some(described) = &record.described {
@@ -296,10 +297,10 @@ impl RobotRecorder {
         }
         let stamp = record.messages.first().map(|message| message.stamp.host_us);
         let Some((scan, host_us)) = record.scan.as_ref().zip(stamp).filter(|_| self.joined.is_some()) else {
-            return Ok(());
+            return Ok(Vec::new());
         };
         let contacts = self.contacts.scan(board, scan, host_us);
-        self.write_contacts(host_us, &contacts)
+        self.write_contacts(host_us, &contacts).map(|()| contacts)
     }
 
     /// Ends the recording on a write error.

@@ -7,10 +7,10 @@ use anyhow::{Context, Error, Result};
 use clap::Args;
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
-use taxel::mind::{BoardHeard, RobotMeaning, RobotMeaningLine, RobotMind};
+use taxel::mind::{RobotMeaning, RobotMeaningLine, RobotMind};
 use taxel::robot::{
-    BoardEvent, BoardLine, RobotContact, RobotContacts, RobotContactsLine, RobotEvent, RobotSession, Teller,
-    WhenFull,
+    BoardEvent, BoardLine, BoardScan, RobotContact, RobotContacts, RobotContactsLine, RobotEvent,
+    RobotSession, Teller, WhenFull,
 };
 use taxel::source::SourceOptions;
 use taxel::tell::words;
@@ -82,7 +82,8 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
             (Some(line), _) if args.json => writeln!(out, "{}", serde_json::to_string(&line)?)?,
             (_, what) => said(what).map_or(Ok(()), |said| writeln!(out, "{name:wide$} {said}"))?,
         }
-        let joined = contacts.as_mut().map(|contacts| join(contacts, &event));
+        let joined =
+            contacts.as_mut().map(|contacts| join(contacts, &event, |news| news.heard.scan.as_ref()));
         if let Some(joined) = joined.filter(|joined| !joined.is_empty()) {
             let line = RobotContactsLine::of(&robot, event.stamp.host_us, &joined);
             writeln!(out, "{}", serde_json::to_string(&line)?)?;
@@ -98,12 +99,16 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     ended
 }
 
-/// The robot's contacts, if an event has changed them.
-fn join(contacts: &mut RobotContacts, event: &RobotEvent<BoardNews>) -> Vec<RobotContact> {
+/// The robot's contacts, if an event has changed them; `scan` is what the news of a board say of a scan.
+pub fn join<T>(
+    contacts: &mut RobotContacts,
+    event: &RobotEvent<T>,
+    scan: impl Fn(&T) -> Option<&BoardScan>,
+) -> Vec<RobotContact> {
     let RobotEvent { board, stamp, what } = event;
     match what {
-        BoardEvent::News(BoardNews { heard: BoardHeard { scan: Some(scan), .. }, .. }) => {
-            contacts.scan(*board, scan, stamp.host_us)
+        BoardEvent::News(news) => {
+            scan(news).map_or_else(Vec::new, |scan| contacts.scan(*board, scan, stamp.host_us))
         }
         BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
             contacts.forget(*board, stamp.host_us)

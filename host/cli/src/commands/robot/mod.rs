@@ -13,6 +13,7 @@ mod serve;
 mod shown;
 mod tellers;
 mod view;
+mod viewed;
 mod why;
 
 #[cfg(not(all(feature = "ros2", feature = "zenoh")))]
@@ -64,7 +65,9 @@ enum RobotTask {
     #[command(after_help = "Example:\n  taxel robot view robot.toml --open")]
     View(RobotViewArgs),
     /// Record all boards in one file
-    #[command(after_help = "Example:\n  taxel robot record robot.toml -o touch.mcap --seconds 60")]
+    #[command(
+        after_help = "Examples:\n  taxel robot record robot.toml -o touch.mcap --seconds 60\n  taxel robot record robot.toml -o touch.mcap --view --open"
+    )]
     Record(RobotRecordArgs),
     /// Run ROS 2 nodes that publish all boards, live: one for each, and one for the robot
     #[cfg_attr(not(feature = "ros2"), doc = "(needs a build with `--features ros2`)")]

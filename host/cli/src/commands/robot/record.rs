@@ -3,13 +3,17 @@
 use super::args::RobotFileArgs;
 use super::live::{failed, limit};
 use super::requests::Told;
+use super::view::pages;
+use super::viewed::ViewedTeller;
+use crate::commands::views::view::{announce, bind};
+use crate::view::RobotPages;
 use crate::watch::{Overwrite, seconds, stop};
 use anyhow::{Error, Result};
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
 use taxel::mind::{MindRecord, MindRecordTeller, RecordedMind, RobotMind};
-use taxel::robot::{BoardEvent, RobotEvent, RobotRecorder, RobotSession, WhenFull};
+use taxel::robot::{BoardEvent, RobotContact, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
 use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
@@ -34,6 +38,24 @@ pub struct RobotRecordArgs {
     /// Pace simulations to real time
     #[arg(long)]
     realtime: bool,
+    /// Show all boards in the browser meanwhile, as `taxel robot view` does
+    #[arg(long)]
+    view: bool,
+    /// With --view: port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
+    #[arg(long, value_name = "N", requires = "view")]
+    port: Option<u16>,
+    /// With --view: open the page in the browser
+    #[arg(long, requires = "view")]
+    open: bool,
+}
+
+/// What becomes of a robot's events.
+struct Recording<'a> {
+    recorder: RobotRecorder,
+    /// None if boards are not at one time.
+    mind: Option<RecordedMind>,
+    /// None without a view.
+    pages: Option<RobotPages<'a>>,
 }
 
 /// Runs the command. Error if a board cannot be followed, once all are over: the others are recorded.
@@ -42,29 +64,31 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     let mut requests = args.robot.requests()?;
     let is_minded = robot.is_at_one_time(args.realtime);
     let mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
+    let view = args.view.then(|| anyhow::Ok((bind(args.port)?, pages(&robot)?))).transpose()?;
     stop::catch()?;
     let mut recorder = RobotRecorder::create(&robot, &args.output, args.force.into())?;
+    let mind = mind.map(|mind| RecordedMind::begin(mind, &mut recorder)).transpose()?;
+    let pages = view.map(|(port, pages)| {
+        announce(&format!("robot {}", robot.name), port, pages.hubs(), args.open).map(|()| pages)
+    });
+    let mut recording = Recording { recorder, mind, pages: pages.transpose()? };
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
-    let mut mind = mind.map(|mind| RecordedMind::begin(mind, &mut recorder)).transpose()?;
-    let plans = robot.plans(&options, limit(args.seconds), |number| {
-        Box::new(MindRecordTeller::new(&robot, number, is_minded))
+    let plans = robot.plans(&options, limit(args.seconds), |number| -> Box<dyn Teller<MindRecord>> {
+        let records = MindRecordTeller::new(&robot, number, is_minded);
+        match &recording.pages {
+            Some(pages) => Box::new(ViewedTeller::new(&robot, number, records, pages.hub(number))),
+            None => Box::new(records),
+        }
     });
     let mut session = RobotSession::start(plans, WhenFull::Wait)?;
     let mut ended = Ok(());
     let mut written = Ok(());
     while written.is_ok() && !session.is_over() && !stop::asked() {
-        let hears = mind.as_mut().map(RecordedMind::mind);
+        let hears = recording.mind.as_mut().map(RecordedMind::mind);
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, hears));
         let event = session.wait(LOOK);
-        written = recorder.keep().and_then(|()| match &event {
-            Some(event) => write(&mut recorder, event),
-            None => Ok(()),
-        });
-        if let Some(mind) = &mut mind {
-            let now_us = session.now_us();
-            written = written.and_then(|()| write_mind(&mut recorder, mind, &told, event.as_ref(), now_us));
-        }
+        written = recording.take(event.as_ref(), &told, session.now_us());
         let Some(event) = event else { continue };
         let name = &robot.boards[event.board].name;
         say(name, &event.what);
@@ -72,17 +96,42 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     }
     drop(session);
     // The recording is completed even if a board fails.
+    let Recording { mut recorder, .. } = recording;
     written = written.and(recorder.finish());
     eprint!("{}", recorder.summary());
     written.map_err(Error::from).and(ended)
 }
 
-/// Writes an event of a board.
-fn write(recorder: &mut RobotRecorder, event: &RobotEvent<MindRecord>) -> taxel::Result<()> {
+impl Recording<'_> {
+    /// Writes and shows an event of a board, or that the time passes, and what the mind was told before.
+    fn take(
+        &mut self,
+        event: Option<&RobotEvent<MindRecord>>,
+        told: &[Told],
+        now_us: u64,
+    ) -> taxel::Result<()> {
+        self.recorder.keep()?;
+        let contacts = event.map_or(Ok(Vec::new()), |event| write(&mut self.recorder, event))?;
+        if let Some(mind) = &mut self.mind {
+            write_mind(&mut self.recorder, mind, told, event, now_us)?;
+        }
+        let Some(pages) = &mut self.pages else { return Ok(()) };
+        told.iter().for_each(|told| pages.told(&told.line));
+        if let Some(event) = event {
+            pages.event(event, |news| news.record.scan.as_ref());
+            pages.joined(event.stamp.host_us, contacts);
+        }
+        pages.turn(self.mind.as_mut().map(|mind| &*mind.mind()));
+        Ok(())
+    }
+}
+
+/// Writes an event of a board. Returns the robot's contacts, if it tells anything new of them.
+fn write(recorder: &mut RobotRecorder, event: &RobotEvent<MindRecord>) -> taxel::Result<Vec<RobotContact>> {
     match &event.what {
         BoardEvent::News(news) => recorder.take(event.board, &news.record),
         BoardEvent::Lost { .. } => recorder.lost(event.board, event.stamp.host_us),
-        _ => Ok(()),
+        _ => Ok(Vec::new()),
     }
 }
 

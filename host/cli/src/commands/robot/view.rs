@@ -1,7 +1,7 @@
 //! `taxel robot view`: all boards in the browser.
 
 use super::args::RobotFileArgs;
-use super::live::{failed, limit};
+use super::live::{failed, join, limit};
 use super::shown::ShownTeller;
 use crate::commands::views::view::{announce, bind};
 use crate::on_robot::Wearer;
@@ -12,9 +12,10 @@ use clap::Args;
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
-use taxel::mind::BoardHeard;
+use taxel::files::calibrate::Calibration;
+use taxel::mind::{BoardHeard, RobotMind};
 use taxel::record::Origin;
-use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
+use taxel::robot::{ReadRobot, RobotContacts, RobotSession, Teller, WhenFull};
 use taxel::source::{Source, SourceOptions};
 
 /// Longest wait before pages are told what is new.
@@ -41,44 +42,37 @@ pub struct RobotViewArgs {
 pub fn run(args: &RobotViewArgs) -> Result<()> {
     let robot = args.robot.read()?;
     let mut requests = args.robot.requests()?;
-    let mut pages = RobotPages::new(&robot)?;
-    for number in 0..robot.boards.len() {
-        wearer(&robot, number)?.into_iter().for_each(|wearer| pages.hub(number).wear(wearer));
-    }
+    let mut mind = RobotMind::new(&robot)?;
+    let mut contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
+    let mut pages = pages(&robot)?;
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
     let options =
         SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
     let teller = |number: usize| -> Box<dyn Teller<BoardHeard>> {
         let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
-        let open = move |source: &Source| {
-            Ok(viewer(
-                source,
-                &hub,
-                Origin {
-                    label: source.label.clone(),
-                    counts_per_newton: source.counts_per_newton,
-                    calibration: calibration.clone(),
-                },
-            ))
-        };
+        let open = move |source: &Source| Ok(viewer(source, &hub, calibration.clone()));
         Box::new(ShownTeller::new(&robot, number, open))
     };
     let plans = robot.plans(&options, limit(args.seconds), teller);
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
     let mut ended = Ok(());
     while !session.is_over() {
-        let told =
-            requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(pages.mind())));
+        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(&mut mind)));
         told.iter().for_each(|told| pages.told(&told.line));
         match session.wait(LOOK) {
             Some(event) => {
-                pages.event(&event);
+                mind.event(&event, |heard| heard.sense.as_ref());
+                pages.event(&event, |heard| heard.scan.as_ref());
+                if let Some(contacts) = &mut contacts {
+                    let joined = join(contacts, &event, |heard| heard.scan.as_ref());
+                    pages.joined(event.stamp.host_us, joined);
+                }
                 let name = &robot.boards[event.board].name;
                 ended = ended.and(failed(name, event.what));
             }
-            None => pages.pass(session.now_us()),
+            None => drop(mind.pass(session.now_us())),
         }
-        pages.turn();
+        pages.turn(Some(&mind));
     }
     if args.seconds.is_some() || ended.is_err() {
         return ended;
@@ -89,9 +83,19 @@ pub fn run(args: &RobotViewArgs) -> Result<()> {
     }
 }
 
-/// Shows a board to the pages of its hub, which can save it.
-fn viewer(source: &Source, hub: &Arc<PageHub>, origin: Origin) -> Viewer {
-    hub.tape(Tape::Live(Arc::new(origin)));
+/// The pages of a robot, on which garments with a body are shown on the robot. Error if a body cannot be read.
+pub fn pages(robot: &ReadRobot) -> Result<RobotPages<'_>> {
+    let pages = RobotPages::new(robot);
+    for number in 0..robot.boards.len() {
+        wearer(robot, number)?.into_iter().for_each(|wearer| pages.hub(number).wear(wearer));
+    }
+    Ok(pages)
+}
+
+/// Shows a board to the pages of its hub, which can save it with its calibration.
+pub fn viewer(source: &Source, hub: &Arc<PageHub>, calibration: Option<Calibration>) -> Viewer {
+    let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
+    hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     Viewer::new(source, hub.clone())
 }
 
