@@ -9,81 +9,108 @@ use crate::filter::points::MARGIN;
 use crate::segment::bits::WORD;
 use crate::segment::run::Run;
 
-/// Greatest value of which [`TOGETHER`] products fit in 31 bits: 4095 * 2^15 * 16 < 2^31.
-const COMMON: u16 = 4095;
-/// Taxels whose products are added in 32 bits.
-const TOGETHER: usize = 16;
+/// Most that taxels may press together so that their products fit in 32 bits: 65,535 * 2^15 < 2^31.
+const TOGETHER: u32 = u16::MAX as u32;
 
 /// What taxels press on their link: sums over values in counts, and records in units of 2^-14.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PressSums {
-    /// Sum of value times normal.
-    pub force: [i64; 3],
-    /// Sum of value times arm.
-    pub moment: [i64; 3],
+    /// Sum of value times normal, and of value times arm, without `near`.
+    force: [i64; 3],
+    moment: [i64; 3],
     /// Sum of the values.
     pub pressed: u32,
+    /// What is yet to be added to force and moment, of taxels that press `held` counts together: a sum of 64
+    /// bits takes longer than a taxel, and most contacts need one.
+    near: [i32; 6],
+    held: u32,
 }
 
 impl PressSums {
     /// Nothing presses.
-    pub const NONE: PressSums = PressSums { force: [0; 3], moment: [0; 3], pressed: 0 };
+    pub const NONE: PressSums =
+        PressSums { force: [0; 3], moment: [0; 3], pressed: 0, near: [0; 6], held: 0 };
 
     /// Adds the taxels of a run, whose values before and after the filter are those of the columns from its
     /// first to its last one, as are the records.
     #[inline(never)] // M0+: out of line
-    pub fn press(&mut self, (calibrated, filtered): (&[u16], &[u16]), run: &Run, records: &[TaxelRecord]) {
-        self.pressed = self.pressed.wrapping_add(run.sums.s0);
-        let taxels = run.rebased();
+    pub fn press(&mut self, values: (&[u16], &[u16]), run: &Run, records: &[TaxelRecord]) {
+        let (taxels, total) = (run.rebased(), run.sums.s0);
         // Without a gap between them all columns are taxels of the run.
-        if taxels & taxels.wrapping_add(1) == 0 && are_equal(calibrated, filtered) {
-            return self.add_all(filtered, run.peak, records);
+        let is_whole = taxels & taxels.wrapping_add(1) == 0;
+        if is_whole && total <= TOGETHER && are_equal(values.0, values.1) {
+            return self.add(values.1, total, bytemuck::cast_slice(records));
         }
+        self.press_apart(values, run, records);
+    }
+
+    /// Adds the taxels of any run.
+    #[inline(never)] // seldom
+    fn press_apart(&mut self, (calibrated, filtered): (&[u16], &[u16]), run: &Run, records: &[TaxelRecord]) {
         let mut values = [0; WORD as usize];
-        let (mut taxels, mut greatest) = (taxels, run.peak);
+        let (mut taxels, mut total) = (run.rebased(), run.sums.s0);
         for ((to, before), after) in values.iter_mut().zip(calibrated).zip(filtered) {
             if taxels & 1 == 1 {
                 *to = *after;
                 if before != after {
                     *to = pressure(*before, *after);
-                    self.pressed = self.pressed.wrapping_add((*to - *after).into());
-                    greatest = greatest.max(*to);
+                    total += u32::from(*to - *after);
                 }
             }
             taxels >>= 1;
         }
-        self.add_all(values.get(..records.len()).unwrap_or(&values), greatest, records);
-    }
-
-    /// Adds values of which none is above `greatest`.
-    fn add_all(&mut self, values: &[u16], greatest: u16, records: &[TaxelRecord]) {
         let records: &[RecordWords] = bytemuck::cast_slice(records);
-        let together = if greatest <= COMMON { TOGETHER } else { 1 };
-        if values.len() <= together {
-            return self.add_few(values, records);
+        if total <= TOGETHER {
+            return self.add(values.get(..records.len()).unwrap_or(&values), total, records);
         }
-        for (values, records) in values.chunks(together).zip(records.chunks(together)) {
-            self.add_few(values, records);
+        for (value, record) in values.iter().zip(records) {
+            self.add(&[*value], (*value).into(), &[*record]);
         }
     }
 
-    /// Adds values whose products have 31 bits together.
+    /// Adds values that are `total` together, at most [`TOGETHER`].
+    #[inline(never)] // M0+: own registers
+    fn add(&mut self, values: &[u16], total: u32, records: &[RecordWords]) {
+        self.pressed = self.pressed.wrapping_add(total);
+        self.held += total;
+        if self.held > TOGETHER {
+            self.settle();
+            self.held = total;
+        }
+        let [x, y, z, u, v, w] = &mut self.near;
+        add_pair([x, y], by_word::<2>(values, records));
+        add_pair([z, u], by_word::<3>(values, records));
+        add_pair([v, w], by_word::<4>(values, records));
+    }
+
+    /// Adds what is yet to be added.
     #[inline(never)] // M0+: out of line
-    fn add_few(&mut self, values: &[u16], records: &[RecordWords]) {
-        let ((x, y), (z, u)) = (by_word::<2>(values, records), by_word::<3>(values, records));
-        let (v, w) = by_word::<4>(values, records);
-        for (to, more) in self.force.iter_mut().zip([x, y, z]) {
-            *to = to.wrapping_add(more.into());
-        }
-        for (to, more) in self.moment.iter_mut().zip([u, v, w]) {
-            *to = to.wrapping_add(more.into());
-        }
+    fn settle(&mut self) {
+        let [x, y, z, u, v, w] = core::mem::take(&mut self.near);
+        add_wide(&mut self.force, &[x, y, z].map(i64::from));
+        add_wide(&mut self.moment, &[u, v, w].map(i64::from));
+    }
+
+    /// Sum of value times normal.
+    pub fn force(&self) -> [i64; 3] {
+        let [x, y, z, ..] = self.near;
+        let mut force = self.force;
+        add_wide(&mut force, &[x, y, z].map(i64::from));
+        force
+    }
+
+    /// Sum of value times arm.
+    pub fn moment(&self) -> [i64; 3] {
+        let [.., u, v, w] = self.near;
+        let mut moment = self.moment;
+        add_wide(&mut moment, &[u, v, w].map(i64::from));
+        moment
     }
 
     /// Adds other sums.
-    pub fn add(&mut self, more: &PressSums) {
-        add_wide(&mut self.force, &more.force);
-        add_wide(&mut self.moment, &more.moment);
+    pub fn add_all(&mut self, more: &PressSums) {
+        add_wide(&mut self.force, &more.force());
+        add_wide(&mut self.moment, &more.moment());
         self.pressed = self.pressed.saturating_add(more.pressed);
     }
 }
@@ -102,9 +129,9 @@ fn pressure(before: u16, after: u16) -> u16 {
 /// A [`TaxelRecord`] in words: its halves are link and region, place, normal, arm.
 type RecordWords = [u32; 5];
 
-/// Sums of value times each of the two numbers in a word of the records, of 31 bits. M0+: two sums stay in
+/// Sums of value times each of the two numbers in a word of the records, of 32 bits. M0+: two sums stay in
 /// registers, three would not; and a word is read as fast as a half.
-#[inline(never)]
+#[inline(always)]
 fn by_word<const N: usize>(values: &[u16], records: &[RecordWords]) -> (i32, i32) {
     let mut sums = (0i32, 0i32);
     for (value, record) in values.iter().zip(records) {
@@ -113,6 +140,11 @@ fn by_word<const N: usize>(values: &[u16], records: &[RecordWords]) -> (i32, i32
         sums.1 = sums.1.wrapping_add(value * high(word));
     }
     sums
+}
+
+#[inline(always)]
+fn add_pair([a, b]: [&mut i32; 2], (more_a, more_b): (i32, i32)) {
+    (*a, *b) = (a.wrapping_add(more_a), b.wrapping_add(more_b));
 }
 
 /// The first of two numbers in a word.

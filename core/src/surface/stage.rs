@@ -146,8 +146,13 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         let links = links_of(table, layout);
         for run in contact.pressed(layout) {
             let Some(link) = links.get(usize::from(run.panel)) else { continue };
-            let values = calibrated.get(run.taxels.clone()).zip(filtered.get(run.taxels.clone()));
-            let Some((values, records)) = values.zip(table.taxels().get(run.taxels)) else { continue };
+            let (Some(calibrated), Some(filtered), Some(records)) = (
+                calibrated.get(run.taxels.clone()),
+                filtered.get(run.taxels.clone()),
+                table.taxels().get(run.taxels),
+            ) else {
+                continue;
+            };
             let landing = placed.get(run.contact).map_or(NONE, |placed| *placed);
             let landing = self.landings.get_mut(usize::from(landing)).filter(|it| it.spot.link == *link);
             let sums = match landing {
@@ -157,7 +162,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
                     None => continue,
                 },
             };
-            sums.press(values, run.run, records);
+            sums.press((calibrated, filtered), run.run, records);
         }
         for landing in &self.landings {
             if let Some(sums) = self.sums.get_mut(usize::from(landing.spot.link)) {
@@ -292,7 +297,7 @@ impl Landing {
     /// The contact as it is told: also in the frame of the poses.
     #[inline(never)] // M0+: out of line
     fn landed(&self, frames: &LinkFrames) -> Landed {
-        let (id, spot, force) = (self.id, self.spot, self.sums.force.map(counts));
+        let (id, spot, force) = (self.id, self.spot, self.sums.force().map(counts));
         let base = frames.of(spot.link).map(|frame| InBase {
             at: frame.placed(spot.at),
             normal: frame.directed(spot.normal),
@@ -311,7 +316,7 @@ impl<const CONTACTS: usize> Default for Pressing<CONTACTS> {
 impl LinkSums {
     /// Adds a contact on the link.
     fn add(&mut self, Landing { spot, total, sums, .. }: &Landing) {
-        self.press.add(sums);
+        self.press.add_all(sums);
         // A total has at most 2^11 taxels of 2^16 counts.
         self.totals = self.totals.saturating_add(*total);
         for (sum, at) in self.places.iter_mut().zip(spot.at) {
@@ -321,7 +326,7 @@ impl LinkSums {
 
     #[inline(never)] // M0+: out of line
     fn wrench<'a>(&self, link: u8, name: &'a str) -> Wrench<&'a str> {
-        let PressSums { force, moment, pressed } = self.press;
+        let (force, moment, pressed) = (self.press.force(), self.press.moment(), self.press.pressed);
         Wrench {
             link,
             name,

@@ -80,8 +80,13 @@ fn codes(garment: &Garment, layout: &Layout) -> Vec<u16> {
 pub fn bend(codes: &mut [u16], layout: &Layout) {
     let table = FoldTable::check(&FOLDS.0, layout).unwrap();
     let (fold, unit) = (table.folds()[0], f64::from(table.unit()));
+    let play = f64::from(fold.play[0]);
+    let mut followed = 100.0 * elbow(0);
     for (scan, frame) in codes.chunks_mut(TAXELS).enumerate() {
-        let along = 100.0 * elbow(scan as u64 * SCAN_US) / f64::from(fold.step[0]);
+        let bent = 100.0 * elbow(scan as u64 * SCAN_US);
+        // The sleeve follows the joint.
+        followed = followed.clamp(bent - play, bent + play);
+        let along = followed / f64::from(fold.step[0]);
         let (knot, share) = (along as usize, along.fract());
         for taxel in table.folded().flat_map(|(_, taxels)| taxels) {
             let [below, above] =

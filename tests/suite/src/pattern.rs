@@ -21,7 +21,7 @@ pub enum TouchPattern {
     One,
     /// Five discs on all panels, one across the seam of chest and back; each moves 0.1 taxel a frame.
     Five,
-    /// Sixteen discs, four on each panel, that move as those five: some 460 taxels.
+    /// Sixteen discs, four on each panel, that move as those five: some 500 taxels, never more than 512.
     Sixteen,
     /// Forty contacts of 2 x 2 to 3 x 3 taxels: more than can be tracked.
     Forty,
@@ -35,7 +35,7 @@ pub enum TouchPattern {
     Checkerboard,
 }
 
-/// A dome of pressure, `PEAK sqrt(1 - (r / RADIUS)^2)`, about 29 taxels.
+/// A dome of pressure, `PEAK sqrt(1 - (r / radius)^2)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Disc {
     /// The panel whose coordinates it is given in.
@@ -44,10 +44,13 @@ pub struct Disc {
     pub x: i32,
     /// Row of its centre, in 1/20 taxel.
     pub y: i32,
+    /// Its radius, in 1/20 taxel.
+    pub radius: i32,
 }
 
-/// Radius of a disc: 3 taxels.
+/// Radius of a disc: 3 taxels, about 29 of them; and of one of sixteen, about 32.
 const RADIUS: i32 = 3 * UNITS;
+const WIDER: i32 = RADIUS + 3;
 /// Pressure at its centre, counts.
 const PEAK: u32 = 1500;
 
@@ -55,9 +58,9 @@ impl Disc {
     /// Pressure at a taxel of the disc's panel, or beyond its border, counts.
     pub fn pressure(&self, column: i32, row: i32) -> u16 {
         let (dx, dy) = (column * UNITS - self.x, row * UNITS - self.y);
-        let left = (RADIUS * RADIUS - dx * dx - dy * dy).max(0) as u32;
+        let left = (self.radius * self.radius - dx * dx - dy * dy).max(0) as u32;
         // Square root with five extra bits.
-        (PEAK * (left << 10).isqrt() / (RADIUS.unsigned_abs() << 5)) as u16
+        (PEAK * (left << 10).isqrt() / (self.radius.unsigned_abs() << 5)) as u16
     }
 
     /// Adds its pressure to the image of the garment; the part beyond the right flank of the chest lies on
@@ -111,7 +114,7 @@ impl TouchPattern {
         // Back and forth over 8 taxels, 0.1 taxel a frame.
         let step = 2 * frame as i32 % 320;
         let along = if step < 160 { step } else { 320 - step };
-        let disc = |panel, x, y| Disc { panel, x, y };
+        let disc = |panel, x, y| Disc { panel, x, y, radius: RADIUS };
         let discs = [
             disc(0, 80 + along / 2, 200),
             // Mostly on the chest, the rest on the back.
@@ -126,7 +129,13 @@ impl TouchPattern {
             TouchPattern::Sixteen => (0, 16),
             _ => (0, 0),
         };
-        let apart = move |number: usize| disc(number / 4, 80 + along, 80 + 160 * (number as i32 % 4));
+        // Each lies otherwise between the taxels, so that together they press as many in each frame.
+        let apart = move |number: i32| Disc {
+            panel: number as usize / 4,
+            x: 80 + along + number % 14,
+            y: 80 + 160 * (number % 4) + 7 * number % 10,
+            radius: WIDER,
+        };
         discs.into_iter().take(five).chain((0..sixteen).map(apart))
     }
 
@@ -199,6 +208,7 @@ mod tests {
                 let moved = (next.x - disc.x).abs().max((next.y - disc.y).abs());
                 assert!(moved <= UNITS / 10);
             }
+            assert!((490..=512).contains(&pressed(TouchPattern::Sixteen, frame)), "frame {frame}");
         }
         assert!((40 * 4..=40 * 9).contains(&pressed(TouchPattern::Forty, 0)));
     }
