@@ -41,6 +41,7 @@ pub use crate::calibrate::certificate::Certificate;
 pub use crate::calibrate::sampled::Sampled;
 pub use crate::filter::kinds::Filter;
 pub use crate::filter::points::{MARGIN, POINTS};
+pub(crate) use crate::filter::withheld::Withheld;
 pub use crate::filter::withheld::WithheldTaxel;
 pub use crate::image::rows::Rows;
 pub use crate::image::view::Image;

@@ -3,8 +3,8 @@
 use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
-use crate::filter::points::{POINTS, Points};
-use crate::filter::withheld::{WithheldTaxel, withheld};
+use crate::filter::points::Points;
+use crate::filter::withheld::Withheld;
 #[cfg(feature = "folds")]
 use crate::fold::FoldTable;
 use crate::fold::{FoldState, PostureState};
@@ -13,7 +13,6 @@ use crate::format::Code;
 use crate::format::Name;
 use crate::garment::Layout;
 use crate::image::images::Images;
-use heapless::Vec;
 
 /// Baseline, gain and image of every taxel.
 #[derive(Debug, Clone)]
@@ -33,9 +32,9 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         &self.images.calibrated
     }
 
-    /// What the persistent filter withholds of the last frame at the edges of panels, ascending by taxel.
-    pub fn withheld(&self, layout: &Layout) -> Vec<WithheldTaxel, POINTS> {
-        withheld(&self.points, &self.images.filtered, layout)
+    /// What the persistent filter withholds of the last frame.
+    pub(crate) fn withheld(&self) -> Withheld<'_> {
+        Withheld { points: &self.points, filtered: &self.images.filtered }
     }
 
     /// State without a garment: every gain is 0. Call [`ConditionState::reset`] next.

@@ -4,9 +4,8 @@
 //! as an impulse until it lasts, although more may press beyond the edge, on the panel of another board. Only
 //! the host knows both: it is told what was withheld, and judges.
 
-use super::points::{POINTS, Points, stands_out};
+use super::points::{Points, stands_out};
 use crate::garment::{Layout, Place};
-use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 /// A taxel at the edge of a panel, of which the filter withholds more than noise.
@@ -20,17 +19,24 @@ pub struct WithheldTaxel {
     pub filtered: u16,
 }
 
-/// The taxels of which `filtered`, the image of these points, lacks something, ascending by their numbers.
-pub(crate) fn withheld(points: &Points, filtered: &[u16], layout: &Layout) -> Vec<WithheldTaxel, POINTS> {
-    let mut taxels = Vec::new();
-    for (taxel, value) in points.now() {
-        let Some(filtered) = filtered.get(taxel).copied() else { continue };
-        if stands_out(value, filtered) && layout.place(taxel).is_some_and(|place| is_at_edge(layout, place)) {
-            // There are as many places as points.
-            let _ = taxels.push(WithheldTaxel { taxel: taxel as u16, value, filtered });
-        }
+/// What the filter withholds of the last frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Withheld<'a> {
+    /// Taxels that stand out from their neighbours.
+    pub points: &'a Points,
+    /// The image that the filter has left.
+    pub filtered: &'a [u16],
+}
+
+impl Withheld<'_> {
+    /// The taxels of which something is withheld at the edges of panels, ascending by their numbers.
+    pub fn taxels(self, layout: &Layout) -> impl Iterator<Item = WithheldTaxel> {
+        self.points.now().filter_map(move |(taxel, value)| {
+            let filtered = *self.filtered.get(taxel)?;
+            let is_told = stands_out(value, filtered) && is_at_edge(layout, layout.place(taxel)?);
+            is_told.then_some(WithheldTaxel { taxel: taxel as u16, value, filtered })
+        })
     }
-    taxels
 }
 
 fn is_at_edge(layout: &Layout, Place { panel, row, column }: Place) -> bool {

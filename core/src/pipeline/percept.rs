@@ -2,22 +2,21 @@
 
 use super::state::CONTACTS;
 use crate::body::Placed;
-use crate::condition::{POINTS, Tare, WithheldTaxel};
+use crate::condition::Tare;
 use crate::format::Name;
 use crate::gesture::Gesture;
 use crate::intent::Meaning;
 use crate::react::ReactState;
 use crate::symbol::{Symbol, SymbolState};
 use crate::unsure::UnsureState;
-use heapless::Vec;
 
 /// Everything perceived in one frame.
 #[derive(Debug, Clone)]
 pub struct Percept<'a> {
     /// Conditioned image by taxel number, background zero.
     pub image: &'a [u16],
-    /// What the filter withholds of the image at the edges of panels.
-    pub withheld: Vec<WithheldTaxel, POINTS>,
+    /// True if the filter withholds something of the image at the edge of a panel.
+    pub withheld: bool,
     /// Present contacts.
     pub present: &'a [Placed],
     /// Age of the form of each present contact, frames; saturates at 255.

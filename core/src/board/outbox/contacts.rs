@@ -300,7 +300,7 @@ mod tests {
             }
             let percept = Percept {
                 image: &[],
-                withheld: Vec::new(),
+                withheld: false,
                 present: &present,
                 form_ages: &[],
                 released: &released,
