@@ -202,9 +202,12 @@ fn put_withheld(
     withheld: Withheld<'_>,
     layout: &Layout,
 ) -> bool {
-    // There are as many places as points.
-    let taxels = withheld.taxels(layout).collect();
-    tx_frame.put(Report::WITHHELD, &WithheldReport { frame: list.frame, time: list.time, taxels })
+    let mut report = WithheldReport { frame: list.frame, time: list.time, taxels: Vec::new() };
+    for taxel in withheld.taxels(layout) {
+        // There are as many places as points.
+        let _ = report.taxels.push(taxel);
+    }
+    tx_frame.put(Report::WITHHELD, &report)
 }
 
 fn put_unsure(tx_frame: &mut TxFrame, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {
