@@ -1,8 +1,8 @@
 //! The 3x3 filters.
 //!
 //! [`kinds`] names them and applies one: [`conservative`] (by [`clamp`] and [`clamp_row16`]; its persistent
-//! form stores [`points`]), [`median`] and [`square`]. [`row`] walks a row run by run; [`withheld`] says what the
-//! persistent form takes at the edges of panels.
+//! form stores [`points`]), [`median`] and [`square`]. [`row`] walks a row run by run; [`withheld`] says what
+//! the persistent form takes at the edges of panels.
 
 pub(crate) mod clamp;
 pub(crate) mod clamp_row16;
