@@ -101,8 +101,8 @@ mod tests {
         teller.opened(&source);
         let mut session = Session::over(source).unwrap();
         let (mut told, mut sent) = (Vec::new(), Vec::new());
-        for number in 0..2000 {
-            let event = session.wait().unwrap().unwrap();
+        while let Some(event) = session.wait().unwrap() {
+            let number = told.len() as u64;
             let stamp = Stamp { board_us: number, host_us: number, uncertainty_us: None };
             told.push(format!("{:?}", teller.event(session.client(), &event, stamp).unwrap()));
             teller.idle(session.parts().0).unwrap();
@@ -115,7 +115,7 @@ mod tests {
     fn what_is_recorded_is_what_would_be_if_nobody_watched() {
         let hub = Arc::new(PageHub::default());
         let ((alone, _), (watched, sent)) = (recorded(None), recorded(Some(&hub)));
-        assert!(alone == watched);
+        assert!(alone == watched && alone.len() > 500, "{} {}", alone.len(), watched.len());
         assert!(sent.len() > 100, "{}", sent.len());
         assert!(hub.has_tape() && hub.is_looked_at());
     }
