@@ -143,9 +143,9 @@ impl FoldState {
         self.table().is_some() && taxels.into_iter().any(|taxel| self.holds(taxel))
     }
 
-    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over some at a time, in fours, with
-    /// the levels beyond which a touch begins there, counts, or goes on where `touched` has all bits of their
-    /// bytes.
+    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over some at a time, in fours,
+    /// with the levels beyond which a touch begins there, counts, or goes on where `touched` has all bits of
+    /// their bytes.
     #[inline(never)]
     pub(crate) fn renew(
         &mut self,
