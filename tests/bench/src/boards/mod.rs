@@ -14,8 +14,6 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use stream::Stream;
 
-/// Numbers of boards.
-const BOARDS: [usize; 5] = [1, 4, 16, 64, 100];
 /// Most of one core, %.
 const CORE: f64 = 100.0;
 /// Most memory in the last minute against the second one: the index of a recording grows with its chunks.
@@ -24,10 +22,13 @@ const FLAT: f64 = 1.1;
 /// Arguments of `cargo xtask bench boards`.
 #[derive(Debug, Clone, Args)]
 pub struct BoardsBench {
+    /// Numbers of boards
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [1, 4, 16, 64, 100])]
+    boards: Vec<usize>,
     /// Seconds for each number of boards
     #[arg(long, default_value_t = 30.0)]
     seconds: f64,
-    /// Seconds for the most boards once more, in which the memory must not grow; 0: not at all
+    /// Seconds for the last number of boards once more, in which the memory must not grow; 0: not at all
     #[arg(long, default_value_t = 600.0)]
     long: f64,
     /// The program [default: taxel beside this one]
@@ -49,8 +50,9 @@ pub fn measure(args: &BoardsBench) -> Result<Vec<Judged>> {
 
 fn runs(args: &BoardsBench, program: &Path, folder: &Path) -> Result<Vec<Judged>> {
     let mut all = Vec::new();
-    let long = (args.long > 0.0).then_some((args.long, &BOARDS[BOARDS.len() - 1..]));
-    for (seconds, numbers) in [(args.seconds, &BOARDS[..])].into_iter().chain(long) {
+    let most = &args.boards[args.boards.len().saturating_sub(1)..];
+    let long = (args.long > 0.0).then_some((args.long, most));
+    for (seconds, numbers) in [(args.seconds, &args.boards[..])].into_iter().chain(long) {
         let stream = Stream::make(folder, seconds)?;
         stream.write(&folder.join("two.stream"))?;
         for boards in numbers {
@@ -62,7 +64,7 @@ fn runs(args: &BoardsBench, program: &Path, folder: &Path) -> Result<Vec<Judged>
 
 /// The table and its chart.
 pub fn report(rows: &[Judged]) -> Report {
-    let alone = rows.first().map_or(0.0, Judged::percent);
+    let alone = rows.first().map_or(0.0, |row| row.percent() / row.boards as f64);
     let sum = |row: &Judged| alone * row.boards as f64;
     let mut text = format!(
         "{:>6}  {:>7}  {:>8}  {:>13}  {:>10}  {:>13}  {:>6}  {:>7}\n",

@@ -18,7 +18,7 @@ use taxel_core::wire::{
 /// Longest message of a board.
 const LONGEST: usize = 8192;
 /// Longest wait before requests are read again.
-const LOOK: Duration = Duration::from_millis(2);
+const LOOK: Duration = Duration::from_millis(10);
 
 /// Arguments of a player.
 #[derive(Debug, Clone, Args)]
