@@ -45,6 +45,31 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
+    /// Takes bytes up to the first 0x00 that ends a frame, or all of them. Returns how many it took, and what
+    /// [`Receiver::push`] returns of the last one.
+    pub fn take(&mut self, bytes: &[u8]) -> (usize, Option<Result<&[u8], WireError>>) {
+        let mut taken = 0;
+        for part in bytes.split_inclusive(|byte| *byte == 0) {
+            let (body, end) = match part.split_last() {
+                Some((0, body)) => (body, true),
+                _ => (part, false),
+            };
+            let place = self.frame.get_mut(self.length..).and_then(|rest| rest.get_mut(..body.len()));
+            match place {
+                Some(place) => {
+                    place.copy_from_slice(body);
+                    self.length += body.len();
+                }
+                None => self.length = N.saturating_add(1),
+            }
+            taken += part.len();
+            if end && self.length > 0 {
+                return (taken, self.push(0));
+            }
+        }
+        (taken, None)
+    }
+
     /// First byte of the message whose frame has not ended yet, if it has arrived; garbage has one, too.
     pub fn first(&self) -> Option<u8> {
         match self.frame.get(..self.length)? {
@@ -94,6 +119,28 @@ mod tests {
             assert_eq!(receiver.first(), Some(message[0]));
             assert_eq!(receiver.push(*end).unwrap().unwrap(), message);
             assert_eq!(receiver.first(), None);
+        }
+    }
+
+    #[test]
+    fn bytes_taken_together_are_what_they_are_one_by_one() {
+        let bytes = [0, 0, 3, 9, 9, 0, 1, 1, 1, 1, 1, 1, 0, 9, 9, 9, 9, 9, 9, 9, 9, 0, 0, 5, 0, 7];
+        for pieces in 1..=bytes.len() {
+            let (mut one, mut all) = (Receiver::<6>::new(), Receiver::<6>::new());
+            for piece in bytes.chunks(pieces) {
+                let mut rest = piece;
+                while !rest.is_empty() {
+                    let (taken, end) = all.take(rest);
+                    let mut wanted = None;
+                    let (now, later) = rest.split_at(taken);
+                    for (left, byte) in (0..taken).rev().zip(now) {
+                        wanted = one.push(*byte).map(|end| end.map(<[u8]>::len));
+                        assert!(wanted.is_none() || left == 0, "{pieces}");
+                    }
+                    assert_eq!(end.map(|end| end.map(<[u8]>::len)), wanted, "{pieces}");
+                    rest = later;
+                }
+            }
         }
     }
 

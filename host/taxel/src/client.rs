@@ -175,19 +175,39 @@ impl Client {
 
     /// Handles one byte. If it completes a message, updates the state and returns the event.
     pub fn push(&mut self, byte: u8) -> Option<Event> {
-        self.counts.bytes += 1;
-        self.keep(byte);
-        let ended = self.receiver.push(byte)?;
-        let mut message = std::mem::take(&mut self.message);
-        let copied = ended.map(|bytes| {
-            message.clear();
-            message.extend_from_slice(bytes);
-        });
-        let event = copied.and_then(|()| self.read(&message)).unwrap_or_else(|error| {
+        self.push_all(&[byte]).1
+    }
+
+    /// Handles bytes up to the end of the first message that is an event, or all of them. Returns how many it
+    /// handled, and the event; the state includes it.
+    pub fn push_all(&mut self, bytes: &[u8]) -> (usize, Option<Event>) {
+        let mut handled = 0;
+        while let Some(rest @ [_, ..]) = bytes.get(handled..) {
+            let (count, ended) = self.receiver.take(rest);
+            let message = ended.map(|ended| {
+                ended.map(|bytes| {
+                    self.message.clear();
+                    self.message.extend_from_slice(bytes);
+                })
+            });
+            handled += count;
+            self.counts.bytes += count as u64;
+            self.keep(&rest[..count]);
+            if let Some(event) = message.and_then(|message| self.end(message)) {
+                return (handled, Some(event));
+            }
+        }
+        (handled, None)
+    }
+
+    /// Handles the end of a message. No event, if it belongs to the next one.
+    fn end(&mut self, message: Result<(), WireError>) -> Option<Event> {
+        let bytes = std::mem::take(&mut self.message);
+        let event = message.and_then(|()| self.read(&bytes)).unwrap_or_else(|error| {
             self.counts.refuse(error);
             Some(Event::Refused(error))
         });
-        self.message = message;
+        self.message = bytes;
         self.is_heard = event.is_some();
         event
     }
@@ -197,20 +217,23 @@ impl Client {
         self.counts = Counts::default();
     }
 
-    /// Keeps a byte for [`Client::line`]; only the beginning of an overlong frame is kept, and of what brings no
-    /// event.
-    fn keep(&mut self, byte: u8) {
-        if self.line.last() == Some(&0) {
-            if self.is_heard {
-                self.unheard.clear();
-            } else if self.unheard.len() < LONGEST_REPORT {
-                self.unheard.extend_from_slice(&self.line);
+    /// Keeps bytes up to the end of a message for [`Client::line`]; only the beginning of an overlong frame is kept,
+    /// and of what brings no event.
+    fn keep(&mut self, bytes: &[u8]) {
+        for part in bytes.split_inclusive(|byte| *byte == 0) {
+            if self.line.last() == Some(&0) {
+                if self.is_heard {
+                    self.unheard.clear();
+                } else if self.unheard.len() < LONGEST_REPORT {
+                    self.unheard.extend_from_slice(&self.line);
+                }
+                self.is_heard = false;
+                self.line.clear();
             }
-            self.is_heard = false;
-            self.line.clear();
-        }
-        if self.line.len() < LONGEST_REPORT || byte == 0 {
-            self.line.push(byte);
+            let body = part.strip_suffix(&[0]).unwrap_or(part);
+            let room = LONGEST_REPORT.saturating_sub(self.line.len());
+            self.line.extend_from_slice(&body[..body.len().min(room)]);
+            self.line.extend_from_slice(&part[body.len()..]);
         }
     }
 
@@ -220,13 +243,25 @@ impl Client {
         if self.counts.sequence(seq) {
             self.begun_anew();
         }
+        let (number, _) = postcard::take_from_bytes::<u32>(rest).map_err(|_| WireError::Message)?;
+        // A report is moved with the room of the longest one, 8 KiB: images are not, because most messages are.
+        if number == Report::FRAME {
+            let (_, frame) = decode::<(u32, Frame<'_>)>(rest)?;
+            self.understood(true);
+            return Ok(Some(self.take_frame(&frame)));
+        }
         let report: Report<'_> = decode(rest)?;
-        self.counts.messages += 1;
         // A board reports the cause of its start along with its `Hello`.
-        if !matches!(report, Report::Hello(_) | Report::Boot(_)) {
+        self.understood(!matches!(report, Report::Hello(_) | Report::Boot(_)));
+        Ok(self.take(report))
+    }
+
+    /// A message could be decoded.
+    fn understood(&mut self, is_spoken: bool) {
+        self.counts.messages += 1;
+        if is_spoken {
             self.spoken();
         }
-        Ok(self.take(report))
     }
 
     /// Discards the state from before a restart of the board.
@@ -247,7 +282,7 @@ impl Client {
         Some(match report {
             Report::Hello(hello) => self.take_hello(&hello),
             Report::Frame(frame) => self.take_frame(&frame),
-            Report::Contacts(list) => self.take_contacts(list),
+            Report::Contacts(ref list) => self.take_contacts(list),
             Report::Symbols(list) => {
                 self.regions = list.regions.to_vec();
                 Event::Symbols(Box::new(list))
@@ -392,12 +427,12 @@ impl Client {
         Event::Frame { frame: frame.frame, time: frame.time, alone: frame.base.is_none(), image: news }
     }
 
-    fn take_contacts(&mut self, list: ContactList) -> Event {
+    fn take_contacts(&mut self, list: &ContactList) -> Event {
         if std::mem::take(&mut self.told) {
             self.released.clear();
         }
         let (gone, here): (Vec<_>, Vec<_>) =
-            list.contacts.into_iter().partition(|p| p.contact.phase == Phase::Released);
+            list.contacts.iter().cloned().partition(|p| p.contact.phase == Phase::Released);
         self.growths.feel(&here, &gone);
         self.released.extend(gone.iter().map(|p| p.contact.id));
         // A board that sends no images never completes the list.

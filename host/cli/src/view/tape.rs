@@ -44,8 +44,7 @@ impl<S: Store> Copy<S> {
 
     /// Adds a frame of the wire.
     pub fn take(&mut self, stamp: Stamp, frame: &[u8]) -> Result<()> {
-        let client = &mut self.client;
-        match frame.iter().find_map(|byte| client.push(*byte)) {
+        match self.client.push_all(frame).1 {
             Some(event) => self.keep(stamp, &event),
             None => Ok(()),
         }

@@ -43,8 +43,7 @@ impl Play {
     pub fn next_event(&mut self) -> Result<Option<(MessageHeader, Event)>> {
         while let Some(message) = self.wire.next_frame()? {
             // A message of this channel is one frame of the wire, which its last byte completes.
-            let mut bytes = message.data.iter();
-            if let Some(event) = bytes.find_map(|byte| self.client.push(*byte)) {
+            if let Some(event) = self.client.push_all(message.data).1 {
                 return Ok(Some((message.header, event)));
             }
         }

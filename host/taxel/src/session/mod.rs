@@ -290,16 +290,13 @@ impl Session {
 
     /// Next event of the last turn.
     pub fn next_event(&mut self) -> Option<Event> {
-        while let Some(byte) = self.buffer.get(self.taken) {
-            self.taken += 1;
-            if let Some(event) = self.client.push(*byte) {
-                if let Some(posing) = &mut self.posing {
-                    posing.event(&event);
-                }
-                return Some(event);
-            }
+        let (count, event) = self.client.push_all(&self.buffer[self.taken..]);
+        self.taken += count;
+        let event = event?;
+        if let Some(posing) = &mut self.posing {
+            posing.event(&event);
         }
-        None
+        Some(event)
     }
 
     /// The host's own message about the stream: an [`Event::Log`].

@@ -91,7 +91,7 @@ impl Reel {
 
     fn push(&mut self, frame: &[u8]) -> Option<Event> {
         let client = &mut self.client;
-        let event = frame.iter().find_map(|byte| client.push(*byte));
+        let event = client.push_all(frame).1;
         // There is no board to answer.
         client.take_requests();
         event

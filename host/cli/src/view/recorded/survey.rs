@@ -178,7 +178,7 @@ impl Surveyor {
     /// Handles a message.
     fn tell(&mut self, at: u64, frame: &[u8]) {
         let client = &mut self.client;
-        let Some(event) = frame.iter().find_map(|byte| client.push(*byte)) else { return };
+        let Some(event) = client.push_all(frame).1 else { return };
         for said in self.teller.lines(client, &event) {
             self.overview.say(at, said);
         }
