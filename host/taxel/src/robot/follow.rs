@@ -56,6 +56,8 @@ pub struct BoardPlan<T> {
 pub struct Follower<T> {
     board: usize,
     queue: Arc<EventQueue<T>>,
+    /// Events that are queued together once all bytes are read, and whether they may be dropped.
+    waiting: Vec<(RobotEvent<T>, bool)>,
     when_full: WhenFull,
     identity: Identity,
     teller: Box<dyn Teller<T>>,
@@ -91,6 +93,7 @@ pub fn follow<T>(
     let mut follower = Follower {
         board,
         queue,
+        waiting: Vec::new(),
         when_full,
         identity,
         teller,
@@ -115,6 +118,7 @@ pub fn follow<T>(
         Ok(()) => BoardEvent::Over,
         Err(error) => BoardEvent::Failed(error),
     });
+    follower.hand_over();
 }
 
 impl<T> Follower<T> {
@@ -133,6 +137,7 @@ impl<T> Follower<T> {
             if !std::mem::replace(&mut told, true) {
                 self.tell(BoardEvent::Absent { why: words::sentence(&error) });
             }
+            self.hand_over();
             self.queue.pause(pause);
             pause = (pause * 2).min(TRY[1]);
         }
@@ -186,6 +191,7 @@ impl<T> Follower<T> {
                 _ => {}
             }
             gap = session.gap();
+            self.hand_over();
         }
         Ok(())
     }
@@ -236,7 +242,7 @@ impl<T> Follower<T> {
         Ok(self.required.answered(&session.source().label, event)?)
     }
 
-    /// Queues what is made of an event.
+    /// Adds what is made of an event.
     fn news(&mut self, client: &Client, event: &Event) -> Result<()> {
         let stamp = self.stamps.of(client, event);
         let news = self.teller.event(client, event, stamp)?;
@@ -244,7 +250,7 @@ impl<T> Follower<T> {
         Ok(())
     }
 
-    /// Queues what is made of requests to the board.
+    /// Adds what is made of requests to the board.
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {
         if bytes.is_empty() {
             return Ok(());
@@ -255,24 +261,29 @@ impl<T> Follower<T> {
         Ok(())
     }
 
-    fn pass(&self, stamp: Stamp, news: Option<T>, is_image: bool) {
-        news.into_iter().for_each(|news| self.push(stamp, BoardEvent::News(news), is_image));
+    fn pass(&mut self, stamp: Stamp, news: Option<T>, is_image: bool) {
+        news.into_iter().for_each(|news| self.add(stamp, BoardEvent::News(news), is_image));
     }
 
-    /// Queues how the board is, now.
+    /// Adds how the board is, now.
     fn tell(&mut self, what: BoardEvent<T>) {
         let stamp = Stamp { board_us: 0, host_us: self.time.now_us(), uncertainty_us: Some(0) };
-        self.push(stamp, what, false);
+        self.add(stamp, what, false);
     }
 
-    /// Queues that another board has answered, if it has.
+    /// Adds that another board has answered, if it has.
     fn tell_other(&mut self) {
         if let Some(why) = self.identity.other() {
             self.tell(BoardEvent::Other { why });
         }
     }
 
-    fn push(&self, stamp: Stamp, what: BoardEvent<T>, is_image: bool) {
-        self.queue.push(RobotEvent { board: self.board, stamp, what }, is_image && self.drops);
+    fn add(&mut self, stamp: Stamp, what: BoardEvent<T>, is_image: bool) {
+        self.waiting.push((RobotEvent { board: self.board, stamp, what }, is_image && self.drops));
+    }
+
+    /// Queues all that was added.
+    fn hand_over(&mut self) {
+        self.queue.push(self.board, &mut self.waiting);
     }
 }

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 /// Most events of a board that wait.
 pub const WAITING: usize = 256;
+/// Most events that are taken at a time.
+const BATCH: usize = 64;
 
 /// What happens to a board's images while its events wait to be taken and there is no room for more. All
 /// other events wait for room: the link then holds the board back, which leaves out images itself and counts
@@ -20,8 +22,9 @@ pub enum WhenFull {
     DropImages,
 }
 
-/// Events of all boards, in the order of their arrival. Each board waits for its own room: of many, an event
-/// that is taken wakes one.
+/// Events of all boards, in the order of their arrival. They come and go several at a time, because to wake a
+/// thread and to lock cost more than an event. Each board waits for its own room: of many, an event that is taken
+/// wakes one.
 #[derive(Debug)]
 pub struct EventQueue<T> {
     waiting: Mutex<WaitingEvents<T>>,
@@ -37,6 +40,8 @@ pub struct EventQueue<T> {
 struct WaitingEvents<T> {
     events: VecDeque<Waiter<T>>,
     boards: Vec<BoardQueue>,
+    /// Whoever takes events waits for one.
+    is_awaited: bool,
     /// Nobody takes events any longer.
     closed: bool,
 }
@@ -61,7 +66,7 @@ struct BoardQueue {
 
 impl<T> Default for WaitingEvents<T> {
     fn default() -> WaitingEvents<T> {
-        WaitingEvents { events: VecDeque::new(), boards: Vec::new(), closed: false }
+        WaitingEvents { events: VecDeque::new(), boards: Vec::new(), is_awaited: false, closed: false }
     }
 }
 
@@ -79,43 +84,50 @@ impl<T> EventQueue<T> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds an event once there is room. `droppable`: an image that may be dropped instead of waiting.
-    pub fn push(&self, event: RobotEvent<T>, droppable: bool) {
-        let board = event.board;
-        let mut waiting = self.lock();
-        while waiting.boards[board].waiting >= WAITING && !waiting.closed {
-            if waiting.drop_image(board) {
-                continue;
-            }
-            if droppable {
-                waiting.boards[board].dropped += 1;
-                return;
-            }
-            waiting = self.room[board].wait(waiting).unwrap_or_else(PoisonError::into_inner);
+    /// Adds events of a board, each once there is room, and leaves none. True: an image that may be dropped instead
+    /// of waiting.
+    pub fn push(&self, board: usize, events: &mut Vec<(RobotEvent<T>, bool)>) {
+        if events.is_empty() {
+            return;
         }
-        waiting.boards[board].waiting += 1;
-        waiting.boards[board].images += usize::from(droppable);
-        waiting.events.push_back(Waiter { event, is_image: droppable });
-        self.came.notify_all();
+        let mut waiting = self.lock();
+        for (event, is_image) in events.drain(..) {
+            while !is_image && !waiting.make_room(board) {
+                self.wake(&mut waiting);
+                waiting = self.room[board].wait(waiting).unwrap_or_else(PoisonError::into_inner);
+            }
+            waiting.add(board, Waiter { event, is_image });
+        }
+        self.wake(&mut waiting);
     }
 
-    /// Takes the next event; none if there is none within this time.
-    pub fn take(&self, patience: Duration) -> Option<RobotEvent<T>> {
+    /// Wakes whoever waits for events.
+    fn wake(&self, waiting: &mut WaitingEvents<T>) {
+        if std::mem::take(&mut waiting.is_awaited) {
+            self.came.notify_all();
+        }
+    }
+
+    /// Takes the next events; none if there are none within this time.
+    pub fn take(&self, patience: Duration, taken: &mut VecDeque<RobotEvent<T>>) {
         let until = Instant::now() + patience;
         let mut waiting = self.lock();
-        loop {
-            if let Some(event) = waiting.take() {
-                // Not for each event: a board then does more at a time.
-                if waiting.boards[event.board].waiting <= WAITING / 2 {
-                    self.room[event.board].notify_all();
-                }
-                return Some(event);
-            }
+        while waiting.events.is_empty() {
             let left = until.saturating_duration_since(Instant::now());
             if left.is_zero() || waiting.are_over() {
-                return None;
+                return;
             }
+            waiting.is_awaited = true;
             waiting = self.came.wait_timeout(waiting, left).unwrap_or_else(PoisonError::into_inner).0;
+        }
+        while taken.len() < BATCH
+            && let Some(event) = waiting.take()
+        {
+            // Not for each event: a board then does more at a time.
+            if waiting.boards[event.board].waiting == WAITING / 2 {
+                self.room[event.board].notify_all();
+            }
+            taken.push_back(event);
         }
     }
 
@@ -160,6 +172,22 @@ impl<T> EventQueue<T> {
 }
 
 impl<T> WaitingEvents<T> {
+    /// Adds an event of a board, unless it is an image without room.
+    fn add(&mut self, board: usize, waiter: Waiter<T>) {
+        if waiter.is_image && !self.make_room(board) {
+            self.boards[board].dropped += 1;
+            return;
+        }
+        self.boards[board].waiting += 1;
+        self.boards[board].images += usize::from(waiter.is_image);
+        self.events.push_back(waiter);
+    }
+
+    /// True if there is room for another event of a board: its oldest image is dropped if need be.
+    fn make_room(&mut self, board: usize) -> bool {
+        self.closed || self.boards[board].waiting < WAITING || self.drop_image(board)
+    }
+
     fn are_over(&self) -> bool {
         self.boards.iter().all(|board| board.over)
     }

@@ -9,6 +9,7 @@ use crate::client::{Buses, Client};
 use crate::error::{Result, UsageError};
 use crate::session::{JointTime, Session};
 use crate::tell::words;
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{Builder, JoinHandle};
@@ -43,6 +44,8 @@ const STACK: usize = 8 << 20;
 /// ```
 pub struct RobotSession<T> {
     queue: Arc<EventQueue<T>>,
+    /// Events that were taken together and are not handed out yet.
+    taken: VecDeque<RobotEvent<T>>,
     boards: Vec<FollowedBoard>,
     time: SteadyTime,
 }
@@ -69,7 +72,8 @@ impl<T: Send + 'static> RobotSession<T> {
     pub fn start(plans: Vec<BoardPlan<T>>, when_full: WhenFull) -> Result<RobotSession<T>> {
         let queue = Arc::new(EventQueue::new(plans.len()));
         let time = SteadyTime::start();
-        let mut session = RobotSession { queue: queue.clone(), boards: Vec::new(), time };
+        let mut session =
+            RobotSession { queue: queue.clone(), taken: VecDeque::new(), boards: Vec::new(), time };
         let buses = Buses::default();
         for (board, plan) in plans.into_iter().enumerate() {
             let (asks, asked) = channel();
@@ -90,7 +94,10 @@ impl<T: Send + 'static> RobotSession<T> {
     /// Takes the next event; none if there is none within this time, or [no more](RobotSession::is_over).
     /// Events of a board come in their order, those of several boards as they arrive.
     pub fn wait(&mut self, patience: Duration) -> Option<RobotEvent<T>> {
-        self.queue.take(patience)
+        if self.taken.is_empty() {
+            self.queue.take(patience, &mut self.taken);
+        }
+        self.taken.pop_front()
     }
 
     /// The host's time now, us since 1970: that of all stamps.
@@ -100,7 +107,7 @@ impl<T: Send + 'static> RobotSession<T> {
 
     /// True once every board is over and all events are taken.
     pub fn is_over(&self) -> bool {
-        self.queue.is_over()
+        self.taken.is_empty() && self.queue.is_over()
     }
 
     /// Names of the boards.

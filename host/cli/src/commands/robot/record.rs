@@ -11,6 +11,7 @@ use crate::watch::{Overwrite, seconds, stop};
 use anyhow::{Error, Result};
 use clap::Args;
 use std::path::PathBuf;
+use std::thread;
 use std::time::Duration;
 use taxel::mind::{MindRecord, MindRecordTeller, RecordedMind, RobotMind};
 use taxel::robot::{BoardEvent, RobotContact, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
@@ -18,6 +19,8 @@ use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
 const LOOK: Duration = Duration::from_millis(100);
+/// Time in which events gather once all are taken: those of many boards would each wake this thread.
+const GATHER: Duration = Duration::from_millis(5);
 
 /// Arguments of `taxel robot record`.
 #[derive(Debug, Clone, Args)]
@@ -87,7 +90,10 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     while written.is_ok() && !session.is_over() && !stop::asked() {
         let hears = recording.mind.as_mut().map(RecordedMind::mind);
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, hears));
-        let event = session.wait(LOOK);
+        let event = session.wait(Duration::ZERO).or_else(|| {
+            thread::sleep(GATHER);
+            session.wait(LOOK)
+        });
         written = recording.take(event.as_ref(), &told, session.now_us());
         let Some(event) = event else { continue };
         let name = &robot.boards[event.board].name;
