@@ -14,7 +14,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use taxel::client::Client;
+use taxel::client::{Client, Event};
 use taxel::recording::Store;
 use taxel::source::shared;
 use taxel_core::garment::Circuit;
@@ -284,9 +284,9 @@ impl PageHub {
         self.lock().tares.pop_front()
     }
 
-    /// Keeps received bytes.
-    pub fn keep(&self, bytes: &[u8]) {
-        self.recent().push(bytes);
+    /// Keeps the bytes of an event.
+    pub fn keep(&self, client: &Client, event: &Event) {
+        self.recent().take(client, event);
     }
 
     /// Permission to send a recording, held while sending; none if too many are being sent.

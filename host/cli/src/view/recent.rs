@@ -2,24 +2,22 @@
 
 use std::collections::VecDeque;
 use taxel::client::passed::Passed;
+use taxel::client::{Client, Event};
 use taxel_core::format::Micros;
-use taxel_core::wire::{Receiver, Report, decode, encode, frame_bound};
+use taxel_core::wire::{Report, WireError, decode, encode, frame_bound, open};
 
 /// Time for which bytes are kept, us of the board. Across restarts of the board's clock, time runs on.
 const KEPT: u64 = 30_000_000;
 /// Most bytes kept, whatever the clocks of the boards say.
 const BYTES: usize = 64 << 20;
-/// Longest message of a board.
-const LONGEST: usize = 8192;
 
 /// A message as a frame of the wire.
 #[derive(Debug)]
 struct Piece {
-    bytes: Vec<u8>,
+    /// Number of its bytes.
+    length: usize,
     /// Elapsed board time, us.
     at: u64,
-    /// Message number.
-    seq: u32,
     /// True for a key frame.
     key: bool,
 }
@@ -27,15 +25,13 @@ struct Piece {
 /// Keeps the latest bytes.
 #[derive(Default)]
 pub struct Recent {
-    receiver: Box<Receiver<LONGEST>>,
-    /// Bytes of an incomplete frame.
-    begun: Vec<u8>,
-    /// Message of the last `Hello`.
+    /// Frame of the last `Hello`.
     hello: Vec<u8>,
     /// Garment of the last `Hello`.
     garment: Vec<u8>,
     pieces: VecDeque<Piece>,
-    held: usize,
+    /// Their bytes.
+    bytes: VecDeque<u8>,
     /// Time of the last image.
     newest: Micros,
     passed: Passed,
@@ -49,46 +45,51 @@ impl Recent {
         Recent { others: boards.saturating_sub(1), ..Recent::default() }
     }
 
-    /// Handles bytes in any split.
-    pub fn push(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.begun.push(*byte);
-            let Some(message) = self.receiver.push(*byte) else {
-                self.begun.truncate(LONGEST);
-                continue;
-            };
-            let frame = self.begun.clone();
-            self.begun.clear();
-            let Some((seq, report)) = message.ok().and_then(read) else { continue };
-            let key = match &report {
-                Report::Hello(hello) => {
-                    if self.garment != hello.garment {
-                        self.garment = hello.garment.to_vec();
-                        // Earlier messages cannot be decoded with this garment.
-                        self.pieces.clear();
-                        self.held = 0;
-                    }
-                    self.hello = postcard::to_allocvec(&report).unwrap_or_default();
-                    false
-                }
-                Report::Frame(image) => {
-                    self.newest = image.time;
-                    image.base.is_none()
-                }
-                _ => false,
-            };
-            self.held += frame.len();
-            let at = self.passed.until(self.newest.0);
-            self.pieces.push_back(Piece { bytes: frame, at, seq, key });
-            self.forget(at);
+    /// Keeps the bytes of an event, unless they were damaged.
+    pub fn take(&mut self, client: &Client, event: &Event) {
+        let key = match event {
+            Event::Refused(_) => return,
+            Event::Hello | Event::Unusable(_) => {
+                self.greeted(client.line());
+                false
+            }
+            Event::Frame { time, alone, .. } => {
+                self.newest = *time;
+                *alone
+            }
+            _ => false,
+        };
+        let at = self.passed.until(self.newest.0);
+        for line in client.lines() {
+            self.bytes.extend(line);
+            self.pieces.push_back(Piece { length: line.len(), at, key: false });
         }
+        // The event's own line is the last one.
+        if let Some(piece) = self.pieces.back_mut() {
+            piece.key = key;
+        }
+        self.forget(at);
+    }
+
+    /// Handles a `Hello`.
+    fn greeted(&mut self, frame: &[u8]) {
+        let mut bytes = frame.to_vec();
+        let Ok((_, Report::Hello(hello))) = opened(&mut bytes) else { return };
+        if self.garment != hello.garment {
+            self.garment = hello.garment.to_vec();
+            // Earlier messages cannot be decoded with this garment.
+            self.pieces.clear();
+            self.bytes.clear();
+        }
+        self.hello = frame.to_vec();
     }
 
     fn forget(&mut self, now: u64) {
         let most = BYTES / (1 + self.others);
-        while self.pieces.front().is_some_and(|oldest| now - oldest.at > KEPT || self.held > most) {
-            let gone = self.pieces.pop_front();
-            self.held -= gone.map_or(0, |piece| piece.bytes.len());
+        while let Some(gone) =
+            self.pieces.pop_front_if(|oldest| now - oldest.at > KEPT || self.bytes.len() > most)
+        {
+            self.bytes.drain(..gone.length);
         }
     }
 
@@ -105,29 +106,42 @@ impl Recent {
     /// Returns a `Hello` and everything from the first key frame on; none before the first.
     pub fn recording(&self) -> Option<Vec<u8>> {
         let first = self.pieces.iter().position(|piece| piece.key)?;
-        let seq = self.pieces.get(first)?.seq.wrapping_sub(1);
-        let hello: Report<'_> = decode(&self.hello).ok()?;
-        let mut room = vec![0; frame_bound(LONGEST)];
+        let before: usize = self.pieces.range(..first).map(|piece| piece.length).sum();
+        let length = self.pieces.get(first)?.length;
+        let mut begin: Vec<u8> = self.bytes.range(before..before + length).copied().collect();
+        let mut hello = self.hello.clone();
+        let (seq, _) = opened(&mut begin).ok()?;
+        let (_, hello) = opened(&mut hello).ok()?;
+        let mut room = vec![0; frame_bound(self.hello.len())];
         // It gets the preceding number, so that nothing counts as lost.
-        let mut frame = encode(&(seq, &hello), &mut room).ok()?.to_vec();
-        frame.extend(self.pieces.iter().skip(first).flat_map(|piece| &piece.bytes));
+        let mut frame = encode(&(seq.wrapping_sub(1), &hello), &mut room).ok()?.to_vec();
+        frame.extend(self.bytes.range(before..));
         Some(frame)
     }
 }
 
-fn read(message: &[u8]) -> Option<(u32, Report<'_>)> {
-    let (seq, rest) = postcard::take_from_bytes::<u32>(message).ok()?;
-    Some((seq, decode(rest).ok()?))
+/// Number and content of the message of a frame of the wire with its 0x00.
+fn opened(frame: &mut [u8]) -> Result<(u32, Report<'_>), WireError> {
+    let end = frame.len().saturating_sub(1);
+    decode(open(&mut frame[..end])?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel::client::{Client, Event};
     use taxel_core::wire::{Frame, Hello, MAGIC, PROTOCOL};
 
     fn sent(seq: u32, report: &Report<'_>) -> Vec<u8> {
-        encode(&(seq, report), &mut vec![0; frame_bound(LONGEST)]).unwrap().to_vec()
+        encode(&(seq, report), &mut vec![0; frame_bound(1000)]).unwrap().to_vec()
+    }
+
+    /// Keeps the events of these bytes.
+    fn keep(recent: &mut Recent, client: &mut Client, mut bytes: &[u8]) {
+        while !bytes.is_empty() {
+            let (count, event) = client.push_all(bytes);
+            event.iter().for_each(|event| recent.take(client, event));
+            bytes = &bytes[count..];
+        }
     }
 
     fn hello(garment: &[u8]) -> Report<'_> {
@@ -158,11 +172,11 @@ mod tests {
 
     #[test]
     fn half_a_minute_is_kept_from_a_whole_image_on() {
-        let mut recent = Recent::default();
+        let (mut recent, mut board) = (Recent::default(), Client::new());
         assert!(recent.recording().is_none());
         let mut bytes = [b"noise\0".to_vec(), sent(0, &hello(b"one"))].concat();
         (1..=1234).for_each(|number| bytes.extend(sent(number, &image(number))));
-        bytes.chunks(7).for_each(|part| recent.push(part));
+        bytes.chunks(7).for_each(|part| keep(&mut recent, &mut board, part));
         let mut client = Client::new();
         let events = recent.recording().unwrap().into_iter().filter_map(|byte| client.push(byte));
         let frames: Vec<u32> = events
@@ -174,12 +188,12 @@ mod tests {
         let mut seq = 1234;
         for image in (0..20).flat_map(|_| (1..=80).map(image)) {
             seq += 1;
-            recent.push(&sent(seq, &image));
+            keep(&mut recent, &mut board, &sent(seq, &image));
         }
         let kept = recent.recording().unwrap().iter().filter(|byte| **byte == 0).count();
         assert!((300..=330).contains(&kept), "{kept}");
         // Another garment: earlier messages are discarded.
-        recent.push(&sent(seq + 1, &hello(b"two")));
+        keep(&mut recent, &mut board, &sent(seq + 1, &hello(b"two")));
         assert!(recent.recording().is_none());
     }
 }

@@ -78,6 +78,27 @@ impl Viewer {
         Viewer { folding, ..self }
     }
 
+    fn show(&mut self, client: &Client, event: &Event) -> Result<()> {
+        match event {
+            Event::Hello => self.hello(client)?,
+            Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
+            Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
+            Event::Health(_) => self.hub.state("health", &json::message(client, event)),
+            Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
+            Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
+            Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
+            Event::Pressing(report) => self.hub.heard(report),
+            Event::Sync(report) if report.token == self.token => {
+                self.latency = Some(self.asked.elapsed() / 2)
+            }
+            _ => {}
+        }
+        for said in self.teller.tell(client, event) {
+            self.hub.say(&said);
+        }
+        Ok(())
+    }
+
     fn frame(&mut self, client: &Client, event: &Event, time: Micros) {
         self.rate.add(time);
         if let Some(pace) = &mut self.pace {
@@ -114,10 +135,6 @@ impl Viewer {
 }
 
 impl Show<anyhow::Error> for Viewer {
-    fn bytes(&mut self, bytes: &[u8]) {
-        self.hub.keep(bytes);
-    }
-
     fn asked(&mut self, client: &Client, requests: &[u8]) -> Result<()> {
         self.folding.iter_mut().for_each(|folding| folding.asked(client, requests));
         Ok(())
@@ -132,24 +149,13 @@ impl Show<anyhow::Error> for Viewer {
     }
 
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
-        match event {
-            Event::Hello => self.hello(client)?,
-            Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
-            Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
-            Event::Health(_) => self.hub.state("health", &json::message(client, event)),
-            Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
-            Event::SelfTest(report) => self.hub.state("pins", &message::pins(client, &report.findings)),
-            Event::Budget(_) => self.hub.state("budget", &json::message(client, event)),
-            Event::Pressing(report) => self.hub.heard(report),
-            Event::Sync(report) if report.token == self.token => {
-                self.latency = Some(self.asked.elapsed() / 2)
-            }
-            _ => {}
-        }
-        for said in self.teller.tell(client, event) {
-            self.hub.say(&said);
-        }
-        Ok(())
+        self.hub.keep(client, event);
+        self.show(client, event)
+    }
+
+    /// It has no bytes on the wire.
+    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
+        self.show(client, note)
     }
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {

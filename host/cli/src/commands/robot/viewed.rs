@@ -48,10 +48,7 @@ impl Teller<MindRecord> for ViewedTeller {
     }
 
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<MindRecord>> {
-        self.show(|viewer| {
-            client.lines().for_each(|line| viewer.bytes(line));
-            viewer.event(client, event)
-        });
+        self.show(|viewer| viewer.event(client, event));
         self.records.event(client, event, stamp)
     }
 

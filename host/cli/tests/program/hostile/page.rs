@@ -14,11 +14,8 @@ use taxel_cli::watch::{LiveArgs, watch};
 struct Keeper(Arc<PageHub>);
 
 impl Show<anyhow::Error> for Keeper {
-    fn bytes(&mut self, bytes: &[u8]) {
-        self.0.keep(bytes);
-    }
-
-    fn event(&mut self, _: &Client, _: &Event) -> anyhow::Result<()> {
+    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+        self.0.keep(client, event);
         Ok(())
     }
 }
