@@ -1,6 +1,6 @@
 //! Events as JSON messages.
 
-use super::panel_image::{self, PanelImage};
+use super::panel_image::{self, PanelImage, PanelValues};
 use super::stamps::Stamp;
 use crate::client::{Client, Event, ImageNews};
 use crate::error::Result;
@@ -10,6 +10,9 @@ use crate::json::{self, HostTimed, HostTimes};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+/// Room in which most messages fit, bytes: a growing one is copied.
+const ROOM: usize = 2048;
+
 /// Encodes an event as JSON with its times.
 pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<u8>> {
     let Event::Frame { frame, alone, image, .. } = event else {
@@ -17,7 +20,10 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
     };
     let decoded = *image == ImageNews::Whole;
     let panels = if decoded { panels(client) } else { Vec::new() };
-    let mut message = serde_json::to_vec(&FrameMessage {
+    let taxels: usize = panels.iter().map(|panel| panel.values.len()).sum();
+    // A zero and its comma take two bytes.
+    let mut message = Vec::with_capacity(ROOM + 3 * taxels);
+    let frame = FrameMessage {
         frame: *frame,
         time_us: stamp.board_us,
         times: times(stamp),
@@ -25,13 +31,12 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
         decoded,
         lost: client.counts().lost,
         thinned: client.counts().thinned,
-        total: panels.iter().map(|panel| panel.total).sum(),
+        total: panels.iter().map(PanelValues::total).sum(),
         panels: Vec::new(),
-    })?;
+    };
+    serde_json::to_writer(&mut message, &frame)?;
     // The panels are the last key: their text goes before the ends of the list and of the message.
     message.truncate(message.len() - 2);
-    // A zero and its comma take two bytes.
-    message.reserve(3 * panels.iter().flat_map(|panel| &panel.rows).map(|row| row.len()).sum::<usize>());
     panel_image::append(&mut message, &panels)?;
     message.extend_from_slice(b"]}");
     Ok(message)
@@ -39,7 +44,9 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
 
 /// Encodes a message with the host's time.
 pub fn with_times(line: impl Serialize, stamp: Stamp) -> Result<Vec<u8>> {
-    Ok(serde_json::to_vec(&HostTimed { line, times: times(stamp) })?)
+    let mut message = Vec::with_capacity(ROOM);
+    serde_json::to_writer(&mut message, &HostTimed { line, times: times(stamp) })?;
+    Ok(message)
 }
 
 fn times(stamp: Stamp) -> HostTimes {
@@ -132,15 +139,14 @@ pub struct LinkPoseLine<'a> {
 }
 
 /// Panels of the last image.
-fn panels(client: &Client) -> Vec<PanelImage<'_>> {
+fn panels(client: &Client) -> Vec<PanelValues<'_>> {
     let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
     let each = layout.areas().iter().map(|area| {
         let start = usize::from(area.base);
         let columns = usize::from(area.columns);
         let values = image.get(start..start + usize::from(area.rows) * columns).unwrap_or(&[]);
-        let total = values.iter().map(|value| u32::from(*value)).sum();
         // A panel with taxels has columns.
-        PanelImage { name: area.name.as_str(), total, rows: values.chunks(columns.max(1)).collect() }
+        PanelValues { name: area.name.as_str(), columns: columns.max(1), values }
     });
     each.collect()
 }

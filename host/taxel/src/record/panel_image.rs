@@ -3,6 +3,8 @@
 
 use crate::error::Result;
 use serde::Serialize;
+use std::io::Write;
+use std::ops::Range;
 
 /// Pressure of a panel.
 #[derive(Debug, Serialize)]
@@ -16,48 +18,82 @@ pub struct PanelImage<'a> {
     pub rows: Vec<&'a [u16]>,
 }
 
-/// Zeros of a row.
-const ZEROS: &[u8; 64] = b"0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,";
+/// The taxels of a panel.
+#[derive(Debug, Clone, Copy)]
+pub struct PanelValues<'a> {
+    /// Name of the panel.
+    pub name: &'a str,
+    /// Number of its columns; at least 1.
+    pub columns: usize,
+    /// Pressure of its taxels by row, counts.
+    pub values: &'a [u16],
+}
 
-/// Appends the panels, with a comma between two.
-pub fn append(text: &mut Vec<u8>, panels: &[PanelImage<'_>]) -> Result<()> {
+impl PanelValues<'_> {
+    /// Sum of its pressure, counts.
+    pub fn total(&self) -> u32 {
+        self.values.iter().map(|value| u32::from(*value)).sum()
+    }
+}
+
+/// Where the last row without pressure is in the text, and the number of its taxels.
+type EmptyRow = Option<(usize, Range<usize>)>;
+
+/// Values whose text is made at a time.
+const PIECE: usize = 32;
+/// Longest number and its comma, bytes.
+const LONGEST: usize = 6;
+
+/// Appends the panels, each as a [`PanelImage`], with a comma between two.
+pub fn append(text: &mut Vec<u8>, panels: &[PanelValues<'_>]) -> Result<()> {
+    let mut empty = None;
     for (index, panel) in panels.iter().enumerate() {
         if index > 0 {
             text.push(b',');
         }
         text.extend_from_slice(b"{\"name\":");
         serde_json::to_writer(&mut *text, panel.name)?;
-        text.extend_from_slice(format!(",\"total\":{},\"rows\":[", panel.total).as_bytes());
-        for row in &panel.rows {
-            append_row(text, row);
-        }
+        let total = panel.total();
+        write!(text, ",\"total\":{total},\"rows\":")?;
+        text.push(b'[');
+        panel.values.chunks(panel.columns).for_each(|row| append_row(text, row, &mut empty));
         end(text, b"]}");
     }
     Ok(())
 }
 
-/// Appends a row and a comma.
-fn append_row(text: &mut Vec<u8>, row: &[u16]) {
-    text.push(b'[');
-    for run in row.chunk_by(|a, b| (*a == 0) == (*b == 0)) {
-        if run[0] == 0 {
-            run.chunks(ZEROS.len() / 2).for_each(|zeros| text.extend_from_slice(&ZEROS[..2 * zeros.len()]));
-        } else {
-            run.iter().for_each(|value| append_number(text, *value));
-        }
+/// Appends a row and a comma. Most rows have no pressure: their text is that of the last such row.
+fn append_row(text: &mut Vec<u8>, row: &[u16], empty: &mut EmptyRow) {
+    let is_empty = row.iter().all(|value| *value == 0);
+    if let Some((length, range)) = empty
+        && is_empty
+        && *length == row.len()
+    {
+        text.extend_from_within(range.clone());
+        return;
     }
+    let start = text.len();
+    text.push(b'[');
+    row.chunks(PIECE).for_each(|values| append_numbers(text, values));
     end(text, b"],");
+    if is_empty {
+        *empty = Some((row.len(), start..text.len()));
+    }
 }
 
-/// Appends a number and a comma.
-fn append_number(text: &mut Vec<u8>, value: u16) {
-    let (mut digits, mut first, mut rest) = (*b"00000,", 5, value);
-    while rest > 0 || first == 5 {
-        first -= 1;
-        digits[first] = b'0' + (rest % 10) as u8;
-        rest /= 10;
+/// Appends at most [`PIECE`] numbers, each with a comma.
+fn append_numbers(text: &mut Vec<u8>, values: &[u16]) {
+    let (mut digits, mut length) = ([b','; LONGEST * PIECE], 0);
+    for value in values {
+        let mut rest = *value;
+        let end = length + rest.checked_ilog10().map_or(1, |log| 1 + log as usize);
+        for digit in digits[length..end].iter_mut().rev() {
+            *digit = b'0' + (rest % 10) as u8;
+            rest /= 10;
+        }
+        length = end + 1;
     }
-    text.extend_from_slice(&digits[first..]);
+    text.extend_from_slice(&digits[..length]);
 }
 
 /// Ends a list: its last comma goes.
@@ -81,15 +117,25 @@ mod tests {
         for (rows, columns) in [(0, 1), (1, 1), (3, 16), (32, 64), (2, 100)] {
             let values: Vec<u16> = (0..rows * columns).map(|_| next()).collect();
             let ends = [0, 9, 10, 99, 100, 999, 1000, 9999, 10_000, 65_535];
-            let panel = |name, values| PanelImage { name, total: 7, rows: values };
+            let panel = |name, columns, values| PanelValues { name, columns, values };
+            let zeros = [0; 30];
             let panels = [
-                panel("mat", values.chunks(columns).collect()),
-                panel("left \"arm\"\n", vec![&ends[..], &[]]),
+                panel("none", 10, &zeros),
+                panel("mat", columns, &values),
+                panel("left \"arm\"\n", 5, &ends),
+                panel("none, too", 10, &zeros),
+                panel("of other rows", 15, &zeros),
+                panel("of fewer", 15, &zeros[..15]),
             ];
             let mut text = b"[".to_vec();
             append(&mut text, &panels).unwrap();
             text.push(b']');
-            assert_eq!(String::from_utf8(text).unwrap(), serde_json::to_string(&panels).unwrap());
+            let wanted = panels.map(|panel| PanelImage {
+                name: panel.name,
+                total: panel.total(),
+                rows: panel.values.chunks(panel.columns).collect(),
+            });
+            assert_eq!(String::from_utf8(text).unwrap(), serde_json::to_string(&wanted).unwrap());
         }
     }
 }

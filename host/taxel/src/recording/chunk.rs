@@ -25,9 +25,7 @@ pub type Index = BTreeMap<u16, Vec<MessageIndexEntry>>;
 /// A chunk being filled.
 #[derive(Debug, Default)]
 pub struct Chunk {
-    body: Vec<u8>,
-    /// The body, compressed: kept for its room.
-    packed: Vec<u8>,
+    body: lz4::FrameWriter,
     index: Index,
     span: Option<[u64; 2]>,
 }
@@ -35,8 +33,8 @@ pub struct Chunk {
 impl Chunk {
     /// Adds a message.
     pub fn message(&mut self, header: &MessageHeader, data: &[u8]) -> Result<()> {
-        let entry = MessageIndexEntry { log_time: header.log_time, offset: self.body.len() as u64 };
-        append(&mut self.body, op::MESSAGE, header, data)?;
+        let entry = MessageIndexEntry { log_time: header.log_time, offset: self.body.length() as u64 };
+        self.body.add(|body| append(body, op::MESSAGE, header, data))?;
         self.index.entry(header.channel_id).or_default().push(entry);
         let [first, last] = self.span.unwrap_or([header.log_time; 2]);
         self.span = Some([first.min(header.log_time), last.max(header.log_time)]);
@@ -45,25 +43,24 @@ impl Chunk {
 
     /// Uncompressed bytes so far.
     pub fn bytes(&self) -> usize {
-        self.body.len()
+        self.body.length()
     }
 
     /// Appends the chunk and its index to `out`, which begins at `offset` in the file. None if there is no
     /// message.
     pub fn close(&mut self, offset: u64, out: &mut Vec<u8>) -> Result<Option<Closed>> {
         let Some([first, last]) = self.span.take() else { return Ok(None) };
-        self.packed.clear();
-        lz4::encode(&self.body, &mut self.packed);
+        let (packed, length, sum) = self.body.end();
         let header = ChunkHeader {
             message_start_time: first,
             message_end_time: last,
-            uncompressed_size: self.body.len() as u64,
-            uncompressed_crc: crc32fast::hash(&self.body),
+            uncompressed_size: length,
+            uncompressed_crc: sum,
             compression: LZ4.into(),
-            compressed_size: self.packed.len() as u64,
+            compressed_size: packed.len() as u64,
         };
         let start = out.len();
-        append(out, op::CHUNK, &header, &self.packed)?;
+        append(out, op::CHUNK, &header, packed)?;
         let length = (out.len() - start) as u64;
         let closed = Closed::indexed(&header, &self.index, offset, length, out)?;
         self.body.clear();

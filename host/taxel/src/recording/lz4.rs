@@ -1,4 +1,4 @@
-//! LZ4 frames, encoded and decoded from one buffer of the caller's into the other, without copies between.
+//! LZ4 frames, written block by block, and decoded from one buffer of the caller's into the other.
 //!
 //! Supports frames of independent blocks without a dictionary, as in our chunks and most others. Checksums
 //! (of block and content) are ignored, because a chunk of MCAP has its own.
@@ -16,37 +16,92 @@ const DICTIONARY: u8 = 0b0000_0001;
 /// Flag of a block's length: the block is uncompressed.
 const PLAIN: u32 = 1 << 31;
 
-/// Largest block of a frame of ours, bytes, and the frame's head: a longer body has larger blocks.
-const HEADS: [(usize, [u8; 7]); 3] = [
-    (64 << 10, [0x04, 0x22, 0x4D, 0x18, 0x60, 0x40, 0x82]),
-    (256 << 10, [0x04, 0x22, 0x4D, 0x18, 0x60, 0x50, 0xFB]),
-    (4 << 20, [0x04, 0x22, 0x4D, 0x18, 0x60, 0x70, 0x73]),
+/// Largest block of a frame of ours, bytes: LZ4 looks no farther back, and of blocks of this size finds what repeats
+/// a third faster than of larger ones, which are a tenth shorter.
+const BLOCK: usize = 64 << 10;
+/// Heads of frames of such blocks, and of those of 256 KiB and 4 MiB that earlier versions wrote.
+const HEADS: [[u8; 7]; 3] = [
+    [0x04, 0x22, 0x4D, 0x18, 0x60, 0x40, 0x82],
+    [0x04, 0x22, 0x4D, 0x18, 0x60, 0x50, 0xFB],
+    [0x04, 0x22, 0x4D, 0x18, 0x60, 0x70, 0x73],
 ];
 
 /// True if a frame's head is one that chunks of this program have. Other heads must be checked against their
 /// own checksum, which [`decode`] ignores.
 pub fn is_ours(frame: &[u8]) -> bool {
-    HEADS.iter().any(|(_, head)| frame.starts_with(head))
+    HEADS.iter().any(|head| frame.starts_with(head))
 }
 
-/// Appends a frame that holds `body`.
-pub fn encode(body: &[u8], out: &mut Vec<u8>) {
-    let [.., largest] = HEADS;
-    let (most, head) = HEADS.into_iter().find(|(most, _)| body.len() <= *most).unwrap_or(largest);
-    out.extend_from_slice(&head);
-    for block in body.chunks(most) {
-        let (at, start) = (out.len(), out.len() + 4);
-        out.resize(start + get_maximum_output_size(block.len()), 0);
-        let packed = compress_into(block, &mut out[start..]).ok().filter(|packed| *packed < block.len());
-        let size = packed.map_or(block.len() as u32 | PLAIN, |packed| packed as u32);
-        out[at..start].copy_from_slice(&size.to_le_bytes());
-        out.truncate(start + packed.unwrap_or(0));
-        if packed.is_none() {
-            out.extend_from_slice(block);
+/// A frame being written: what fills a block is compressed at once, while it is in the processor's cache.
+#[derive(Debug)]
+pub struct FrameWriter {
+    /// What is not compressed yet.
+    rest: Vec<u8>,
+    /// The frame so far.
+    frame: Vec<u8>,
+    /// Room for a compressed block.
+    room: Box<[u8]>,
+    /// Number of bytes that are compressed, and their CRC-32.
+    packed: usize,
+    sum: crc32fast::Hasher,
+}
+
+impl Default for FrameWriter {
+    fn default() -> FrameWriter {
+        FrameWriter {
+            rest: Vec::new(),
+            frame: HEADS[0].to_vec(),
+            room: vec![0; get_maximum_output_size(BLOCK)].into(),
+            packed: 0,
+            sum: crc32fast::Hasher::new(),
         }
     }
-    // A block of no length ends the frame.
-    out.extend([0; 4]);
+}
+
+impl FrameWriter {
+    /// Adds what this appends to a buffer.
+    pub fn add<T>(&mut self, append: impl FnOnce(&mut Vec<u8>) -> T) -> T {
+        let appended = append(&mut self.rest);
+        while self.rest.len() >= BLOCK {
+            self.pack(BLOCK);
+        }
+        appended
+    }
+
+    /// Number of bytes that were added.
+    pub fn length(&self) -> usize {
+        self.packed + self.rest.len()
+    }
+
+    /// Ends the frame. Returns it, and the number of bytes that were added and their CRC-32.
+    pub fn end(&mut self) -> (&[u8], u64, u32) {
+        if !self.rest.is_empty() {
+            self.pack(self.rest.len());
+        }
+        // A block of no length ends the frame.
+        self.frame.extend([0; 4]);
+        (&self.frame, self.packed as u64, self.sum.clone().finalize())
+    }
+
+    /// Begins another frame; the room stays.
+    pub fn clear(&mut self) {
+        self.rest.clear();
+        self.frame.truncate(HEADS[0].len());
+        self.packed = 0;
+        self.sum.reset();
+    }
+
+    /// Compresses the first bytes that are not yet.
+    fn pack(&mut self, length: usize) {
+        let block = &self.rest[..length];
+        let packed = compress_into(block, &mut self.room).ok().and_then(|length| self.room.get(..length));
+        let (flag, bytes) = packed.filter(|it| it.len() < length).map_or((PLAIN, block), |it| (0, it));
+        self.frame.extend_from_slice(&(bytes.len() as u32 | flag).to_le_bytes());
+        self.frame.extend_from_slice(bytes);
+        self.sum.update(block);
+        self.packed += length;
+        self.rest.drain(..length);
+    }
 }
 
 /// Decodes a frame that fills `out` exactly. Returns false if it is of another kind or damaged; then the
@@ -136,14 +191,24 @@ mod tests {
 
     #[test]
     fn a_frame_of_ours_is_that_of_the_library_and_comes_back() {
-        let long = body().repeat(11);
+        let (long, mut writer) = (body().repeat(11), FrameWriter::default());
+        let mut random = fastrand::Rng::with_seed(3);
         for length in [0, 1, 12, 65_536, 65_537, 262_144, 262_145, 470_000, 4 << 20, long.len()] {
             // Runs first, and noise first, which does not become shorter.
             for body in [&long[..length], &long[long.len() - length..]] {
-                let mut ours = b"before".to_vec();
-                encode(body, &mut ours);
-                let ours = ours.strip_prefix(b"before").unwrap();
-                assert!(ours == frame(FrameInfo::new(), body), "{length}");
+                writer.clear();
+                // In pieces of all lengths.
+                let mut rest = body;
+                while let Some(piece) = rest
+                    .split_off(..rest.len().min(random.usize(1..100_000)))
+                    .filter(|piece| !piece.is_empty())
+                {
+                    writer.add(|out| out.extend_from_slice(piece));
+                }
+                assert_eq!(writer.length(), length);
+                let (ours, told, sum) = writer.end();
+                assert_eq!((told, sum), (length as u64, crc32fast::hash(body)));
+                assert!(ours == frame(FrameInfo::new().block_size(BlockSize::Max64KB), body), "{length}");
                 let mut out = vec![0; body.len()];
                 assert!(decode(ours, &mut out) && out == body, "{length}");
                 out.clear();
@@ -155,10 +220,13 @@ mod tests {
 
     #[test]
     fn a_frame_of_ours_is_known_by_its_head_and_any_other_head_is_not() {
-        for length in [0, 1, 70_000, 300_000, 400_000] {
-            let mut whole = Vec::new();
-            encode(&body()[..length], &mut whole);
-            assert!(is_ours(&whole), "{length}");
+        let mut writer = FrameWriter::default();
+        writer.add(|out| out.extend(body()));
+        let ours = writer.end().0.to_vec();
+        let before = [BlockSize::Max256KB, BlockSize::Max4MB];
+        let before = before.map(|size| frame(FrameInfo::new().block_size(size), &body()));
+        for whole in [ours].into_iter().chain(before) {
+            assert!(is_ours(&whole));
             for (at, bit) in (0..7).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
                 let mut damaged = whole.clone();
                 damaged[at] ^= 1 << bit;

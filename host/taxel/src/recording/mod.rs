@@ -17,7 +17,7 @@
 //! | `messages.rs` | its messages |
 //! | `damage.rs` | damage in the middle of a file, skipped |
 //! | `texts.rs` | one record, parsed once its texts are known to lie within it |
-//! | `lz4.rs` | LZ4 frames, decoded without a copy |
+//! | `lz4.rs` | LZ4 frames, written block by block and decoded without a copy |
 //! | `source.rs` | bytes of a file at any offset |
 //! | `summary.rs` | the end of a file, read: footer and summary |
 //! | `clips.rs` | the messages of any chunk |
