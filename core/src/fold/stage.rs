@@ -330,6 +330,7 @@ impl FoldState {
     }
 
     /// Sum of the doubts of the taxels within a range, counts.
+    #[cfg(feature = "folds")]
     pub(crate) fn doubt_within(&self, taxels: &Range<usize>) -> u32 {
         let Some(table) = self.table() else { return 0 };
         let mut at = FoldStart::FIRST;
