@@ -1,13 +1,14 @@
 //! Copies four words at a time: 13 cycles of a Cortex-M0+ for these, or 25 if source and destination are
-//! aligned differently. The loops of the compiler's library take 32 or 80.
+//! aligned differently. The loops of the compiler's library take 32 or 80. Clears four words in 9 cycles, where
+//! those take 26.
 //!
-//! Compiled code calls these functions for copies of some length. They replace the weak symbols of that
+//! Compiled code calls these functions for copies of some length, and to fill with zeros. They replace the weak symbols of that
 //! library.
 
 // SAFETY: they meet the run-time ABI for the Arm architecture (5.3.4). `r0`, `r1`, `r2` are destination,
 // source and number of bytes; the two overlap only in functions named `memmove`. In functions with 4 or 8 in
-// their names both are aligned to words, and the last word may be partial. Registers other than `r0` to `r3`
-// are restored. Towards lower addresses each byte is read before its place is written. `memmove` is the
+// their names both are aligned to words, and the last word may be partial. Functions that clear have no source:
+// `r1` is the number of bytes. Registers other than `r0` to `r3` are restored. Towards lower addresses each byte is read before its place is written. `memmove` is the
 // library's.
 #[allow(unsafe_code)]
 mod words {
@@ -166,5 +167,55 @@ mod words {
         "    bpl 14b",
         "15:",
         "    pop {{r4, r5, r6, r7, pc}}",
+        ".global __aeabi_memclr",
+        ".type __aeabi_memclr, %function",
+        ".thumb_func",
+        "__aeabi_memclr:",
+        "    movs r2, #0",
+        // Up to the next word boundary.
+        "    b 22f",
+        "21:",
+        "    subs r1, #1",
+        "    bmi 27f",
+        "    strb r2, [r0]",
+        "    adds r0, #1",
+        "22:",
+        "    lsls r3, r0, #30",
+        "    bne 21b",
+        ".global __aeabi_memclr4",
+        ".type __aeabi_memclr4, %function",
+        ".thumb_func",
+        "__aeabi_memclr4:",
+        ".global __aeabi_memclr8",
+        ".type __aeabi_memclr8, %function",
+        ".thumb_func",
+        "__aeabi_memclr8:",
+        "    movs r2, #0",
+        "    movs r3, #0",
+        "    subs r1, #16",
+        "    blo 24f",
+        "23:",
+        "    stmia r0!, {{r2, r3}}",
+        "    stmia r0!, {{r2, r3}}",
+        "    subs r1, #16",
+        "    bhs 23b",
+        "24:",
+        // Here and below, `r1` is the number of bytes left, minus one step.
+        "    adds r1, #12",
+        "    bmi 26f",
+        "25:",
+        "    stmia r0!, {{r2}}",
+        "    subs r1, #4",
+        "    bpl 25b",
+        "26:",
+        "    adds r1, #3",
+        "    bmi 27f",
+        "28:",
+        "    strb r2, [r0]",
+        "    adds r0, #1",
+        "    subs r1, #1",
+        "    bpl 28b",
+        "27:",
+        "    bx lr",
     );
 }

@@ -19,6 +19,7 @@ mod platform;
 mod remains;
 mod scan;
 mod serial_number;
+mod sniffer;
 mod store;
 mod supply;
 mod watchdog;
@@ -82,8 +83,9 @@ fn scanner(
 async fn main(_spawner: Spawner) {
     guard::put_up();
     supply::watch();
-    let board::BoardParts { lines, converter, chain, mut wire, led, watchdog, flash } = board::take();
-    let mut platform = platform::BoardPlatform::start(watchdog, led, flash);
+    let board::BoardParts { lines, converter, chain, sniffer, mut wire, led, watchdog, flash } =
+        board::take();
+    let mut platform = platform::BoardPlatform::start(watchdog, led, flash, sniffer);
     const { assert!(limits::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = scanner(lines, converter, chain);
     let mut board = Shipped::bare(limits::INFO);

@@ -1,8 +1,9 @@
-//! The board's clock, settling delay, watchdog, heartbeat, stored settings and marks.
+//! The board's clock, settling delay, watchdog, heartbeat, stored settings, checksums and marks.
 
 use crate::led::Led;
 use crate::mark::mark;
 use crate::remains::Scratch;
+use crate::sniffer::Sniffer;
 use crate::store::{FedFlash, Flash, in_place};
 use crate::watchdog::WATCHDOG;
 use embassy_rp::{clocks, watchdog::Watchdog};
@@ -17,6 +18,7 @@ use taxel_core::{
     pipeline::{Probe, Stage},
     react::Levels,
     run::Platform,
+    wire::Checksum,
 };
 use taxel_store::{Found, StoreError};
 
@@ -96,16 +98,17 @@ pub struct BoardPlatform {
     flash: Flash,
     led: Led,
     led_due: Micros,
+    sniffer: Sniffer,
     boots: Boots<Scratch>,
 }
 
 impl BoardPlatform {
     /// Starts the watchdog.
-    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash) -> BoardPlatform {
+    pub fn start(mut watchdog: Watchdog, led: Led, flash: Flash, sniffer: Sniffer) -> BoardPlatform {
         let boots = Boots::begin(Scratch, led.was_grounded());
         watchdog.pause_on_debug(true);
         watchdog.start(WATCHDOG);
-        BoardPlatform { watchdog, flash, led, led_due: Micros(0), boots }
+        BoardPlatform { watchdog, flash, led, led_due: Micros(0), sniffer, boots }
     }
 
     /// Stores the levels of outputs for the next start, beside the settings.
@@ -158,6 +161,12 @@ impl Probe for BoardPlatform {
     #[inline]
     fn begin(&mut self, stage: Stage) {
         mark(stage as u32);
+    }
+}
+
+impl Checksum for BoardPlatform {
+    fn crc32(&mut self, bytes: &[u8]) -> u32 {
+        self.sniffer.crc32(bytes)
     }
 }
 

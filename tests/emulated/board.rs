@@ -126,6 +126,12 @@ impl Emulated {
         self.wait_for("stall")["stall"].as_f64().unwrap()
     }
 
+    /// A DMA channel transfers nothing any more.
+    pub fn jam(&mut self, channel: u32) {
+        writeln!(self.input, "jam {channel}").unwrap();
+        self.wait_for("jam");
+    }
+
     /// The supply of the processor's core sags for a moment: whether that resets the chip.
     pub fn sag(&mut self, millivolts: u32) -> bool {
         writeln!(self.input, "sag {millivolts}").unwrap();

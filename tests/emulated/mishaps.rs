@@ -52,6 +52,36 @@ fn a_chain_that_a_bus_error_has_broken_begins_anew() {
     board.end();
 }
 
+/// The channel of the checksums, as in firmware/src/sniffer.rs.
+const CHECKSUMS: u32 = 11;
+
+#[test]
+fn checksums_are_computed_by_table_when_their_dma_does_not_end() {
+    let mut board = start(&[]);
+    board.ask(&Request::Start);
+    let sniffed = |board: &mut Emulated| board.look("stats")["sniffed"].as_u64().unwrap();
+    // What comes is checked by its sum.
+    let twenty = |board: &mut Emulated| {
+        let (first, began) = next_frame(board);
+        let mut last = (first, began);
+        while last.0 < first + 20 {
+            last = next_frame(board);
+        }
+        (last.1 - began) / u64::from(last.0 - first)
+    };
+    let before = sniffed(&mut board);
+    let whole_us = twenty(&mut board);
+    let jammed = sniffed(&mut board);
+    assert!(jammed > before + 20 * 8, "the DMA computes the sums: {before}, {jammed}");
+    board.jam(CHECKSUMS);
+    let after = sniffed(&mut board);
+    let jammed_us = twenty(&mut board);
+    println!("{whole_us} us from frame to frame; {jammed_us} us without the DMA's checksums");
+    assert_eq!(sniffed(&mut board), after, "nothing is sniffed any more");
+    assert!(jammed_us.abs_diff(FRAME_US) < 100, "{jammed_us}");
+    board.end();
+}
+
 #[test]
 fn the_clock_may_pass_the_lower_half_of_its_word() {
     let turn = 1u64 << 32;

@@ -1,10 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { board } from './board.fixture.mjs';
-import { CYCLES_PER_TRANSFER, mendDma } from './dma.mjs';
+import { CYCLES_PER_NEXT, CYCLES_PER_TRANSFER, mendDma } from './dma.mjs';
 
 const RAM = 0x20000000, DMA = 0x50000000, CYCLE = 8;
 const READ = 0x00, WRITE = 0x04, COUNT = 0x08, TRIGGER = 0x0c, CTRL = 0x10, WRITE_TRIGGER = 0x2c;
+const BUSY = 1 << 24;
 const EN = 1, BYTE = 0 << 2, HALF = 1 << 2, WORD = 2 << 2, INCR_READ = 1 << 4, INCR_WRITE = 1 << 5;
 const RING_WRITE = 1 << 10, ALWAYS = 63 << 15;
 const ring = (bits) => bits << 6;
@@ -29,14 +30,41 @@ function dma() {
   return { ...parts, channel, words, fill, forbidden };
 }
 
-test('a transfer takes its cycles', () => {
+test('a transfer takes its cycles, and one that follows without a request only one', () => {
+  const { channel, fill, words, advance } = dma();
+  fill(0, [11, 22, 33]);
+  channel(0, RAM, RAM + 64, 3, EN | WORD | INCR_READ | INCR_WRITE | chain(0) | ALWAYS);
+  advance((CYCLES_PER_TRANSFER - 1) * CYCLE);
+  assert.deepEqual(words(64, 3), [0, 0, 0]);
+  advance(CYCLE);
+  assert.deepEqual(words(64, 3), [11, 0, 0]);
+  advance(CYCLES_PER_NEXT * CYCLE);
+  assert.deepEqual(words(64, 3), [11, 22, 0]);
+  advance(CYCLES_PER_NEXT * CYCLE);
+  assert.deepEqual(words(64, 3), [11, 22, 33]);
+});
+
+test('each transfer of a channel that others trigger takes its cycles', () => {
   const { channel, fill, words, advance } = dma();
   fill(0, [11, 22]);
-  channel(0, RAM, RAM + 64, 2, EN | WORD | INCR_READ | INCR_WRITE | chain(0) | ALWAYS);
-  advance(CYCLES_PER_TRANSFER * CYCLE);
+  channel(1, RAM + 4, RAM + 68, 1, EN | WORD | chain(1) | ALWAYS, CTRL);
+  channel(0, RAM, RAM + 64, 1, EN | WORD | chain(1) | ALWAYS);
+  advance((2 * CYCLES_PER_TRANSFER - 1) * CYCLE);
   assert.deepEqual(words(64, 2), [11, 0]);
-  advance(CYCLES_PER_TRANSFER * CYCLE);
+  advance(CYCLE);
   assert.deepEqual(words(64, 2), [11, 22]);
+});
+
+test('a jammed channel is busy until it is aborted', () => {
+  const { chip, channel, fill, words, advance } = dma();
+  const isBusy = () => (chip.readUint32(DMA + TRIGGER) & BUSY) !== 0;
+  fill(0, [1]);
+  chip.dma.channels[0].jammed = true;
+  channel(0, RAM, RAM + 64, 1, EN | WORD | chain(0) | ALWAYS);
+  advance(1e6);
+  assert.deepEqual([words(64, 1), isBusy()], [[0], true]);
+  chip.writeUint32(DMA + 0x444, 1);
+  assert.equal(isBusy(), false);
 });
 
 test('bytes, halfwords and words', () => {

@@ -90,7 +90,7 @@ function statistics({ machine, garment, intruder }, link, started) {
     mcycles_per_s: Number((machine.cycles / wall / 1e6).toFixed(1)), asleep_us: Math.round(machine.asleep / 1000),
     conversions: machine.chip.adc.conversions, scans: garment?.scan ?? 0, played: garment?.played ?? 0,
     floating: garment?.floating ?? 0, link: { sent: link.sent, dropped: link.dropped, received: link.received,
-      uart_overruns: machine.uart.overruns }, usb: machine.usb.packets, uart: machine.uart.sent, rtt_bytes: machine.rtt.bytes.length, stack: machine.stack,
+      uart_overruns: machine.uart.overruns }, usb: machine.usb.packets, uart: machine.uart.sent, rtt_bytes: machine.rtt.bytes.length, sniffed: machine.chip.dma.sniffer.seen, stack: machine.stack,
     marks: machine.marks, check: garment?.check, races: intruder?.count, brown_out: machine.supply.kept[BOD],
   };
 }
@@ -177,6 +177,10 @@ async function main() {
     'dma-error': () => {
       board.machine.chip.dma.channels.forEach((channel) => channel.abort());
       say({ 'dma-error': board.machine.micros });
+    },
+    jam: (channel) => {
+      board.machine.chip.dma.channels[Number(channel)].jammed = true;
+      say({ jam: board.machine.micros });
     },
     read: (state) => {
       board.machine.usb.follow(state === 'on');

@@ -30,25 +30,25 @@ impl Touched {
             // As many columns at a time as a word has bits.
             while count > 0 {
                 let bits = u32::MAX >> 32u16.saturating_sub(count);
-                let mut first = corner;
-                for _ in top..bottom {
-                    touched.mark(first, bits);
-                    first += columns;
-                }
+                touched.mark(corner, bits, (bottom.saturating_sub(top), columns));
                 (corner, count) = (corner + 32, count.saturating_sub(32));
             }
         }
         touched
     }
 
-    /// Marks taxels from `first` on, by bits.
-    #[inline(always)]
-    fn mark(&mut self, first: usize, bits: u32) {
-        let (word, bit) = (first / 32, first % 32);
-        if let Some([word, next]) = self.taxels.get_mut(word..).and_then(|words| words.first_chunk_mut()) {
-            *word |= bits << bit;
-            // In two steps: by 32 nothing can be shifted.
-            *next |= bits >> 1 >> (31 - bit);
+    /// Marks taxels from `first` on, by bits, in so many rows of a panel of so many columns.
+    #[inline(never)] // M0+: own registers
+    fn mark(&mut self, mut first: usize, bits: u32, (rows, columns): (u16, usize)) {
+        for _ in 0..rows {
+            let (word, bit) = (first / 32, first % 32);
+            if let Some([word, next]) = self.taxels.get_mut(word..).and_then(|words| words.first_chunk_mut())
+            {
+                *word |= bits << bit;
+                // In two steps: by 32 nothing can be shifted.
+                *next |= bits >> 1 >> (31 - bit);
+            }
+            first += columns;
         }
     }
 

@@ -51,7 +51,7 @@ use crate::pipeline::{PipelineState, Probe, Stage};
 use crate::reflex::Early;
 use crate::scene::{Scene, StreamConfig};
 use crate::selftest::Findings;
-use crate::wire::{Health, LONGEST_REQUEST, Receiver, SelfTestReport, StartOfFrame, frame_bound};
+use crate::wire::{Checksum, Health, LONGEST_REQUEST, Receiver, SelfTestReport, StartOfFrame, frame_bound};
 use budget::{Doing, Ledger};
 #[cfg(feature = "folds")]
 use folds::Folds;
@@ -402,7 +402,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
 
     /// Bytes to send next: the rest of the message in transmission, else the most urgent message, encoded
     /// now.
-    pub fn pending(&mut self, now: Micros, probe: &mut impl Probe) -> &[u8] {
+    pub fn pending(&mut self, now: Micros, platform: &mut (impl Probe + Checksum)) -> &[u8] {
         let rest = self.outbox.has_rest();
         self.ledger.turn(now, if rest { Doing::Else } else { Doing::Encode }, rest);
         let Board {
@@ -454,7 +454,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             .then_some(|| folds.report(state.condition.folds(), || state.doubts(&setup.layout)));
         #[cfg(not(feature = "folds"))]
         let folding = None::<fn() -> Option<crate::wire::FoldsReport>>;
-        outbox.prepare(now, about, &image, (pressing, folding), health, probe);
+        outbox.prepare(now, about, &image, (pressing, folding), health, platform);
         if !outbox.has_rest() {
             ledger.rest();
         }

@@ -20,6 +20,8 @@ const FRAME: usize = frame_bound(MESSAGE);
 pub(super) struct TxFrame {
     seq: u32,
     wire: [u8; FRAME],
+    /// A message that was put and is no frame yet.
+    message: Option<Range<usize>>,
     from: usize,
     to: usize,
 }
@@ -27,7 +29,7 @@ pub(super) struct TxFrame {
 impl TxFrame {
     /// Begins with one 0x00, which ends whatever a booting board or an opening line put on the wire.
     pub const fn new() -> Self {
-        TxFrame { seq: 0, wire: [0; FRAME], from: 0, to: 1 }
+        TxFrame { seq: 0, wire: [0; FRAME], message: None, from: 0, to: 1 }
     }
 
     /// Bytes of the message that were not sent yet.
@@ -40,11 +42,11 @@ impl TxFrame {
         self.from = self.from.saturating_add(count).min(self.to);
     }
 
-    /// Encodes a report of this number; `seq` counts encoded messages only. Returns `false` if it does not
-    /// fit.
+    /// Writes a report of this number, which [`TxFrame::close`] makes a frame of; `seq` counts written messages
+    /// only. Returns `false` if it does not fit.
     pub fn put<T: Serialize>(&mut self, number: u32, report: &T) -> bool {
-        let frame = frame(&(self.seq, number, report), &mut self.wire).ok();
-        self.begin(frame)
+        self.message = put(&(self.seq, number, report), &mut self.wire).ok();
+        self.count()
     }
 
     /// Buffer for the data of a `Frame` or `Raw`.
@@ -52,12 +54,18 @@ impl TxFrame {
         self.wire.get_mut(START..START + DATA).unwrap_or(&mut [])
     }
 
-    /// Encodes a report like [`TxFrame::put`]. Its data, the last field, are the first `length` bytes of the
+    /// Writes a report like [`TxFrame::put`]. Its data, the last field, are the first `length` bytes of the
     /// scratch buffer; its other fields are written before them.
     pub fn put_data<T: Serialize>(&mut self, number: u32, without: &T, length: usize) -> bool {
-        let start = self.put_head(number, without, length);
-        let frame = start.and_then(|start| close(&mut self.wire, start..START + length));
-        self.begin(frame)
+        self.message = self.put_head(number, without, length).map(|start| start..START + length);
+        self.count()
+    }
+
+    /// Turns the message that was put, if there is one, into the frame to send.
+    pub fn close(&mut self, checksum: &mut impl Checksum) {
+        let Some(message) = self.message.take() else { return };
+        let frame = close(&mut self.wire, message, checksum);
+        (self.from, self.to) = frame.map_or((0, 0), |frame| (frame.start, frame.end));
     }
 
     /// Writes the fields before data of this length; returns their offset.
@@ -72,10 +80,9 @@ impl TxFrame {
         Some(first)
     }
 
-    fn begin(&mut self, frame: Option<Range<usize>>) -> bool {
-        self.seq = self.seq.wrapping_add(u32::from(frame.is_some()));
-        let fits = frame.is_some();
-        (self.from, self.to) = frame.map_or((0, 0), |frame| (frame.start, frame.end));
+    fn count(&mut self) -> bool {
+        let fits = self.message.is_some();
+        self.seq = self.seq.wrapping_add(u32::from(fits));
         fits
     }
 }

@@ -140,7 +140,7 @@ impl FoldState {
 
     /// True if [`FoldState::holds`] any of these taxels.
     pub(crate) fn holds_any(&self, taxels: Range<usize>) -> bool {
-        self.table().is_some() && taxels.into_iter().any(|taxel| self.holds(taxel))
+        self.table().is_some() && has_any(&self.held, taxels)
     }
 
     /// Renews the taxels whose turn it is, all of them if `whole`, and hands over some at a time, in fours,
@@ -329,6 +329,32 @@ impl FoldState {
         Some(felt.map(|bytes| u16::from(byte(bytes, slot % 4)).saturating_mul(table.unit())))
     }
 
+    /// Sum of the doubts of the taxels within a range, counts.
+    #[cfg(feature = "folds")]
+    pub(crate) fn doubt_within(&self, taxels: &Range<usize>) -> u32 {
+        let Some(table) = self.table() else { return 0 };
+        let mut at = FoldStart::FIRST;
+        let mut sum = 0;
+        for fold in table.folds() {
+            let quads = at.quads(fold);
+            let its = table.taxels().get(quads.clone()).unwrap_or(&[]);
+            let first = its.partition_point(|[.., last]| usize::from(*last) < taxels.start);
+            let doubts = self.felt.get(quads.start + first..quads.end).unwrap_or(&[]);
+            for (its, [_, doubt]) in its.iter().skip(first).zip(doubts) {
+                if its.first().is_some_and(|taxel| usize::from(*taxel) >= taxels.end) {
+                    break;
+                }
+                for (lane, taxel) in its.iter().enumerate() {
+                    if taxels.contains(&usize::from(*taxel)) {
+                        sum += u32::from(byte(*doubt, lane));
+                    }
+                }
+            }
+            at = at.after(fold);
+        }
+        sum * u32::from(table.unit())
+    }
+
     /// Sums over the taxels that `counts` takes.
     pub fn expected(&self, counts: impl Fn(usize) -> bool) -> Expected {
         let mut sum = Expected::default();
@@ -436,9 +462,54 @@ fn hold(held: &mut [u32], taxels: &[u16; 4], nothing: u32) {
     }
 }
 
+/// True if a bit of a range is set.
+fn has_any(words: &[u32], bits: Range<usize>) -> bool {
+    let Range { start: mut at, end } = bits;
+    while at < end {
+        let Some(word) = words.get(at / 32) else { break };
+        let own = if end - at < 32 { (1 << (end - at)) - 1 } else { u32::MAX };
+        if word >> (at % 32) & own != 0 {
+            return true;
+        }
+        at = (at | 31) + 1;
+    }
+    false
+}
+
 /// Change of a correction that is off by `off`: so that it becomes the mean of the comparisons, as long as
 /// these are few.
 fn nearer(off: i32, passes: u8) -> i32 {
+    if passes == 0 {
+        return off;
+    }
     let passes = 1 + i32::from(passes);
     (2 * off + if off < 0 { -passes } else { passes }).checked_div(2 * passes).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+
+    #[test]
+    fn a_range_has_a_bit_if_one_of_its_own_is_set() {
+        let words = [1 << 31, 0, 1 | 1 << 17];
+        let is_set = |at: usize| words.get(at / 32).is_some_and(|word| word >> (at % 32) & 1 == 1);
+        for (start, end) in (0..100).flat_map(|start| (0..130).map(move |end| (start, end))) {
+            assert_eq!(has_any(&words, start..end), (start..end).any(is_set), "{start}..{end}");
+        }
+    }
+
+    #[test]
+    fn a_correction_becomes_the_mean_of_the_comparisons() {
+        for off in -255..=255 {
+            assert_eq!(nearer(off, 0), off);
+            for passes in 1..=MOST_PASSES {
+                let nth = f64::from(1 + passes);
+                // Halves away from zero.
+                let want = (f64::from(off) / nth).abs() + 0.5;
+                assert_eq!(nearer(off, passes), want as i32 * off.signum(), "{off} {passes}");
+            }
+        }
+    }
 }

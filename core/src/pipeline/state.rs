@@ -156,11 +156,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         let folds = self.condition.folds();
         let mut sums = [0u32; CONTACTS];
         for run in self.contact.pressed(layout) {
-            for taxel in run.taxels.filter(|taxel| folds.holds(*taxel)) {
-                let doubt = folds.of(taxel as u16).map_or(0, |[_, doubt]| doubt);
-                if let Some(sum) = sums.get_mut(run.contact) {
-                    *sum = sum.saturating_add(doubt.into());
-                }
+            if folds.holds_any(run.taxels.clone())
+                && let Some(sum) = sums.get_mut(run.contact)
+            {
+                *sum = sum.saturating_add(folds.doubt_within(&run.taxels));
             }
         }
         let mut doubts = Vec::new();

@@ -4,7 +4,7 @@ use crate::acquire::Clock;
 use crate::board::{PieceToStore, Saved, Settings, TableKind};
 use crate::format::Micros;
 use crate::pipeline::Probe;
-use crate::wire::StartOfFrame;
+use crate::wire::{Checksum, StartOfFrame};
 
 /// Error of a platform without a place for tables.
 const NO_ROOM: &str = "this board has no room for such a table";
@@ -25,7 +25,7 @@ pub trait Link {
 
 /// Services of a board other than its pins, its converter and its link.
 #[allow(async_fn_in_trait)] // one board, one executor: the future need not be Send
-pub trait Platform: Clock + Probe {
+pub trait Platform: Clock + Probe + Checksum {
     /// Called once per round of the loop: feeds the watchdog. `false` ends the loop, which only a host does.
     fn alive(&mut self) -> bool;
     /// Stores the settings; the error says why they were not stored.

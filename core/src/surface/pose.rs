@@ -84,7 +84,7 @@ impl Rigid {
     /// longer one is rounded to as many bits as fit.
     pub fn turned(&self, mut vector: [i32; 3]) -> [i32; 3] {
         let mut shift = 0;
-        while vector.iter().any(|x| x.unsigned_abs() >> (ROW_BITS + 1) != 0) {
+        while vector.iter().fold(0, |all, x| all | (x ^ x >> 31)) >> (ROW_BITS + 1) != 0 {
             vector = vector.map(|x| x >> 1);
             shift += 1;
         }

@@ -27,25 +27,41 @@ pub const fn frame_bound(bytes: usize) -> usize {
 /// Encodes `message` into `out` as one frame with its 0x00, and returns the frame. [`frame_bound`] gives the
 /// room that it needs.
 pub fn encode<'a, T: Serialize + ?Sized>(message: &T, out: &'a mut [u8]) -> Result<&'a [u8], WireError> {
-    let frame = frame(message, out)?;
+    let message = put(message, out)?;
+    let frame = close(out, message, &mut ()).ok_or(WireError::NoRoom)?;
     out.get(frame).ok_or(WireError::NoRoom)
 }
 
-/// Encodes like [`encode`]; returns the range of the frame.
-pub(crate) fn frame<T: Serialize + ?Sized>(message: &T, out: &mut [u8]) -> Result<Range<usize>, WireError> {
+/// Computes the CRC-32/ISO-HDLC of messages; a board's chip may have hardware for it.
+pub trait Checksum {
+    /// Returns what [`crc32`] returns.
+    fn crc32(&mut self, bytes: &[u8]) -> u32 {
+        crc32(bytes)
+    }
+}
+
+/// By table.
+impl Checksum for () {}
+
+/// Writes `message` into `out`, with the room around it that [`close`] needs; returns its range.
+pub(crate) fn put<T: Serialize + ?Sized>(message: &T, out: &mut [u8]) -> Result<Range<usize>, WireError> {
     // Room before the message: for the extra code bytes of a frame of this length, and for the first one.
     let start = 1 + out.len().saturating_sub(2) / 255;
-    let bytes = writer::write(message, out.get_mut(start..).unwrap_or(&mut []))?;
-    if bytes == 0 {
-        return Err(WireError::TooShort);
+    let end = out.len().saturating_sub(CRC_BYTES + 1);
+    match writer::write(message, out.get_mut(start..end).unwrap_or(&mut []))? {
+        0 => Err(WireError::TooShort),
+        bytes => Ok(start..start + bytes),
     }
-    close(out, start..start + bytes).ok_or(WireError::NoRoom)
 }
 
 /// Turns the range `message` into a frame in place; returns the range of the frame with its 0x00. It needs
 /// [`lead`] bytes before the message. `None` if there is no room.
-pub(crate) fn close(place: &mut [u8], message: Range<usize>) -> Option<Range<usize>> {
-    let crc = crc32(place.get(message.clone())?);
+pub(crate) fn close(
+    place: &mut [u8],
+    message: Range<usize>,
+    checksum: &mut impl Checksum,
+) -> Option<Range<usize>> {
+    let crc = checksum.crc32(place.get(message.clone())?);
     *place.get_mut(message.end..)?.first_chunk_mut()? = crc.to_le_bytes();
     cobs::stuff(place, message.start..message.end + CRC_BYTES)
 }
@@ -91,7 +107,7 @@ mod tests {
             let start = lead(bytes);
             // Without a zero, each full group takes an extra byte.
             let mut place = vec![0x55; start + bytes + CRC_BYTES + 1];
-            let frame = close(&mut place, start..start + bytes).expect("there is room");
+            let frame = close(&mut place, start..start + bytes, &mut ()).expect("there is room");
             assert!(frame.len() <= frame_bound(bytes) && frame.end <= place.len(), "{bytes} bytes");
             assert_eq!(start, 1 + (bytes + 4) / 254, "{bytes} bytes");
         }

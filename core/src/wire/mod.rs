@@ -59,8 +59,8 @@ mod report;
 mod request;
 mod writer;
 
-pub(crate) use codec::{close, frame, lead};
-pub use codec::{decode, encode, frame_bound, open};
+pub use codec::{Checksum, decode, encode, frame_bound, open};
+pub(crate) use codec::{close, lead, put};
 pub(crate) use each::Each;
 pub use error::WireError;
 pub use image_decode::{ImageError, ImageFault, decode_image, image_bound, image_sum};

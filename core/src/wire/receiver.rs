@@ -111,10 +111,10 @@ mod tests {
     fn the_first_byte_of_a_message_is_known_before_its_end() {
         let mut wire = [0; 64];
         for message in [[0u8, 7, 0], [1, 0, 5], [200, 3, 1], [0, 0, 0]] {
-            let frame = super::super::codec::frame(&message, &mut wire).unwrap();
+            let frame = super::super::codec::encode(&message, &mut wire).unwrap();
             let mut receiver = Receiver::<64>::new();
             assert_eq!(receiver.first(), None);
-            let (end, body) = wire[frame].split_last().unwrap();
+            let (end, body) = frame.split_last().unwrap();
             body.iter().for_each(|byte| assert!(receiver.push(*byte).is_none()));
             assert_eq!(receiver.first(), Some(message[0]));
             assert_eq!(receiver.push(*end).unwrap().unwrap(), message);

@@ -11,16 +11,21 @@ mod copy;
 mod divide;
 #[path = "../mark.rs"]
 mod mark;
+#[path = "../sniffer.rs"]
+mod sniffer;
 
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
 use cortex_m_rt::entry;
+use defmt_rtt as _;
+use embassy_rp::peripherals::DMA_CH11;
+use sniffer::Sniffer;
 use static_cell::ConstStaticCell;
 use taxel_core::format::Code;
 use taxel_core::pipeline::{Probe, Stage};
+use taxel_core::wire::Checksum;
 use taxel_suite::chain::{Chain, Said, TAXELS};
 use taxel_suite::kernel::{Bench, Kernel};
-use {defmt_rtt as _, embassy_rp as _};
 
 /// Interface to the harness; tests/emulator/bench.mjs depends on the order of the fields.
 #[repr(C)]
@@ -59,12 +64,21 @@ static TAXEL_MAILBOX: Mailbox = Mailbox {
 
 static CODES: ConstStaticCell<[Code; TAXELS]> = ConstStaticCell::new([Code(0); TAXELS]);
 
-/// Tells the harness when a stage begins.
-struct StageMarks;
+/// What the board's perception needs of a platform: tells the harness when a stage begins, and computes
+/// checksums as the firmware does.
+struct Measured {
+    sniffer: Sniffer,
+}
 
-impl Probe for StageMarks {
+impl Probe for Measured {
     fn begin(&mut self, stage: Stage) {
         mark::mark(stage as u32);
+    }
+}
+
+impl Checksum for Measured {
+    fn crc32(&mut self, bytes: &[u8]) -> u32 {
+        self.sniffer.crc32(bytes)
     }
 }
 
@@ -74,6 +88,8 @@ fn main() -> ! {
     let chain = &mut Chain::bare();
     ship(chain);
     let bench = &mut Bench::default();
+    #[allow(unsafe_code)] // SAFETY: nothing else of this image uses the channel
+    let mut measured = Measured { sniffer: Sniffer::new(unsafe { DMA_CH11::steal() }) };
     let codes = CODES.take();
     let mailbox = &TAXEL_MAILBOX;
     mailbox.command.store(READY, Relaxed);
@@ -84,10 +100,10 @@ fn main() -> ! {
                 chain.fold(mailbox.length.load(Relaxed) > 0);
                 Said::default()
             }
-            SCAN => chain.scanned(scanned(codes, mailbox), &mut StageMarks, |_| ()),
+            SCAN => chain.scanned(scanned(codes, mailbox), &mut measured, |_| ()),
             command => match command.checked_sub(KERNELS).and_then(|n| Kernel::all().nth(n as usize)) {
                 Some(kernel) => {
-                    let digest = kernel.run(bench, taken(codes, mailbox), &mut StageMarks);
+                    let digest = kernel.run(bench, taken(codes, mailbox), &mut measured);
                     Said { digest, bytes: 0 }
                 }
                 None => continue,

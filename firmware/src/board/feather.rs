@@ -19,6 +19,7 @@ use crate::{
     pins::LinePin,
     scan::{DmaChain, FrameBegin},
     serial_number,
+    sniffer::Sniffer,
     store::Flash,
 };
 use embassy_rp::{
@@ -88,6 +89,7 @@ pub fn take() -> BoardParts {
             ),
             Interrupts,
         ),
+        sniffer: Sniffer::new(p.DMA_CH11),
         wire: Wire::new(Usb::start(usb::Driver::new(p.USB, Interrupts), number), {
             static TX: ConstStaticCell<[u8; uart::RING]> = ConstStaticCell::new([0; uart::RING]);
             static RX: ConstStaticCell<[u8; uart::RING]> = ConstStaticCell::new([0; uart::RING]);

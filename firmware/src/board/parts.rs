@@ -1,7 +1,9 @@
 //! Parts of a board for the firmware.
 
 use crate::limits::{INPUTS, LINES};
-use crate::{adc::Converter, led::Led, link::Wire, pins::LinePin, scan::DmaChain, store::Flash};
+use crate::{
+    adc::Converter, led::Led, link::Wire, pins::LinePin, scan::DmaChain, sniffer::Sniffer, store::Flash,
+};
 use embassy_rp::watchdog::Watchdog;
 
 /// Parts of a board, as its pins are assigned.
@@ -12,6 +14,8 @@ pub struct BoardParts {
     pub converter: Converter<INPUTS>,
     /// DMA and PIO for the scan.
     pub chain: DmaChain,
+    /// DMA for checksums.
+    pub sniffer: Sniffer,
     /// The link to the host.
     pub wire: Wire,
     /// The heartbeat.

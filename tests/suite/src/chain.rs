@@ -10,6 +10,7 @@ use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::scene::Scene;
+use taxel_core::wire::Checksum;
 
 /// Time from scan to scan, us: 195 frames a second.
 pub const PERIOD_US: u64 = 5_128;
@@ -74,7 +75,12 @@ impl Chain {
 
     /// Processes a finished scan; the bytes that the board sends also go to `link`. `probe` gets the stages
     /// of the board; [`Stage::Scan`] stands for everything outside of it.
-    pub fn scanned(&mut self, codes: &[Code], probe: &mut impl Probe, link: impl FnMut(&[u8])) -> Said {
+    pub fn scanned(
+        &mut self,
+        codes: &[Code],
+        probe: &mut (impl Probe + Checksum),
+        link: impl FnMut(&[u8]),
+    ) -> Said {
         self.scans += 1;
         let now = self.now();
         let report = ScanReport { start: now, duration_us: 0, overruns: 0, temperature: None };
@@ -86,7 +92,7 @@ impl Chain {
     }
 
     /// Takes all pending bytes.
-    fn drain(&mut self, probe: &mut impl Probe, mut link: impl FnMut(&[u8])) -> Said {
+    fn drain(&mut self, probe: &mut (impl Probe + Checksum), mut link: impl FnMut(&[u8])) -> Said {
         let now = self.now();
         let (mut digest, mut bytes) = (CRC.digest(), 0);
         loop {

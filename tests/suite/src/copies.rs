@@ -22,15 +22,16 @@ pub fn packets(from: &CopySpace, to: &mut CopySpace) {
     }
 }
 
-/// Copies and moves with all lengths and pairs of positions; returns every byte of the room after each of
-/// them.
+/// Copies, moves and clears with all lengths and pairs of positions; returns every byte of the room after each
+/// of them.
 pub fn all(from: &CopySpace) -> impl Iterator<Item = u8> {
     let pairs = (0..=LONGEST).flat_map(|length| (0..PAIRS).map(move |pair| (length, pair)));
     pairs.flat_map(|(length, pair)| {
-        let (mut to, mut moved) = ([0xa5; size_of::<CopySpace>()], *from);
+        let (mut to, mut moved, mut cleared) = ([0xa5; size_of::<CopySpace>()], *from, *from);
         copy(from, &mut to, pair, length);
         shift(&mut moved, pair, length);
-        to.into_iter().chain(moved)
+        clear(&mut cleared, pair, length);
+        to.into_iter().chain(moved).chain(cleared)
     })
 }
 
@@ -48,5 +49,14 @@ fn shift(space: &mut CopySpace, pair: usize, length: usize) {
     let (at, source) = (pair / PLACES, pair % PLACES);
     if source + length <= space.len() && at + length <= space.len() {
         space.copy_within(source..source + length, at);
+    }
+}
+
+/// Clears bytes at the first position of the pair.
+#[inline(never)]
+fn clear(space: &mut CopySpace, pair: usize, length: usize) {
+    let at = pair / PLACES;
+    if let Some(space) = space.get_mut(at..at + length) {
+        space.fill(0);
     }
 }

@@ -321,12 +321,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         image: &Image<'_>,
         (pressing, folds): Slow<impl FnOnce(&mut TxFrame) -> bool, impl FnOnce() -> Option<FoldsReport>>,
         health: &mut Health,
-        probe: &mut impl Probe,
+        platform: &mut (impl Probe + Checksum),
     ) {
         if !self.has_rest() {
-            probe.begin(Stage::Encode);
+            platform.begin(Stage::Encode);
             self.next(now, about, image, (pressing, folds), health);
-            probe.begin(Stage::Idle);
+            self.tx_frame.close(platform);
+            platform.begin(Stage::Idle);
         }
     }
 

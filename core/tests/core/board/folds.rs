@@ -140,6 +140,25 @@ fn a_touch_inside_a_fold_has_its_own_force() {
 }
 
 #[test]
+fn the_doubt_of_a_touch_is_that_of_the_taxels_under_it_that_fold() {
+    // From the left beside the fold to within it, across it, from within it to the right, and beside it.
+    for (columns, folding) in [(2..6, 2), (5..8, 3), (7..12, 3), (3..11, 6), (10..13, 0)] {
+        let mut bench = wearing(&elbow(5, 0));
+        for _ in 0..40 {
+            bench.bend(60.0);
+            bench.feel(480.0, &[]);
+        }
+        let touch: Vec<_> =
+            (0..3).flat_map(|row| columns.clone().map(move |column| (16 * row + column, 500.0))).collect();
+        let felt: Vec<_> = (0..60).map(|_| bench.feel(480.0, &touch)).collect();
+        let told = felt.iter().rev().find_map(|(_, told)| told.clone()).unwrap();
+        let doubts: Vec<_> = told.contacts.iter().map(|doubt| doubt.doubt).collect();
+        let want = 2 * folding * 20;
+        assert_eq!(doubts, if want > 0 { vec![want] } else { vec![] }, "{columns:?}");
+    }
+}
+
+#[test]
 fn without_a_fresh_posture_only_what_no_fold_presses_is_a_touch() {
     let mut bench = wearing(&elbow(5, 0));
     bench.bend(60.0);

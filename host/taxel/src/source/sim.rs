@@ -21,6 +21,7 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_core::scene::Scene;
+use taxel_core::wire::Checksum;
 use taxel_store::{Found, Store, StoreError, Tables, tables_bytes};
 
 /// Boards are boxed, but built on the stack.
@@ -307,6 +308,8 @@ impl Clock for Virtual<'_> {
 impl Probe for Virtual<'_> {
     fn begin(&mut self, _: Stage) {}
 }
+
+impl Checksum for Virtual<'_> {}
 
 impl Platform for Virtual<'_> {
     fn alive(&mut self) -> bool {

@@ -4,7 +4,7 @@ use super::case::Step;
 use std::time::Instant;
 use taxel_core::body::Placed;
 use taxel_core::pipeline::{Probe, Stage};
-use taxel_core::wire::{Receiver, Report, decode};
+use taxel_core::wire::{Checksum, Receiver, Report, decode};
 use taxel_suite::chain::{Chain, Said};
 use taxel_suite::kernel::Bench;
 
@@ -40,6 +40,8 @@ struct Watch {
     spent: [u64; STAGES],
     under_way: Option<(usize, Instant)>,
 }
+
+impl Checksum for Watch {}
 
 impl Probe for Watch {
     fn begin(&mut self, stage: Stage) {

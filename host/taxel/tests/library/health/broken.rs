@@ -12,7 +12,7 @@ use taxel_core::pipeline::{Probe, Stage};
 use taxel_core::run::{Link, Platform, block_on, run};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::{Fault, Findings, PinFault};
-use taxel_core::wire::{HealthMap, Receiver, Report, Request, SelfTestReport, decode, encode};
+use taxel_core::wire::{Checksum, HealthMap, Receiver, Report, Request, SelfTestReport, decode, encode};
 
 /// Frame in which something breaks.
 const BROKEN: u32 = 60;
@@ -76,6 +76,8 @@ impl Clock for Until {
 impl Probe for Until {
     fn begin(&mut self, _: Stage) {}
 }
+
+impl Checksum for Until {}
 
 impl Platform for Until {
     fn alive(&mut self) -> bool {
