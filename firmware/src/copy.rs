@@ -2,14 +2,14 @@
 //! aligned differently. The loops of the compiler's library take 32 or 80. Clears four words in 9 cycles, where
 //! those take 26.
 //!
-//! Compiled code calls these functions for copies of some length, and to fill with zeros. They replace the weak symbols of that
-//! library.
+//! Compiled code calls these functions for copies of some length, and to fill with zeros. They replace the weak
+//! symbols of that library.
 
 // SAFETY: they meet the run-time ABI for the Arm architecture (5.3.4). `r0`, `r1`, `r2` are destination,
 // source and number of bytes; the two overlap only in functions named `memmove`. In functions with 4 or 8 in
 // their names both are aligned to words, and the last word may be partial. Functions that clear have no source:
-// `r1` is the number of bytes. Registers other than `r0` to `r3` are restored. Towards lower addresses each byte is read before its place is written. `memmove` is the
-// library's.
+// `r1` is the number of bytes. Registers other than `r0` to `r3` are restored. Towards lower addresses each byte
+// is read before its place is written. `memmove` is the library's.
 #[allow(unsafe_code)]
 mod words {
     core::arch::global_asm!(

@@ -1,5 +1,5 @@
-//! The CRC-32 of messages by the DMA: its sniffer computes the sum of the bytes that a channel reads, one in a
-//! cycle. The table of the core takes 7 cycles for each.
+//! The CRC-32 of messages by the DMA: its sniffer computes the sum of the bytes that a channel reads, one in
+//! a cycle. The table of the core takes 7 cycles for each.
 
 use embassy_rp::{Peri, peripherals::DMA_CH11};
 use rp_pac::DMA;

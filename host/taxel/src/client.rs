@@ -217,8 +217,8 @@ impl Client {
         self.counts = Counts::default();
     }
 
-    /// Keeps bytes up to the end of a message for [`Client::line`]; only the beginning of an overlong frame is kept,
-    /// and of what brings no event.
+    /// Keeps bytes up to the end of a message for [`Client::line`]; only the beginning of an overlong frame is
+    /// kept, and of what brings no event.
     fn keep(&mut self, bytes: &[u8]) {
         for part in bytes.split_inclusive(|byte| *byte == 0) {
             if self.line.last() == Some(&0) {
@@ -244,7 +244,7 @@ impl Client {
             self.begun_anew();
         }
         let (number, _) = postcard::take_from_bytes::<u32>(rest).map_err(|_| WireError::Message)?;
-        // A report is moved with the room of the longest one, 8 KiB: images are not, because most messages are.
+        // A report is moved with the room of the longest one, 8 KiB. Images, the most frequent, are read without.
         if number == Report::FRAME {
             let (_, frame) = decode::<(u32, Frame<'_>)>(rest)?;
             self.understood(true);

@@ -1,5 +1,5 @@
-//! Panels of a frame, and their JSON text. The general serializer takes most of what a recording costs for these
-//! numbers, one for each taxel of each frame; the text is the same.
+//! Panels of a frame, and their JSON text. The general serializer takes most of what a recording costs for
+//! these numbers, one for each taxel of each frame; the text is the same.
 
 use crate::error::Result;
 use serde::Serialize;

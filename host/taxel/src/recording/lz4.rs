@@ -16,8 +16,8 @@ const DICTIONARY: u8 = 0b0000_0001;
 /// Flag of a block's length: the block is uncompressed.
 const PLAIN: u32 = 1 << 31;
 
-/// Largest block of a frame of ours, bytes: LZ4 looks no farther back, and of blocks of this size finds what repeats
-/// a third faster than of larger ones, which are a tenth shorter.
+/// Largest block of a frame of ours, bytes: LZ4 looks no farther back, and finds what repeats a third faster in
+/// blocks of this size than in larger ones, which become a tenth shorter.
 const BLOCK: usize = 64 << 10;
 /// Heads of frames of such blocks, and of those of 256 KiB and 4 MiB that earlier versions wrote.
 const HEADS: [[u8; 7]; 3] = [

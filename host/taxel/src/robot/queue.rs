@@ -23,8 +23,8 @@ pub enum WhenFull {
 }
 
 /// Events of all boards, in the order of their arrival. They come and go several at a time, because to wake a
-/// thread and to lock cost more than an event. Each board waits for its own room: of many, an event that is taken
-/// wakes one.
+/// thread and to lock cost more than an event. Each board waits for its own room: of many, an event that is
+/// taken wakes one.
 #[derive(Debug)]
 pub struct EventQueue<T> {
     waiting: Mutex<WaitingEvents<T>>,
@@ -84,8 +84,8 @@ impl<T> EventQueue<T> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds events of a board, each once there is room, and leaves none. True: an image that may be dropped instead
-    /// of waiting.
+    /// Adds events of a board, each once there is room, and leaves none. True: an image that may be dropped
+    /// instead of waiting.
     pub fn push(&self, board: usize, events: &mut Vec<(RobotEvent<T>, bool)>) {
         if events.is_empty() {
             return;

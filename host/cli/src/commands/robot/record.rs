@@ -19,7 +19,7 @@ use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
 const LOOK: Duration = Duration::from_millis(100);
-/// Time in which events gather once all are taken: those of many boards would each wake this thread.
+/// Time in which events gather once all are taken: of many boards, each would wake this thread.
 const GATHER: Duration = Duration::from_millis(5);
 
 /// Arguments of `taxel robot record`.
