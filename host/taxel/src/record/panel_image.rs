@@ -54,8 +54,7 @@ pub fn append(text: &mut Vec<u8>, panels: &[PanelValues<'_>]) -> Result<()> {
         text.extend_from_slice(b"{\"name\":");
         serde_json::to_writer(&mut *text, panel.name)?;
         let total = panel.total();
-        write!(text, ",\"total\":{total},\"rows\":")?;
-        text.push(b'[');
+        write!(text, ",\"total\":{total},\"rows\":[")?;
         panel.values.chunks(panel.columns).for_each(|row| append_row(text, row, &mut empty));
         end(text, b"]}");
     }
@@ -70,15 +69,17 @@ fn append_row(text: &mut Vec<u8>, row: &[u16], empty: &mut EmptyRow) {
         && *length == row.len()
     {
         text.extend_from_within(range.clone());
-        return;
+    } else {
+        let start = text.len();
+        text.push(b'[');
+        row.chunks(PIECE).for_each(|values| append_numbers(text, values));
+        end(text, b"]");
+        if is_empty {
+            // Without its comma, which the end of the panel takes away.
+            *empty = Some((row.len(), start..text.len()));
+        }
     }
-    let start = text.len();
-    text.push(b'[');
-    row.chunks(PIECE).for_each(|values| append_numbers(text, values));
-    end(text, b"],");
-    if is_empty {
-        *empty = Some((row.len(), start..text.len()));
-    }
+    text.push(b',');
 }
 
 /// Appends at most [`PIECE`] numbers, each with a comma.
@@ -126,6 +127,8 @@ mod tests {
                 panel("none, too", 10, &zeros),
                 panel("of other rows", 15, &zeros),
                 panel("of fewer", 15, &zeros[..15]),
+                panel("of one row", 7, &zeros[..7]),
+                panel("of one row, too", 7, &zeros[..7]),
             ];
             let mut text = b"[".to_vec();
             append(&mut text, &panels).unwrap();
