@@ -8,8 +8,8 @@
 // SAFETY: they meet the run-time ABI for the Arm architecture (5.3.4). `r0`, `r1`, `r2` are destination,
 // source and number of bytes; the two overlap only in functions named `memmove`. In functions with 4 or 8 in
 // their names both are aligned to words, and the last word may be partial. Functions that clear have no source:
-// `r1` is the number of bytes. Registers other than `r0` to `r3` are restored. Towards lower addresses each byte
-// is read before its place is written. `memmove` is the library's.
+// `r1` is the number of bytes. Registers other than `r0` to `r3` are restored. Towards lower addresses each
+// byte is read before its place is written. `memmove` is the library's.
 #[allow(unsafe_code)]
 mod words {
     core::arch::global_asm!(
