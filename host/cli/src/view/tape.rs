@@ -63,7 +63,7 @@ impl<S: Store> Copy<S> {
             self.chunk_us = stamp.board_us;
             self.file.close()?;
         }
-        self.client.lines().try_for_each(|line| self.file.wire(stamp, line))?;
+        self.file.put(|messages| messages.frames(&self.client, stamp))?;
         Ok(self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)?)
     }
 

@@ -13,6 +13,8 @@ const QUICK: (u32, u64) = (10, 100_000);
 const PERIOD: u64 = 1_000_000;
 /// Most requests awaiting answers.
 const OPEN: usize = 16;
+/// Time after which an answer is no longer expected at any moment, us.
+const SOON: u64 = 50_000;
 
 /// The host's model of the board's clock.
 #[derive(Debug, Default, Clone)]
@@ -59,6 +61,12 @@ impl Syncs {
         let trip = RoundTrip { asked, received, sent, answered };
         self.clock.take(&trip);
         self.bus.iter_mut().for_each(|bus| bus.trip(&trip));
+    }
+
+    /// True if an answer is expected at any moment.
+    pub fn awaits_answer(&self) -> bool {
+        let asked = self.open.back().zip(self.now);
+        asked.is_some_and(|((_, asked), now)| now.saturating_sub(*asked) < SOON)
     }
 
     /// Handles the start of a frame.

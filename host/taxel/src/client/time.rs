@@ -26,6 +26,12 @@ impl Client {
         self.syncs.bus.as_ref().and_then(BusSeat::bus)
     }
 
+    /// True while the board is about to answer such a request: bytes that are read late then make the host's time
+    /// of the board less certain.
+    pub fn awaits_time(&self) -> bool {
+        self.syncs.awaits_answer()
+    }
+
     /// Time from the last of these requests that was answered to its answer; none until the board has answered, or
     /// if the host's time is not set.
     pub fn round_trip(&self) -> Option<Duration> {

@@ -27,10 +27,10 @@ pub struct MindRecordTeller {
 }
 
 impl MindRecordTeller {
-    /// Of a board of a robot; not for its mind if that is not recorded.
-    pub fn new(robot: &ReadRobot, board: usize, is_minded: bool) -> MindRecordTeller {
+    /// Of a board of a robot, recorded by `records`; not for its mind if that is not recorded.
+    pub fn new(robot: &ReadRobot, board: usize, records: RecordTeller, is_minded: bool) -> MindRecordTeller {
         let mind = is_minded.then(|| MindReader::new(robot, board));
-        MindRecordTeller { records: RecordTeller::new(robot, board), mind }
+        MindRecordTeller { records, mind }
     }
 }
 
@@ -40,9 +40,11 @@ impl Teller<MindRecord> for MindRecordTeller {
     }
 
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<MindRecord>> {
-        let Some(record) = self.records.event(client, event, stamp)? else { return Ok(None) };
-        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, record.scan.as_ref()));
-        Ok(Some(MindRecord { record, sense }))
+        let record = self.records.event(client, event, stamp)?;
+        let scan = record.as_ref().and_then(|record| record.scan.as_ref());
+        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, scan));
+        let is_news = record.is_some() || sense.is_some();
+        Ok(is_news.then(|| MindRecord { record: record.unwrap_or_default(), sense }))
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<MindRecord>> {

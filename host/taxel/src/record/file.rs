@@ -1,7 +1,7 @@
 //! One file of a recording: its channels, and the messages written to them.
 
 use super::bag::Ros2;
-use super::encoded::Encoded;
+use super::board_messages::BoardMessages;
 use super::provenance::{self, Origin};
 use super::stamps::Stamp;
 use super::topics::Topics;
@@ -14,7 +14,7 @@ use crate::recording::{HELLO, Store, Writer};
 pub struct RecordingFile<S: Store> {
     /// Writer of the file.
     pub writer: Writer<S>,
-    topics: Topics,
+    messages: BoardMessages,
     ros2: Option<Ros2<S>>,
     /// The board's description is attached.
     says_what: bool,
@@ -24,7 +24,8 @@ impl<S: Store> RecordingFile<S> {
     /// Creates a file, beside another one of ROS 2 messages.
     pub fn create(store: S, ros2: Option<Ros2<S>>) -> Result<RecordingFile<S>> {
         let mut writer = Writer::create(store, "")?;
-        Ok(RecordingFile { topics: Topics::open(&mut writer, None)?, writer, ros2, says_what: false })
+        let messages = BoardMessages::new(Topics::open(&mut writer, None)?);
+        Ok(RecordingFile { writer, messages, ros2, says_what: false })
     }
 
     /// Attaches the board's `Hello`, its frame of the wire, and the origin of the stream.
@@ -36,16 +37,10 @@ impl<S: Store> RecordingFile<S> {
         provenance::attach(&mut self.writer, worn, origin, ns, None)
     }
 
-    /// Writes a frame of the wire from the board.
-    pub fn wire(&mut self, stamp: Stamp, bytes: &[u8]) -> Result<()> {
-        self.writer.message(self.topics.wire, stamp.host_ns(), stamp.board_ns(), bytes)
-    }
-
-    /// Writes a message.
-    pub fn put(&mut self, message: &Encoded) -> Result<()> {
-        let Some(channel) = self.topics.channel(message.topic) else { return Ok(()) };
-        let stamp = message.stamp;
-        self.writer.message(channel, stamp.host_ns(), stamp.board_ns(), &message.bytes)
+    /// Writes messages.
+    pub fn put(&mut self, add: impl FnOnce(&mut BoardMessages) -> Result<()>) -> Result<()> {
+        let added = add(&mut self.messages);
+        added.and(self.writer.write(self.messages.take()))
     }
 
     /// Writes an event as JSON and, if requested, as ROS 2 messages.
@@ -53,17 +48,23 @@ impl<S: Store> RecordingFile<S> {
         if let Some(ros2) = &mut self.ros2 {
             ros2.event(client, event, stamp, scale)?;
         }
-        Encoded::event(client, event, stamp)?.map_or(Ok(()), |message| self.put(&message))
+        self.put(|messages| messages.event(client, event, stamp))
     }
 
     /// Ends the chunk.
     pub fn close(&mut self) -> Result<()> {
-        self.writer.close()?;
+        self.end_chunk()?;
         self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.writer.close())
+    }
+
+    fn end_chunk(&mut self) -> Result<()> {
+        self.messages.close();
+        self.writer.write(self.messages.take())
     }
 
     /// Flushes everything written so far to the disk.
     pub fn flush(&mut self) -> Result<()> {
+        self.end_chunk()?;
         self.writer.flush()?;
         self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.writer.flush())
     }
@@ -74,8 +75,10 @@ impl<S: Store> RecordingFile<S> {
     }
 
     /// Writes the end of both files, even if one fails. Returns their bytes.
-    pub fn finish(self) -> Result<u64> {
+    pub fn finish(mut self) -> Result<u64> {
+        let written = self.end_chunk();
         let beside = self.ros2.map_or(Ok(0), |ros2| ros2.writer.finish());
-        Ok(self.writer.finish()? + beside?)
+        let bytes = self.writer.finish()?;
+        Ok(written.map(|()| bytes)? + beside?)
     }
 }

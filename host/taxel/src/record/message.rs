@@ -10,19 +10,20 @@ use crate::json::{self, HostTimed, HostTimes};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Room in which most messages fit, bytes: a growing one is copied.
-const ROOM: usize = 2048;
-
 /// Encodes an event as JSON with its times.
 pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<u8>> {
+    let mut message = Vec::new();
+    append(client, event, stamp, &mut message)?;
+    Ok(message)
+}
+
+/// Appends an event as JSON with its times.
+pub fn append(client: &Client, event: &Event, stamp: Stamp, out: &mut Vec<u8>) -> Result<()> {
     let Event::Frame { frame, alone, image, .. } = event else {
-        return with_times(json::line(client, event), stamp);
+        return append_line(json::line(client, event), stamp, out);
     };
     let decoded = *image == ImageNews::Whole;
     let panels = if decoded { panels(client) } else { Vec::new() };
-    let taxels: usize = panels.iter().map(|panel| panel.values.len()).sum();
-    // A zero and its comma take two bytes.
-    let mut message = Vec::with_capacity(ROOM + 3 * taxels);
     let frame = FrameMessage {
         frame: *frame,
         time_us: stamp.board_us,
@@ -31,22 +32,20 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
         decoded,
         lost: client.counts().lost,
         thinned: client.counts().thinned,
-        total: panels.iter().map(PanelValues::total).sum(),
+        total: panels.iter().map(|panel| panel.total).sum(),
         panels: Vec::new(),
     };
-    serde_json::to_writer(&mut message, &frame)?;
+    serde_json::to_writer(&mut *out, &frame)?;
     // The panels are the last key: their text goes before the ends of the list and of the message.
-    message.truncate(message.len() - 2);
-    panel_image::append(&mut message, &panels)?;
-    message.extend_from_slice(b"]}");
-    Ok(message)
+    out.truncate(out.len() - 2);
+    panel_image::append(out, &panels)?;
+    out.extend_from_slice(b"]}");
+    Ok(())
 }
 
-/// Encodes a message with the host's time.
-pub fn with_times(line: impl Serialize, stamp: Stamp) -> Result<Vec<u8>> {
-    let mut message = Vec::with_capacity(ROOM);
-    serde_json::to_writer(&mut message, &HostTimed { line, times: times(stamp) })?;
-    Ok(message)
+/// Appends a message with the host's time.
+pub fn append_line(line: impl Serialize, stamp: Stamp, out: &mut Vec<u8>) -> Result<()> {
+    Ok(serde_json::to_writer(out, &HostTimed { line, times: times(stamp) })?)
 }
 
 fn times(stamp: Stamp) -> HostTimes {
@@ -145,8 +144,7 @@ fn panels(client: &Client) -> Vec<PanelValues<'_>> {
         let start = usize::from(area.base);
         let columns = usize::from(area.columns);
         let values = image.get(start..start + usize::from(area.rows) * columns).unwrap_or(&[]);
-        // A panel with taxels has columns.
-        PanelValues { name: area.name.as_str(), columns: columns.max(1), values }
+        PanelValues::new(area.name.as_str(), area.columns, values)
     });
     each.collect()
 }

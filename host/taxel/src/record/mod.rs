@@ -16,9 +16,9 @@
 
 mod angles;
 mod bag;
+mod board_messages;
 mod board_summary;
 mod counters;
-mod encoded;
 mod file;
 mod limit;
 mod message;
@@ -34,8 +34,8 @@ mod tally;
 mod topics;
 
 pub use angles::Angles;
+pub use board_messages::BoardMessages;
 pub use board_summary::BoardSummary;
-pub use encoded::Encoded;
 pub use file::RecordingFile;
 pub use limit::Rotate;
 pub use message::json_message;

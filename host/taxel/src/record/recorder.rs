@@ -2,7 +2,6 @@
 
 use super::bag::Ros2;
 use super::counters::Counters;
-use super::encoded::Encoded;
 use super::file::RecordingFile;
 use super::limit::Rotate;
 use super::names::{self, beside, numbered};
@@ -165,7 +164,7 @@ impl Recorder {
             self.chunk_us = stamp.board_us;
             file.close()?;
         }
-        client.lines().try_for_each(|line| file.wire(stamp, line))?;
+        file.put(|messages| messages.frames(client, stamp))?;
         file.event(client, event, stamp, self.plan.origin.counts_per_newton)
     }
 
@@ -194,7 +193,7 @@ impl Recorder {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
         }
         for bytes in self.standing.frames(recording::sequence(client.lines().next().unwrap_or_default())?)? {
-            file.wire(stamp, &bytes)?;
+            file.put(|messages| messages.wire(stamp, &bytes))?;
         }
         Ok(())
     }
@@ -278,15 +277,14 @@ impl<E: From<Error>> Show<E> for Recorder {
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<(), E> {
         let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
         let stamp = self.stamps.now(client);
-        let done = Encoded::requests(client, bytes, stamp)
-            .and_then(|all| all.iter().try_for_each(|message| file.put(message)));
+        let done = file.put(|messages| messages.requests(client, bytes, stamp));
         Ok(self.guard(done)?)
     }
 
     fn joints(&mut self, client: &Client, joints: &JointPositions) -> Result<(), E> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let stamp = self.stamps.of_time(client, joints.time.0);
-        let done = Encoded::joints(joints, stamp).and_then(|message| file.put(&message));
+        let done = file.put(|messages| messages.joints(joints, stamp));
         Ok(self.guard(done)?)
     }
 

@@ -12,11 +12,27 @@ pub fn append<F>(out: &mut Vec<u8>, op: u8, fields: &F, data: &[u8]) -> Result<(
 where
     F: for<'a> BinWrite<Args<'a> = ()>,
 {
+    append_with(out, op, fields, |out| {
+        out.extend_from_slice(data);
+        Ok(())
+    })
+}
+
+/// Appends a record whose body is `fields` and what `data` appends.
+pub fn append_with<F>(
+    out: &mut Vec<u8>,
+    op: u8,
+    fields: &F,
+    data: impl FnOnce(&mut Vec<u8>) -> Result<()>,
+) -> Result<()>
+where
+    F: for<'a> BinWrite<Args<'a> = ()>,
+{
     let start = out.len();
     out.push(op);
     out.extend([0; HEAD - 1]);
     write(out, fields)?;
-    out.extend_from_slice(data);
+    data(out)?;
     let length = (out.len() - start - HEAD) as u64;
     out[start + 1..start + HEAD].copy_from_slice(&length.to_le_bytes());
     Ok(())

@@ -1,6 +1,6 @@
 //! Messages of a short time, compressed together, with their index.
 
-use super::append::append;
+use super::append::{append, append_with};
 use super::lz4;
 use crate::error::{Context, RecordingError, Result};
 use lz4_flex::frame::FrameDecoder;
@@ -31,10 +31,14 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    /// Adds a message.
-    pub fn message(&mut self, header: &MessageHeader, data: &[u8]) -> Result<()> {
+    /// Adds a message whose data this appends; nothing on error.
+    pub fn message(
+        &mut self,
+        header: &MessageHeader,
+        data: impl FnOnce(&mut Vec<u8>) -> Result<()>,
+    ) -> Result<()> {
         let entry = MessageIndexEntry { log_time: header.log_time, offset: self.body.length() as u64 };
-        self.body.add(|body| append(body, op::MESSAGE, header, data))?;
+        self.body.add(|body| append_with(body, op::MESSAGE, header, data))?;
         self.index.entry(header.channel_id).or_default().push(entry);
         let [first, last] = self.span.unwrap_or([header.log_time; 2]);
         self.span = Some([first.min(header.log_time), last.max(header.log_time)]);
@@ -46,10 +50,9 @@ impl Chunk {
         self.body.length()
     }
 
-    /// Appends the chunk and its index to `out`, which begins at `offset` in the file. None if there is no
-    /// message.
-    pub fn close(&mut self, offset: u64, out: &mut Vec<u8>) -> Result<Option<Closed>> {
-        let Some([first, last]) = self.span.take() else { return Ok(None) };
+    /// Ends the chunk, and begins another. None if there is no message.
+    pub fn end(&mut self) -> Option<FullChunk> {
+        let [first, last] = self.span.take()?;
         let (packed, length, sum) = self.body.end();
         let header = ChunkHeader {
             message_start_time: first,
@@ -59,13 +62,25 @@ impl Chunk {
             compression: LZ4.into(),
             compressed_size: packed.len() as u64,
         };
+        Some(FullChunk { header, packed, index: std::mem::take(&mut self.index) })
+    }
+}
+
+/// A chunk that is to be written.
+#[derive(Debug)]
+pub struct FullChunk {
+    header: ChunkHeader,
+    packed: Vec<u8>,
+    index: Index,
+}
+
+impl FullChunk {
+    /// Appends it and its index to `out`, which begins at `offset` in the file.
+    pub fn append(&self, offset: u64, out: &mut Vec<u8>) -> Result<Closed> {
         let start = out.len();
-        append(out, op::CHUNK, &header, packed)?;
+        append(out, op::CHUNK, &self.header, &self.packed)?;
         let length = (out.len() - start) as u64;
-        let closed = Closed::indexed(&header, &self.index, offset, length, out)?;
-        self.body.clear();
-        self.index.clear();
-        Ok(Some(closed))
+        Closed::indexed(&self.header, &self.index, offset, length, out)
     }
 }
 

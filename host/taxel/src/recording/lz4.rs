@@ -59,9 +59,13 @@ impl Default for FrameWriter {
 }
 
 impl FrameWriter {
-    /// Adds what this appends to a buffer.
-    pub fn add<T>(&mut self, append: impl FnOnce(&mut Vec<u8>) -> T) -> T {
+    /// Adds what this appends to a buffer; nothing on error.
+    pub fn add<E>(&mut self, append: impl FnOnce(&mut Vec<u8>) -> Result<(), E>) -> Result<(), E> {
+        let before = self.rest.len();
         let appended = append(&mut self.rest);
+        if appended.is_err() {
+            self.rest.truncate(before);
+        }
         while self.rest.len() >= BLOCK {
             self.pack(BLOCK);
         }
@@ -73,22 +77,19 @@ impl FrameWriter {
         self.packed + self.rest.len()
     }
 
-    /// Ends the frame. Returns it, and the number of bytes that were added and their CRC-32.
-    pub fn end(&mut self) -> (&[u8], u64, u32) {
+    /// Ends the frame, and begins another. Returns it, and the number of bytes that were added and their CRC-32.
+    pub fn end(&mut self) -> (Vec<u8>, u64, u32) {
         if !self.rest.is_empty() {
             self.pack(self.rest.len());
         }
         // A block of no length ends the frame.
         self.frame.extend([0; 4]);
-        (&self.frame, self.packed as u64, self.sum.clone().finalize())
-    }
-
-    /// Begins another frame; the room stays.
-    pub fn clear(&mut self) {
-        self.rest.clear();
-        self.frame.truncate(HEADS[0].len());
-        self.packed = 0;
-        self.sum.reset();
+        // The next one will be about as long.
+        let mut next = Vec::with_capacity(self.frame.len());
+        next.extend(HEADS[0]);
+        let frame = std::mem::replace(&mut self.frame, next);
+        let length = std::mem::take(&mut self.packed) as u64;
+        (frame, length, std::mem::take(&mut self.sum).finalize())
     }
 
     /// Compresses the first bytes that are not yet.
@@ -196,23 +197,27 @@ mod tests {
         for length in [0, 1, 12, 65_536, 65_537, 262_144, 262_145, 470_000, 4 << 20, long.len()] {
             // Runs first, and noise first, which does not become shorter.
             for body in [&long[..length], &long[long.len() - length..]] {
-                writer.clear();
                 // In pieces of all lengths.
                 let mut rest = body;
                 while let Some(piece) = rest
                     .split_off(..rest.len().min(random.usize(1..100_000)))
                     .filter(|piece| !piece.is_empty())
                 {
-                    writer.add(|out| out.extend_from_slice(piece));
+                    writer.add(|out| Ok::<(), ()>(out.extend_from_slice(piece))).unwrap();
+                    let failed = writer.add(|out| {
+                        out.extend_from_slice(piece);
+                        Err("no")
+                    });
+                    assert_eq!(failed, Err("no"));
                 }
                 assert_eq!(writer.length(), length);
                 let (ours, told, sum) = writer.end();
                 assert_eq!((told, sum), (length as u64, crc32fast::hash(body)));
                 assert!(ours == frame(FrameInfo::new().block_size(BlockSize::Max64KB), body), "{length}");
                 let mut out = vec![0; body.len()];
-                assert!(decode(ours, &mut out) && out == body, "{length}");
+                assert!(decode(&ours, &mut out) && out == body, "{length}");
                 out.clear();
-                FrameDecoder::new(ours).read_to_end(&mut out).unwrap();
+                FrameDecoder::new(&ours[..]).read_to_end(&mut out).unwrap();
                 assert!(out == body, "{length}");
             }
         }
@@ -221,8 +226,8 @@ mod tests {
     #[test]
     fn a_frame_of_ours_is_known_by_its_head_and_any_other_head_is_not() {
         let mut writer = FrameWriter::default();
-        writer.add(|out| out.extend(body()));
-        let ours = writer.end().0.to_vec();
+        writer.add(|out| Ok::<(), ()>(out.extend(body()))).unwrap();
+        let ours = writer.end().0;
         let before = [BlockSize::Max256KB, BlockSize::Max4MB];
         let before = before.map(|size| frame(FrameInfo::new().block_size(size), &body()));
         for whole in [ours].into_iter().chain(before) {

@@ -9,6 +9,7 @@
 //! | `store.rs` | what a recording is written to: a file that can be truncated |
 //! | `append.rs` | one record as bytes |
 //! | `chunk.rs` | messages of a second, compressed, with their index |
+//! | `filler.rs` | messages of some channels, filling chunks |
 //! | `contents.rs` | contents of a file |
 //! | `ending.rs` | the end of a file, written: its summary and its footer |
 //! | `writer.rs` | a file being written |
@@ -38,6 +39,7 @@ mod clips;
 mod contents;
 mod damage;
 mod ending;
+mod filler;
 mod found;
 mod lz4;
 mod messages;
@@ -59,9 +61,11 @@ mod written;
 mod tests;
 
 pub use board_names::{attachment_of, boards, of_board};
+pub use chunk::FullChunk;
 pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
+pub use filler::Filler;
 pub use messages::{Message, Messages};
 pub use overview::Overview;
 pub use records::{Head, Inside, RawRecord, Records};

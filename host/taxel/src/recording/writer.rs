@@ -5,21 +5,19 @@
 //! two pieces leaves a file without its end, which [`repair`](super::repair()) adds.
 
 use super::append::{append, sized, write};
-use super::chunk::Chunk;
+use super::chunk::FullChunk;
 use super::contents::Contents;
 use super::ending::Ending;
+use super::filler::Filler;
 use super::store::Store;
 use super::written::Written;
 use crate::error::{Error, Result};
 use mcap::MAGIC;
 use mcap::records::{
-    AttachmentHeader, AttachmentIndex, Channel, Header, MessageHeader, Metadata, MetadataIndex, SchemaHeader,
-    op,
+    AttachmentHeader, AttachmentIndex, Channel, Header, Metadata, MetadataIndex, SchemaHeader, op,
 };
 use std::collections::BTreeMap;
 
-/// Uncompressed size at which a chunk is closed whatever its time.
-const LARGE: usize = 4 << 20;
 /// Bytes of the end written at once.
 const PIECE: usize = 1 << 16;
 
@@ -47,8 +45,8 @@ pub struct Writer<S: Store> {
     torn: bool,
     /// Without the chunks, which are read back for the end if the store can be read.
     contents: Contents,
-    chunk: Chunk,
-    sequences: BTreeMap<u16, u32>,
+    /// Its own messages.
+    messages: Filler,
 }
 
 impl<S: Store> Writer<S> {
@@ -60,8 +58,7 @@ impl<S: Store> Writer<S> {
             length: 0,
             torn: false,
             contents: Contents::default(),
-            chunk: Chunk::default(),
-            sequences: BTreeMap::new(),
+            messages: Filler::default(),
         };
         let mut out = MAGIC.to_vec();
         let library = concat!("taxel ", env!("CARGO_PKG_VERSION")).into();
@@ -127,11 +124,26 @@ impl<S: Store> Writer<S> {
 
     /// Adds a message; times in ns. It is on the disk after the next [`Writer::flush`].
     pub fn message(&mut self, channel_id: u16, log_time: u64, publish_time: u64, data: &[u8]) -> Result<()> {
-        let sequence = self.sequences.entry(channel_id).or_insert(0);
-        let header = MessageHeader { channel_id, sequence: *sequence, log_time, publish_time };
-        *sequence = sequence.wrapping_add(1);
-        self.chunk.message(&header, data)?;
-        if self.chunk.bytes() > LARGE { self.close() } else { Ok(()) }
+        self.messages.message(channel_id, log_time, publish_time, |out| {
+            out.extend_from_slice(data);
+            Ok(())
+        })?;
+        let full = self.messages.take();
+        self.write(full)
+    }
+
+    /// Writes chunks of a [`Filler`]. On error the file is as it was before the chunk that could not be written;
+    /// that one and those after it are lost.
+    pub fn write(&mut self, full: Vec<FullChunk>) -> Result<()> {
+        for chunk in full {
+            let mut out = Vec::new();
+            let closed = chunk.append(self.length, &mut out)?;
+            self.put(&out)?;
+            if !self.is_readable {
+                self.contents.chunks.push(closed);
+            }
+        }
+        Ok(())
     }
 
     /// Adds an attachment with the time `ns`.
@@ -176,13 +188,9 @@ impl<S: Store> Writer<S> {
 
     /// Ends the chunk: readers can seek to the next one.
     pub fn close(&mut self) -> Result<()> {
-        let mut out = Vec::new();
-        let Some(closed) = self.chunk.close(self.length, &mut out)? else { return Ok(()) };
-        self.put(&out)?;
-        if !self.is_readable {
-            self.contents.chunks.push(closed);
-        }
-        Ok(())
+        self.messages.close();
+        let full = self.messages.take();
+        self.write(full)
     }
 
     /// Flushes the messages so far to the disk. On error they are lost, and the file is as before.

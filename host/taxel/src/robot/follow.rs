@@ -47,6 +47,8 @@ pub struct BoardPlan<T> {
     pub begin: Begin,
     /// What is made of its events.
     pub teller: Box<dyn Teller<T>>,
+    /// Time in which its bytes [gather](Session::gather).
+    pub gather: Duration,
     /// Ends after this much of the board's time, and waits for a missing board for [`PATIENCE`] at most;
     /// none: goes on until its source ends.
     pub limit: Option<Duration>,
@@ -70,6 +72,7 @@ pub struct Follower<T> {
     is_met: bool,
     restarts: u64,
     required: Required,
+    gather: Duration,
     limit: Option<Duration>,
     /// The board's time that has passed.
     passed: Passed,
@@ -89,7 +92,7 @@ pub fn follow<T>(
     asks: &Receiver<Ask>,
     (time, buses): (SteadyTime, Buses),
 ) {
-    let BoardPlan { open, waits, identity, begin, teller, limit, .. } = plan;
+    let BoardPlan { open, waits, identity, begin, teller, gather, limit, .. } = plan;
     let mut follower = Follower {
         board,
         queue,
@@ -104,6 +107,7 @@ pub fn follow<T>(
         is_met: false,
         restarts: 0,
         required: Required::default(),
+        gather,
         limit,
         passed: Passed::default(),
         is_done: false,
@@ -149,6 +153,7 @@ impl<T> Follower<T> {
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
         let returns = self.limit.map_or(Returns::Always, |_| Returns::Within(PATIENCE));
         let mut session = Session::by(self.time, source, returns);
+        session.gather(self.gather);
         session.parts().0.share(buses);
         begin(&mut session)?;
         let (client, source) = session.parts();

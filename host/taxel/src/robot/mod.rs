@@ -17,6 +17,7 @@
 //! | `order.rs` | [`BoardOrder`]: what boards are asked while they are followed |
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
 //! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
+//! | `recorded_board.rs` | a board's part of a recording, filled in the board's thread |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
@@ -65,6 +66,7 @@ mod place;
 mod plane;
 mod queue;
 mod recognise;
+mod recorded_board;
 mod recorder;
 mod refused;
 mod scan;
@@ -91,7 +93,8 @@ pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
-pub use recorder::{BoardRecord, RecordTeller, RobotRecorder, RobotTopic};
+pub use recorded_board::{BoardRecord, RecordTeller};
+pub use recorder::{RobotRecorder, RobotTopic};
 pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};
 pub use session::RobotSession;

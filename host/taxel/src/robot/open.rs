@@ -47,6 +47,7 @@ impl ReadRobot {
                     Ok(())
                 }),
                 teller: teller(number),
+                gather: Duration::ZERO,
                 limit,
             }
         };

@@ -88,7 +88,63 @@ impl Port for Heard {
         self.port.told()
     }
 
+    fn keeps(&self) -> Duration {
+        self.port.keeps()
+    }
+
+    fn news(&mut self) -> Option<String> {
+        self.port.news()
+    }
+
     fn remark(&self) -> Option<String> {
         self.port.remark()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A link with something to say.
+    struct Link;
+
+    impl Port for Link {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+            buffer[0] = 3;
+            Ok(Some(1))
+        }
+
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            Ok(bytes.len())
+        }
+
+        fn told(&mut self) -> Vec<u8> {
+            vec![4]
+        }
+
+        fn keeps(&self) -> Duration {
+            PATIENCE
+        }
+
+        fn news(&mut self) -> Option<String> {
+            Some("two publish it".into())
+        }
+
+        fn remark(&self) -> Option<String> {
+            Some("the end".into())
+        }
+    }
+
+    #[test]
+    fn a_link_is_the_same_behind_what_was_heard_of_it() {
+        let mut heard = Heard { heard: vec![1, 2], next: 0, port: Box::new(Link) };
+        let mut buffer = [0];
+        let read = std::iter::repeat_with(|| heard.read(&mut buffer).unwrap().map(|_| buffer[0]));
+        assert_eq!(read.take(4).collect::<Vec<_>>(), [1, 2, 3, 3].map(Some));
+        assert_eq!((heard.write(&[5, 6]).unwrap(), heard.told(), heard.keeps()), (2, vec![4], PATIENCE));
+        assert_eq!(
+            (heard.news().as_deref(), heard.remark().as_deref()),
+            (Some("two publish it"), Some("the end"))
+        );
     }
 }

@@ -5,21 +5,19 @@
 //! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards.
 //! If boards are sewn together, `/taxel/robot_contacts` has the robot's contacts;
 //! [others](RobotRecorder::topic) may add topics about the robot. Log time is the host's time, which all boards
-//! share.
+//! share. Each board's messages are in chunks of their own: its thread fills them, and whoever reads one board by the
+//! file's index need not unpack the others'.
 
 use super::contact::RobotContact;
 use super::contacts::RobotContacts;
 use super::contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
-use super::event::Teller;
 use super::file::ReadRobot;
-use super::scan::{BoardScan, ScanReader};
+use super::recorded_board::{BoardRecord, RecordTeller, SharedBoard};
 use crate::client::clock::SteadyTime;
-use crate::client::{Client, Event, Worn, request_name};
 use crate::error::{Context, RecordingError, Result};
 use crate::files::output::{Force, Output};
-use crate::record::{COUNTS, Encoded, NS, Origin, RecordTopic, Stamp, Tally, Topics, attach};
-use crate::recording::{Format, HELLO, Writer, attachment_of};
-use crate::source::Source;
+use crate::record::{COUNTS, NS, Tally};
+use crate::recording::{Format, Writer, attachment_of};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -28,90 +26,12 @@ use std::time::{Duration, Instant};
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
-/// Most time of a board between two chunks, us, so that readers can seek to any second.
-const CHUNK_US: u64 = 1_000_000;
-
-/// What a recording holds of an event of a board.
-#[derive(Debug, Default)]
-pub struct BoardRecord {
-    messages: Vec<Encoded>,
-    /// The board's description, if it is new, and the frame of its `Hello`.
-    described: Option<Box<Described>>,
-    tally: Tally,
-    /// The scan that it is about.
-    pub scan: Option<BoardScan>,
-    /// Why the board refuses a request.
-    pub refusal: Option<String>,
-}
-
-#[derive(Debug)]
-struct Described {
-    worn: Worn,
-    hello: Vec<u8>,
-    origin: Origin,
-}
-
-/// Encodes a board's events for a recording.
-#[derive(Debug)]
-pub struct RecordTeller {
-    origin: Origin,
-    worn: Option<Worn>,
-    reader: ScanReader,
-}
-
-impl RecordTeller {
-    /// Of a board of a robot.
-    pub fn new(robot: &ReadRobot, board: usize) -> RecordTeller {
-        let calibration = robot.boards.get(board).and_then(|board| board.calibration.clone());
-        let origin = Origin { calibration, ..Origin::default() };
-        RecordTeller { origin, worn: None, reader: ScanReader::new(robot, board) }
-    }
-}
-
-impl Teller<BoardRecord> for RecordTeller {
-    fn opened(&mut self, source: &Source) {
-        self.origin.label.clone_from(&source.label);
-        self.origin.counts_per_newton = source.counts_per_newton;
-    }
-
-    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let mut messages: Vec<Encoded> = Encoded::frames(client, stamp).collect();
-        messages.extend(Encoded::event(client, event, stamp)?);
-        let mut described = None;
-        if *event == Event::Hello && client.worn() != self.worn.as_ref() {
-            self.worn = client.worn().cloned();
-            described = self.worn.clone().map(|worn| {
-                let (hello, origin) = (client.line().to_vec(), self.origin.clone());
-                Box::new(Described { worn, hello, origin })
-            });
-        }
-        let scan = self.reader.scan(client, event);
-        let refusal = match event {
-            Event::Answer { request, refusal: Some(why) } => {
-                Some(format!("the board refuses {}: {why}", request_name(*request)))
-            }
-            _ => None,
-        };
-        Ok(Some(BoardRecord { messages, described, tally: Tally::of(client.counts()), scan, refusal }))
-    }
-
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let messages = Encoded::event(client, note, stamp)?.into_iter().collect();
-        Ok(Some(BoardRecord { messages, tally: Tally::of(client.counts()), ..BoardRecord::default() }))
-    }
-
-    fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let messages = Encoded::requests(client, bytes, stamp)?;
-        Ok(Some(BoardRecord { messages, tally: Tally::of(client.counts()), ..BoardRecord::default() }))
-    }
-}
-
 /// A recording of a robot in progress.
 #[derive(Debug)]
 pub struct RobotRecorder {
     path: PathBuf,
     writer: Option<Writer<File>>,
-    boards: Vec<RecordedBoard>,
+    boards: Vec<NamedBoard>,
     robot: ReadRobot,
     contacts: RobotContacts,
     /// Topic of the robot's contacts; none if no boards are sewn together.
@@ -134,17 +54,13 @@ impl RobotTopic {
     }
 }
 
-/// What is recorded of a board.
+/// A board of the recording.
 #[derive(Debug)]
-struct RecordedBoard {
+struct NamedBoard {
     name: String,
-    topics: Topics,
+    board: SharedBoard,
+    /// Its first description is attached.
     says_what: bool,
-    tally: Tally,
-    /// Host time of its first message in the chunk, us.
-    chunk_us: Option<u64>,
-    /// Host times of its first and last image, us.
-    frames_us: Option<[u64; 2]>,
 }
 
 impl RobotRecorder {
@@ -156,14 +72,8 @@ impl RobotRecorder {
         let mut writer = Writer::create(file, "").with_context(what)?;
         let mut boards = Vec::new();
         for board in &robot.boards {
-            boards.push(RecordedBoard {
-                topics: Topics::open(&mut writer, Some(&board.name)).with_context(what)?,
-                name: board.name.clone(),
-                says_what: false,
-                tally: Tally::default(),
-                chunk_us: None,
-                frames_us: None,
-            });
+            let shared = SharedBoard::open(&mut writer, &board.name).with_context(what)?;
+            boards.push(NamedBoard { name: board.name.clone(), board: shared, says_what: false });
         }
         let sewn = (!robot.seams.is_empty())
             .then(|| RobotTopic::open(&mut writer, ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA));
@@ -187,11 +97,17 @@ impl RobotRecorder {
         })
     }
 
-    /// Writes what is recorded of an event of a board. Returns the robot's contacts, if boards are sewn together and
-    /// it tells anything new of them. On error the recording ends: what was recorded before stays, and the file is
-    /// completed.
-    pub fn take(&mut self, board: usize, record: &BoardRecord) -> Result<Vec<RobotContact>> {
-        let done = self.write(board, record);
+    /// Records the events of a board of the robot, in the board's thread. Panics if the robot has no board of this
+    /// number.
+    pub fn teller(&self, board: usize) -> RecordTeller {
+        RecordTeller::new(&self.robot, board, self.boards[board].board.clone())
+    }
+
+    /// Writes what the record of an event of a board makes ready, and the robot's contacts at its time of the host,
+    /// us. Returns these contacts, if boards are sewn together and it tells anything new of them. On error the
+    /// recording ends: what was recorded before stays, and the file is completed.
+    pub fn take(&mut self, board: usize, host_us: u64, record: &BoardRecord) -> Result<Vec<RobotContact>> {
+        let done = self.write(board, host_us, record);
         self.guard(done)
     }
 
@@ -224,30 +140,34 @@ impl RobotRecorder {
             return Ok(());
         }
         self.kept = Instant::now();
-        self.boards.iter_mut().for_each(|board| board.chunk_us = None);
-        let done = self.writer.as_mut().map_or(Ok(()), Writer::flush);
+        let done = self.write_all().and_then(|()| self.writer.as_mut().map_or(Ok(()), Writer::flush));
         self.guard(done)
     }
 
     /// Writes the end of the file, unless written already.
     pub fn finish(&mut self) -> Result<()> {
+        let written = self.write_all();
         let Some(mut writer) = self.writer.take() else { return Ok(()) };
         let path = self.path.display().to_string();
         let incomplete = || format!("{path} could not be completed: `taxel info --repair` completes it");
         let mut counted = Ok(());
-        for board in &self.boards {
-            let words = board.tally.words(Tally::default());
-            counted = counted.and(writer.metadata(&attachment_of(Some(&board.name), COUNTS), words));
+        for NamedBoard { name, board, .. } in &self.boards {
+            let words = board.lock().tally.words(Tally::default());
+            counted = counted.and(writer.metadata(&attachment_of(Some(name), COUNTS), words));
         }
         let ended = writer.finish().map(|bytes| self.bytes = bytes);
-        ended.and(counted).with_context(incomplete)
+        written.and(ended).and(counted).with_context(incomplete)
     }
 
     /// A line for each board: images, their time, losses; and the size of the file.
     pub fn summary(&self) -> String {
         let wide = self.boards.iter().map(|board| board.name.len()).max().unwrap_or(0);
         let mut text = String::new();
-        for RecordedBoard { name, tally, frames_us, .. } in &self.boards {
+        for NamedBoard { name, board, .. } in &self.boards {
+            let (tally, frames_us) = {
+                let board = board.lock();
+                (board.tally, board.frames_us)
+            };
             let seconds = frames_us.map_or(0.0, |[first, last]| last.saturating_sub(first) as f64 / 1e6);
             text += &format!(
                 "{name:wide$}  {seconds:.1} s, {} frames, {} lost, {} thinned\n",
@@ -264,39 +184,27 @@ impl RobotRecorder {
         write_line(&mut self.writer, topic, host_us, &RobotContactsLine::of(&self.robot, host_us, contacts))
     }
 
-    fn write(&mut self, board: usize, record: &BoardRecord) -> Result<Vec<RobotContact>> {
-        let (Some(writer), Some(recorded)) = (&mut self.writer, self.boards.get_mut(board)) else {
-            return Ok(Vec::new());
-        };
-        recorded.tally = record.tally;
-        if let Some(described) = &record.described {
-            let Described { worn, hello, origin } = &**described;
-            let ns = record.messages.first().map_or(0, |message| message.stamp.host_ns());
-            if !std::mem::replace(&mut recorded.says_what, true) {
-                let name = attachment_of(Some(&recorded.name), HELLO);
-                writer.attach(&name, "application/octet-stream", hello, ns)?;
-            }
-            attach(writer, worn, origin, ns, Some(&recorded.name))?;
+    /// Ends the chunks of all boards, and writes them.
+    fn write_all(&mut self) -> Result<()> {
+        (0..self.boards.len()).try_for_each(|board| {
+            self.boards[board].board.lock().end_chunk();
+            self.write_filled(board)
+        })
+    }
+
+    /// Writes what is ready of a board.
+    fn write_filled(&mut self, board: usize) -> Result<()> {
+        let Some(NamedBoard { name, board, says_what }) = self.boards.get_mut(board) else { return Ok(()) };
+        // The board's thread does not wait for the disk.
+        let filled = board.lock().take();
+        self.writer.as_mut().map_or(Ok(()), |writer| filled.write(writer, name, says_what))
+    }
+
+    fn write(&mut self, board: usize, host_us: u64, record: &BoardRecord) -> Result<Vec<RobotContact>> {
+        if record.is_ready {
+            self.write_filled(board)?;
         }
-        for Encoded { topic, stamp, bytes } in &record.messages {
-            if *topic == RecordTopic::Json("frames") {
-                let first = recorded.frames_us.map_or(stamp.host_us, |[first, _]| first);
-                recorded.frames_us = Some([first, stamp.host_us]);
-            }
-            let Some(channel) = recorded.topics.channel(*topic) else { continue };
-            writer.message(channel, stamp.host_ns(), stamp.board_ns(), bytes)?;
-            recorded.chunk_us.get_or_insert(stamp.host_us);
-        }
-        let last = record.messages.last().map(|message| message.stamp.host_us);
-        // By each board's own course: simulations run ahead of each other.
-        if let Some((began, last)) = recorded.chunk_us.zip(last)
-            && last.abs_diff(began) >= CHUNK_US
-        {
-            writer.close()?;
-            self.boards.iter_mut().for_each(|board| board.chunk_us = None);
-        }
-        let stamp = record.messages.first().map(|message| message.stamp.host_us);
-        let Some((scan, host_us)) = record.scan.as_ref().zip(stamp).filter(|_| self.joined.is_some()) else {
+        let Some(scan) = record.scan.as_ref().filter(|_| self.joined.is_some()) else {
             return Ok(Vec::new());
         };
         let contacts = self.contacts.scan(board, scan, host_us);

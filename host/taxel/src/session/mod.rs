@@ -47,6 +47,7 @@ use crate::source::{self, Source, SourceOptions, SourceSpec};
 use absence::Absence;
 use outgoing::Outgoing;
 use std::collections::VecDeque;
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Level, Request};
@@ -59,7 +60,7 @@ const ANSWER: Duration = Duration::from_secs(3);
 /// Time between two requests for a `Hello`.
 const GREETING: Duration = Duration::from_secs(1);
 /// Bytes read at a time.
-const PIECE: usize = 4096;
+const PIECE: usize = 16 << 10;
 
 /// A streaming board. Dropping it closes the connection.
 pub struct Session {
@@ -80,6 +81,8 @@ pub struct Session {
     returns: Returns,
     notes: VecDeque<Event>,
     posing: Option<Posing>,
+    /// Time in which bytes gather.
+    gather: Duration,
 }
 
 /// What to do about a lost source.
@@ -148,7 +151,16 @@ impl Session {
             returns,
             notes: VecDeque::new(),
             posing: None,
+            gather: Duration::ZERO,
         }
+    }
+
+    /// Bytes that come within this time of the last ones are read together from now on, as far as the link
+    /// [keeps](source::Port::keeps) them. For whoever handles much and not at once: a processor's caches hold the
+    /// state of one board, not of a hundred. Bytes are read as they come while a round trip is measured and if a
+    /// robot's posture is told to the board.
+    pub fn gather(&mut self, time: Duration) {
+        self.gather = time;
     }
 
     /// Tells the board its robot's posture from now on.
@@ -324,6 +336,9 @@ impl Session {
     /// Writes and reads. Returns false at the end of the stream.
     fn exchange(&mut self) -> Result<bool> {
         self.outgoing.send(self.source.port.as_mut())?;
+        if self.posing.is_none() && !self.client.awaits_time() {
+            sleep(self.gather.min(self.source.port.keeps()).saturating_sub(self.heard.elapsed()));
+        }
         self.buffer.resize(PIECE, 0);
         let read = self.source.port.read(&mut self.buffer);
         self.buffer.truncate(read.as_ref().ok().and_then(|count| *count).unwrap_or(0));

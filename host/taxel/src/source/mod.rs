@@ -44,6 +44,11 @@ pub trait Port: Send {
     fn told(&mut self) -> Vec<u8> {
         Vec::new()
     }
+    /// How long bytes may wait to be read without holding back the board: not at all, unless the link has room for
+    /// them.
+    fn keeps(&self) -> Duration {
+        Duration::ZERO
+    }
     /// What has become known of the link, to be told at once.
     fn news(&mut self) -> Option<String> {
         None

@@ -9,6 +9,9 @@ use std::time::Duration;
 /// Longest wait of a read.
 const PATIENCE: Duration = Duration::from_millis(10);
 
+/// Time for which a port has room: Linux keeps 4 KiB, and a board on USB sends some 200 KB a second.
+const KEEPS: Duration = Duration::from_millis(10);
+
 /// An open serial port.
 pub struct Serial {
     port: Box<dyn SerialPort>,
@@ -70,5 +73,9 @@ impl Port for Serial {
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(0),
             written => written,
         }
+    }
+
+    fn keeps(&self) -> Duration {
+        KEEPS
     }
 }

@@ -8,6 +8,8 @@ use std::time::Duration;
 
 /// Longest wait of a read or write.
 const PATIENCE: Duration = Duration::from_millis(10);
+/// Time for which a connection has room: its buffers hold 64 KiB and more, and a board sends some 200 KB a second.
+const KEEPS: Duration = Duration::from_millis(100);
 /// Time limits for the first connection, and for a reconnection.
 pub const CONNECT: Duration = Duration::from_secs(5);
 pub const RETURN: Duration = Duration::from_secs(1);
@@ -58,5 +60,9 @@ impl Port for Tcp {
             Err(error) if matches!(error.kind(), TimedOut | WouldBlock | Interrupted) => Ok(0),
             written => written,
         }
+    }
+
+    fn keeps(&self) -> Duration {
+        KEEPS
     }
 }

@@ -19,8 +19,8 @@ use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
 const LOOK: Duration = Duration::from_millis(100);
-/// Time in which events gather once all are taken: of many boards, each would wake this thread.
-const GATHER: Duration = Duration::from_millis(5);
+/// Time in which a board's bytes gather, and its events once all are taken: pages are shown so much later.
+const GATHER: [Duration; 2] = [Duration::from_millis(40), Duration::from_millis(5)];
 
 /// Arguments of `taxel robot record`.
 #[derive(Debug, Clone, Args)]
@@ -77,13 +77,15 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
     let mut recording = Recording { recorder, mind, pages: pages.transpose()? };
     let options =
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
-    let plans = robot.plans(&options, limit(args.seconds), |number| -> Box<dyn Teller<MindRecord>> {
-        let records = MindRecordTeller::new(&robot, number, is_minded);
+    let mut plans = robot.plans(&options, limit(args.seconds), |number| -> Box<dyn Teller<MindRecord>> {
+        let records = recording.recorder.teller(number);
+        let records = MindRecordTeller::new(&robot, number, records, is_minded);
         match &recording.pages {
             Some(pages) => Box::new(ViewedTeller::new(&robot, number, records, pages.hub(number))),
             None => Box::new(records),
         }
     });
+    plans.iter_mut().for_each(|plan| plan.gather = GATHER[0]);
     let mut session = RobotSession::start(plans, WhenFull::Wait)?;
     let mut ended = Ok(());
     let mut written = Ok(());
@@ -91,7 +93,7 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
         let hears = recording.mind.as_mut().map(RecordedMind::mind);
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, hears));
         let event = session.wait(Duration::ZERO).or_else(|| {
-            thread::sleep(GATHER);
+            thread::sleep(GATHER[1]);
             session.wait(LOOK)
         });
         written = recording.take(event.as_ref(), &told, session.now_us());
@@ -135,7 +137,7 @@ impl Recording<'_> {
 /// Writes an event of a board. Returns the robot's contacts, if it tells anything new of them.
 fn write(recorder: &mut RobotRecorder, event: &RobotEvent<MindRecord>) -> taxel::Result<Vec<RobotContact>> {
     match &event.what {
-        BoardEvent::News(news) => recorder.take(event.board, &news.record),
+        BoardEvent::News(news) => recorder.take(event.board, event.stamp.host_us, &news.record),
         BoardEvent::Lost { .. } => recorder.lost(event.board, event.stamp.host_us),
         _ => Ok(Vec::new()),
     }

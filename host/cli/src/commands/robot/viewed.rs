@@ -78,14 +78,19 @@ mod tests {
     use super::*;
     use crate::view::{Parcel, message};
     use std::path::Path;
+    use taxel::files::output::Force;
+    use taxel::recording::Messages;
+    use taxel::robot::RobotRecorder;
     use taxel::session::Session;
     use taxel::source::{self, SourceOptions};
 
     /// What is recorded of a simulated board, and the messages that were sent to a page.
-    fn recorded(hub: Option<&Arc<PageHub>>) -> (Vec<String>, Vec<Parcel>) {
+    fn recorded(name: &str, hub: Option<&Arc<PageHub>>) -> (Vec<String>, Vec<Parcel>) {
         let text = "name = \"one\"\n[[boards]]\nname = \"hand\"\nsource = \"sim:five\"\n";
         let robot = ReadRobot::parse("one.toml".into(), text.into(), Path::new(".")).unwrap();
-        let records = MindRecordTeller::new(&robot, 0, true);
+        let path = std::env::temp_dir().join(format!("taxel-{name}-{}.mcap", std::process::id()));
+        let mut recorder = RobotRecorder::create(&robot, &path, Force { force: true }).unwrap();
+        let records = MindRecordTeller::new(&robot, 0, recorder.teller(0), true);
         let mut teller: Box<dyn Teller<MindRecord>> = match hub {
             Some(hub) => Box::new(ViewedTeller::new(&robot, 0, records, hub.clone())),
             None => Box::new(records),
@@ -101,18 +106,28 @@ mod tests {
         while let Some(event) = session.wait().unwrap() {
             let number = told.len() as u64;
             let stamp = Stamp { board_us: number, host_us: number, uncertainty_us: None };
-            told.push(format!("{:?}", teller.event(session.client(), &event, stamp).unwrap()));
+            let news = teller.event(session.client(), &event, stamp).unwrap();
+            if let Some(news) = news {
+                recorder.take(0, number, &news.record).unwrap();
+                told.push(format!("{news:?}"));
+            }
             teller.idle(session.parts().0).unwrap();
             sent.extend(page.as_ref().and_then(|page| page.take()));
         }
+        recorder.finish().unwrap();
+        let mut messages = Messages::open(&path).unwrap();
+        while let Some(message) = messages.next_message().unwrap() {
+            told.push(format!("{message:?}"));
+        }
+        std::fs::remove_file(path).unwrap();
         (told, sent)
     }
 
     #[test]
     fn what_is_recorded_is_what_would_be_if_nobody_watched() {
         let hub = Arc::new(PageHub::default());
-        let ((alone, _), (watched, sent)) = (recorded(None), recorded(Some(&hub)));
-        assert!(alone == watched && alone.len() > 500, "{} {}", alone.len(), watched.len());
+        let ((alone, _), (watched, sent)) = (recorded("alone", None), recorded("watched", Some(&hub)));
+        assert!(alone == watched && alone.len() > 1500, "{} {}", alone.len(), watched.len());
         assert!(sent.len() > 100, "{}", sent.len());
         assert!(hub.has_tape() && hub.is_looked_at());
     }

@@ -72,6 +72,7 @@ impl Bench {
                     Ok(client.request(&Request::SetRaw { hz: u16::MAX })?)
                 }),
                 teller: Box::new(tell),
+                gather: Duration::ZERO,
                 limit: None,
             }
         };
@@ -272,6 +273,7 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
                 Event::Contacts { frame, .. } => Some(("contacts", *frame)),
                 _ => None,
             }),
+            gather: Duration::ZERO,
             limit: None,
         }
     };

@@ -42,6 +42,7 @@ fn three(names: [&str; 3]) -> ([Arc<Mutex<Rig>>; 3], RobotSession<Answered>) {
             identity: Identity::default(),
             begin: Box::new(|session| Ok(session.parts().0.start(0)?)),
             teller: Box::new(tell),
+            gather: Duration::ZERO,
             limit: None,
         }
     };

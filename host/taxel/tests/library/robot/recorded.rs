@@ -8,7 +8,7 @@ use taxel::files::output::Force;
 use taxel::json::message;
 use taxel::record::{COUNTS, Play, Tally};
 use taxel::recording::{Messages, Overview, boards, scan};
-use taxel::robot::{BoardEvent, RecordTeller, RobotRecorder, RobotSession, WhenFull};
+use taxel::robot::{BoardEvent, RobotRecorder, RobotSession, WhenFull};
 use taxel::session::Session;
 
 /// Records the three boards to their ends.
@@ -17,11 +17,10 @@ fn record(name: &str) -> PathBuf {
     let read = robot();
     let mut recorder = RobotRecorder::create(&read, &path, Force { force: true }).unwrap();
     let mut session =
-        RobotSession::open(&read, WhenFull::Wait, |number| Box::new(RecordTeller::new(&read, number)))
-            .unwrap();
+        RobotSession::open(&read, WhenFull::Wait, |number| Box::new(recorder.teller(number))).unwrap();
     while let Some(event) = session.wait(Duration::from_secs(30)) {
         if let BoardEvent::News(record) = event.what {
-            recorder.take(event.board, &record).unwrap();
+            recorder.take(event.board, event.stamp.host_us, &record).unwrap();
         }
         recorder.keep().unwrap();
     }
