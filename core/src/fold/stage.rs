@@ -107,7 +107,6 @@ impl FoldState {
             let at = called.and_then(|called| joints.iter().position(|joint| joint == called));
             *to = at.map(|at| at as u8);
         }
-        self.held.fill(0);
         self.forget();
     }
 
@@ -120,6 +119,7 @@ impl FoldState {
         self.passes.fill(0);
         self.bends.fill(Bend::NONE);
         self.felt.fill([0; 2]);
+        self.held.fill(0);
         self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
     }
 

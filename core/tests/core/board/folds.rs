@@ -243,6 +243,24 @@ fn a_tare_of_a_bent_arm_is_that_of_a_straight_one() {
 }
 
 #[test]
+fn a_tare_holds_no_baseline_for_what_was_expected_before() {
+    let mut bench = wearing(&elbow(0, 0));
+    for _ in 0..40 {
+        bench.bend(60.0);
+        bench.feel(pressed(60.0), &[]);
+    }
+    bench.bend(0.0);
+    bench.ask(&Request::Tare { frames: 4 });
+    // Nothing is expected of a straight arm: the baselines follow drift, one by one.
+    let taxel = FOLDED[0];
+    for frame in 0..2_000 {
+        bench.bend(0.0);
+        bench.feel(0.0, &[(taxel, if frame < 20 { 0.0 } else { 3.0 })]);
+    }
+    assert_eq!(bench.board.state().condition.baseline().unwrap()[usize::from(taxel)], 103);
+}
+
+#[test]
 fn a_table_that_is_wrong_is_refused_by_name() {
     let good = elbow(5, 5);
     let refusal = |change: &dyn Fn(&mut Vec<u8>)| {

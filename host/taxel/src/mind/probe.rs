@@ -87,7 +87,9 @@ impl ProbeCourse {
         let moment =
             ProbeMoment { us: host_us, at_mm: felt.at_mm, panel: felt.panel, load: felt.load, depth_mm };
         // Of the same time and later ones nothing is known any longer: the board's clock has been learned anew.
-        self.last.retain(|before| before.us < host_us);
+        while self.last.back().is_some_and(|last| last.us >= host_us) {
+            self.last.pop_back();
+        }
         while self.last.front().is_some_and(|first| host_us - first.us > KEPT_US) {
             self.last.pop_front();
         }

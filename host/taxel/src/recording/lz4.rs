@@ -166,6 +166,14 @@ mod tests {
         (0..400_000u32).map(|index| (index / 1000) as u8).chain(noise).collect()
     }
 
+    fn add(writer: &mut FrameWriter, bytes: &[u8]) {
+        let added: Result<(), &str> = writer.add(|out| {
+            out.extend_from_slice(bytes);
+            Ok(())
+        });
+        assert_eq!(added, Ok(()));
+    }
+
     #[test]
     fn frames_of_every_kind_are_decoded_or_left_to_others() {
         let (body, info) = (body(), FrameInfo::new().block_size(BlockSize::Max64KB));
@@ -203,7 +211,7 @@ mod tests {
                     .split_off(..rest.len().min(random.usize(1..100_000)))
                     .filter(|piece| !piece.is_empty())
                 {
-                    writer.add(|out| Ok::<(), ()>(out.extend_from_slice(piece))).unwrap();
+                    add(&mut writer, piece);
                     let failed = writer.add(|out| {
                         out.extend_from_slice(piece);
                         Err("no")
@@ -226,7 +234,7 @@ mod tests {
     #[test]
     fn a_frame_of_ours_is_known_by_its_head_and_any_other_head_is_not() {
         let mut writer = FrameWriter::default();
-        writer.add(|out| Ok::<(), ()>(out.extend(body()))).unwrap();
+        add(&mut writer, &body());
         let ours = writer.end().0;
         let before = [BlockSize::Max256KB, BlockSize::Max4MB];
         let before = before.map(|size| frame(FrameInfo::new().block_size(size), &body()));

@@ -18,6 +18,7 @@
 //! | `session.rs` | [`RobotSession`]: all boards as one stream |
 //! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
 //! | `recorded_board.rs` | a board's part of a recording, filled in the board's thread |
+//! | `record_teller.rs` | records a board, in its thread |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
@@ -66,6 +67,7 @@ mod place;
 mod plane;
 mod queue;
 mod recognise;
+mod record_teller;
 mod recorded_board;
 mod recorder;
 mod refused;
@@ -93,7 +95,7 @@ pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
-pub use recorded_board::{BoardRecord, RecordTeller};
+pub use record_teller::{BoardRecord, RecordTeller};
 pub use recorder::{RobotRecorder, RobotTopic};
 pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};

@@ -1,14 +1,10 @@
-//! A board's part of a robot's recording, filled in the board's own thread: what goes from there to the
-//! recorder's are whole chunks, packed.
+//! A board's part of a robot's recording, filled in the board's own thread: what goes from there to the recorder
+//! are whole chunks, packed.
 
-use super::event::Teller;
-use super::file::ReadRobot;
-use super::scan::{BoardScan, ScanReader};
-use crate::client::{Client, Event, Worn, request_name};
+use crate::client::{Client, Worn};
 use crate::error::Result;
 use crate::record::{BoardMessages, Origin, Stamp, Tally, Topics, attach};
 use crate::recording::{FullChunk, HELLO, Store, Writer, attachment_of};
-use crate::source::Source;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Most time of a board between two chunks, us, so that readers can seek to any second.
@@ -29,11 +25,15 @@ pub struct RecordedBoard {
 
 /// A board's description, and the frame of its `Hello`.
 #[derive(Debug)]
-struct Described {
-    worn: Worn,
-    hello: Vec<u8>,
-    origin: Origin,
-    ns: u64,
+pub struct Described {
+    /// What it wears.
+    pub worn: Worn,
+    /// The frame.
+    pub hello: Vec<u8>,
+    /// Where the stream comes from.
+    pub origin: Origin,
+    /// Host time, ns.
+    pub ns: u64,
 }
 
 /// What is ready to be written of a board.
@@ -68,7 +68,7 @@ impl SharedBoard {
 
 impl RecordedBoard {
     /// Adds messages of one time. Returns true if anything is ready to be written.
-    fn add(
+    pub fn add(
         &mut self,
         client: &Client,
         stamp: Stamp,
@@ -83,8 +83,13 @@ impl RecordedBoard {
         Ok(self.messages.is_ready() || !self.described.is_empty())
     }
 
+    /// Adds the board's description.
+    pub fn describe(&mut self, described: Described) {
+        self.described.push(described);
+    }
+
     /// Counts an image.
-    fn image(&mut self, stamp: Stamp) {
+    pub fn image(&mut self, stamp: Stamp) {
         let first = self.frames_us.map_or(stamp.host_us, |[first, _]| first);
         self.frames_us = Some([first, stamp.host_us]);
     }
@@ -112,105 +117,5 @@ impl Filled {
             attach(writer, &worn, &origin, ns, Some(name))?;
         }
         writer.write(self.full)
-    }
-}
-
-/// What a robot's recorder is told of an event of a board, whose messages are in the board's part already.
-#[derive(Debug, Default, PartialEq)]
-pub struct BoardRecord {
-    /// Anything of the board is ready to be written.
-    pub(super) is_ready: bool,
-    /// The scan that it is about.
-    pub scan: Option<BoardScan>,
-    /// Why the board refuses a request.
-    pub refusal: Option<String>,
-}
-
-/// Records a board's events.
-#[derive(Debug)]
-pub struct RecordTeller {
-    board: SharedBoard,
-    origin: Origin,
-    worn: Option<Worn>,
-    reader: ScanReader,
-}
-
-impl RecordTeller {
-    /// Of this board of a robot.
-    pub(super) fn new(robot: &ReadRobot, number: usize, board: SharedBoard) -> RecordTeller {
-        let calibration = robot.boards.get(number).and_then(|board| board.calibration.clone());
-        let origin = Origin { calibration, ..Origin::default() };
-        RecordTeller { board, origin, worn: None, reader: ScanReader::new(robot, number) }
-    }
-
-    /// Adds the board's description, if it is new.
-    fn describe(&mut self, client: &Client, stamp: Stamp) {
-        if client.worn() == self.worn.as_ref() {
-            return;
-        }
-        self.worn = client.worn().cloned();
-        let described = self.worn.clone().map(|worn| Described {
-            worn,
-            hello: client.line().to_vec(),
-            origin: self.origin.clone(),
-            ns: stamp.host_ns(),
-        });
-        self.board.lock().described.extend(described);
-    }
-
-    /// Adds messages. Returns true if anything is ready to be written.
-    fn add(
-        &self,
-        client: &Client,
-        stamp: Stamp,
-        messages: impl FnOnce(&mut BoardMessages) -> Result<()>,
-    ) -> Result<bool> {
-        self.board.lock().add(client, stamp, messages)
-    }
-}
-
-impl BoardRecord {
-    /// None if the recorder need not be told: each record wakes its thread and takes a place in the queue. Once
-    /// anything is ready to be written, every event is told, so that a slow disk holds the board back.
-    fn news(self) -> Option<BoardRecord> {
-        (self != BoardRecord::default()).then_some(self)
-    }
-}
-
-impl Teller<BoardRecord> for RecordTeller {
-    fn opened(&mut self, source: &Source) {
-        self.origin.label.clone_from(&source.label);
-        self.origin.counts_per_newton = source.counts_per_newton;
-    }
-
-    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
-        if *event == Event::Hello {
-            self.describe(client, stamp);
-        }
-        if matches!(event, Event::Frame { .. }) {
-            self.board.lock().image(stamp);
-        }
-        let is_ready = self.add(client, stamp, |messages| {
-            messages.frames(client, stamp)?;
-            messages.event(client, event, stamp)
-        })?;
-        let refusal = match event {
-            Event::Answer { request, refusal: Some(why) } => {
-                Some(format!("the board refuses {}: {why}", request_name(*request)))
-            }
-            _ => None,
-        };
-        let scan = self.reader.scan(client, event);
-        Ok(BoardRecord { is_ready, scan, refusal }.news())
-    }
-
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let is_ready = self.add(client, stamp, |messages| messages.event(client, note, stamp))?;
-        Ok(BoardRecord { is_ready, ..BoardRecord::default() }.news())
-    }
-
-    fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let is_ready = self.add(client, stamp, |messages| messages.requests(client, bytes, stamp))?;
-        Ok(BoardRecord { is_ready, ..BoardRecord::default() }.news())
     }
 }

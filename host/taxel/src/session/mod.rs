@@ -17,6 +17,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `gather.rs` | when bytes that gather are read
 //! | `outgoing.rs` | requests on their way to a board that may not read |
 //! | `absence.rs` | a lost source, until it is back |
 //! | `setting.rs` | garments, scenes and models of the user, queued as requests |
@@ -27,6 +28,7 @@
 //! | `show.rs` | [`Show`]: who is handed the stream |
 
 mod absence;
+mod gather;
 mod joint_states;
 mod joint_time;
 mod moving;
@@ -45,6 +47,7 @@ use crate::client::{Client, Event, Restored, request_name};
 use crate::error::{Error, Result, SourceError, UsageError};
 use crate::source::{self, Source, SourceOptions, SourceSpec};
 use absence::Absence;
+use gather::Gather;
 use outgoing::Outgoing;
 use std::collections::VecDeque;
 use std::thread::sleep;
@@ -81,8 +84,7 @@ pub struct Session {
     returns: Returns,
     notes: VecDeque<Event>,
     posing: Option<Posing>,
-    /// Time in which bytes gather.
-    gather: Duration,
+    gather: Gather,
 }
 
 /// What to do about a lost source.
@@ -151,16 +153,15 @@ impl Session {
             returns,
             notes: VecDeque::new(),
             posing: None,
-            gather: Duration::ZERO,
+            gather: Gather::default(),
         }
     }
 
     /// Bytes that come within this time of the last ones are read together from now on, as far as the link
-    /// [keeps](source::Port::keeps) them. For whoever handles much and not at once: a processor's caches hold the
-    /// state of one board, not of a hundred. Bytes are read as they come while a round trip is measured and if a
-    /// robot's posture is told to the board.
+    /// [keeps](source::Port::keeps) them: for whoever handles much, and not at once. They are read as they come while
+    /// a round trip is measured, and if a robot's posture is told to the board.
     pub fn gather(&mut self, time: Duration) {
-        self.gather = time;
+        self.gather.time = time;
     }
 
     /// Tells the board its robot's posture from now on.
@@ -337,12 +338,13 @@ impl Session {
     fn exchange(&mut self) -> Result<bool> {
         self.outgoing.send(self.source.port.as_mut())?;
         if self.posing.is_none() && !self.client.awaits_time() {
-            sleep(self.gather.min(self.source.port.keeps()).saturating_sub(self.heard.elapsed()));
+            sleep(self.gather.pause(self.source.port.keeps(), self.heard.elapsed()));
         }
         self.buffer.resize(PIECE, 0);
         let read = self.source.port.read(&mut self.buffer);
         self.buffer.truncate(read.as_ref().ok().and_then(|count| *count).unwrap_or(0));
         let Some(count) = read? else { return Ok(false) };
+        self.gather.read(count, PIECE);
         let now = Instant::now();
         if count > 0 {
             self.heard = now;
