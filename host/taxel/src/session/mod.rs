@@ -17,7 +17,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `gather.rs` | when bytes that gather are read
+//! | `gather.rs` | when bytes that gather are read |
 //! | `outgoing.rs` | requests on their way to a board that may not read |
 //! | `absence.rs` | a lost source, until it is back |
 //! | `setting.rs` | garments, scenes and models of the user, queued as requests |

@@ -19,8 +19,10 @@ use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
 const LOOK: Duration = Duration::from_millis(100);
-/// Time in which a board's bytes gather, and its events once all are taken: pages are shown so much later.
-const GATHER: [Duration; 2] = [Duration::from_millis(40), Duration::from_millis(5)];
+/// Time in which a board's bytes gather: pages show them so much later.
+const GATHER: Duration = Duration::from_millis(40);
+/// Time in which events gather once all are taken: of many boards, each would wake this thread.
+const REST: Duration = Duration::from_millis(5);
 
 /// Arguments of `taxel robot record`.
 #[derive(Debug, Clone, Args)]
@@ -85,7 +87,7 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
             None => Box::new(records),
         }
     });
-    plans.iter_mut().for_each(|plan| plan.gather = GATHER[0]);
+    plans.iter_mut().for_each(|plan| plan.gather = GATHER);
     let mut session = RobotSession::start(plans, WhenFull::Wait)?;
     let mut ended = Ok(());
     let mut written = Ok(());
@@ -93,7 +95,7 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
         let hears = recording.mind.as_mut().map(RecordedMind::mind);
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, hears));
         let event = session.wait(Duration::ZERO).or_else(|| {
-            thread::sleep(GATHER[1]);
+            thread::sleep(REST);
             session.wait(LOOK)
         });
         written = recording.take(event.as_ref(), &told, session.now_us());
