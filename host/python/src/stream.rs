@@ -10,9 +10,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use taxel::body::posture::Motion;
 use taxel::client::clock::SteadyTime;
-use taxel::client::passed::Passed;
 use taxel::client::{Event, ImageNews};
-use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, Turn, setting};
+use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn, setting};
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::format::Micros;
 
@@ -31,9 +30,7 @@ struct Open {
     clock: SteadyTime,
     /// Images still awaited; none for no limit.
     frames: Option<u64>,
-    /// Time limit, us of the board.
-    longest_us: Option<u64>,
-    passed: Passed,
+    limit: Option<TimeLimit>,
     over: bool,
 }
 
@@ -58,7 +55,10 @@ impl Open {
             return Ok(Look::Found(Box::new(self.teller.note(self.session.client(), &note, now_ns))));
         }
         match self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))? {
-            Turn::Bytes | Turn::Waiting => Ok(Look::Nothing),
+            Turn::Bytes | Turn::Waiting => {
+                self.over |= self.limit.as_mut().is_some_and(|limit| limit.look(&self.session));
+                Ok(Look::Nothing)
+            }
             Turn::End => {
                 self.over = true;
                 Ok(Look::End)
@@ -68,13 +68,11 @@ impl Open {
 
     /// Counts what is awaited: whole images, and the board's time by them.
     fn count(&mut self, event: &Event) {
-        let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return };
-        if let Some(frames) = &mut self.frames {
+        if let (Event::Frame { image: ImageNews::Whole, .. }, Some(frames)) = (event, &mut self.frames) {
             *frames = frames.saturating_sub(1);
             self.over |= *frames == 0;
         }
-        let passed_us = self.passed.until(time.0);
-        self.over |= self.longest_us.is_some_and(|longest| passed_us >= longest);
+        self.over |= self.limit.as_mut().is_some_and(|limit| limit.take(event));
     }
 }
 
@@ -109,10 +107,10 @@ fn open(
         client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;
     }
     posing.into_iter().for_each(|posing| session.pose_by(posing));
-    let longest_us = options.seconds.map(|seconds| (seconds * 1e6) as u64);
-    let (teller, clock, passed) = (Teller::default(), SteadyTime::start(), Passed::default());
+    let longest = options.seconds.map(|seconds| Duration::from_micros((seconds * 1e6) as u64));
+    let (teller, clock, limit) = (Teller::default(), SteadyTime::start(), longest.map(TimeLimit::of));
     let over = options.frames == Some(0);
-    Ok(Open { session, teller, clock, frames: options.frames, longest_us, passed, over })
+    Ok(Open { session, teller, clock, frames: options.frames, limit, over })
 }
 
 impl Stream {

@@ -8,19 +8,16 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel::client::passed::Passed;
 use taxel::client::{Client, Event, ImageNews, request_name};
 use taxel::files::calibrate::Calibration;
 use taxel::files::output::Output;
 use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
-use taxel::session::{JointStates, Returns, Session, Show, Turn, setting};
+use taxel::session::{JointStates, PATIENCE, Returns, Session, Show, TimeLimit, Turn, setting};
 use taxel::source::{SceneFile, Source};
 use taxel::tell::verbose;
 use taxel_core::wire::Request;
 
-/// Longest wait for a silent board or a lost source in a run of limited time.
-const SILENCE: Duration = Duration::from_secs(10);
 /// Silence after which a message is printed.
 const QUIET: Duration = Duration::from_secs(3);
 
@@ -29,7 +26,7 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     let limited = args.frames.is_some() || args.seconds.is_some();
     let returns = match (args.board.once, limited) {
         (true, _) => Returns::Never,
-        (false, true) => Returns::Within(SILENCE),
+        (false, true) => Returns::Within(PATIENCE),
         (false, false) => Returns::Always,
     };
     let mut session = Session::new(source, returns);
@@ -66,6 +63,7 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
             break;
         }
         patience.look(&session)?;
+        limits.look(&session)?;
     }
     let (client, source) = session.parts();
     show.end(client)?;
@@ -168,9 +166,7 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
 /// Conditions for the end of a run.
 struct Limits {
     frames: Option<u64>,
-    /// Time limit, us.
-    longest_us: Option<u64>,
-    passed: Passed,
+    time: TimeLimit,
     /// Wait for the raw codes of the last image, which follow it.
     codes: bool,
     ended: bool,
@@ -178,23 +174,34 @@ struct Limits {
 
 impl Limits {
     fn of(args: &LiveArgs) -> Limits {
-        let longest_us = args.seconds.map(|seconds| (seconds * 1e6) as u64);
+        let longest =
+            args.seconds.map_or(Duration::MAX, |seconds| Duration::from_micros((seconds * 1e6) as u64));
         let (frames, codes) = (args.frames, args.taxel.is_some());
-        Limits { frames, longest_us, passed: Passed::default(), codes, ended: false }
+        Limits { frames, time: TimeLimit::of(longest), codes, ended: false }
     }
 
     fn reached(&mut self, event: &Event) -> bool {
         if self.frames == Some(0) {
             self.ended |= matches!(event, Event::Raw { .. } | Event::Frame { .. });
-        } else if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
-            if let Some(frames) = &mut self.frames {
-                *frames = frames.saturating_sub(1);
-                self.ended |= *frames == 0 && !self.codes;
-            }
-            let passed_us = self.passed.until(time.0);
-            self.ended |= self.longest_us.is_some_and(|longest| passed_us >= longest);
+        } else if let (Event::Frame { image: ImageNews::Whole, .. }, Some(frames)) = (event, &mut self.frames)
+        {
+            *frames = frames.saturating_sub(1);
+            self.ended |= *frames == 0 && !self.codes;
         }
+        self.ended |= self.time.take(event);
         self.ended
+    }
+
+    /// Ends a run to which no more images come.
+    fn look(&mut self, session: &Session) -> Result<()> {
+        self.ended |= self.time.look(session);
+        if self.frames.is_some() && !self.ended && self.time.imageless() > PATIENCE {
+            let (label, seconds) = (&session.source().label, PATIENCE.as_secs());
+            bail!(Fault::board(format!(
+                "{label}: no image came for {seconds} s: the scene sends none, or the scan fails"
+            )));
+        }
+        Ok(())
     }
 }
 
@@ -234,7 +241,7 @@ impl Patience {
         if passed > QUIET && !std::mem::replace(&mut self.told, true) {
             eprintln!("No Hello yet from {}.", session.source().label);
         }
-        if self.limited && passed > SILENCE {
+        if self.limited && passed > PATIENCE {
             return Err(silent(session.source(), session.client().counts().bytes));
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! Tests of the program and its examples from outside.
 
+mod answering_board;
 mod bodies;
 mod builds;
 mod called;
@@ -13,12 +14,14 @@ mod folded;
 #[cfg(feature = "foxglove")]
 mod foxglove;
 mod hostile;
+mod imageless;
 #[cfg(feature = "index")]
 mod index;
 mod joints;
 mod live;
 mod maps;
 mod mistakes;
+mod one_bus;
 mod outputs;
 mod own_garment;
 #[cfg(feature = "schema")]

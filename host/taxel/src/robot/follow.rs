@@ -7,11 +7,10 @@ use super::queue::{EventQueue, WhenFull};
 use super::recognise::recognised;
 use super::refused::Required;
 use crate::client::clock::SteadyTime;
-use crate::client::passed::Passed;
-use crate::client::{Buses, Client, Event, ImageNews};
+use crate::client::{Buses, Client, Event};
 use crate::error::{Error, RecordingError, Result, SourceError};
 use crate::record::{Stamp, Stamps};
-use crate::session::{Returns, Session, Turn};
+use crate::session::{PATIENCE, Returns, Session, TimeLimit, Turn};
 use crate::source::Source;
 use crate::tell::words;
 use std::sync::Arc;
@@ -20,9 +19,6 @@ use std::time::{Duration, Instant};
 
 /// Time between two attempts to open a source that has not been there yet: first and longest.
 const TRY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(1)];
-
-/// Longest wait for a board whose stream is limited in time.
-pub const PATIENCE: Duration = Duration::from_secs(10);
 
 /// What is asked of a board while it is followed.
 pub type Ask = Box<dyn FnOnce(&mut Session) -> Result<()> + Send>;
@@ -73,9 +69,7 @@ pub struct Follower<T> {
     restarts: u64,
     required: Required,
     gather: Duration,
-    limit: Option<Duration>,
-    /// The board's time that has passed.
-    passed: Passed,
+    limit: Option<TimeLimit>,
     /// The limit is reached.
     is_done: bool,
     /// Why the link was lost last.
@@ -108,8 +102,7 @@ pub fn follow<T>(
         restarts: 0,
         required: Required::default(),
         gather,
-        limit,
-        passed: Passed::default(),
+        limit: limit.map(TimeLimit::of),
         is_done: false,
         why: String::new(),
     };
@@ -151,7 +144,7 @@ impl<T> Follower<T> {
     fn run(&mut self, source: Source, begin: Begin, asks: &Receiver<Ask>, buses: Buses) -> Result<()> {
         self.teller.opened(&source);
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
-        let returns = self.limit.map_or(Returns::Always, |_| Returns::Within(PATIENCE));
+        let returns = self.limit.as_ref().map_or(Returns::Always, |_| Returns::Within(PATIENCE));
         let mut session = Session::by(self.time, source, returns);
         session.gather(self.gather);
         session.parts().0.share(buses);
@@ -167,6 +160,7 @@ impl<T> Follower<T> {
             {
                 self.event(&mut session, &event)?;
             }
+            self.is_done |= self.limit.as_mut().is_some_and(|limit| limit.look(&session));
             if turn == Turn::End || self.is_done {
                 self.check_met(&session)?;
                 let (client, stamp) = (session.client(), self.stamps.now(session.client()));
@@ -240,10 +234,7 @@ impl<T> Follower<T> {
             return Ok(());
         }
         self.news(session.client(), event)?;
-        if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
-            let passed = Duration::from_micros(self.passed.until(time.0));
-            self.is_done = self.limit.is_some_and(|limit| passed >= limit);
-        }
+        self.is_done = self.limit.as_mut().is_some_and(|limit| limit.take(event));
         Ok(self.required.answered(&session.source().label, event)?)
     }
 

@@ -89,7 +89,7 @@ pub use contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine
 pub use contacts_ros2::robot_contacts_message;
 pub use event::{BoardEvent, RobotEvent, Teller};
 pub use file::ReadRobot;
-pub use follow::{Ask, Begin, BoardPlan, Opener, PATIENCE};
+pub use follow::{Ask, Begin, BoardPlan, Opener};
 pub use identity::Identity;
 pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};

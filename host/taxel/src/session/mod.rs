@@ -25,12 +25,14 @@
 //! | `moving.rs` | how the links move that wear a garment |
 //! | `posing.rs` | [`Posing`]: a robot's posture, told to the board |
 //! | `joint_states.rs` | positions of joints as lines |
+//! | `limit.rs` | [`TimeLimit`]: the end of a run that is limited in time |
 //! | `show.rs` | [`Show`]: who is handed the stream |
 
 mod absence;
 mod gather;
 mod joint_states;
 mod joint_time;
+mod limit;
 mod moving;
 mod outgoing;
 mod posing;
@@ -39,6 +41,7 @@ mod show;
 
 pub use joint_states::JointStates;
 pub use joint_time::JointTime;
+pub use limit::{PATIENCE, TimeLimit};
 pub use posing::{JointPositions, POSES, POSES_HZ, Posing};
 pub use show::Show;
 

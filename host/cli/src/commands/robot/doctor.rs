@@ -1,12 +1,14 @@
-//! `taxel robot doctor`: the diagnosis of each board.
+//! `taxel robot doctor`: the diagnosis of each board, and which of them share a USB host controller.
 
-use crate::commands::board::doctor::{Finding, Grade, examine, first_cure, line, worst};
+use super::controllers::controller;
+use crate::commands::board::doctor::{Examined, Finding, Grade, examine, first_cure, line, worst};
 use crate::fault::Fault;
 use anyhow::{Result, bail, ensure};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::thread;
+use taxel::client::Buses;
 use taxel::robot::{ReadRobot, RobotBoard};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
@@ -28,11 +30,7 @@ pub struct RobotDoctorArgs {
 pub fn run(args: &RobotDoctorArgs) -> Result<()> {
     ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
     let robot = ReadRobot::read(&args.file)?;
-    let all: Vec<Vec<Finding>> = thread::scope(|scope| {
-        let begin = |board| scope.spawn(move || diagnosed(board, args.seconds));
-        let begun: Vec<_> = robot.boards.iter().map(begin).collect();
-        begun.into_iter().map(|thread| thread.join().unwrap_or_default()).collect()
-    });
+    let all = diagnosed_together(&robot.boards, args.seconds);
     let worst_of_all = all.iter().map(|found| worst(found)).max().unwrap_or(Grade::Good);
     let boards = || robot.boards.iter().zip(&all);
     if args.json {
@@ -64,20 +62,38 @@ pub fn run(args: &RobotDoctorArgs) -> Result<()> {
     Ok(())
 }
 
-/// What is found of a board.
-fn diagnosed(board: &RobotBoard, seconds: f64) -> Vec<Finding> {
+/// What is found of each board.
+fn diagnosed_together(boards: &[RobotBoard], seconds: f64) -> Vec<Vec<Finding>> {
+    let buses = Buses::default();
+    let (mut all, on): (Vec<_>, Vec<_>) = thread::scope(|scope| {
+        let begin = |board| {
+            let buses = buses.clone();
+            scope.spawn(move || diagnosed(board, seconds, buses))
+        };
+        let begun: Vec<_> = boards.iter().map(begin).collect();
+        begun.into_iter().map(|thread| thread.join().unwrap_or_default()).unzip()
+    });
+    let named: Vec<_> = boards.iter().map(|board| board.name.as_str()).zip(on).collect();
+    for (at, found) in all.iter_mut().enumerate() {
+        found.extend(controller(&named, at));
+    }
+    all
+}
+
+/// What is found of a board, and the number of its controller.
+fn diagnosed(board: &RobotBoard, seconds: f64, buses: Buses) -> (Vec<Finding>, Option<usize>) {
     let options = SourceOptions { seconds: Some(seconds), ..SourceOptions::default() };
     let source = match board.open(&options) {
         Ok(source) => source,
         Err(error) => {
             let cure = "`taxel ports` lists what is plugged in; docs/troubleshooting.md says more";
-            return vec![Finding::bad("link", words::sentence(&error), cure)];
+            return (vec![Finding::bad("link", words::sentence(&error), cure)], None);
         }
     };
-    let (mut found, heard) = examine(&board.source, source, seconds);
+    let Examined { mut found, heard, bus } = examine(&board.source, source, seconds, buses);
     if let Err(error) = heard {
         let cure = "`taxel doctor` with this source says more";
         found.push(Finding::bad("link", words::sentence(error.as_ref()), cure));
     }
-    found
+    (found, bus)
 }

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod controllers;
 mod doctor;
 mod live;
 mod record;

@@ -8,6 +8,7 @@ use crate::watch::{self, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
+use taxel::client::Buses;
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
 use taxel::tell::date;
 
@@ -33,7 +34,7 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
     let source = source::open(&args.source, &options)
         .context("no link (`taxel ports` lists what is plugged in; docs/troubleshooting.md says more)")?;
     let label = source.label.clone();
-    let (found, heard) = examine(&args.source, source, args.seconds);
+    let Examined { found, heard, .. } = examine(&args.source, source, args.seconds, Buses::default());
     let worst = worst(&found);
     if args.json {
         println!("{}", json!({ "type": "doctor", "source": label, "verdict": worst, "findings": found }));
@@ -53,12 +54,24 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
     Ok(())
 }
 
-/// Watches a board for some seconds. Returns what was found, and the error that ended the watch.
-pub fn examine(spec: &SourceSpec, source: Source, seconds: f64) -> (Vec<Finding>, Result<()>) {
-    let mut facts = Facts::of(&source.label);
+/// A board that was watched.
+#[derive(Debug)]
+pub struct Examined {
+    /// What was found.
+    pub found: Vec<Finding>,
+    /// The error that ended the watch.
+    pub heard: Result<()>,
+    /// Number of the USB host controller that it is on, the same for all that share it; none if it is on none.
+    pub bus: Option<usize>,
+}
+
+/// Watches a board for some seconds; it may share one of these controllers with others.
+pub fn examine(spec: &SourceSpec, source: Source, seconds: f64, buses: Buses) -> Examined {
+    let mut facts = Facts::of(&source.label, buses);
     let live = LiveArgs { seconds: Some(seconds), ..LiveArgs::of(spec.clone()) };
     let heard = watch::watch(&live, source, &mut facts);
-    (judge(&facts, env!("CARGO_PKG_VERSION"), &date::today()), heard)
+    let found = judge(&facts, env!("CARGO_PKG_VERSION"), &date::today());
+    Examined { found, heard, bus: facts.bus }
 }
 
 /// The worst of the findings.

@@ -1,7 +1,7 @@
 //! Observations of a board over some seconds.
 
 use anyhow::Result;
-use taxel::client::{Client, Event};
+use taxel::client::{Buses, Client, Event};
 use taxel::session::Show;
 use taxel_core::boot::Boot;
 use taxel_core::garment::Garment;
@@ -9,7 +9,7 @@ use taxel_core::selftest::Findings;
 use taxel_core::wire::{Health, Request};
 
 /// What was observed.
-#[derive(Debug, Default, Clone, PartialEq)]
+#[derive(Debug, Default, Clone)]
 pub struct Facts {
     /// The board is simulated.
     pub simulated: bool,
@@ -44,12 +44,16 @@ pub struct Facts {
     pub told: Vec<String>,
     /// A self-test was requested.
     pub asked: bool,
+    /// USB host controllers that the board may share with others.
+    pub buses: Buses,
+    /// Number of the one that it is on; none if it has told no start of a frame.
+    pub bus: Option<usize>,
 }
 
 impl Facts {
-    /// No observations yet, of the source with this label.
-    pub fn of(label: &str) -> Facts {
-        Facts { simulated: label.starts_with("sim:"), ..Facts::default() }
+    /// No observations yet, of the source with this label, which may share one of these controllers.
+    pub fn of(label: &str, buses: Buses) -> Facts {
+        Facts { simulated: label.starts_with("sim:"), buses, ..Facts::default() }
     }
 }
 
@@ -81,6 +85,7 @@ impl Show<anyhow::Error> for Facts {
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
+            client.share(self.buses.clone());
             client.request(&Request::SelfTest)?;
         }
         Ok(true)
@@ -91,6 +96,7 @@ impl Show<anyhow::Error> for Facts {
         self.images = [counts.frames, counts.thinned, counts.undecoded];
         self.lost = [counts.lost, counts.refused()];
         self.ill = client.ill().len();
+        self.bus = client.bus();
         if let Some(worn) = client.worn() {
             (self.taxels, self.calibration) = (worn.layout.taxels(), worn.calibration.clone());
         }

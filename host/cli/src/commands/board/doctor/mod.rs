@@ -5,7 +5,7 @@ mod facts;
 mod finding;
 mod judge;
 
-pub use command::{DoctorArgs, examine, first_cure, line, run, worst};
+pub use command::{DoctorArgs, Examined, examine, first_cure, line, run, worst};
 pub use facts::Facts;
 pub use finding::{Finding, Grade};
 pub use judge::judge;

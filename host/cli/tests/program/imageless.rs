@@ -1,0 +1,40 @@
+//! A board that sends no image, because its scene asks for none or its scan fails, ends a run of limited time.
+
+use super::answering_board::answering_board;
+use super::robot::folder;
+use crate::start::taxel;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::Instant;
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    Command::new(taxel()).current_dir(folder).args(args).stdin(Stdio::null()).output().unwrap()
+}
+
+#[test]
+fn a_run_of_limited_time_ends_without_images() {
+    let source = || format!("tcp:{}", answering_board(Instant::now(), None));
+    let folder = folder(
+        "imageless",
+        &format!("name = \"one\"\n[[boards]]\nname = \"a\"\nsource = \"{}\"\n", source()),
+    );
+    let [for_seconds, for_frames, doctor] = [source(), source(), source()];
+    let runs: [(&[&str], i32, &str); 4] = [
+        (&["live", "--source", &for_seconds, "--seconds", "1"], 0, ""),
+        (&["live", "--source", &for_frames, "--frames", "3"], 3, "no image came for 10 s"),
+        (&["doctor", "--source", &doctor, "--seconds", "1"], 3, "the scan fails"),
+        (&["robot", "live", "robot.toml", "--seconds", "1"], 0, ""),
+    ];
+    thread::scope(|scope| {
+        for (args, status, says) in runs {
+            let folder = &folder;
+            scope.spawn(move || {
+                let done = run(folder, args);
+                let said = String::from_utf8_lossy(&done.stderr) + String::from_utf8_lossy(&done.stdout);
+                assert_eq!(done.status.code(), Some(status), "{args:?}: {said}");
+                assert!(said.contains(says), "{args:?}: {said}");
+            });
+        }
+    });
+}
