@@ -1,7 +1,6 @@
-//! A board that answers all requests and sends no image. On a USB it tells the last start of a frame after each round
+//! A board that has been on for an hour, answers all requests and sends no image. On a USB it tells the last start of a frame after each round
 //! trip.
 
-use serde::ser::{Serialize, SerializeTuple, Serializer};
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::thread;
@@ -15,17 +14,8 @@ use taxel_core::wire::{
 
 /// Longest message of these boards.
 const LONGEST: usize = 8192;
-/// A report with its number.
-struct Numbered<'a>(u32, &'a [u8]);
-
-impl Serialize for Numbered<'_> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut tuple = to.serialize_tuple(1 + self.1.len())?;
-        tuple.serialize_element(&self.0)?;
-        self.1.iter().try_for_each(|byte| tuple.serialize_element(byte))?;
-        tuple.end()
-    }
-}
+/// Time for which they were on before anybody asked, us: an hour.
+const ON_US: u64 = 3_600_000_000;
 
 /// What a board says first.
 fn hello() -> Vec<u8> {
@@ -65,13 +55,13 @@ struct AnsweringBoard {
 
 impl AnsweringBoard {
     fn now_us(&self) -> u64 {
-        self.began.elapsed().as_micros() as u64
+        ON_US + self.began.elapsed().as_micros() as u64
     }
 
-    fn send(&mut self, report: &[u8]) {
+    fn send(&mut self, report: &Report<'_>) {
         let mut room = [0; frame_bound(LONGEST)];
         // Whoever has heard enough is gone.
-        _ = self.link.write_all(encode(&Numbered(self.seq, report), &mut room).unwrap());
+        _ = self.link.write_all(encode(&(self.seq, report), &mut room).unwrap());
         self.seq += 1;
     }
 
@@ -80,18 +70,21 @@ impl AnsweringBoard {
             let now_us = self.now_us();
             let [received, sent] = [Micros(now_us); 2];
             let sync = Report::Sync(SyncReport { token: *token, received, sent });
-            self.send(&postcard::to_allocvec(&sync).unwrap());
+            self.send(&sync);
             let Some(first) = self.first else { return };
             let (frame, noticed) = (now_us / 1000, Micros(now_us / 1000 * 1000));
             let number = ((first + frame) % 2048) as u16;
             let start = Report::StartOfFrame(StartOfFrame { number, noticed, late_us: 1 });
-            return self.send(&postcard::to_allocvec(&start).unwrap());
+            return self.send(&start);
         }
         if matches!(request, Request::Start) {
-            self.send(hello);
+            let Report::Hello(mut hello) = postcard::from_bytes(hello).unwrap() else { panic!("no Hello") };
+            let now = postcard::to_allocvec(&Micros(self.now_us())).unwrap();
+            hello.clock = &now;
+            self.send(&Report::Hello(hello));
         }
         let answer = Report::Answer(Answer { request: request.number(), refusal: None });
-        self.send(&postcard::to_allocvec(&answer).unwrap());
+        self.send(&answer);
     }
 
     fn serve(mut self, hello: &[u8]) {

@@ -3,6 +3,7 @@
 use super::answering_board::answering_board;
 use super::robot::folder;
 use crate::start::taxel;
+use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
@@ -19,11 +20,17 @@ fn a_run_of_limited_time_ends_without_images() {
         "imageless",
         &format!("name = \"one\"\n[[boards]]\nname = \"a\"\nsource = \"{}\"\n", source()),
     );
-    let [for_seconds, for_frames, doctor] = [source(), source(), source()];
-    let runs: [(&[&str], i32, &str); 4] = [
+    let [for_seconds, for_frames, doctor, recorded] = [source(), source(), source(), source()];
+    _ = std::fs::remove_file(folder.join("r.mcap"));
+    let runs: [(&[&str], i32, &str); 5] = [
         (&["live", "--source", &for_seconds, "--seconds", "1"], 0, ""),
         (&["live", "--source", &for_frames, "--frames", "3"], 3, "no image came for 10 s"),
         (&["doctor", "--source", &doctor, "--seconds", "1"], 3, "the scan fails"),
+        (
+            &["record", "--source", &recorded, "--garment", "reference", "--seconds", "1", "-o", "r.mcap"],
+            0,
+            "0 frames",
+        ),
         (&["robot", "live", "robot.toml", "--seconds", "1"], 0, ""),
     ];
     thread::scope(|scope| {
@@ -37,4 +44,7 @@ fn a_run_of_limited_time_ends_without_images() {
             });
         }
     });
+    let info = run(&folder, &["info", "r.mcap", "--json"]);
+    let told: Value = serde_json::from_slice(&info.stdout).unwrap();
+    assert!(told["seconds"].as_f64().is_some_and(|seconds| seconds < 60.0), "{told}");
 }

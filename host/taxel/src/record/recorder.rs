@@ -150,7 +150,8 @@ impl Recorder {
         self.standing.take(client, event);
         self.rotate(client, event, stamp)?;
         self.tally[0] = Tally::of(client.counts());
-        self.counters.take(client, event, self.passed.until(stamp.board_us));
+        let passed_us = if self.stamps.is_known() { self.passed.until(stamp.board_us) } else { 0 };
+        self.counters.take(client, event, passed_us);
         let Some(file) = &mut self.file else { return Ok(()) };
         if *event == Event::Hello && client.worn() != self.worn.as_ref() {
             self.worn = client.worn().cloned();

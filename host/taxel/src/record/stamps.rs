@@ -11,7 +11,7 @@ pub const NS: u64 = 1000;
 /// Times of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stamp {
-    /// The board's time, us.
+    /// The board's time, us; 0 before it has told any.
     pub board_us: u64,
     /// The host's time of the same moment, us since 1970.
     pub host_us: u64,
@@ -46,7 +46,8 @@ pub struct Stamps {
     time: SteadyTime,
     /// A board time, and the host's time when it was first received.
     heard: Option<(u64, u64)>,
-    last: u64,
+    /// The board's time of the last event; none before it has told any.
+    last: Option<u64>,
 }
 
 impl Stamps {
@@ -57,20 +58,28 @@ impl Stamps {
 
     /// Starts by a time that others go by, too.
     pub fn by(time: SteadyTime) -> Stamps {
-        Stamps { time, heard: None, last: 0 }
+        Stamps { time, heard: None, last: None }
     }
 
     /// Stamp of an event: by the clock of a board that has answered a `Sync`; else by the arrival of the
-    /// first message, and the board time since. An event without a time has that of the one before.
+    /// first message, and the board time since. An event without a time has that of the one before, or that of its
+    /// arrival.
     pub fn of(&mut self, client: &Client, event: &Event) -> Stamp {
-        let board_us = time_of(client, event).unwrap_or(self.last);
-        self.last = board_us;
-        self.at(client, board_us)
+        self.last = time_of(client, event).or(self.last);
+        self.now(client)
+    }
+
+    /// True once the board has told a time.
+    pub fn is_known(&self) -> bool {
+        self.last.is_some()
     }
 
     /// Stamp of an action of the host: that of the last message.
     pub fn now(&mut self, client: &Client) -> Stamp {
-        self.at(client, self.last)
+        let Some(board_us) = self.last else {
+            return Stamp { board_us: 0, host_us: self.time.now_us(), uncertainty_us: None };
+        };
+        self.at(client, board_us)
     }
 
     /// Stamp of a time of the board, us, which may be before that of the last message.
@@ -139,4 +148,24 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         | Event::Refused(_) => return None,
     };
     Some(time.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use taxel_core::wire::SyncReport;
+
+    #[test]
+    fn what_is_said_before_the_board_has_told_its_time_is_not_from_its_start() {
+        let (mut stamps, client) = (Stamps::start(), Client::new());
+        let asked = stamps.now(&client);
+        let answered = stamps.of(&client, &Event::Answer { request: 0, refusal: None });
+        assert!(!stamps.is_known());
+        // The board has been on for an hour.
+        let hour = Micros(3_600_000_000);
+        let told = stamps.of(&client, &Event::Sync(SyncReport { token: 1, received: hour, sent: hour }));
+        assert!(stamps.is_known());
+        assert_eq!([asked, answered, told].map(|stamp| stamp.board_us), [0, 0, hour.0]);
+        assert!(told.host_us - asked.host_us < 60_000_000, "{asked:?} {told:?}");
+    }
 }
