@@ -59,7 +59,8 @@ const OFFERED: &str = "Examples:
 pub(super) const RECORD: &str = "Examples:
   taxel record -o touch.mcap
   taxel record --source sim:pat -o pat.mcap --ros2
-  taxel record -o day.mcap --rotate 10min";
+  taxel record -o day.mcap --rotate 10min
+  taxel record -o touch.mcap --view --open";
 
 pub(super) const INFO: &str = "Examples:
   taxel info touch.mcap

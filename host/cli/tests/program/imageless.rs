@@ -20,9 +20,9 @@ fn a_run_of_limited_time_ends_without_images() {
         "imageless",
         &format!("name = \"one\"\n[[boards]]\nname = \"a\"\nsource = \"{}\"\n", source()),
     );
-    let [for_seconds, for_frames, doctor, recorded] = [source(), source(), source(), source()];
+    let [for_seconds, for_frames, doctor, recorded, why] = [source(), source(), source(), source(), source()];
     _ = std::fs::remove_file(folder.join("r.mcap"));
-    let runs: [(&[&str], i32, &str); 5] = [
+    let runs: [(&[&str], i32, &str); 6] = [
         (&["live", "--source", &for_seconds, "--seconds", "1"], 0, ""),
         (&["live", "--source", &for_frames, "--frames", "3"], 3, "no image came for 10 s"),
         (&["doctor", "--source", &doctor, "--seconds", "1"], 3, "the scan fails"),
@@ -31,6 +31,7 @@ fn a_run_of_limited_time_ends_without_images() {
             0,
             "0 frames",
         ),
+        (&["fcm", "why", "--source", &why, "--at", "1"], 1, "no intention was reported in the first 1 s"),
         (&["robot", "live", "robot.toml", "--seconds", "1"], 0, ""),
     ];
     thread::scope(|scope| {

@@ -28,6 +28,7 @@ mod own_garment;
 mod page_types;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
+mod record_view;
 mod recordings;
 mod reference;
 mod repair;

@@ -29,14 +29,15 @@ fn robot(hand: &Socket) -> String {
 }
 
 /// The program, and the port of its pages.
-struct Viewed(Child, u16);
+pub struct Viewed(pub Child, u16);
 
 impl Viewed {
     fn start(name: &str, robot: &str) -> Viewed {
-        Viewed::run(&folder(name, robot), &["robot", "view", "robot.toml"])
+        Viewed::run(&folder(name, robot), &["robot", "view", "robot.toml"], "robot two")
     }
 
-    fn run(folder: &Path, args: &[&str]) -> Viewed {
+    /// Runs the program in a folder; its first line tells what it shows.
+    pub fn run(folder: &Path, args: &[&str], what: &str) -> Viewed {
         let mut program = Command::new(taxel())
             .current_dir(folder)
             .args(args)
@@ -49,11 +50,11 @@ impl Viewed {
         BufReader::new(program.stdout.take().unwrap()).read_line(&mut line).unwrap();
         let port = line.split("127.0.0.1:").nth(1).and_then(|rest| rest.split('/').next()).unwrap();
         let port = port.parse().unwrap();
-        assert_eq!(line, format!("robot two at http://127.0.0.1:{port}/ (Ctrl-C ends)\n"));
+        assert_eq!(line, format!("{what} at http://127.0.0.1:{port}/ (Ctrl-C ends)\n"));
         Viewed(program, port)
     }
 
-    fn page(&self, path: &str) -> WebSocket<TcpStream> {
+    pub fn page(&self, path: &str) -> WebSocket<TcpStream> {
         let stream = TcpStream::connect(("127.0.0.1", self.1)).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let request = format!("ws://127.0.0.1:{}{path}", self.1).into_client_request().unwrap();
@@ -77,7 +78,7 @@ impl Drop for Viewed {
 }
 
 /// Reads until a line of this type meets the condition; fails after a while.
-fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
+pub fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
     let (until, mut last) = (Instant::now() + PATIENCE, Value::Null);
     while Instant::now() < until {
         let Message::Text(text) = page.read().unwrap() else { continue };
@@ -181,11 +182,11 @@ const SEWN: &str = "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim
     [[seams]]\na = { board = \"torso\", panel = \"left arm\", side = \"bottom\" }\n\
     b = { board = \"hand\", panel = \"mat\", side = \"top\" }\nlength = 16\n";
 
-/// What a recording holds of its boards, by topic: the bytes of the wire, and the JSON without the host's times.
-fn held(path: &Path) -> Vec<(String, Vec<Vec<u8>>)> {
+/// What a recording holds below these topics, by topic: the bytes of the wire, and the JSON without the host's times.
+pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
     let overview = Overview::of(path).unwrap();
     let topics = overview.channels.iter().map(|info| info.channel.topic.clone());
-    let own = topics.filter(|topic| topic.starts_with("/taxel/torso/") || topic.starts_with("/taxel/hand/"));
+    let own = topics.filter(|topic| below.iter().any(|below| topic.starts_with(below)));
     let mut all: Vec<_> = own
         .map(|topic| {
             let (mut messages, mut told) = (Messages::of_topic(path, &topic).unwrap(), Vec::new());
@@ -212,7 +213,7 @@ fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
     let record = |file: &'static str| {
         ["robot", "record", "robot.toml", "--realtime", "--seconds", "3", "--force", "-o", file]
     };
-    let mut viewed = Viewed::run(&folder, &[&record("watched.mcap")[..], &["--view"]].concat());
+    let mut viewed = Viewed::run(&folder, &[&record("watched.mcap")[..], &["--view"]].concat(), "robot two");
     let [mut torso, mut hand, _asleep] =
         ["/boards/torso/socket", "/boards/hand/socket", "/boards/torso/socket"].map(|path| viewed.page(path));
     torso.send(Message::text("{\"hover\": 9}")).unwrap();
@@ -228,7 +229,8 @@ fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
     assert!(viewed.0.wait().unwrap().success());
     let alone = Command::new(taxel()).current_dir(&folder).args(record("alone.mcap")).output().unwrap();
     assert!(alone.status.success());
-    let [watched, alone] = ["watched.mcap", "alone.mcap"].map(|file| held(&folder.join(file)));
+    let [watched, alone] = ["watched.mcap", "alone.mcap"]
+        .map(|file| held(&folder.join(file), &["/taxel/torso/", "/taxel/hand/"]));
     assert_eq!(
         watched.iter().map(|(topic, all)| (topic, all.len())).collect::<Vec<_>>(),
         alone.iter().map(|(topic, all)| (topic, all.len())).collect::<Vec<_>>()

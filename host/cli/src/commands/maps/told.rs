@@ -53,7 +53,9 @@ pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
         eprintln!("{label}: waiting for {}.", if at.is_some() { "the time" } else { "an intention" });
     }
     let mut ear = Ear { at, began: None, now: Micros(0), leading: Leading::None, found: None, done: false };
-    watch::watch(&LiveArgs::on(board), source, &mut ear)?;
+    // The report of a moment comes after its image; without images the limit ends the wait.
+    let seconds = at.map(|at| at + 1.0);
+    watch::watch(&LiveArgs { seconds, ..LiveArgs::on(board) }, source, &mut ear)?;
     match (ear.found, at) {
         (Some(told), _) => Ok(told),
         (None, None) => {

@@ -8,3 +8,4 @@ pub mod record;
 pub mod repair;
 pub mod replay;
 pub mod report;
+mod viewed;

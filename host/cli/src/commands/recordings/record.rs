@@ -1,13 +1,20 @@
 //! The command `taxel record`.
 
+use super::viewed::ViewedRecorder;
+use crate::commands::views::view::{announce, bind, wearer};
 use crate::fault::Fault;
+use crate::folding::Folding;
+use crate::on_robot::Wearer;
+use crate::view::{PageHub, Tape, Viewer};
 use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
 use anyhow::{Error, Result, bail};
 use clap::Args;
+use std::net::TcpListener;
 use std::path::PathBuf;
+use std::sync::Arc;
 use taxel::body;
 use taxel::record::{Origin, Plan, Recorder, Rotate};
-use taxel::source::SourceOptions;
+use taxel::source::{Source, SourceOptions};
 
 /// Arguments of `taxel record`.
 #[derive(Debug, Clone, Args)]
@@ -40,6 +47,41 @@ pub struct RecordArgs {
     /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
+    /// Show the board in the browser meanwhile, as `taxel view` does
+    #[arg(long)]
+    pub view: bool,
+    /// With --view: port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
+    #[arg(long, value_name = "N", requires = "view")]
+    pub port: Option<u16>,
+    /// With --view: open the page in the browser
+    #[arg(long, requires = "view")]
+    pub open: bool,
+}
+
+/// What the pages show beside the board's stream.
+struct Pages {
+    listener: TcpListener,
+    wearer: Option<Wearer>,
+    folding: Option<Folding>,
+}
+
+impl Pages {
+    fn prepare(args: &RecordArgs) -> Result<Pages> {
+        Ok(Pages {
+            listener: bind(args.port)?,
+            wearer: wearer(&args.board, "")?,
+            folding: args.board.folds.as_deref().map(Folding::read).transpose()?,
+        })
+    }
+
+    /// Serves them, and shows them what is recorded.
+    fn open(self, source: &Source, origin: Origin, open: bool) -> Result<(Viewer, Arc<PageHub>)> {
+        let hub = Arc::new(PageHub::default());
+        hub.tape(Tape::Live(Arc::new(origin)));
+        self.wearer.into_iter().for_each(|wearer| hub.wear(wearer));
+        announce(&source.label, self.listener, hub.clone(), open)?;
+        Ok((Viewer::new(source, hub.clone()).folding(self.folding).beside_recording(), hub))
+    }
 }
 
 /// Runs the command.
@@ -55,7 +97,10 @@ pub fn run(args: RecordArgs) -> Result<()> {
     if args.raw && !source.listens {
         bail!(Fault::usage(format!("--raw: {} is a recording, whose board does not listen", source.label)));
     }
+    let pages = args.view.then(|| Pages::prepare(&args)).transpose()?;
     stop::catch()?;
+    let origin =
+        Origin { label: source.label.clone(), counts_per_newton: source.counts_per_newton, calibration };
     let mut recorder = Recorder::create(Plan {
         path: args.output,
         rotate: args.rotate,
@@ -63,18 +108,20 @@ pub fn run(args: RecordArgs) -> Result<()> {
         body: args.board.body.as_deref().map(body::read).transpose()?,
         force: args.force.force,
         inputs: args.board.files(),
-        origin: Origin {
-            label: source.label.clone(),
-            counts_per_newton: source.counts_per_newton,
-            calibration,
-        },
+        origin: origin.clone(),
         raw: args.raw,
     })?;
     let label = source.label.clone();
     let unlimited = args.frames.is_none() && args.seconds.is_none();
     recorder.expect(args.seconds.unwrap_or(0.0));
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
-    let done = watch::watch(&watched, source, &mut recorder);
+    let pages = pages.map(|pages| pages.open(&source, origin, args.open)).transpose()?;
+    let done = match pages {
+        Some((viewer, hub)) => {
+            watch::watch(&watched, source, &mut ViewedRecorder { recorder: &mut recorder, viewer, hub })
+        }
+        None => watch::watch(&watched, source, &mut recorder),
+    };
     // The recording is completed even if the source fails.
     let ended = recorder.finish();
     eprintln!("{}", recorder.progress());

@@ -57,10 +57,14 @@ impl ViewArgs {
 
     /// The robot that wears the garment; none without a body.
     fn wearer(&self) -> Result<Option<Wearer>> {
-        let joints = self.joints.as_deref().unwrap_or_default();
-        let read = |body: &String| Wearer::read(body, self.board.robot.as_deref(), joints);
-        self.board.body.as_ref().map(read).transpose()
+        wearer(&self.board, self.joints.as_deref().unwrap_or_default())
     }
+}
+
+/// The robot that wears a board's garment, with its joints at these positions; none without a body.
+pub fn wearer(board: &BoardArgs, joints: &str) -> Result<Option<Wearer>> {
+    let read = |body: &String| Wearer::read(body, board.robot.as_deref(), joints);
+    board.body.as_ref().map(read).transpose()
 }
 
 /// Runs the command.
