@@ -95,25 +95,33 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         let folds = self.folds;
         let folded = folds.holds_any(first..first + usize::from(area.columns));
         if !touched && !folded && !self.images.rows.contains(area.first_row.saturating_add(row)) {
-            return self.follow_row(area, row, common, |_, _| beside + OWN);
+            return self.follow_row(area, row, common, |_, _| beside + OWN, |_| false);
         }
         let fast = consensus.was_fast(panel);
-        self.follow_row(area, row, common, |column, shown| {
+        let is_held = |column: u16| folded && folds.holds(first + usize::from(column));
+        let own = |column: u16, shown: u16| {
             let least = if fast { shown } else { u16::MAX };
-            let is_held = folded && folds.holds(first + usize::from(column));
             let own = if shown == 0 { OWN } else { 0 };
             match touched && feedback.presses(panel, row, column, least) {
-                _ if is_held => 0,
+                _ if is_held(column) => 0,
                 true => own,
                 false => beside + own,
             }
-        });
+        };
+        self.follow_row(area, row, common, own, is_held);
     }
 
     /// Moves the baselines of a row by `common`, and from there towards each taxel's code by at most
-    /// `own(column, shown pressure)`.
+    /// `own(column, shown pressure)`. `is_held(column)`: the garment's fold presses there.
     #[inline(always)]
-    fn follow_row(&mut self, area: &Area, row: u16, common: i32, own: impl Fn(u16, u16) -> i32) {
+    fn follow_row(
+        &mut self,
+        area: &Area,
+        row: u16,
+        common: i32,
+        own: impl Fn(u16, u16) -> i32,
+        is_held: impl Fn(u16) -> bool,
+    ) {
         let Drift { calibration, images, sampled, terms, .. } = self;
         let silent = terms.silent();
         let TaxelCalibration { baseline, gain, limit, .. } = &mut **calibration;
@@ -133,8 +141,9 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
             }
             *rest = now as u16;
             *limit = match *limit {
-                // Saturated: the true limit may lie beyond the range, so it is computed again. A fold's is
-                // soon computed again in any case.
+                // Saturated: the true limit may lie beyond the range, so it is computed again. That of a taxel
+                // on which a fold presses lies further, and is computed again by its fold.
+                same if same == silent && is_held(column) => same,
                 same if same == silent => terms.limit(*rest, terms.margin(*gain)),
                 limit => (i32::from(limit) + step).clamp(0, 0xffff) as u16,
             };

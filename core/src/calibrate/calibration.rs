@@ -1,5 +1,6 @@
 //! Baseline, gain and limit of each taxel: an inactive taxel is only compared with its limit.
 
+use super::levels::{LevelPairs, Limits};
 use super::scale::scale;
 use super::terms::LimitTerms;
 use crate::format::Code;
@@ -85,49 +86,22 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
 
     /// Sets the limits of taxels on which so many counts press that are no touch; other numbers than those of
     /// taxels are left out.
-    pub fn set_levels(&mut self, taxels: &[[u16; 4]], levels: &[[u16; 4]], terms: LimitTerms) {
+    pub fn set_levels(&mut self, taxels: &[[u16; 4]], levels: &[LevelPairs], terms: LimitTerms) {
+        let TaxelCalibration { baseline: rest, gain, limit, .. } = self;
+        let mut limits = Limits { rest, gain, limit };
         if terms.is_falling() {
-            self.set_levels_of::<true>(taxels, levels, terms);
+            limits.set::<true>(taxels, levels, terms);
         } else {
-            self.set_levels_of::<false>(taxels, levels, terms);
+            limits.set::<false>(taxels, levels, terms);
         }
     }
 
-    /// [`TaxelCalibration::set_levels`] in one direction.
-    #[inline(never)] // own registers
-    fn set_levels_of<const FALLING: bool>(
-        &mut self,
-        taxels: &[[u16; 4]],
-        levels: &[[u16; 4]],
-        terms: LimitTerms,
-    ) {
-        let of_unity = u32::from(terms.margin_of_unity());
-        for (taxel, level) in taxels.as_flattened().iter().zip(levels.as_flattened()) {
-            let taxel = usize::from(*taxel);
-            let calibration =
-                self.baseline.get(taxel).zip(self.gain.get(taxel)).zip(self.limit.get_mut(taxel));
-            let Some(((rest, gain), limit)) = calibration else { continue };
-            *limit = match *gain {
-                // The same, without a division.
-                UNITY => {
-                    let (rest, margin) = (u32::from(*rest), of_unity + u32::from(*level));
-                    let limit = if FALLING { rest.saturating_sub(margin) } else { rest + margin };
-                    u16::try_from(limit).unwrap_or(u16::MAX)
-                }
-                gain => terms.limit(*rest, terms.beyond(*level).margin(gain)),
-            };
-        }
-    }
-
-    /// Recomputes the limit of one taxel, whose calibration has changed.
-    pub fn set_limit(&mut self, taxel: usize) {
-        let calibration = self.baseline.get(taxel).zip(self.gain.get(taxel));
-        if let (Some(terms), Some((rest, gain)), Some(limit)) =
-            (self.limits_for, calibration, self.limit.get_mut(taxel))
-        {
-            *limit = terms.limit(*rest, terms.margin(*gain));
-            self.unity &= is_unity(gain);
-        }
+    /// Recomputes the limit of one taxel, whose calibration has changed, and on which so many counts press that
+    /// are no touch.
+    pub fn set_limit(&mut self, taxel: usize, level: u16) {
+        let (Some(terms), Some(gain)) = (self.limits_for, self.gain.get(taxel)) else { return };
+        self.unity &= is_unity(gain);
+        self.set_levels(&[[taxel as u16, u16::MAX, u16::MAX, u16::MAX]], &[[level.into(), 0]], terms);
     }
 
     /// Last code of a taxel with less than `level` counts of pressure; the end of the range for a silenced
@@ -139,6 +113,23 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
             let margin = if *gain == UNITY { terms.margin_of_unity() } else { terms.margin(*gain) };
             terms.limit(*rest, margin)
         })
+    }
+
+    /// Pressures of four taxels that follow each other, counts; none if one of them has another gain than 1.
+    #[inline(always)] // M0+: called for taxels that fold
+    pub fn pressures(&self, first: usize, codes: &[Code], falling: bool) -> Option<[u16; 4]> {
+        let codes: &[Code; 4] = codes.get(first..)?.first_chunk()?;
+        let rest: &[u16; 4] = self.baseline.get(first..)?.first_chunk()?;
+        let gain: &[u16; 4] = self.gain.get(first..)?.first_chunk()?;
+        if gain.iter().any(|gain| *gain != UNITY) {
+            return None;
+        }
+        let mut pressures = [0; 4];
+        for ((pressure, code), rest) in pressures.iter_mut().zip(codes).zip(rest) {
+            let (more, less) = if falling { (*rest, code.0) } else { (code.0, *rest) };
+            *pressure = more.saturating_sub(less);
+        }
+        Some(pressures)
     }
 
     /// Pressure of a taxel at a code, counts.

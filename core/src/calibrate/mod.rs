@@ -2,7 +2,8 @@
 //!
 //! [`calibration`] holds baseline, gain and limit of each taxel; the [`terms`] say how far a limit is from
 //! its baseline. [`dispatch`] calibrates the taxels of a [`panel`] beyond their limits, in [`chunks`] on any
-//! machine and in whole rows by SIMD, and [`marks`] where they are. [`scale`] is the formula. [`sampled`] is
+//! machine and in whole rows by SIMD, and [`marks`] where they are. [`levels`] sets the limits of taxels on which
+//! folds press. [`scale`] is the formula. [`sampled`] is
 //! the input of a frame, [`certificate`] names the source of the gains.
 
 #[cfg(target_pointer_width = "64")]
@@ -11,6 +12,7 @@ pub(crate) mod calibration;
 pub(crate) mod certificate;
 pub(crate) mod chunks;
 pub(crate) mod dispatch;
+pub(crate) mod levels;
 pub(crate) mod marks;
 pub(crate) mod panel;
 pub(crate) mod sampled;

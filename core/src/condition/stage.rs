@@ -7,6 +7,7 @@ use crate::baseline::progress::Tare;
 use crate::baseline::touched::Touched;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::dispatch::calibrate;
+use crate::calibrate::levels::consecutive;
 use crate::calibrate::sampled::Sampled;
 use crate::calibrate::terms::LimitTerms;
 use crate::filter::kinds::Filter;
@@ -111,10 +112,7 @@ impl Condition {
             images.clear_left(layout, &before);
         }
         if images.active != 0 {
-            // A taxel that presses is beyond all that its fold may press.
-            folds.subtract(&mut images.calibrated, |taxel| {
-                codes.get(taxel).map_or(0, |code| calibration.pressure(taxel, *code, falling))
-            });
+            folds.subtract(&mut images.calibrated, calibration.margin_of_unity().is_some());
         }
         for (_, area) in areas_of(layout, images.active) {
             filter.apply(images, points, area);
@@ -137,13 +135,35 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     let touched = Touched::of(layout, feedback, BESIDE);
     let is_on = |panel| sampled.panels >> panel & 1 == 1;
     let all_read = (0..layout.areas().len()).all(is_on);
-    folds.learn(|taxel| {
-        let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
-        // M0+: the place needs a division.
-        let is_read = || all_read || layout.place(taxel).is_some_and(|place| is_on(place.panel.into()));
-        let code = sampled.codes.get(taxel).filter(|_| is_quiet && is_read())?;
-        Some(calibration.pressure(taxel, *code, sampled.falling))
+    let Sampled { codes, falling, .. } = *sampled;
+    // M0+: the place needs a division.
+    let is_read = |taxel| all_read || layout.place(taxel).is_some_and(|place| is_on(place.panel.into()));
+    folds.learn(|taxels| {
+        if let Some(first) = consecutive(taxels).filter(|_| all_read)
+            && let Some([0, 0, 0, 0]) = images.calibrated.get(first..first + 4)
+            && let Some(pressures) = calibration.pressures(first, codes, falling)
+        {
+            return (!touched.four(first) & 0xF, pressures);
+        }
+        each_told(taxels, |taxel| {
+            let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
+            let code = codes.get(taxel).filter(|_| is_quiet && is_read(taxel))?;
+            Some(calibration.pressure(taxel, *code, falling))
+        })
     });
+}
+
+/// Pressures of those of four taxels that tell them, and a bit for each of these.
+#[inline(never)] // few fours are apart
+fn each_told(taxels: &[u16; 4], tell: impl Fn(usize) -> Option<u16>) -> (u32, [u16; 4]) {
+    let (mut told, mut pressures) = (0, [0; 4]);
+    for (at, (taxel, to)) in taxels.iter().zip(&mut pressures).enumerate() {
+        if let Some(pressure) = tell(usize::from(*taxel)) {
+            *to = pressure;
+            told |= 1 << at;
+        }
+    }
+    (told, pressures)
 }
 
 #[cfg(test)]
@@ -314,6 +334,58 @@ mod tests {
             let rest = run(&mut state, &codes, &Feedback::new(), 30);
             assert_eq!((rest[10 * 16 + 5], rest[9 * 16 + 4], rest[0]), (7, 27, 7));
         }
+    }
+
+    /// The first eight taxels fold at an elbow, and press 200 counts, 60 more or less.
+    #[cfg(feature = "folds")]
+    fn folding(layout: &Layout) -> crate::fold::FoldTable<'static> {
+        use crate::fold::{FoldCell, FoldRecord, FoldTable, FoldTableParts, NO_JOINT};
+        let fold = FoldRecord {
+            joints: [0, NO_JOINT],
+            knots: [1, 1],
+            first: [0, 0],
+            step: [900, 0],
+            play: [0, 0],
+            taxels: 8,
+            zero: 0,
+        };
+        let parts = FoldTableParts {
+            joints: &["elbow"],
+            folds: &[fold],
+            taxels: &[0, 1, 2, 3, 4, 5, 6, 7],
+            cells: &[FoldCell { mean: 50, spread: 15, days: 0 }; 8],
+            unit: 4,
+        };
+        let length = crate::fold::fold_table_length(&[fold]);
+        let words: &'static mut [u32] = vec![0; length.div_ceil(4)].leak();
+        let bytes: &'static mut [u8] = &mut bytemuck::cast_slice_mut(words)[..length];
+        crate::fold::write_fold_table(&parts, layout, bytes).unwrap();
+        FoldTable::check(bytes, layout).unwrap()
+    }
+
+    #[cfg(feature = "folds")]
+    #[test]
+    fn drift_makes_no_touch_of_a_fold_whose_limit_lies_beyond_the_range() {
+        use crate::fold::{JointAngle, Posture};
+        let (condition, layout, mut state) = rig(plain(), 250);
+        let joints = [crate::format::name("elbow")];
+        state.wear(Some(folding(&layout)), &joints);
+        let none = Feedback::<4>::new();
+        let mut codes = vec![Code(250); 2048];
+        state.tare(1);
+        condition.process(&mut state, &layout, &frame(&codes, true, 0xf), &none);
+        // It presses 240 counts, and all taxels drift.
+        codes.fill(Code(270));
+        codes[..8].fill(Code(30));
+        for number in 1..600 {
+            let now = Micros(number * 5_128);
+            let posture = Posture { joints: [JointAngle::default()].into_iter().collect() };
+            state.posture_mut().accept(&posture, &joints, now).unwrap();
+            let sampled = Sampled { codes: &codes, falling: true, panels: 0xf, now };
+            let image = condition.process(&mut state, &layout, &sampled, &none);
+            assert!(image.values.iter().all(|value| *value == 0), "{number}: {:?}", &image.values[..8]);
+        }
+        assert_eq!(state.baseline().unwrap()[..9], [270; 9]);
     }
 
     #[test]

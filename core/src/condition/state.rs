@@ -81,7 +81,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     pub fn set_gain(&mut self, taxel: usize, gain: u16) -> bool {
         let Some(held) = self.calibration.gain.get_mut(taxel) else { return false };
         *held = gain;
-        self.calibration.set_limit(taxel);
+        self.calibration.set_limit(taxel, self.folds.level(taxel));
         true
     }
 
@@ -95,7 +95,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         *held = rest.0;
         self.tracking.progress.mark_tared();
         self.tracking.consensus.forget();
-        self.calibration.set_limit(taxel);
+        self.calibration.set_limit(taxel, self.folds.level(taxel));
         true
     }
 

@@ -14,7 +14,6 @@ use crate::segment::config::{ContactConfig, NO_SLIP};
 use crate::segment::labeller::Labeller;
 use crate::segment::run::Run;
 use crate::segment::seams::Joins;
-use crate::segment::union_find::Label;
 use crate::track::assign::Matching;
 use crate::track::motion::Trail;
 use crate::track::slot::Slot;
@@ -27,6 +26,13 @@ pub struct Contacts {
     config: ContactConfig,
     /// Number of forms measured in a frame. Not part of a scene.
     pub forms: Forms,
+}
+
+impl PressedRun<'_> {
+    /// Numbers of the taxels from its first column to its last one.
+    pub fn taxels(&self) -> Range<usize> {
+        self.first..self.first + usize::from(self.run.right - self.run.left) + 1
+    }
 }
 
 /// State and work space of the stage, for at most CONTACTS contacts, RUNS runs and LABELS labels
@@ -48,8 +54,8 @@ pub(crate) struct PressedRun<'a> {
     pub contact: usize,
     /// Index of the panel.
     pub panel: u8,
-    /// Numbers of the taxels from its first column to its last one.
-    pub taxels: Range<usize>,
+    /// Number of its first taxel.
+    pub first: usize,
     /// The run.
     pub run: &'a Run,
 }
@@ -152,19 +158,26 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         })
     }
 
-    /// The runs of the last frame's contacts, in the order of rows.
-    pub(crate) fn pressed<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = PressedRun<'a>> {
+    /// Hands over the runs of the last frame's contacts, in the order of rows.
+    #[inline(always)] // M0+: what a panel has in common stays in registers
+    pub(crate) fn each_pressed(&self, layout: &Layout, mut take: impl FnMut(PressedRun<'_>)) {
         let contacts = self.tracks.contacts_of_components();
-        self.labeller.runs.iter().filter_map(move |run| {
-            let Label { contact, panel, .. } = *self.labeller.labels.get(usize::from(run.label))?;
-            // NONE, if it is of no component.
-            let contact = usize::from(contacts.get(usize::from(contact)).copied().flatten()?);
-            let area = layout.areas().get(usize::from(panel))?;
-            let row = usize::from(run.row.checked_sub(area.first_row)?);
-            let first = usize::from(area.base) + row * usize::from(area.columns) + usize::from(run.left);
-            let taxels = first..first + usize::from(run.right - run.left) + 1;
-            Some(PressedRun { contact, panel, taxels, run })
-        })
+        let mut runs = self.labeller.runs.iter();
+        let mut next = runs.next();
+        for (panel, area) in (0..).zip(layout.areas()) {
+            let end = area.first_row.saturating_add(area.rows);
+            let base = usize::from(area.base);
+            while let Some(run) = next.filter(|run| run.row < end) {
+                next = runs.next();
+                let Some(label) = self.labeller.labels.get(usize::from(run.label)) else { continue };
+                // NONE, if it is of no component.
+                let contact = contacts.get(usize::from(label.contact)).copied().flatten();
+                let Some(contact) = contact.map(usize::from) else { continue };
+                let row = usize::from(run.row.wrapping_sub(area.first_row));
+                let first = base + row * usize::from(area.columns) + usize::from(run.left);
+                take(PressedRun { contact, panel, first, run });
+            }
+        }
     }
 
     /// Age of the forms of the last frame's contacts, frames, in the order of their onset.

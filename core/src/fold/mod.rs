@@ -7,7 +7,7 @@
 //! | output | expected pressure and doubt of each of these taxels, counts, see [`FoldState`] |
 //! | saturation | an expectation ends at 255 of the table's units, a correction at 127 |
 //! | latency | 20 ms: all taxels that fold are renewed in turn in this time |
-//! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 10,192 bytes |
+//! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 10,704 bytes |
 //! | M0+ cycles | row `folds` of `docs/bench/cycles.txt` |
 //!
 //! The table has a *fold* for each joint, or pair of joints, that folds the garment: its taxels, and for each
@@ -31,6 +31,7 @@
 
 mod bend;
 mod lanes;
+mod lesson;
 mod posture;
 mod record;
 mod stage;

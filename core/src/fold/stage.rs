@@ -1,11 +1,13 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::Bend;
-use super::lanes::{LaneSums, WHOLE, ZERO, byte, set_byte, summed, whole_bytes, zeros};
+use super::lanes::{LaneSums, WHOLE, ZERO, byte, summed, whole_bytes, zeros};
+use super::lesson::{Lesson, MOST_PASSES};
 use super::posture::PostureState;
 use super::record::FoldRecord;
 use super::table::{FoldStart, FoldTable};
 use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
+use crate::calibrate::levels::LevelPairs;
 use crate::capacity::TAXELS;
 use crate::format::Micros;
 #[cfg(feature = "folds")]
@@ -23,8 +25,6 @@ const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0
 const KNOWN: usize = if cfg!(feature = "folds") { JOINTS } else { 0 };
 /// Quads that are renewed at once.
 const AT_ONCE: usize = 16;
-/// Most days' worth of comparisons at a knot that count: a correction then moves by an eighth.
-const MOST_PASSES: u8 = 7;
 
 /// Sums of what is expected at the present posture.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,6 +63,8 @@ pub struct FoldState {
     passes: [u8; KNOTS],
     /// Expectations and doubts of four taxels each, in units of the table.
     felt: [[u32; 2]; FOLDED / 4],
+    /// The doubts that are part of the levels of four taxels each: all but those of a touch that was there.
+    raised: [u32; FOLDED / 4],
     /// A bit for each taxel of which something is expected, or that is in doubt.
     held: [u32; WORDS],
 }
@@ -93,6 +95,7 @@ impl FoldState {
             corrections: [0; CELLS / 4],
             passes: [0; KNOTS],
             felt: [[0; 2]; FOLDED / 4],
+            raised: [0; FOLDED / 4],
             held: [0; WORDS],
         }
     }
@@ -119,6 +122,7 @@ impl FoldState {
         self.passes.fill(0);
         self.bends.fill(Bend::NONE);
         self.felt.fill([0; 2]);
+        self.raised.fill(0);
         self.held.fill(0);
         self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
     }
@@ -152,7 +156,7 @@ impl FoldState {
         now: Micros,
         whole: bool,
         touched: impl Fn(&[u16; 4]) -> u32,
-        mut set: impl FnMut(&[[u16; 4]], &[[u16; 4]]),
+        mut set: impl FnMut(&[[u16; 4]], &[LevelPairs]),
     ) {
         let Some(worn) = self.in_force.first_mut() else { return };
         let Some(table) = worn.table else { return };
@@ -167,7 +171,7 @@ impl FoldState {
         *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
         let unit = u32::from(table.unit());
         let mut at = FoldStart::FIRST;
-        let (mut felt, mut levels) = ([[0; 2]; AT_ONCE], [[0; 4]; AT_ONCE]);
+        let (mut felt, mut levels) = ([[0; 2]; AT_ONCE], [[0; 2]; AT_ONCE]);
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
                 let joint = self.joints.get(usize::from(joint)).copied().flatten()?;
@@ -190,9 +194,10 @@ impl FoldState {
                     felt.iter_mut().zip(most).for_each(|(felt, most)| *felt = [0, *most]);
                 }
                 let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
+                let raised = self.raised.get_mut(some.clone()).unwrap_or_default();
                 let before = self.felt.get_mut(some).unwrap_or_default();
-                for (((before, felt), taxels), levels) in
-                    before.iter_mut().zip(&felt).zip(taxels).zip(&mut levels)
+                for ((((before, raised), felt), taxels), levels) in
+                    before.iter_mut().zip(raised).zip(&felt).zip(taxels).zip(&mut levels)
                 {
                     let [was, is] = [*before, *felt].map(|[expected, doubt]| zeros(expected | doubt));
                     *before = *felt;
@@ -202,7 +207,8 @@ impl FoldState {
                     let [expected, doubt] = *felt;
                     // A touch that is there is in no doubt, unless the posture is unknown.
                     let certain = if bend.is_known { touched(taxels) } else { 0 };
-                    *levels = summed(expected, doubt & !certain, unit);
+                    *raised = doubt & !certain;
+                    *levels = summed(expected, *raised, unit);
                 }
                 set(taxels, &levels);
             }
@@ -249,24 +255,30 @@ impl FoldState {
         }
     }
 
-    /// Subtracts from the taxels that press what is expected of them, counts. `pressure` gives what such a
-    /// taxel feels: its value holds only where every taxel begins to press at the same level.
+    /// Level beyond which a touch begins on a taxel, counts.
+    pub(crate) fn level(&self, taxel: usize) -> u16 {
+        let slot = if self.holds(taxel) { self.slot(taxel as u16) } else { None };
+        let of = |slot: usize| {
+            let ([expected, _], raised) = (self.felt.get(slot / 4)?, self.raised.get(slot / 4)?);
+            let units = [*expected, *raised].map(|bytes| u16::from(byte(bytes, slot % 4)));
+            Some(units.iter().sum::<u16>().saturating_mul(self.table()?.unit()))
+        };
+        slot.and_then(of).unwrap_or(0)
+    }
+
+    /// Makes of the values of the taxels that press, counts, what they feel less what is expected of them.
+    /// `beyond_levels`: a value is what a taxel feels beyond its level, and that holds the doubt, too. Otherwise
+    /// it is all that it feels.
     #[inline(never)] // own registers
-    pub(crate) fn subtract(&self, values: &mut [u16], pressure: impl Fn(usize) -> u16) {
+    pub(crate) fn subtract(&self, values: &mut [u16], beyond_levels: bool) {
         let Some(table) = self.table() else { return };
-        let unit = table.unit();
-        for (taxels, [expected, doubt]) in table.taxels().iter().zip(&self.felt) {
-            if expected | doubt == 0 {
-                continue;
-            }
-            for (lane, taxel) in taxels.iter().enumerate() {
-                let taxel = usize::from(*taxel);
-                if let Some(value) = values.get_mut(taxel)
-                    && *value > 0
-                {
-                    *value = beyond(&pressure, taxel, expected >> (8 * lane), unit);
-                }
-            }
+        let unit = u32::from(table.unit());
+        if beyond_levels {
+            let raised = table.taxels().iter().zip(self.raised.iter().copied());
+            change(values, raised, unit, u16::saturating_add);
+        } else {
+            let expected = table.taxels().iter().zip(self.felt.iter().map(|[expected, _]| *expected));
+            change(values, expected, unit, u16::saturating_sub);
         }
     }
 
@@ -275,38 +287,33 @@ impl FoldState {
         self.table().is_some() && self.bends.iter().any(|bend| bend.is_known && bend.left > 0)
     }
 
-    /// Compares the taxels whose turn it was and whose joint has come to another knot with what they feel:
-    /// `felt` gives the pressure of a taxel without the expectation, counts, or none if it may be touched.
+    /// Compares the taxels whose turn it was and whose joint has come to another knot with what they feel.
+    /// `felt` gives the pressures of four taxels without the expectations, counts, and a bit for each of them
+    /// that may be compared: it is not touched.
     #[inline(never)]
-    pub(crate) fn learn(&mut self, felt: impl Fn(usize) -> Option<u16>) {
+    pub(crate) fn learn(&mut self, felt: impl Fn(&[u16; 4]) -> (u32, [u16; 4])) {
         let Some(InForce { table: Some(table), turn, .. }) = self.in_force.first().copied() else { return };
-        let unit = u32::from(table.unit()).max(1);
         let mut at = FoldStart::FIRST;
         for (index, fold) in table.folds().iter().enumerate() {
             let Some(bend) = self.bends.get_mut(index) else { break };
             let knot = usize::from(bend.knot.unwrap_or(0));
             let Some(passes) = self.passes.get_mut(at.knot + knot) else { break };
             if bend.is_known && bend.left > 0 {
-                for quad in within(&at, fold, turn).take(bend.left.into()) {
-                    bend.left -= 1;
-                    let correction = at.correction + knot * fold.quads() + quad - at.quad;
-                    let (Some(taxels), Some([expected, _]), Some(corrections)) =
-                        (table.taxels().get(quad), self.felt.get(quad), self.corrections.get_mut(correction))
-                    else {
-                        break;
-                    };
-                    for (lane, taxel) in taxels.iter().enumerate() {
-                        let Some(felt) = felt(usize::from(*taxel)) else { continue };
-                        let off =
-                            ((u32::from(felt) + unit / 2) / unit) as i32 - i32::from(byte(*expected, lane));
-                        let (was, passes) = match byte(*corrections, lane) {
-                            0 => (ZERO as i32, 0),
-                            known => (known.into(), *passes),
-                        };
-                        set_byte(corrections, lane, (was + nearer(off, passes)).clamp(1, 255) as u8);
-                        bend.compared += 1;
+                let quads = within(&at, fold, turn);
+                let quads = quads.start..quads.end.min(quads.start + usize::from(bend.left));
+                let first = at.correction + knot * fold.quads() + quads.start - at.quad;
+                let corrections = self.corrections.get_mut(first..first + quads.len()).unwrap_or_default();
+                let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
+                let expected = self.felt.get(quads.clone()).unwrap_or(&[]);
+                let lesson = Lesson::of(table.unit(), *passes);
+                for ((taxels, [expected, _]), corrections) in taxels.iter().zip(expected).zip(corrections) {
+                    let (told, felt) = felt(taxels);
+                    if told != 0 {
+                        *corrections = compare(told, &felt, *expected, *corrections, lesson);
+                        bend.compared += told.count_ones() as u16;
                     }
                 }
+                bend.left -= quads.len() as u16;
                 // A comparison in which most taxels may have been touched is none.
                 if bend.left == 0 && bend.compared > fold.taxels / 2 {
                     *passes = (*passes + 1).min(MOST_PASSES);
@@ -318,15 +325,20 @@ impl FoldState {
 
     /// Expectation of a taxel and its doubt, counts; none if it does not fold.
     pub fn of(&self, taxel: u16) -> Option<[u16; 2]> {
+        let (table, slot) = (self.table()?, self.slot(taxel)?);
+        let felt = self.felt.get(slot / 4)?;
+        Some(felt.map(|bytes| u16::from(byte(bytes, slot % 4)).saturating_mul(table.unit())))
+    }
+
+    /// Position of a taxel in the table's list; none if it does not fold.
+    fn slot(&self, taxel: u16) -> Option<usize> {
         let table = self.table()?;
         let mut start = FoldStart::FIRST;
-        let slot = table.folds().iter().find_map(|fold| {
+        table.folds().iter().find_map(|fold| {
             let here = start;
             start = start.after(fold);
             Some(4 * here.quad + table.place(fold, &here, taxel)?)
-        })?;
-        let felt = self.felt.get(slot / 4)?;
-        Some(felt.map(|bytes| u16::from(byte(bytes, slot % 4)).saturating_mul(table.unit())))
+        })
     }
 
     /// Sum of the doubts of the taxels within a range, counts.
@@ -440,10 +452,42 @@ fn add_means(means: &mut [(LaneSums, u32)], (cells, corrections): (&[[u32; 3]], 
     }
 }
 
-/// What a taxel feels less what is expected of it, the lowest byte of `expected`, units.
-#[inline(never)] // few taxels of a fold press, and the others need the registers
-fn beyond(pressure: impl Fn(usize) -> u16, taxel: usize, expected: u32, unit: u16) -> u16 {
-    pressure(taxel).saturating_sub((expected as u8 as u16).saturating_mul(unit))
+/// Changes the values of the taxels that press, four at a time, by their bytes times `unit`, which is at most
+/// 128.
+#[inline(always)]
+fn change<'a>(
+    values: &mut [u16],
+    quads: impl Iterator<Item = (&'a [u16; 4], u32)>,
+    unit: u32,
+    by: impl Fn(u16, u16) -> u16 + Copy,
+) {
+    for (taxels, mut bytes) in quads {
+        if bytes == 0 {
+            continue;
+        }
+        for taxel in taxels {
+            if let Some(value) = values.get_mut(usize::from(*taxel))
+                && *value > 0
+            {
+                *value = by(*value, ((bytes & 0xFF) * unit) as u16);
+            }
+            bytes >>= 8;
+        }
+    }
+}
+
+/// Corrections after a comparison of those of four taxels that tell.
+#[inline(never)] // own registers
+fn compare(mut told: u32, felt: &[u16; 4], mut expected: u32, mut corrections: u32, lesson: Lesson) -> u32 {
+    // After four turns each byte is where it was.
+    for felt in felt {
+        if told & 1 == 1 {
+            let to = lesson.corrected(*felt, expected as u8, corrections as u8);
+            corrections = corrections & !0xFF | u32::from(to);
+        }
+        (corrections, expected, told) = (corrections.rotate_right(8), expected >> 8, told >> 1);
+    }
+    corrections
 }
 
 /// The fold's quads within a range of the table's.
@@ -476,16 +520,6 @@ fn has_any(words: &[u32], bits: Range<usize>) -> bool {
     false
 }
 
-/// Change of a correction that is off by `off`: so that it becomes the mean of the comparisons, as long as
-/// these are few.
-fn nearer(off: i32, passes: u8) -> i32 {
-    if passes == 0 {
-        return off;
-    }
-    let passes = 1 + i32::from(passes);
-    (2 * off + if off < 0 { -passes } else { passes }).checked_div(2 * passes).unwrap_or(0)
-}
-
 #[cfg(test)]
 mod tests {
     extern crate std;
@@ -497,19 +531,6 @@ mod tests {
         let is_set = |at: usize| words.get(at / 32).is_some_and(|word| word >> (at % 32) & 1 == 1);
         for (start, end) in (0..100).flat_map(|start| (0..130).map(move |end| (start, end))) {
             assert_eq!(has_any(&words, start..end), (start..end).any(is_set), "{start}..{end}");
-        }
-    }
-
-    #[test]
-    fn a_correction_becomes_the_mean_of_the_comparisons() {
-        for off in -255..=255 {
-            assert_eq!(nearer(off, 0), off);
-            for passes in 1..=MOST_PASSES {
-                let nth = f64::from(1 + passes);
-                // Halves away from zero.
-                let want = (f64::from(off) / nth).abs() + 0.5;
-                assert_eq!(nearer(off, passes), want as i32 * off.signum(), "{off} {passes}");
-            }
         }
     }
 }

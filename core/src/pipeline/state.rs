@@ -155,13 +155,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     pub(crate) fn doubts(&self, layout: &Layout) -> Vec<Doubt, CONTACTS> {
         let folds = self.condition.folds();
         let mut sums = [0u32; CONTACTS];
-        for run in self.contact.pressed(layout) {
-            if folds.holds_any(run.taxels.clone())
+        self.contact.each_pressed(layout, |run| {
+            let taxels = run.taxels();
+            if folds.holds_any(taxels.clone())
                 && let Some(sum) = sums.get_mut(run.contact)
             {
-                *sum = sum.saturating_add(folds.doubt_within(&run.taxels));
+                *sum = sum.saturating_add(folds.doubt_within(&taxels));
             }
-        }
+        });
         let mut doubts = Vec::new();
         for (placed, doubt) in self.present().iter().zip(sums).filter(|(_, doubt)| *doubt > 0) {
             // There are as many places as contacts.

@@ -8,48 +8,83 @@ use super::taxel::TaxelRecord;
 use crate::filter::points::MARGIN;
 use crate::segment::bits::WORD;
 use crate::segment::run::Run;
+use core::ops::Range;
 
 /// Most that taxels may press together so that their products fit in 32 bits: 65,535 * 2^15 < 2^31.
 const TOGETHER: u32 = u16::MAX as u32;
 
+/// A frame's values before and after the filter, and the records of its taxels, by taxel number.
+pub(super) struct PressedImage<'a> {
+    before: &'a [u16],
+    after: &'a [u16],
+    /// The same values, two at a time; none if they are not aligned to words.
+    pairs: [&'a [u32]; 2],
+    records: &'a [RecordWords],
+}
+
+impl<'a> PressedImage<'a> {
+    pub fn new(images: [&'a [u16]; 2], records: &'a [TaxelRecord]) -> PressedImage<'a> {
+        let [before, after] = images;
+        let pairs = images.map(|values| bytemuck::try_cast_slice(values).unwrap_or(&[]));
+        PressedImage { before, after, pairs, records: bytemuck::cast_slice(records) }
+    }
+
+    /// True if the filter has changed nothing in the pairs that hold these taxels. May be false without them.
+    #[inline(always)]
+    fn are_equal(&self, taxels: &Range<usize>) -> bool {
+        let pairs = taxels.start / 2..taxels.end.div_ceil(2);
+        let [before, after] = self.pairs;
+        match (before.get(pairs.clone()), after.get(pairs)) {
+            (Some(before), Some(after)) => before.iter().zip(after).all(|(before, after)| before == after),
+            _ => false,
+        }
+    }
+}
+
 /// What taxels press on their link: sums over values in counts, and records in units of 2^-14.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PressSums {
-    /// Sum of value times normal, and of value times arm, without `near`.
-    force: [i64; 3],
-    moment: [i64; 3],
+    /// Sums of value times normal, and of value times arm, without `near`.
+    wide: [i64; 6],
+    /// True if one of these is not 0.
+    is_wide: bool,
     /// Sum of the values.
     pub pressed: u32,
-    /// What is yet to be added to force and moment, of taxels that press `held` counts together: a sum of 64
-    /// bits takes longer than a taxel, and most contacts need one.
+    /// What is yet to be added to the wide sums, of taxels that press `held` counts together: a sum of 64 bits
+    /// takes longer than a taxel, and most contacts need none.
     near: [i32; 6],
     held: u32,
 }
 
 impl PressSums {
     /// Nothing presses.
-    pub const NONE: PressSums =
-        PressSums { force: [0; 3], moment: [0; 3], pressed: 0, near: [0; 6], held: 0 };
+    pub const NONE: PressSums = PressSums { wide: [0; 6], is_wide: false, pressed: 0, near: [0; 6], held: 0 };
 
-    /// Adds the taxels of a run, whose values before and after the filter are those of the columns from its
-    /// first to its last one, as are the records.
-    #[inline(never)] // M0+: out of line
-    pub fn press(&mut self, values: (&[u16], &[u16]), run: &Run, records: &[TaxelRecord]) {
+    /// Adds the taxels of a run whose first one is number `first`.
+    #[inline(never)] // M0+: own registers
+    pub fn press(&mut self, image: &PressedImage<'_>, first: usize, run: &Run) {
+        let range = first..first + usize::from(run.right - run.left) + 1;
         let (taxels, total) = (run.rebased(), run.sums.s0);
         // Without a gap between them all columns are taxels of the run.
         let is_whole = taxels & taxels.wrapping_add(1) == 0;
-        if is_whole && total <= TOGETHER && are_equal(values.0, values.1) {
-            return self.add(values.1, total, bytemuck::cast_slice(records));
+        if !is_whole || total > TOGETHER || !image.are_equal(&range) {
+            return self.press_apart(image, range, run);
         }
-        self.press_apart(values, run, records);
+        let Some(values) = image.after.get(range.clone()) else { return };
+        let Some(records) = image.records.get(range) else { return };
+        self.hold(total);
+        self.add(values, records);
     }
 
     /// Adds the taxels of any run.
     #[inline(never)] // seldom
-    fn press_apart(&mut self, (calibrated, filtered): (&[u16], &[u16]), run: &Run, records: &[TaxelRecord]) {
+    fn press_apart(&mut self, image: &PressedImage<'_>, range: Range<usize>, run: &Run) {
+        let Some(before) = image.before.get(range.clone()) else { return };
+        let Some(after) = image.after.get(range.clone()) else { return };
+        let Some(records) = image.records.get(range) else { return };
         let mut values = [0; WORD as usize];
         let (mut taxels, mut total) = (run.rebased(), run.sums.s0);
-        for ((to, before), after) in values.iter_mut().zip(calibrated).zip(filtered) {
+        for ((to, before), after) in values.iter_mut().zip(before).zip(after) {
             if taxels & 1 == 1 {
                 *to = *after;
                 if before != after {
@@ -59,24 +94,36 @@ impl PressSums {
             }
             taxels >>= 1;
         }
-        let records: &[RecordWords] = bytemuck::cast_slice(records);
         if total <= TOGETHER {
-            return self.add(values.get(..records.len()).unwrap_or(&values), total, records);
+            self.hold(total);
+            return self.add(&values, records);
         }
         for (value, record) in values.iter().zip(records) {
-            self.add(&[*value], (*value).into(), &[*record]);
+            self.press_alone(*value, record);
         }
     }
 
-    /// Adds values that are `total` together, at most [`TOGETHER`].
-    #[inline(never)] // M0+: own registers
-    fn add(&mut self, values: &[u16], total: u32, records: &[RecordWords]) {
+    /// Adds a taxel of those that press too much together.
+    #[inline(never)] // seldom
+    fn press_alone(&mut self, value: u16, record: &RecordWords) {
+        self.hold(value.into());
+        self.add(&[value], &[*record]);
+    }
+
+    /// Makes room for values that are `total` together, at most [`TOGETHER`].
+    #[inline(always)]
+    fn hold(&mut self, total: u32) {
         self.pressed = self.pressed.wrapping_add(total);
         self.held += total;
         if self.held > TOGETHER {
             self.settle();
             self.held = total;
         }
+    }
+
+    /// Adds as many values as there are records.
+    #[inline(always)] // M0+: a call takes as long as two taxels
+    fn add(&mut self, values: &[u16], records: &[RecordWords]) {
         let [x, y, z, u, v, w] = &mut self.near;
         add_pair([x, y], by_word::<2>(values, records));
         add_pair([z, u], by_word::<3>(values, records));
@@ -86,38 +133,39 @@ impl PressSums {
     /// Adds what is yet to be added.
     #[inline(never)] // M0+: out of line
     fn settle(&mut self) {
-        let [x, y, z, u, v, w] = core::mem::take(&mut self.near);
-        add_wide(&mut self.force, &[x, y, z].map(i64::from));
-        add_wide(&mut self.moment, &[u, v, w].map(i64::from));
+        add_near(&mut self.wide, &core::mem::take(&mut self.near));
+        self.is_wide = true;
+    }
+
+    /// Sums of value times normal, and of value times arm.
+    fn sums(&self) -> [[i64; 3]; 2] {
+        let mut wide = self.wide;
+        add_near(&mut wide, &self.near);
+        let [x, y, z, u, v, w] = wide;
+        [[x, y, z], [u, v, w]]
     }
 
     /// Sum of value times normal.
     pub fn force(&self) -> [i64; 3] {
-        let [x, y, z, ..] = self.near;
-        let mut force = self.force;
-        add_wide(&mut force, &[x, y, z].map(i64::from));
+        let [force, _] = self.sums();
         force
     }
 
     /// Sum of value times arm.
     pub fn moment(&self) -> [i64; 3] {
-        let [.., u, v, w] = self.near;
-        let mut moment = self.moment;
-        add_wide(&mut moment, &[u, v, w].map(i64::from));
+        let [_, moment] = self.sums();
         moment
     }
 
     /// Adds other sums.
     pub fn add_all(&mut self, more: &PressSums) {
-        add_wide(&mut self.force, &more.force());
-        add_wide(&mut self.moment, &more.moment());
+        add_near(&mut self.wide, &more.near);
+        if more.is_wide {
+            self.wide.iter_mut().zip(more.wide).for_each(|(to, more)| *to = to.wrapping_add(more));
+        }
+        self.is_wide = true;
         self.pressed = self.pressed.saturating_add(more.pressed);
     }
-}
-
-/// True if the filter has changed nothing. M0+: the library compares byte by byte.
-fn are_equal(calibrated: &[u16], filtered: &[u16]) -> bool {
-    calibrated.iter().zip(filtered).all(|(before, after)| before == after)
 }
 
 /// Pressure of a taxel, from its values before and after the filter: at least that after it.
@@ -157,8 +205,8 @@ const fn high(word: u32) -> i32 {
     word as i32 >> 16
 }
 
-fn add_wide(to: &mut [i64; 3], more: &[i64; 3]) {
-    for (to, more) in to.iter_mut().zip(more) {
-        *to = to.wrapping_add(*more);
+fn add_near(to: &mut [i64; 6], near: &[i32; 6]) {
+    for (to, near) in to.iter_mut().zip(near) {
+        *to = to.wrapping_add(i64::from(*near));
     }
 }

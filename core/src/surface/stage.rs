@@ -2,7 +2,7 @@
 
 use super::frames::LinkFrames;
 use super::place::SurfacePoint;
-use super::press::PressSums;
+use super::press::{PressSums, PressedImage};
 use super::table::Table;
 use super::taxel::TaxelRecord;
 use super::uncertainty::{BlindTaxel, Uncertainty, distance, most_at, of_faulty};
@@ -127,13 +127,13 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         table: &Table<'_>,
         contact: &ContactState<CONTACTS, RUNS, LABELS, S>,
         layout: &Layout,
-        [calibrated, filtered]: [&[u16]; 2],
+        images: [&[u16]; 2],
     ) {
-        let mut placed = [NONE; CONTACTS];
+        let mut placed = [(NONE, NONE); CONTACTS];
         for ((index, placed), slot) in (0..).zip(&mut placed).zip(contact.present()) {
             let touch = slot.contact();
             let Some(spot) = table.spot(layout, touch.panel, touch.x, touch.y) else { continue };
-            *placed = self.landings.len() as u8;
+            *placed = (self.landings.len() as u8, spot.link);
             // There are as many places as contacts.
             let _ = self.landings.push(Landing {
                 id: touch.id,
@@ -144,26 +144,19 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             });
         }
         let links = links_of(table, layout);
-        for run in contact.pressed(layout) {
-            let Some(link) = links.get(usize::from(run.panel)) else { continue };
-            let (Some(calibrated), Some(filtered), Some(records)) = (
-                calibrated.get(run.taxels.clone()),
-                filtered.get(run.taxels.clone()),
-                table.taxels().get(run.taxels),
-            ) else {
-                continue;
+        let image = PressedImage::new(images, table.taxels());
+        contact.each_pressed(layout, |run| {
+            let Some(link) = links.get(usize::from(run.panel)) else { return };
+            let (landing, of) = placed.get(run.contact).copied().unwrap_or((NONE, NONE));
+            let sums = if of == *link {
+                self.landings.get_mut(usize::from(landing)).map(|landing| &mut landing.sums)
+            } else {
+                self.sums.get_mut(usize::from(*link)).map(|sums| &mut sums.press)
             };
-            let landing = placed.get(run.contact).map_or(NONE, |placed| *placed);
-            let landing = self.landings.get_mut(usize::from(landing)).filter(|it| it.spot.link == *link);
-            let sums = match landing {
-                Some(landing) => &mut landing.sums,
-                None => match self.sums.get_mut(usize::from(*link)) {
-                    Some(sums) => &mut sums.press,
-                    None => continue,
-                },
-            };
-            sums.press((calibrated, filtered), run.run, records);
-        }
+            if let Some(sums) = sums {
+                sums.press(&image, run.first, run.run);
+            }
+        });
         for landing in &self.landings {
             if let Some(sums) = self.sums.get_mut(usize::from(landing.spot.link)) {
                 sums.add(landing);
@@ -196,13 +189,13 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             }
         }
         if levels.iter().any(|level| *level != u16::MAX) {
-            for run in contact.pressed(layout) {
+            contact.each_pressed(layout, |run| {
                 let level = levels.get(run.contact).copied().unwrap_or(u16::MAX);
                 if run.run.peak >= level {
                     let saturated = saturated(&run, level, calibrated, &senses.ceiling);
-                    self.saturate(saturated, run.contact, table.taxels().get(run.taxels.start));
+                    self.saturate(saturated, run.contact, table.taxels().get(run.first));
                 }
-            }
+            });
         }
         for faulty in senses.faulty {
             let taxel = usize::from(faulty.taxel);
@@ -349,7 +342,7 @@ impl LinkSums {
 #[inline(never)] // M0+: out of line
 fn saturated(run: &PressedRun<'_>, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
     let (mut saturated, mut mask) = (0, run.run.rebased());
-    for (taxel, value) in run.taxels.clone().zip(calibrated.get(run.taxels.clone()).unwrap_or(&[])) {
+    for (taxel, value) in run.taxels().zip(calibrated.get(run.taxels()).unwrap_or(&[])) {
         if *value >= level && mask & 1 == 1 && *value >= ceiling(taxel) {
             saturated += 1;
         }

@@ -208,6 +208,19 @@ fn a_day_is_learned_while_nothing_touches() {
 }
 
 #[test]
+fn a_gain_that_is_set_makes_no_touch_of_a_fold() {
+    let mut bench = wearing(&elbow(60, 0));
+    // 480 counts are expected, 240 more or less.
+    for _ in 0..40 {
+        bench.bend(60.0);
+        assert_eq!(bench.feel(680.0, &[]).0, []);
+    }
+    let gains = [4096; FOLDED.len()].into_iter().collect();
+    bench.ask(&Request::SetGain { first: FOLDED[0], gains });
+    assert_eq!(bench.feel(680.0, &[]).0, []);
+}
+
+#[test]
 fn a_held_bend_is_no_drift() {
     let mut bench = wearing(&elbow(12, 0));
     for _ in 0..12_000 {
