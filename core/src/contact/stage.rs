@@ -28,13 +28,6 @@ pub struct Contacts {
     pub forms: Forms,
 }
 
-impl PressedRun<'_> {
-    /// Numbers of the taxels from its first column to its last one.
-    pub fn taxels(&self) -> Range<usize> {
-        self.first..self.first + usize::from(self.run.right - self.run.left) + 1
-    }
-}
-
 /// State and work space of the stage, for at most CONTACTS contacts, RUNS runs and LABELS labels
 /// (connected taxels of one panel; at most 65534). If the columns are even in number, half as many runs as
 /// taxels suffice. Labels never exceed the runs, nor the squares of two by two taxels.
@@ -58,6 +51,13 @@ pub(crate) struct PressedRun<'a> {
     pub first: usize,
     /// The run.
     pub run: &'a Run,
+}
+
+impl PressedRun<'_> {
+    /// Numbers of the taxels from its first column to its last one.
+    pub fn taxels(&self) -> Range<usize> {
+        self.first..self.first + usize::from(self.run.right - self.run.left) + 1
+    }
 }
 
 /// Result of a frame.

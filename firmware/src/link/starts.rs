@@ -14,9 +14,9 @@ const NUMBERS: u16 = 0x7ff;
 /// Most by which the time between two starts that were noticed may differ from a frame, us. What else keeps
 /// interrupts off delays one of the two, and the next two are taken.
 const AGREE_US: u64 = 12;
-/// Most by which a start that agrees with the one before may have been before it was noticed, us: the
-/// difference above, and as much for what delays both.
-const LATE_US: u16 = 2 * AGREE_US as u16;
+/// Most by which a start may have been before it was noticed, us, also if both were delayed alike: checking a
+/// sub-field keeps interrupts off for 24, and other interrupts may come first, too. 27 at most were seen.
+const LATE_US: u16 = 40;
 
 /// What is known of the next start.
 #[derive(Clone, Copy)]
