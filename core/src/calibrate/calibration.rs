@@ -1,14 +1,12 @@
 //! Baseline, gain and limit of each taxel: an inactive taxel is only compared with its limit.
 
-use super::levels::{LevelPairs, Limits};
-use super::scale::scale;
+use super::levels::LevelLimits;
+use super::scale::{UNITY, scale};
 use super::terms::LimitTerms;
+use crate::fold::LevelPairs;
 use crate::format::Code;
 use crate::garment::Layout;
 use crate::image::slices::row_mut;
-
-/// A gain of 1.0 in Q4.12.
-pub const UNITY: u16 = 4096;
 
 /// Baseline, gain and limit of every taxel.
 ///
@@ -88,7 +86,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     /// taxels are left out.
     pub fn set_levels(&mut self, taxels: &[[u16; 4]], levels: &[LevelPairs], terms: LimitTerms) {
         let TaxelCalibration { baseline: rest, gain, limit, .. } = self;
-        let mut limits = Limits { rest, gain, limit };
+        let mut limits = LevelLimits { rest, gain, limit };
         if terms.is_falling() {
             limits.set::<true>(taxels, levels, terms);
         } else {

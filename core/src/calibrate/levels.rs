@@ -1,10 +1,8 @@
 //! Limits of taxels on which so much presses that is no touch: four at a time, two in a word.
 
-use super::calibration::UNITY;
+use super::scale::UNITY;
 use super::terms::LimitTerms;
-
-/// Levels of four taxels, counts, two in a word.
-pub(crate) type LevelPairs = [u32; 2];
+use crate::fold::LevelPairs;
 
 /// The highest bit of each half of a word.
 const HIGH: u32 = 0x8000_8000;
@@ -18,13 +16,13 @@ pub(crate) fn consecutive([first, _, _, last]: &[u16; 4]) -> Option<usize> {
 }
 
 /// Calibration of all taxels: baselines, gains, and the limits that are set.
-pub(super) struct Limits<'a> {
+pub(super) struct LevelLimits<'a> {
     pub rest: &'a [u16],
     pub gain: &'a [u16],
     pub limit: &'a mut [u16],
 }
 
-impl Limits<'_> {
+impl LevelLimits<'_> {
     /// Sets the limits of taxels; other numbers than those of taxels are left out.
     #[inline(never)] // own registers
     pub fn set<const FALLING: bool>(
@@ -161,7 +159,7 @@ mod tests {
             let [rest, gain, limit] = &mut aligned.0;
             let pairs: Vec<LevelPairs> =
                 levels.iter().map(|&[a, b, c, d]| bytemuck::cast([a, b, c, d])).collect();
-            let mut limits = Limits { rest, gain, limit };
+            let mut limits = LevelLimits { rest, gain, limit };
             if terms.is_falling() {
                 limits.set::<true>(&taxels, &pairs, terms);
             } else {

@@ -2,6 +2,9 @@
 
 use crate::format::Code;
 
+/// A gain of 1.0 in Q4.12.
+pub const UNITY: u16 = 4096;
+
 /// `(difference * gain + 2048) >> 12`, at most 65535, of each taxel beyond its limit. Returns their mask.
 ///
 /// The product of two 16-bit numbers leaves room for rounding, whose two steps need no constant in a

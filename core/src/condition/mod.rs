@@ -36,9 +36,9 @@ mod state;
 
 pub use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
 pub use crate::baseline::progress::Tare;
-pub use crate::calibrate::calibration::UNITY;
 pub use crate::calibrate::certificate::Certificate;
 pub use crate::calibrate::sampled::Sampled;
+pub use crate::calibrate::scale::UNITY;
 pub use crate::filter::kinds::Filter;
 pub use crate::filter::points::{MARGIN, POINTS};
 pub(crate) use crate::filter::withheld::Withheld;

@@ -14,6 +14,9 @@ const SHIFT: u32 = 7;
 /// What a byte of a correction is more than the correction: 0 stands for none yet.
 pub(super) const ZERO: u32 = 128;
 
+/// Levels of four taxels, counts, two in a word.
+pub(crate) type LevelPairs = [u32; 2];
+
 /// Weighted sums of the bytes of words.
 #[derive(Clone, Copy)]
 pub(super) struct LaneSums {
@@ -79,7 +82,7 @@ pub(super) fn whole_bytes(flags: u32) -> u32 {
 /// The sum of each two bytes, times `unit`, at most 128: each product fits in its half of a word. In the order of
 /// the bytes.
 #[inline(always)]
-pub(super) fn summed(a: u32, b: u32, unit: u32) -> [u32; 2] {
+pub(super) fn summed(a: u32, b: u32, unit: u32) -> LevelPairs {
     let [even, odd] = [0, 8].map(|shift| ((a >> shift & EVEN) + (b >> shift & EVEN)) * unit);
     [even & 0xFFFF | odd << 16, even >> 16 | odd & 0xFFFF_0000]
 }

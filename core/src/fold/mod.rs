@@ -37,6 +37,7 @@ mod record;
 mod stage;
 mod table;
 
+pub(crate) use lanes::LevelPairs;
 pub use posture::{JOINTS, JointAngle, Posture, PostureState, STALE_US};
 pub use record::{FoldCell, FoldRecord, NO_JOINT, NO_TAXEL};
 pub use stage::{Doubt, Expected, FoldState};

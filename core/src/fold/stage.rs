@@ -1,13 +1,12 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::Bend;
-use super::lanes::{LaneSums, WHOLE, ZERO, byte, summed, whole_bytes, zeros};
+use super::lanes::{LaneSums, LevelPairs, WHOLE, ZERO, byte, summed, whole_bytes, zeros};
 use super::lesson::{Lesson, MOST_PASSES};
 use super::posture::PostureState;
 use super::record::FoldRecord;
 use super::table::{FoldStart, FoldTable};
 use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
-use crate::calibrate::levels::LevelPairs;
 use crate::capacity::TAXELS;
 use crate::format::Micros;
 #[cfg(feature = "folds")]

@@ -1,5 +1,5 @@
-//! A board that has been on for an hour, answers all requests and sends no image. On a USB it tells the last start of a frame after each round
-//! trip.
+//! A board that has been on for an hour, answers all requests and sends no image. On a USB it tells the last
+//! start of a frame after each round trip.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};

@@ -30,7 +30,7 @@ fn clock([ppm, wander_ppm, period_s, boot_s]: [f64; 4]) -> DriftingClock {
 
 /// A controller whose frame 0 began at this time, s.
 fn controller(ppm: f64, began_s: f64) -> Controller {
-    Controller { clock: clock([ppm, 0.0, 600.0, began_s]), late_us: 24 }
+    Controller { clock: clock([ppm, 0.0, 600.0, began_s]), late_us: 40 }
 }
 
 /// A line for each of the clocks, on one of these controllers each.
