@@ -89,8 +89,8 @@ fn in_its_place((taxels, first): &(&[u16; 4], u16)) -> bool {
     consecutive(taxels) == Some(usize::from(*first))
 }
 
-/// Sets the limits of pairs of taxels, up to one with another gain than 1, or with a number that is large. Returns
-/// their number.
+/// Sets the limits of pairs of taxels, up to one with another gain than 1, or with a number that is large.
+/// Returns their number.
 #[inline(never)] // own registers
 fn set_pairs<const FALLING: bool>(
     rest: &[u32],

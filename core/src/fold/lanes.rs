@@ -79,8 +79,8 @@ pub(super) fn whole_bytes(flags: u32) -> u32 {
     (flags >> 7).wrapping_mul(0xFF)
 }
 
-/// The sum of each two bytes, times `unit`, at most 128: each product fits in its half of a word. In the order of
-/// the bytes.
+/// The sum of each two bytes, times `unit`, at most 128: each product fits in its half of a word. In the order
+/// of the bytes.
 #[inline(always)]
 pub(super) fn summed(a: u32, b: u32, unit: u32) -> LevelPairs {
     let [even, odd] = [0, 8].map(|shift| ((a >> shift & EVEN) + (b >> shift & EVEN)) * unit);

@@ -50,7 +50,7 @@ impl Lesson {
     #[inline(always)]
     fn off(&self, felt: u16, expected: u8) -> i32 {
         let felt = (u32::from(felt) + self.unit / 2).min(FAR * self.unit);
-        // At most 2,304 * (2^20 + 128); by less than 2^17 / 2^20 too much, so that the quotient may be one too much.
+        // At most 2,304 * (2^20 + 128), by less than 2^17 / 2^20 too much: the quotient may be one too much.
         let units = (felt * self.inverse) >> BITS;
         let units = units - u32::from(units * self.unit > felt);
         units as i32 - i32::from(expected)

@@ -266,8 +266,8 @@ impl FoldState {
     }
 
     /// Makes of the values of the taxels that press, counts, what they feel less what is expected of them.
-    /// `beyond_levels`: a value is what a taxel feels beyond its level, and that holds the doubt, too. Otherwise
-    /// it is all that it feels.
+    /// `beyond_levels`: a value is what a taxel feels beyond its level, and that holds the doubt, too.
+    /// Otherwise it is all that it feels.
     #[inline(never)] // own registers
     pub(crate) fn subtract(&self, values: &mut [u16], beyond_levels: bool) {
         let Some(table) = self.table() else { return };
