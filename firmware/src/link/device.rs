@@ -3,6 +3,7 @@
 
 use super::packets::{self, PACKET};
 use super::rings::{OPENED, RECEIVED};
+use super::starts;
 use embassy_executor::{InterruptExecutor, SpawnError, SpawnToken, Spawner};
 use embassy_rp::interrupt::typelevel::{Handler, SWI_IRQ_1};
 use embassy_rp::interrupt::{self, InterruptExt, Priority};
@@ -60,6 +61,7 @@ async fn attach(driver: Bus, number: Option<&'static str>) {
     let (_, receiver, control) = port.split_with_control();
     spawner.spawn(once(watch(control)));
     spawner.spawn(once(receive(receiver)));
+    spawner.spawn(once(starts::watch()));
     device.run().await;
 }
 

@@ -1,8 +1,14 @@
 //! Starts of the frames of the USB, one each millisecond, which all boards on one host controller share.
+//!
+//! An interrupt comes late by whatever keeps interrupts off, and nobody could tell by how much. It therefore
+//! only tells when the next start is due. That one is watched for: the controller is asked for the number of
+//! its frame again and again, and the frame has begun between the last question that was answered with the old
+//! number and the first answer with the new one. Whatever comes between makes this time longer; the time
+//! itself is what is stated.
 
-use core::cell::Cell;
-use embassy_sync::blocking_mutex::{Mutex, raw::CriticalSectionRawMutex};
-use embassy_time::Instant;
+use cortex_m::interrupt;
+use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, signal::Signal};
+use embassy_time::{Instant, Timer};
 use rp_pac::USB;
 use taxel_core::format::Micros;
 use taxel_core::wire::StartOfFrame;
@@ -11,66 +17,84 @@ use taxel_core::wire::StartOfFrame;
 const FRAME_US: u64 = 1_000;
 /// Numbers wrap after 11 bits.
 const NUMBERS: u16 = 0x7ff;
-/// Most by which the time between two starts that were noticed may differ from a frame, us. What else keeps
-/// interrupts off delays one of the two, and the next two are taken.
-const AGREE_US: u64 = 12;
-/// Most by which a start may have been before it was noticed, us, also if both were delayed alike: checking a
-/// sub-field keeps interrupts off for 24, and other interrupts may come first, too. 27 at most were seen.
-const LATE_US: u16 = 40;
+/// How long before it is due the next start is watched for, us. The interrupt may have come late, and the task
+/// that watches may.
+const AHEAD_US: u64 = 60;
+/// Most by which a start may have been before it was seen, us. If it is more, another one is watched for.
+const MOST_US: u64 = 10;
 
-/// What is known of the next start.
-#[derive(Clone, Copy)]
-enum NextStart {
-    /// Nobody wants to know it.
-    Idle,
-    /// It is awaited, after this one.
-    Awaited(Option<(u16, u64)>),
-    /// It has come.
-    Noticed(StartOfFrame),
+/// A start that the interrupt has told: number of the frame, and when.
+static TOLD: Signal<CriticalSectionRawMutex, (u16, Micros)> = Signal::new();
+/// A start that was seen.
+static SEEN: Signal<CriticalSectionRawMutex, StartOfFrame> = Signal::new();
+
+/// Asks for a start if `asked`; returns the one that was seen since.
+pub(super) fn take(asked: bool) -> Option<StartOfFrame> {
+    if asked {
+        SEEN.reset();
+        await_next();
+    }
+    SEEN.try_take()
 }
 
-static NEXT: Mutex<CriticalSectionRawMutex, Cell<NextStart>> = Mutex::new(Cell::new(NextStart::Idle));
-
-/// Notices a start, if one has woken the controller's interrupt.
-pub(super) fn notice() {
-    if !USB.ints().read().dev_sof() {
-        return;
-    }
-    let now = Instant::now().as_micros();
-    // This also ends the interrupt's cause.
-    let number = USB.sof_rd().read().count();
-    NEXT.lock(|next| {
-        let NextStart::Awaited(before) = next.get() else { return };
-        let agrees = before.is_some_and(|(last, then)| {
-            last.wrapping_add(1) & NUMBERS == number && (now - then).abs_diff(FRAME_US) <= AGREE_US
-        });
-        if agrees {
-            await_next(false);
-            next.set(NextStart::Noticed(StartOfFrame { number, noticed: Micros(now), late_us: LATE_US }));
-        } else {
-            next.set(NextStart::Awaited(Some((number, now))));
-        }
+/// Lets the controller's interrupt come at the next start.
+fn await_next() {
+    interrupt::free(|_| {
+        // Ends the cause that earlier starts have left.
+        number();
+        USB.inte().modify(|interrupts| interrupts.set_dev_sof(true));
     });
 }
 
-/// Asks for the next start if `asked`; returns the one that was noticed since the last one was asked for.
-pub(super) fn take(asked: bool) -> Option<StartOfFrame> {
-    NEXT.lock(|next| {
-        let noticed = match next.get() {
-            NextStart::Noticed(start) => Some(start),
-            _ => None,
-        };
-        if asked {
-            next.set(NextStart::Awaited(None));
-            await_next(true);
-        } else if noticed.is_some() {
-            next.set(NextStart::Idle);
-        }
-        noticed
-    })
+/// Tells of a start, if it has woken the controller's interrupt.
+pub(super) fn notice() {
+    if USB.ints().read().dev_sof() {
+        USB.inte().modify(|interrupts| interrupts.set_dev_sof(false));
+        TOLD.signal((number(), now()));
+    }
 }
 
-/// Whether the controller's interrupt comes at each start. Interrupts are off.
-fn await_next(comes: bool) {
-    USB.inte().modify(|interrupts| interrupts.set_dev_sof(comes));
+/// Watches for the start after each one that is told.
+#[embassy_executor::task]
+pub(super) async fn watch() {
+    loop {
+        let (last, told) = TOLD.wait().await;
+        Timer::at(Instant::from_micros(told.0 + FRAME_US - AHEAD_US)).await;
+        match start_after(last) {
+            Some(start) => SEEN.signal(start),
+            None => await_next(),
+        }
+    }
+}
+
+/// Waits until the frame after `last` begins. None if it had begun before, or that was not seen soon enough.
+fn start_after(last: u16) -> Option<StartOfFrame> {
+    let next = last.wrapping_add(1) & NUMBERS;
+    let mut asked = now();
+    let end = Micros(asked.0 + 2 * AHEAD_US);
+    let mut before = None;
+    while asked < end {
+        let number = number();
+        let answered = now();
+        if number == next {
+            // Times are whole microseconds: 0 between them may be nearly 1.
+            let late_us = answered.since(before?).max(1);
+            let start = StartOfFrame { number, noticed: answered, late_us: late_us as u16 };
+            return (late_us <= MOST_US).then_some(start);
+        }
+        if number != last {
+            return None;
+        }
+        (before, asked) = (Some(asked), answered);
+    }
+    None
+}
+
+/// Number of the frame that runs. This also ends the cause of the interrupt.
+fn number() -> u16 {
+    USB.sof_rd().read().count()
+}
+
+fn now() -> Micros {
+    Micros(Instant::now().as_micros())
 }

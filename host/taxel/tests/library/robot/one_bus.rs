@@ -28,9 +28,9 @@ fn clock([ppm, wander_ppm, period_s, boot_s]: [f64; 4]) -> DriftingClock {
     DriftingClock { ppm, wander_ppm, period_s, booted: boot_s * SECOND }
 }
 
-/// A controller whose frame 0 began at this time, s.
+/// A controller whose frame 0 began at this time, s. Boards state at most 10 us of its starts.
 fn controller(ppm: f64, began_s: f64) -> Controller {
-    Controller { clock: clock([ppm, 0.0, 600.0, began_s]), late_us: 40 }
+    Controller { clock: clock([ppm, 0.0, 600.0, began_s]), late_us: 10 }
 }
 
 /// A line for each of the clocks, on one of these controllers each.
