@@ -30,7 +30,7 @@ struct Open {
     clock: SteadyTime,
     /// Images still awaited; none for no limit.
     frames: Option<u64>,
-    limit: Option<TimeLimit>,
+    limit: TimeLimit,
     over: bool,
 }
 
@@ -43,20 +43,25 @@ enum Look {
 
 impl Open {
     fn look(&mut self) -> anyhow::Result<Look> {
-        if self.over {
-            return Ok(Look::End);
-        }
         let now_ns = self.clock.now_us().saturating_mul(1000);
-        if let Some(event) = self.session.next_event() {
+        if !self.over
+            && let Some(event) = self.session.next_event()
+        {
             self.count(&event);
             return Ok(Look::Found(Box::new(self.teller.fact(self.session.client(), &event, now_ns))));
         }
         if let Some(note) = self.session.note() {
             return Ok(Look::Found(Box::new(self.teller.note(self.session.client(), &note, now_ns))));
         }
+        if self.over {
+            return Ok(Look::End);
+        }
         match self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))? {
             Turn::Bytes | Turn::Waiting => {
-                self.over |= self.limit.as_mut().is_some_and(|limit| limit.look(&self.session));
+                self.over |= self.limit.look(&mut self.session);
+                if self.frames.is_some() {
+                    self.limit.check_images(&self.session).map_err(taxel::Error::from)?;
+                }
                 Ok(Look::Nothing)
             }
             Turn::End => {
@@ -72,7 +77,7 @@ impl Open {
             *frames = frames.saturating_sub(1);
             self.over |= *frames == 0;
         }
-        self.over |= self.limit.as_mut().is_some_and(|limit| limit.take(event));
+        self.over |= self.limit.take(event);
     }
 }
 
@@ -107,8 +112,9 @@ fn open(
         client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;
     }
     posing.into_iter().for_each(|posing| session.pose_by(posing));
-    let longest = options.seconds.map(|seconds| Duration::from_micros((seconds * 1e6) as u64));
-    let (teller, clock, limit) = (Teller::default(), SteadyTime::start(), longest.map(TimeLimit::of));
+    let longest =
+        options.seconds.map_or(Duration::MAX, |seconds| Duration::from_micros((seconds * 1e6) as u64));
+    let (teller, clock, limit) = (Teller::default(), SteadyTime::start(), TimeLimit::of(longest));
     let over = options.frames == Some(0);
     Ok(Open { session, teller, clock, frames: options.frames, limit, over })
 }

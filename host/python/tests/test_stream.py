@@ -192,6 +192,17 @@ def test_a_request_does_not_wait_for_the_reader() -> None:
         assert not reader.is_alive()
 
 
+@pytest.mark.parametrize("limit", [{"frames": 3}, {"seconds": 1}])
+def test_a_run_that_is_limited_ends_without_images(limit: dict[str, int]) -> None:
+    server, source = silent_board()
+    with server, taxel.open(source, **limit) as board:
+        if "frames" in limit:
+            with pytest.raises(taxel.BoardError, match="no image came for 10 s"):
+                list(board)
+        else:
+            assert any("no image came for 10 s" in str(event) for event in board)
+
+
 def relay(server: socket.socket, parts: tuple[bytes, bytes], times: int) -> None:
     """Serves a recorded stream to some connections, one after the other: its beginning at once, its answers
     once the host has asked for something."""

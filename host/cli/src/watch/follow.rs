@@ -56,14 +56,14 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
         if let Some(save) = &mut save {
             save.write(&session.bytes()[..session.taken()])?;
         }
+        patience.look(&session)?;
+        limits.look(&mut session)?;
         while let Some(note) = session.note() {
             show.gap(session.client(), &note)?;
         }
         if !show.idle(session.parts().0)? || stop::asked() {
             break;
         }
-        patience.look(&session)?;
-        limits.look(&session)?;
     }
     let (client, source) = session.parts();
     show.end(client)?;
@@ -193,13 +193,10 @@ impl Limits {
     }
 
     /// Ends a run to which no more images come.
-    fn look(&mut self, session: &Session) -> Result<()> {
+    fn look(&mut self, session: &mut Session) -> Result<()> {
         self.ended |= self.time.look(session);
-        if self.frames.is_some() && !self.ended && self.time.imageless() > PATIENCE {
-            let (label, seconds) = (&session.source().label, PATIENCE.as_secs());
-            bail!(Fault::board(format!(
-                "{label}: no image came for {seconds} s: the scene sends none, or the scan fails"
-            )));
+        if self.frames.is_some() && !self.ended {
+            self.time.check_images(session).map_err(taxel::Error::from)?;
         }
         Ok(())
     }

@@ -23,7 +23,7 @@ fn a_run_of_limited_time_ends_without_images() {
     let [for_seconds, for_frames, doctor, recorded, why] = [source(), source(), source(), source(), source()];
     _ = std::fs::remove_file(folder.join("r.mcap"));
     let runs: [(&[&str], i32, &str); 6] = [
-        (&["live", "--source", &for_seconds, "--seconds", "1"], 0, ""),
+        (&["live", "--source", &for_seconds, "--seconds", "1"], 0, "no image came for 10 s"),
         (&["live", "--source", &for_frames, "--frames", "3"], 3, "no image came for 10 s"),
         (&["doctor", "--source", &doctor, "--seconds", "1"], 3, "the scan fails"),
         (
@@ -32,7 +32,7 @@ fn a_run_of_limited_time_ends_without_images() {
             "0 frames",
         ),
         (&["fcm", "why", "--source", &why, "--at", "1"], 1, "no intention was reported in the first 1 s"),
-        (&["robot", "live", "robot.toml", "--seconds", "1"], 0, ""),
+        (&["robot", "live", "robot.toml", "--seconds", "1"], 0, "no image came for 10 s"),
     ];
     thread::scope(|scope| {
         for (args, status, says) in runs {

@@ -288,7 +288,8 @@ def open(
     - ``poses_hz``: poses sent to the board per second, by default 50
     - ``realtime``: a simulation or a replay takes its time; else it is as fast as it is read
     - ``repeat``: a simulation repeats its script
-    - ``frames``, ``seconds``: end after so many images, or so much of the board's time
+    - ``frames``, ``seconds``: end after so many images, or so much of the board's time. If the board sends no image for
+      10 s, ``frames`` is an error (``BoardError``), and ``seconds`` are over
     - ``raw``: also the raw codes of every scan
     - ``tare``: frames of the baseline at the start; by default those that a simulated scene wants, else 0
     - ``once``: end with an error when the board is lost, instead of waiting for it

@@ -75,9 +75,10 @@ impl Teller {
     /// The fact of a message of the session itself.
     pub fn note(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
         let note = match event {
-            Event::Log { level: Level::Error, .. } => Note::Lost,
-            _ => Note::Back,
+            Event::Log { level: Level::Error, .. } => Some(Note::Lost),
+            Event::Log { level: Level::Warn, .. } => Some(Note::Back),
+            _ => None,
         };
-        Fact { note: Some(note), ..self.fact(client, event, now_ns) }
+        Fact { note, ..self.fact(client, event, now_ns) }
     }
 }

@@ -160,14 +160,7 @@ impl<T> Follower<T> {
             {
                 self.event(&mut session, &event)?;
             }
-            self.is_done |= self.limit.as_mut().is_some_and(|limit| limit.look(&session));
-            if turn == Turn::End || self.is_done {
-                self.check_met(&session)?;
-                let (client, stamp) = (session.client(), self.stamps.now(session.client()));
-                let news = self.teller.ended(client, stamp)?;
-                self.pass(stamp, news, false);
-                return Ok(());
-            }
+            self.is_done |= self.limit.as_mut().is_some_and(|limit| limit.look(&mut session));
             while let Some(note) = session.note() {
                 if let Event::Log { text, .. } = &note {
                     self.why.clone_from(text);
@@ -175,6 +168,13 @@ impl<T> Follower<T> {
                 let (client, stamp) = (session.client(), self.stamps.now(session.client()));
                 let news = self.teller.note(client, &note, stamp)?;
                 self.pass(stamp, news, false);
+            }
+            if turn == Turn::End || self.is_done {
+                self.check_met(&session)?;
+                let (client, stamp) = (session.client(), self.stamps.now(session.client()));
+                let news = self.teller.ended(client, stamp)?;
+                self.pass(stamp, news, false);
+                return Ok(());
             }
             if self.is_known {
                 self.teller.idle(session.parts().0)?;
