@@ -373,30 +373,37 @@ fn mean_at(scans: &[(u64, f64)], times: &[u64]) -> f64 {
 
 /// Inside a panel, the filter takes up to a sixth of a touch of two taxels that moves by two taxels from scan to
 /// scan. On a seam it takes no more, and nothing is told twice: what is told lies between the least that a
-/// panel's filter leaves and what presses.
+/// panel's filter leaves and what presses. It differs from what is left inside by more than the bar only where
+/// that itself does, from one moment of the first scan to another.
 #[test]
 fn a_filter_takes_no_more_on_a_seam_than_inside_a_panel() {
     let filter = Filter::default();
-    let mut off = Vec::new();
+    let (mut off, mut unsure) = (Vec::new(), 0);
     for seed in seeds() {
         let pass = Pass::random(seed);
         let told = on_seam(&told(&pass, filter));
         let times: Vec<u64> = told.iter().map(|(time, _)| *time).collect();
         assert!(!told.is_empty(), "seed {seed}: {pass:?}");
         let total = told.iter().map(|(_, total)| total).sum::<f64>() / told.len() as f64;
-        let least = left_inside(&pass, filter, &times).into_iter().fold(f64::MAX, f64::min);
-        let most = mean_at(&inside(&pass, Filter::Off), &times);
-        let beyond = (total / least.min(most) - 1.0).min(0.0) + (total / most.max(least) - 1.0).max(0.0);
-        if beyond.abs() > BAR {
-            println!("seed {seed}: {total:.0} of {least:.0} to {most:.0}, {} lists, {pass:?}", told.len());
+        let left = left_inside(&pass, filter, &times);
+        let [least, greatest] = [f64::min, f64::max].map(|of| left.iter().copied().reduce(of).unwrap());
+        let pressed = mean_at(&inside(&pass, Filter::Off), &times);
+        let [low, high] = [least.min(pressed), least.max(pressed)];
+        let beyond = (total / low - 1.0).min(0.0) + (total / high - 1.0).max(0.0);
+        let (differs, own) = ((total / left[0] - 1.0).abs(), greatest / least - 1.0);
+        if beyond.abs() > BAR || differs > BAR {
+            println!("seed {seed}: {total:.0} of {low:.0} to {high:.0}, {} lists, {pass:?}", told.len());
+            println!("  {:.1} % from {:.0}, which is {:.1} % unsure", 100.0 * differs, left[0], 100.0 * own);
+            assert!(own > BAR);
+            unsure += 1;
         }
         off.push(beyond.abs());
     }
     off.sort_by(f64::total_cmp);
     let [median, most, worst] = [0.5, 0.99, 1.0].map(|part| share(&off, part));
     println!("beyond what is left inside: median {median:.2} %, 99 % {most:.2} %, worst {worst:.2} %");
+    println!("{unsure} passes differ from inside by more than 5 %, and it from itself");
     assert!(off.iter().all(|beyond| *beyond <= BAR));
     let [means, _, slow] = differences(filter);
-    let above = means.iter().filter(|difference| **difference > BAR).count();
-    assert!(above * 100 <= means.len() && share(&means, 0.5) <= 0.5 && share(&slow, 0.99) <= 5.0);
+    assert!(unsure * 100 <= means.len() && share(&means, 0.5) <= 0.5 && share(&slow, 0.99) <= 5.0);
 }
