@@ -11,9 +11,9 @@
 //! ```
 //!
 //! A board that restarts, is unplugged or loses its connection is waited for, and all its settings are
-//! restored: garment, scene, gains and calibration, shapes, gestures, feeds, tare. The start and the end of a
-//! gap are reported by an [`Event::Log`] of the host's own. It is an error if the board refuses a setting
-//! that it had accepted before.
+//! restored: garment, scene, gains and calibration, shapes, gestures, feeds, tare. The start of a gap is reported by
+//! an [`Event::Log`] of the host's own, an error, and its end by another, a warning; what else the host has to
+//! say is for information. It is an error if the board refuses a setting that it had accepted before.
 //!
 //! | file | holds |
 //! |---|---|
@@ -278,7 +278,7 @@ impl Session {
         let exchanged = self.exchange();
         if let Some(news) = self.source.port.news() {
             let text = format!("{}: {news}", self.source.label);
-            self.say(Level::Warn, text);
+            self.say(Level::Info, text);
         }
         match exchanged {
             Ok(true) => {
