@@ -56,17 +56,17 @@ impl Condition {
             points.forget();
             if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
                 // The garment at rest is not bent.
-                folds.renew(sampled.now, true, |_| 0, |_, _| ());
+                folds.begin(sampled.now, true);
+                folds.renew(|_| 0, |_, _| ());
                 folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
             }
         } else {
             let terms = LimitTerms::new(self.config.floor, falling);
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
-                let touched = Touched::of(layout, feedback, 1);
+                folds.begin(sampled.now, renewed);
+                let touched = Touched::of(layout, feedback, 1, &folds.turn());
                 folds.renew(
-                    sampled.now,
-                    renewed,
                     |taxels| touched.bytes(taxels),
                     |taxels, levels| calibration.set_levels(taxels, levels, terms),
                 );
@@ -132,7 +132,7 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     sampled: &Sampled<'_>,
     feedback: &Feedback<CONTACTS>,
 ) {
-    let touched = Touched::of(layout, feedback, BESIDE);
+    let touched = Touched::of(layout, feedback, BESIDE, &folds.turn());
     let is_on = |panel| sampled.panels >> panel & 1 == 1;
     let all_read = (0..layout.areas().len()).all(is_on);
     let Sampled { codes, falling, .. } = *sampled;
