@@ -139,11 +139,16 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     // M0+: the place needs a division.
     let is_read = |taxel| all_read || layout.place(taxel).is_some_and(|place| is_on(place.panel.into()));
     folds.learn(|taxels| {
-        if let Some(first) = consecutive(taxels).filter(|_| all_read)
-            && let Some([0, 0, 0, 0]) = images.calibrated.get(first..first + 4)
-            && let Some(pressures) = calibration.pressures(first, codes, falling)
-        {
-            return (!touched.four(first) & 0xF, pressures);
+        if let Some(first) = consecutive(taxels).filter(|_| all_read) {
+            let told = !touched.four(first) & 0xF;
+            if told == 0 {
+                return (0, [0; 4]);
+            }
+            if let Some([0, 0, 0, 0]) = images.calibrated.get(first..first + 4)
+                && let Some(pressures) = calibration.pressures(first, codes, falling)
+            {
+                return (told, pressures);
+            }
         }
         each_told(taxels, |taxel| {
             let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);

@@ -364,7 +364,13 @@ impl FoldState {
         let mut sum = 0;
         for fold in table.folds() {
             let quads = at.quads(fold);
+            at = at.after(fold);
             let its = table.taxels().get(quads.clone()).unwrap_or(&[]);
+            // Most ranges lie beside the fold.
+            let ([first, ..], [.., last]) = (its.first().unwrap_or(&[0; 4]), its.last().unwrap_or(&[0; 4]));
+            if usize::from(*first) >= taxels.end || usize::from(*last) < taxels.start {
+                continue;
+            }
             let first = its.partition_point(|[.., last]| usize::from(*last) < taxels.start);
             let doubts = self.felt.get(quads.start + first..quads.end).unwrap_or(&[]);
             for (its, [_, doubt]) in its.iter().skip(first).zip(doubts) {
@@ -372,10 +378,10 @@ impl FoldState {
                 if first >= taxels.end {
                     break;
                 }
-                if last - first == 3 {
+                if last.wrapping_sub(first) == 3 {
                     // Without the lanes before the range, and those after it.
-                    let (before, after) =
-                        (taxels.start.saturating_sub(first), (last + 1).saturating_sub(taxels.end));
+                    let before = taxels.start.saturating_sub(first);
+                    let after = (last + 1).saturating_sub(taxels.end);
                     let mut own = LaneSums::ZERO;
                     own.add(doubt >> (8 * before) << (8 * (before + after)), 1);
                     sum += own.total();
@@ -387,7 +393,6 @@ impl FoldState {
                     }
                 }
             }
-            at = at.after(fold);
         }
         sum * u32::from(table.unit())
     }
