@@ -18,6 +18,7 @@ use crate::garment::Layout;
 use crate::image::images::Images;
 use crate::image::slices::areas_of;
 use crate::image::view::Image;
+use core::ops::Range;
 
 /// Turns codes into pressure; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -65,7 +66,7 @@ impl Condition {
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
                 folds.begin(sampled.now, renewed);
-                let touched = Touched::of(layout, feedback, 1, &folds.turn());
+                let touched = Touched::of(layout, feedback, 1, &asked(folds, feedback));
                 folds.renew(
                     |taxels| touched.bytes(taxels),
                     |taxels, levels| calibration.set_levels(taxels, levels, terms),
@@ -132,7 +133,7 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     sampled: &Sampled<'_>,
     feedback: &Feedback<CONTACTS>,
 ) {
-    let touched = Touched::of(layout, feedback, BESIDE, &folds.turn());
+    let touched = Touched::of(layout, feedback, BESIDE, &asked(folds, feedback));
     let is_on = |panel| sampled.panels >> panel & 1 == 1;
     let all_read = (0..layout.areas().len()).all(is_on);
     let Sampled { codes, falling, .. } = *sampled;
@@ -156,6 +157,11 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
             Some(calibration.pressure(taxel, *code, falling))
         })
     });
+}
+
+/// Taxels of which it is asked whether something touches them.
+fn asked<const CONTACTS: usize>(folds: &FoldState, feedback: &Feedback<CONTACTS>) -> Range<usize> {
+    if feedback.home.is_empty() { 0..0 } else { folds.turn() }
 }
 
 /// Pressures of those of four taxels that tell them, and a bit for each of these.
