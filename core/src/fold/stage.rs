@@ -173,8 +173,8 @@ impl FoldState {
         all.0.into()..usize::from(all.1) + 1
     }
 
-    /// Renews the taxels whose turn it is, and hands over some at a time, in fours, with the levels beyond which
-    /// a touch begins there, counts, or goes on where `touched` has all bits of their bytes.
+    /// Renews the taxels whose turn it is, and hands over some at a time, in fours, with the levels beyond
+    /// which a touch begins there, counts, or goes on where `touched` has all bits of their bytes.
     #[inline(never)]
     pub(crate) fn renew(
         &mut self,

@@ -24,8 +24,8 @@ pub(super) type RecordWords = [u32; 5];
 /// What taxels press on their link: sums over values in counts, and records in units of 2^-14.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PressSums {
-    /// Sums of value times normal, and of value times arm, of taxels that press `held` counts together: sums of
-    /// 64 bits take longer than a taxel, and most contacts need none.
+    /// Sums of value times normal, and of value times arm, of taxels that press `held` counts together: sums
+    /// of 64 bits take longer than a taxel, and most contacts need none.
     near: [i32; 6],
     held: u32,
     /// The same of all other taxels, which press `settled` counts.
@@ -45,12 +45,51 @@ impl PressSums {
         let Some(after) = image.after.get(range.clone()) else { return };
         let Some(records) = image.records.get(range) else { return };
         let (taxels, total) = (run.rebased(), run.sums.s0);
-        let most = total + total / 16 + WORD as u32 * u32::from(MARGIN);
+        let most = most_pressed(total);
         // Without a gap between them all columns are taxels of the run.
         if most > TOGETHER || taxels & taxels.wrapping_add(1) != 0 {
-            return self.press_each(before, after, records, taxels);
+            return self.press_apart(before, after, records, taxels);
         }
         self.make_room(most);
+        self.press_all(before, after, records, total);
+    }
+
+    /// Adds those of some taxels whose bits are set.
+    #[inline(never)] // seldom
+    fn press_apart(&mut self, before: &[u16], after: &[u16], records: &[RecordWords], mut taxels: u32) {
+        let (mut values, mut total) = ([[0; WORD as usize]; 2], 0);
+        let [to_before, to_after] = &mut values;
+        for (((to_before, to_after), before), after) in
+            to_before.iter_mut().zip(to_after).zip(before).zip(after)
+        {
+            if taxels & 1 == 1 {
+                (*to_before, *to_after) = (*before, *after);
+                total += u32::from(*after);
+            }
+            taxels >>= 1;
+        }
+        let [before, after] = values.each_ref().map(|values| values.get(..records.len()).unwrap_or(values));
+        if most_pressed(total) <= TOGETHER {
+            self.make_room(most_pressed(total));
+            return self.press_all(before, after, records, total);
+        }
+        for ((before, after), record) in before.iter().zip(after).zip(records) {
+            self.press_alone(*before, *after, record);
+        }
+    }
+
+    /// Adds a taxel of those that press too much together.
+    #[inline(never)] // seldom
+    fn press_alone(&mut self, before: u16, after: u16, record: &RecordWords) {
+        self.make_room(TOGETHER);
+        let mut pressed = after.into();
+        self.add(&[before], &[after], &[*record], &mut pressed);
+        self.held += pressed;
+    }
+
+    /// Adds taxels for which there is room, whose values after the filter are `total` together.
+    #[inline(always)] // M0+: a call takes as long as two taxels
+    fn press_all(&mut self, before: &[u16], after: &[u16], records: &[RecordWords], total: u32) {
         let mut pressed = total;
         let [(before, last_before), (after, last_after)] = [before, after].map(|values| values.as_chunks());
         let (records, last_record) = records.as_chunks();
@@ -61,20 +100,6 @@ impl PressSums {
             self.add(&[*before], &[*after], &[*record], &mut pressed);
         }
         self.held += pressed;
-    }
-
-    /// Adds taxels one by one, by their bits.
-    #[inline(never)] // seldom
-    fn press_each(&mut self, before: &[u16], after: &[u16], records: &[RecordWords], mut taxels: u32) {
-        for ((before, after), record) in before.iter().zip(after).zip(records) {
-            if taxels & 1 == 1 {
-                self.make_room(TOGETHER);
-                let mut pressed = (*after).into();
-                self.add(&[*before], &[*after], &[*record], &mut pressed);
-                self.held += pressed;
-            }
-            taxels >>= 1;
-        }
     }
 
     /// Adds some taxels, and to `pressed` what the filter has cut from them.
@@ -153,6 +178,11 @@ impl PressSums {
         self.held += more.held;
         self.near.iter_mut().zip(more.near).for_each(|(to, more)| *to = to.wrapping_add(more));
     }
+}
+
+/// The most that taxels of a run press whose values after the filter are `total` together.
+const fn most_pressed(total: u32) -> u32 {
+    total + total / 16 + WORD as u32 * MARGIN as u32
 }
 
 /// Pressure of a taxel, from its values before and after the filter: at least that after it.

@@ -149,8 +149,8 @@ fn shift(place: &mut [u8], from: Range<usize>, to: usize) -> Option<()> {
 }
 
 /// Decodes COBS in place: each code byte becomes the 0 that it stands for, and all other bytes stay. Only the
-/// code byte behind a full group stands for none; then the bytes before it move. Returns the data, or `None` if
-/// `frame` is not COBS.
+/// code byte behind a full group stands for none; then the bytes before it move. Returns the data, or `None`
+/// if `frame` is not COBS.
 pub(super) fn unstuff(frame: &mut [u8]) -> Option<&[u8]> {
     if frame.contains(&0) {
         return None;
