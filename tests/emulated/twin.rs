@@ -106,17 +106,22 @@ impl Heard {
         (from, to): (Micros, Micros),
         tell: &dyn Fn(u64) -> Option<Told>,
     ) {
-        let (mut thinned, mut bytes) = (None, 0);
-        // The image is the last report of a frame; the next health report tells whether one was left out.
+        let (mut before, mut thinned, mut bytes) = (None, None, 0);
+        // The image is the last report of a frame; the next health report tells whether one was left out. One
+        // that was left out before these frames, when the scene changed, does not matter; one of the frames is
+        // missed by whoever compares them.
         while thinned.is_none() {
             let message = board.receive();
             let report = message.report();
             bytes += message.wire_bytes;
             self.take(&report);
             match report {
-                Report::Health(health) if self.times.values().any(|time| *time >= to) => {
-                    thinned =
-                        Some((health.thinned_frames, health.thinned_contacts, health.lost, health.failed));
+                Report::Health(health) => {
+                    let before = *before.get_or_insert(health.thinned_frames);
+                    if self.times.values().any(|time| *time >= to) {
+                        let frames = health.thinned_frames - before;
+                        thinned = Some((frames, health.thinned_contacts, health.lost, health.failed));
+                    }
                 }
                 Report::Folds(folds) => {
                     let are_known =
@@ -244,6 +249,8 @@ pub fn followed(
             None
         }
     };
+    // Of an image that is left out while the scene changes, the twin knows nothing: a later one stands alone.
+    board.ask(&Request::KeyFrame);
     let played = board.play();
     let count = (codes.len() / TAXELS) as u64;
     // The board takes the time of a scan some microseconds after its first address.
@@ -270,23 +277,29 @@ pub fn followed(
         poses.extend(poses_at.map(|(at, frame)| (frame, at, Request::SetPoses(&told.poses))));
     }
     let mut perceived = BTreeSet::new();
-    for (number, time) in times.range(first..).take_while(|(_, time)| **time < to) {
+    // An image that was left out had a scan before the next one.
+    let (next, at) = times.range(first..).next().unwrap();
+    let mut time = Micros(at.0 - u64::from(next - first + 1) * SCAN_US);
+    let shown = times.range(first..).take_while(|(_, time)| **time < to);
+    for number in first..=shown.last().map_or(first, |(last, _)| *last) {
+        let known = times.get(&number);
+        time = known.copied().unwrap_or(Micros(time.0 + SCAN_US));
         // Each scan is perceived at once: what comes until its end is obeyed before it.
         while let Some((at, request)) = postures.pop_front_if(|(at, _)| at.0 < time.0 + SCAN_US) {
             twin.ask(&request, at);
         }
-        while let Some((_, at, request)) = poses.pop_front_if(|(frame, ..)| *frame <= *number) {
+        while let Some((_, at, request)) = poses.pop_front_if(|(frame, ..)| *frame <= number) {
             twin.ask(&request, at);
         }
-        if keys.contains(number) {
+        if keys.contains(&number) {
             // They come each second from the start of the stream, which the twin has not seen.
-            twin.ask(&Request::KeyFrame, *time);
+            twin.ask(&Request::KeyFrame, time);
         }
-        let frame = (*time >= from).then(|| time.since(from) / (dwell * SCAN_US));
+        let frame = known.filter(|time| **time >= from).map(|time| time.since(from) / (dwell * SCAN_US));
         perceived.extend(frame);
         let shown = frame.and_then(|n| codes.chunks(TAXELS).nth(n as usize));
         let codes: Vec<Code> = shown.unwrap_or(&[0; TAXELS]).iter().map(|code| Code(*code)).collect();
-        twin.scan(&codes, *time);
+        twin.scan(&codes, time);
     }
     let missed: Vec<u64> = (0..count).filter(|frame| !perceived.contains(frame)).collect();
     assert!(missed.is_empty(), "frames that were not perceived: {missed:?}");

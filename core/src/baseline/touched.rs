@@ -4,6 +4,7 @@ use super::feedback::{Feedback, Pressed};
 use crate::calibrate::levels::consecutive;
 use crate::capacity::TAXELS;
 use crate::garment::Layout;
+use core::ops::Range;
 
 /// Words of a bit for each taxel, and one more, so that each of those has a next one.
 const WORDS: usize = TAXELS.div_ceil(32) + 1;
@@ -15,18 +16,28 @@ pub(crate) struct Touched {
 }
 
 impl Touched {
-    /// Taxels within `beside` taxels of the contacts' rectangles, in the same panel.
+    /// Taxels within `beside` taxels of the contacts' rectangles, in the same panel. Those of rows without a
+    /// taxel that is `asked` may be left out.
     #[inline(never)] // once in a frame, with much stack
-    pub fn of<const CONTACTS: usize>(layout: &Layout, feedback: &Feedback<CONTACTS>, beside: u16) -> Touched {
-        let is_empty = feedback.home.is_empty();
-        let mut touched = Touched { taxels: [0; WORDS], is_empty };
+    pub fn of<const CONTACTS: usize>(
+        layout: &Layout,
+        feedback: &Feedback<CONTACTS>,
+        beside: u16,
+        asked: &Range<usize>,
+    ) -> Touched {
+        let mut touched = Touched { taxels: [0; WORDS], is_empty: true };
         for Pressed { rect, .. } in feedback.home.iter().chain(&feedback.beyond) {
             let Some(area) = layout.areas().get(usize::from(rect.panel)) else { continue };
             let [left, top] = [rect.left, rect.top].map(|first| first.saturating_sub(beside));
             let right = rect.right.saturating_add(beside + 1).min(area.columns);
             let bottom = rect.bottom.saturating_add(beside + 1).min(area.rows);
             let columns = usize::from(area.columns);
-            let mut corner = usize::from(area.base) + usize::from(top) * columns + usize::from(left);
+            let [start, end] = [top, bottom].map(|row| usize::from(area.base) + usize::from(row) * columns);
+            if end <= asked.start || asked.end <= start {
+                continue;
+            }
+            touched.is_empty = false;
+            let mut corner = start + usize::from(left);
             let mut count = right.saturating_sub(left);
             // As many columns at a time as a word has bits.
             while count > 0 {
@@ -108,7 +119,12 @@ mod tests {
                 let rect = Rect { panel: layout.areas().len() as u8 - 1, top, bottom, left, right };
                 let mut feedback = Feedback::<4>::new();
                 feedback.home.push(Pressed { rect, peak: 1 }).unwrap();
-                let touched = Touched::of(&layout, &feedback, beside);
+                let touched = Touched::of(&layout, &feedback, beside, &(0..TAXELS));
+                // The same of some taxels, if only they are asked for.
+                for asked in [0..1, 3..40, layout.taxels() / 2..layout.taxels()] {
+                    let of_some = Touched::of(&layout, &feedback, beside, &asked);
+                    assert!(asked.clone().all(|taxel| of_some.has(taxel) == touched.has(taxel)), "{asked:?}");
+                }
                 for taxel in 0..layout.taxels() {
                     let place = layout.place(taxel).unwrap();
                     let want = rect.holds(place.panel, place.row, place.column, beside);

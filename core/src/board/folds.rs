@@ -57,7 +57,7 @@ impl Folds {
         contacts: impl FnOnce() -> Vec<Doubt, CONTACTS>,
     ) -> Option<FoldsReport> {
         let (frame, time) = self.due.take()?;
-        let Expected { taxels, total, doubt } = folds.expected(|_| true);
+        let Expected { taxels, total, doubt } = folds.expected();
         Some(FoldsReport {
             frame,
             time,

@@ -19,7 +19,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     #[inline(never)]
     pub(super) fn take_poses(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         let table = self.surface.table().ok_or_else(|| Refusal::of(NO_SURFACE))?;
-        let poses = reading::value::<Vec<(LinkName, Pose), LINKS>>("poses", bytes)?;
+        let mut poses = Vec::<(LinkName, Pose), LINKS>::new();
+        reading::list("poses", bytes, &mut poses)?;
         self.surface.poses.accept(&poses, &table, now).map_err(Refusal::of)
     }
 

@@ -28,16 +28,17 @@ fn left_out(parameter: &'static str) -> Refusal {
 }
 
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    pub(super) fn receive(&mut self, now: Micros, bytes: &[u8]) {
-        for byte in bytes {
+    pub(super) fn receive(&mut self, now: Micros, mut bytes: &[u8]) {
+        while !bytes.is_empty() {
             // The message is copied out of the inbox, which is part of the board that it changes.
             let Board { inbox, outbox, health, .. } = self;
-            let Some(frame) = inbox.push(*byte) else { continue };
-            let mut message = [0; crate::wire::LONGEST_REQUEST];
+            let (taken, frame) = inbox.take(bytes);
+            bytes = bytes.get(taken..).unwrap_or(&[]);
+            let Some(frame) = frame else { continue };
+            let mut message = Vec::<u8, { crate::wire::LONGEST_REQUEST }>::new();
             let read = frame.and_then(|body| {
-                let slot = message.get_mut(..body.len()).ok_or(crate::wire::WireError::TooLong)?;
-                slot.copy_from_slice(body);
-                decode::<Request>(slot)
+                message.extend_from_slice(body).map_err(|_| crate::wire::WireError::TooLong)?;
+                decode::<Request>(&message)
             });
             match read {
                 Ok(request) => {

@@ -18,6 +18,7 @@ use crate::garment::Layout;
 use crate::image::images::Images;
 use crate::image::slices::areas_of;
 use crate::image::view::Image;
+use core::ops::Range;
 
 /// Turns codes into pressure; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -56,17 +57,17 @@ impl Condition {
             points.forget();
             if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
                 // The garment at rest is not bent.
-                folds.renew(sampled.now, true, |_| 0, |_, _| ());
+                folds.begin(sampled.now, true);
+                folds.renew(|_| 0, |_, _| ());
                 folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
             }
         } else {
             let terms = LimitTerms::new(self.config.floor, falling);
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
-                let touched = Touched::of(layout, feedback, 1);
+                folds.begin(sampled.now, renewed);
+                let touched = Touched::of(layout, feedback, 1, &asked(folds, feedback));
                 folds.renew(
-                    sampled.now,
-                    renewed,
                     |taxels| touched.bytes(taxels),
                     |taxels, levels| calibration.set_levels(taxels, levels, terms),
                 );
@@ -132,18 +133,23 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     sampled: &Sampled<'_>,
     feedback: &Feedback<CONTACTS>,
 ) {
-    let touched = Touched::of(layout, feedback, BESIDE);
+    let touched = Touched::of(layout, feedback, BESIDE, &asked(folds, feedback));
     let is_on = |panel| sampled.panels >> panel & 1 == 1;
     let all_read = (0..layout.areas().len()).all(is_on);
     let Sampled { codes, falling, .. } = *sampled;
     // M0+: the place needs a division.
     let is_read = |taxel| all_read || layout.place(taxel).is_some_and(|place| is_on(place.panel.into()));
     folds.learn(|taxels| {
-        if let Some(first) = consecutive(taxels).filter(|_| all_read)
-            && let Some([0, 0, 0, 0]) = images.calibrated.get(first..first + 4)
-            && let Some(pressures) = calibration.pressures(first, codes, falling)
-        {
-            return (!touched.four(first) & 0xF, pressures);
+        if let Some(first) = consecutive(taxels).filter(|_| all_read) {
+            let told = !touched.four(first) & 0xF;
+            if told == 0 {
+                return (0, [0; 4]);
+            }
+            if let Some([0, 0, 0, 0]) = images.calibrated.get(first..first + 4)
+                && let Some(pressures) = calibration.pressures(first, codes, falling)
+            {
+                return (told, pressures);
+            }
         }
         each_told(taxels, |taxel| {
             let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
@@ -151,6 +157,11 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
             Some(calibration.pressure(taxel, *code, falling))
         })
     });
+}
+
+/// Taxels of which it is asked whether something touches them.
+fn asked<const CONTACTS: usize>(folds: &FoldState, feedback: &Feedback<CONTACTS>) -> Range<usize> {
+    if feedback.home.is_empty() { 0..0 } else { folds.turn() }
 }
 
 /// Pressures of those of four taxels that tell them, and a bit for each of these.

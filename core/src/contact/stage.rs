@@ -162,19 +162,19 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
     #[inline(always)] // M0+: what a panel has in common stays in registers
     pub(crate) fn each_pressed(&self, layout: &Layout, mut take: impl FnMut(PressedRun<'_>)) {
         let contacts = self.tracks.contacts_of_components();
-        let mut runs = self.labeller.runs.iter();
-        let mut next = runs.next();
+        let mut runs = &self.labeller.runs[..];
         for (panel, area) in (0..).zip(layout.areas()) {
             let end = area.first_row.saturating_add(area.rows);
-            let base = usize::from(area.base);
-            while let Some(run) = next.filter(|run| run.row < end) {
-                next = runs.next();
+            let count = runs.partition_point(|run| run.row < end);
+            let own = runs.split_off(..count).unwrap_or_default();
+            let columns = usize::from(area.columns);
+            for run in own {
                 let Some(label) = self.labeller.labels.get(usize::from(run.label)) else { continue };
                 // NONE, if it is of no component.
                 let contact = contacts.get(usize::from(label.contact)).copied().flatten();
                 let Some(contact) = contact.map(usize::from) else { continue };
                 let row = usize::from(run.row.wrapping_sub(area.first_row));
-                let first = base + row * usize::from(area.columns) + usize::from(run.left);
+                let first = usize::from(area.base) + row * columns + usize::from(run.left);
                 take(PressedRun { contact, panel, first, run });
             }
         }

@@ -25,6 +25,9 @@ pub(super) struct LaneSums {
 }
 
 impl LaneSums {
+    /// Nothing yet.
+    pub const ZERO: LaneSums = LaneSums { even: 0, odd: 0 };
+
     /// Nothing yet: half of a unit, so that [`LaneSums::bytes`] rounds.
     pub const NONE: LaneSums = LaneSums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
 
@@ -43,6 +46,12 @@ impl LaneSums {
     pub fn add_both(&mut self, [a, b]: [u32; 2], weight: u32) {
         self.even = self.even.wrapping_add((a & EVEN).wrapping_add(b & EVEN).wrapping_mul(weight));
         self.odd = self.odd.wrapping_add((a >> 8 & EVEN).wrapping_add(b >> 8 & EVEN).wrapping_mul(weight));
+    }
+
+    /// The sum of all sums.
+    pub fn total(self) -> u32 {
+        let [even, odd] = [self.even, self.odd].map(|sums| (sums & 0xFFFF) + (sums >> 16));
+        even + odd
     }
 
     /// Each sum divided by [`WHOLE`], less `less` (at most 128), within 0 and 255.
@@ -118,6 +127,9 @@ mod tests {
             sums.add(wa, weight);
             let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);
             prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);
+            let mut sums = LaneSums::ZERO;
+            sums.add(wa, 1);
+            prop_assert_eq!(sums.total(), a.map(u32::from).iter().sum());
             let mut sums = LaneSums::ALMOST;
             sums.add(wa, weight);
             let want = a.map(|a| (u32::from(a) * weight).div_ceil(128) as u8);

@@ -146,17 +146,8 @@ impl FoldState {
         self.table().is_some() && has_any(&self.held, taxels)
     }
 
-    /// Renews the taxels whose turn it is, all of them if `whole`, and hands over some at a time, in fours,
-    /// with the levels beyond which a touch begins there, counts, or goes on where `touched` has all bits of
-    /// their bytes.
-    #[inline(never)]
-    pub(crate) fn renew(
-        &mut self,
-        now: Micros,
-        whole: bool,
-        touched: impl Fn(&[u16; 4]) -> u32,
-        mut set: impl FnMut(&[[u16; 4]], &[LevelPairs]),
-    ) {
+    /// Gives some taxels, or all of them if `whole`, their turn: see [`FoldState::turn`].
+    pub(crate) fn begin(&mut self, now: Micros, whole: bool) {
         let Some(worn) = self.in_force.first_mut() else { return };
         let Some(table) = worn.table else { return };
         let all = table.taxels().len() as u16;
@@ -168,6 +159,31 @@ impl FoldState {
         let turn = [start, start.saturating_add(count).min(all)];
         let is_posed = self.posture.is_fresh(now);
         *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
+    }
+
+    /// Numbers of taxels among which are those whose turn it is.
+    pub(crate) fn turn(&self) -> Range<usize> {
+        let Some(InForce { table: Some(table), turn: [start, end], .. }) = self.in_force.first() else {
+            return 0..0;
+        };
+        let turn = table.taxels().get(usize::from(*start)..usize::from(*end)).unwrap_or(&[]);
+        let all = turn
+            .iter()
+            .fold((u16::MAX, 0), |(from, to), [first, .., last]| (from.min(*first), to.max(*last)));
+        all.0.into()..usize::from(all.1) + 1
+    }
+
+    /// Renews the taxels whose turn it is, and hands over some at a time, in fours, with the levels beyond
+    /// which a touch begins there, counts, or goes on where `touched` has all bits of their bytes.
+    #[inline(never)]
+    pub(crate) fn renew(
+        &mut self,
+        touched: impl Fn(&[u16; 4]) -> u32,
+        mut set: impl FnMut(&[[u16; 4]], &[LevelPairs]),
+    ) {
+        let Some(InForce { table: Some(table), turn, is_posed, .. }) = self.in_force.first().copied() else {
+            return;
+        };
         let unit = u32::from(table.unit());
         let mut at = FoldStart::FIRST;
         let (mut felt, mut levels) = ([[0; 2]; AT_ONCE], [[0; 2]; AT_ONCE]);
@@ -348,12 +364,28 @@ impl FoldState {
         let mut sum = 0;
         for fold in table.folds() {
             let quads = at.quads(fold);
+            at = at.after(fold);
             let its = table.taxels().get(quads.clone()).unwrap_or(&[]);
+            // Most ranges lie beside the fold.
+            let ([first, ..], [.., last]) = (its.first().unwrap_or(&[0; 4]), its.last().unwrap_or(&[0; 4]));
+            if usize::from(*first) >= taxels.end || usize::from(*last) < taxels.start {
+                continue;
+            }
             let first = its.partition_point(|[.., last]| usize::from(*last) < taxels.start);
             let doubts = self.felt.get(quads.start + first..quads.end).unwrap_or(&[]);
             for (its, [_, doubt]) in its.iter().skip(first).zip(doubts) {
-                if its.first().is_some_and(|taxel| usize::from(*taxel) >= taxels.end) {
+                let [first, .., last] = its.map(usize::from);
+                if first >= taxels.end {
                     break;
+                }
+                if last.wrapping_sub(first) == 3 {
+                    // Without the lanes before the range, and those after it.
+                    let before = taxels.start.saturating_sub(first);
+                    let after = (last + 1).saturating_sub(taxels.end);
+                    let mut own = LaneSums::ZERO;
+                    own.add(doubt >> (8 * before) << (8 * (before + after)), 1);
+                    sum += own.total();
+                    continue;
                 }
                 for (lane, taxel) in its.iter().enumerate() {
                     if taxels.contains(&usize::from(*taxel)) {
@@ -361,26 +393,24 @@ impl FoldState {
                     }
                 }
             }
-            at = at.after(fold);
         }
         sum * u32::from(table.unit())
     }
 
-    /// Sums over the taxels that `counts` takes.
-    pub fn expected(&self, counts: impl Fn(usize) -> bool) -> Expected {
-        let mut sum = Expected::default();
-        let Some(table) = self.table() else { return sum };
-        for (taxels, [expected, doubt]) in table.taxels().iter().zip(&self.felt) {
-            for (lane, taxel) in taxels.iter().enumerate() {
-                let [expected, doubt] = [*expected, *doubt].map(|bytes| byte(bytes, lane));
-                if expected | doubt != 0 && counts(usize::from(*taxel)) {
-                    sum.taxels += 1;
-                    sum.total += u32::from(expected) * u32::from(table.unit());
-                    sum.doubt += u32::from(doubt) * u32::from(table.unit());
-                }
+    /// Sums over all taxels.
+    pub fn expected(&self) -> Expected {
+        let Some(table) = self.table() else { return Expected::default() };
+        let felt = self.felt.get(..table.taxels().len()).unwrap_or(&self.felt);
+        let mut sums = [LaneSums::ZERO; 3];
+        for [expected, doubt] in felt {
+            let nothing = zeros(expected | doubt) >> 7;
+            for (sum, bytes) in sums.iter_mut().zip([nothing, *expected, *doubt]) {
+                sum.add(bytes, 1);
             }
         }
-        sum
+        let [nothing, expected, doubt] = sums.map(LaneSums::total);
+        let (taxels, unit) = ((4 * felt.len()) as u32 - nothing, u32::from(table.unit()));
+        Expected { taxels: taxels as u16, total: expected * unit, doubt: doubt * unit }
     }
 }
 

@@ -156,11 +156,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         let folds = self.condition.folds();
         let mut sums = [0u32; CONTACTS];
         self.contact.each_pressed(layout, |run| {
-            let taxels = run.taxels();
-            if folds.holds_any(taxels.clone())
-                && let Some(sum) = sums.get_mut(run.contact)
-            {
-                *sum = sum.saturating_add(folds.doubt_within(&taxels));
+            if let Some(sum) = sums.get_mut(run.contact) {
+                *sum = sum.saturating_add(folds.doubt_within(&run.taxels()));
             }
         });
         let mut doubts = Vec::new();

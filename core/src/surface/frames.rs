@@ -61,8 +61,7 @@ impl SurfaceState {
             if let Some(motion) = &motion {
                 motion.check()?;
             }
-            let link = (0..table.links()).find(|link| table.link(*link as u8) == Some(called));
-            let to = link.and_then(|link| taken.get_mut(link));
+            let to = table.find_link(called).and_then(|link| taken.get_mut(link));
             let must = "must be a link of the surface";
             *to.ok_or(Invalid { parameter: "pose.link", must })? = Some((pose, motion));
         }

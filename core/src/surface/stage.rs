@@ -144,7 +144,8 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             });
         }
         let links = links_of(table, layout);
-        let image = PressedImage::new(images, table.taxels());
+        let [before, after] = images;
+        let image = PressedImage { before, after, records: bytemuck::cast_slice(table.taxels()) };
         contact.each_pressed(layout, |run| {
             let Some(link) = links.get(usize::from(run.panel)) else { return };
             let (landing, of) = placed.get(run.contact).copied().unwrap_or((NONE, NONE));
@@ -162,7 +163,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
                 sums.add(landing);
             }
         }
-        for (link, _) in (0..).zip(&self.sums).filter(|(_, sums)| sums.press.pressed > 0) {
+        for (link, _) in (0..).zip(&self.sums).filter(|(_, sums)| sums.press.pressed() > 0) {
             // There are as many places as links.
             let _ = self.pressed.push(link);
         }
@@ -242,7 +243,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         let of = |landing: &Landing| {
             let blind = self.blind.iter().filter(|blind| blind.contact == landing.contact);
             let far = |blind: &BlindTaxel| (*blind, reach(table, blind, landing.spot.at));
-            let of = of_faulty(blind.map(far), landing.sums.pressed);
+            let of = of_faulty(blind.map(far), landing.sums.pressed());
             let saturated = self.saturated.get(usize::from(landing.contact)).copied().unwrap_or(0);
             (landing.id, Uncertainty { saturated, ..of })
         };
@@ -259,7 +260,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             let center = sums.center();
             let blind = self.blind.iter().filter(|blind| blind.link == *link);
             let far = |blind: &BlindTaxel| (*blind, reach(table, blind, center));
-            let of = of_faulty(blind.map(far), sums.press.pressed);
+            let of = of_faulty(blind.map(far), sums.press.pressed());
             (*link, Uncertainty { saturated: sums.saturated, ..of })
         };
         self.pressed.iter().map(of).filter(|(_, of)| !of.is_none())
@@ -319,7 +320,7 @@ impl LinkSums {
 
     #[inline(never)] // M0+: out of line
     fn wrench<'a>(&self, link: u8, name: &'a str) -> Wrench<&'a str> {
-        let (force, moment, pressed) = (self.press.force(), self.press.moment(), self.press.pressed);
+        let (force, moment, pressed) = (self.press.force(), self.press.moment(), self.press.pressed());
         Wrench {
             link,
             name,

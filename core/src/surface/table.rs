@@ -116,6 +116,14 @@ impl<'a> Table<'a> {
         stored_name(self.names.get(usize::from(link))?)
     }
 
+    /// Index of the link of this name. Cheaper than to compare each [`Table::link`], which must be text.
+    pub(super) fn find_link(&self, name: &str) -> Option<usize> {
+        let is_its = |stored: &[u8; LINK_NAME]| {
+            stored.strip_prefix(name.as_bytes()).is_some_and(|rest| matches!(rest, [] | [0, ..]))
+        };
+        self.names.iter().position(is_its)
+    }
+
     /// Number of regions.
     pub const fn regions(&self) -> usize {
         self.regions.len()

@@ -148,27 +148,27 @@ fn shift(place: &mut [u8], from: Range<usize>, to: usize) -> Option<()> {
     Some(())
 }
 
-/// Decodes COBS in place. Returns the length of the data, or `None` if `frame` is not COBS.
-pub(super) fn unstuff(frame: &mut [u8]) -> Option<usize> {
-    let (mut from, mut to) = (0, 0);
-    while let Some(code) = frame.get(from).copied() {
-        let next = from + usize::from(code);
-        if code == 0 || next > frame.len() {
-            return None;
-        }
-        for at in from + 1..next {
-            let byte = *frame.get(at).filter(|byte| **byte != 0)?;
-            *frame.get_mut(to)? = byte;
-            to += 1;
-        }
-        // A group with a code below 255 stands for its bytes and a zero, except the last one.
-        if code != 255 && next < frame.len() {
-            *frame.get_mut(to)? = 0;
-            to += 1;
-        }
-        from = next;
+/// Decodes COBS in place: each code byte becomes the 0 that it stands for, and all other bytes stay. Only the
+/// code byte behind a full group stands for none; then the bytes before it move. Returns the data, or `None`
+/// if `frame` is not COBS.
+pub(super) fn unstuff(frame: &mut [u8]) -> Option<&[u8]> {
+    if frame.contains(&0) {
+        return None;
     }
-    Some(to)
+    let (mut start, mut at, mut code) = (1, 0, *frame.first()?);
+    loop {
+        let next = at + usize::from(code);
+        let is_full = code == u8::MAX;
+        let Some(head) = frame.get_mut(next) else {
+            return if next == frame.len() { frame.get(start..) } else { None };
+        };
+        (at, code) = (next, replace(head, 0));
+        if is_full {
+            let place = frame.get_mut(start..=next)?;
+            place.copy_within(..place.len().checked_sub(1)?, 1);
+            start += 1;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -214,8 +214,7 @@ mod tests {
                 let (end, frame) = mine[range].split_last_mut().unwrap();
                 assert!(*end == 0 && !frame.contains(&0));
                 assert_eq!(frame, &theirs[..length]);
-                assert_eq!(unstuff(frame), Some(data.len()));
-                assert_eq!(frame[..data.len()], data);
+                assert_eq!(unstuff(frame), Some(&data[..]));
             }
         }
     }
@@ -228,6 +227,6 @@ mod tests {
         // Other encoders append an empty group to a full one; the meaning is the same.
         let mut frame = [255; 256];
         frame[255] = 1;
-        assert_eq!(unstuff(&mut frame), Some(254));
+        assert_eq!(unstuff(&mut frame), Some(&[255; 254][..]));
     }
 }

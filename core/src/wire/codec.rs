@@ -77,8 +77,7 @@ pub fn open(frame: &mut [u8]) -> Result<&[u8], WireError> {
     if frame.len() <= CRC_BYTES + 1 {
         return Err(WireError::TooShort);
     }
-    let bytes = cobs::unstuff(frame).ok_or(WireError::Cobs)?;
-    let whole = frame.get(..bytes).ok_or(WireError::Cobs)?;
+    let whole = cobs::unstuff(frame).ok_or(WireError::Cobs)?;
     match whole.split_last_chunk::<{ CRC_BYTES }>() {
         None | Some(([], _)) => Err(WireError::TooShort),
         Some((message, tail)) if crc32(message) == u32::from_le_bytes(*tail) => Ok(message),

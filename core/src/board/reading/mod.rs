@@ -15,10 +15,32 @@ use serde::Deserialize;
 /// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
 #[inline(never)]
 pub(super) fn value<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
-    decode(bytes).map_err(|error| match error {
-        WireError::LeftOver => format_args!("{what}: bytes after its end").into(),
-        _ => format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into(),
-    })
+    decode(bytes).map_err(|error| unreadable(what, bytes, error == WireError::LeftOver))
+}
+
+/// Decodes a list in place, called `what` in the error.
+#[inline(never)]
+pub(super) fn list<'a, T: Deserialize<'a>, const N: usize>(
+    what: &str,
+    bytes: &'a [u8],
+    to: &mut Vec<T, N>,
+) -> Result<(), Refusal> {
+    let refuse = |_| unreadable(what, bytes, false);
+    let (count, mut rest) = postcard::take_from_bytes::<u32>(bytes).map_err(refuse)?;
+    for _ in 0..count {
+        let (value, others) = postcard::take_from_bytes(rest).map_err(refuse)?;
+        to.push(value).map_err(|_| unreadable(what, bytes, false))?;
+        rest = others;
+    }
+    if rest.is_empty() { Ok(()) } else { Err(unreadable(what, bytes, true)) }
+}
+
+/// Refusal of bytes that cannot be read, or of those after the end of what was read.
+fn unreadable(what: &str, bytes: &[u8], is_left_over: bool) -> Refusal {
+    if is_left_over {
+        return format_args!("{what}: bytes after its end").into();
+    }
+    format_args!("{what}: these {} bytes are none that this board can hold", bytes.len()).into()
 }
 
 /// Unread bytes of a message, which errors call `what`.
