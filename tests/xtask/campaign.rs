@@ -42,7 +42,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 34] = [
+const RUNS: [(&str, Run, &str); 38] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -164,6 +164,22 @@ const RUNS: [(&str, Run, &str); 34] = [
         "one-time",
         Run::Library("one_time"),
         "boards of a robot on one time: skew by round trips, two hours of six clocks and links (simulated)",
+    ),
+    ("seams", Run::Library("crossing"), "touches over a seam between two boards: 1,000 passes (simulated)"),
+    (
+        "losses",
+        Run::Library("robot::losses"),
+        "boards of a robot: 1,000 losses and returns in random order (simulated)",
+    ),
+    (
+        "mind",
+        Run::Library("mind::families"),
+        "the mind of a robot: 40 touches of each family over two boards, beside each of its sources (simulated)",
+    ),
+    (
+        "probes",
+        Run::Library("mind::probes"),
+        "active touch: 400 probes of objects on which it was not tuned (simulated)",
     ),
     (
         "boards",

@@ -124,12 +124,13 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
                 age_ms,
                 ..ToldLine::default()
             };
-            for (heard, mind) in &mut minds {
-                if matches!(heard, Heard::Vision | Heard::All) {
-                    mind.tell(&line("vision", vision), now).unwrap();
-                }
-                if let Some(voice) = voice.filter(|_| matches!(heard, Heard::Voice | Heard::All)) {
-                    mind.tell(&line("voice", voice), now).unwrap();
+            let known = [("vision", Some(vision), Heard::Vision), ("voice", voice, Heard::Voice)];
+            for (at, (heard, mind)) in minds.iter_mut().enumerate() {
+                for (name, value, of) in &known {
+                    let Some(value) = value.filter(|_| [*of, Heard::All].contains(heard)) else { continue };
+                    if let Some(meaning) = mind.tell(&line(name, value), now).unwrap() {
+                        says(at, meaning.leading);
+                    }
                 }
             }
         }
