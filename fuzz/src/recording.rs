@@ -59,7 +59,7 @@ fn count(path: &Path, bytes: usize) -> usize {
 }
 
 fn clips(path: &Path) {
-    let Ok(mut clips) = Clips::open(path, "/taxel/wire") else { return };
+    let Ok(mut clips) = Clips::open(&path.into(), "/taxel/wire") else { return };
     for chunk in 0..clips.places().len() {
         let _ = clips.clip(chunk);
     }

@@ -10,6 +10,7 @@ use taxel::files::folds;
 use taxel::json::schema::TypeIs;
 use taxel::learn::folds::expected;
 use taxel::record::Angles;
+use taxel::recording::BoardRecording;
 use taxel_core::fold::{FoldTable, STALE_US};
 use taxel_core::wire::{self, Request};
 
@@ -55,7 +56,7 @@ impl Folding {
     }
 
     /// Reads a table for a recording. Error if no angles are in it.
-    pub fn recorded(file: &Path, recording: &Path) -> Result<Folding> {
+    pub fn recorded(file: &Path, recording: &BoardRecording) -> Result<Folding> {
         let angles = Angles::read(recording)?;
         Ok(Folding { posture: ToldPosture::Recorded(angles), ..Folding::read(file)? })
     }

@@ -6,10 +6,10 @@ use crate::value;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use taxel::record::Play;
-use taxel::recording::{Messages, Overview};
+use taxel::recording::{BoardRecording, Messages, Overview};
 
 /// How far messages are out of order in a recording, ns.
 const DISORDER_NS: u64 = 10_000_000_000;
@@ -17,7 +17,7 @@ const DISORDER_NS: u64 = 10_000_000_000;
 /// Contents of a recording: topics, times, attachments, metadata.
 #[pyfunction]
 pub fn overview(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
-    let found = py.detach(|| Overview::of(&path)).map_err(raised)?;
+    let found = py.detach(|| Overview::of(&BoardRecording::from(path).path)).map_err(raised)?;
     let topics: serde_json::Map<_, _> = found
         .channels
         .iter()
@@ -42,7 +42,8 @@ pub fn overview(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
 /// An attachment of a recording; None if there is none of this name.
 #[pyfunction]
 pub fn attachment(py: Python<'_>, path: PathBuf, name: &str) -> PyResult<Option<Py<PyBytes>>> {
-    let found = py.detach(|| Overview::of(&path)?.attached(name)).map_err(raised)?;
+    let found =
+        py.detach(|| Overview::of(&BoardRecording::from(path).path)?.attached(name)).map_err(raised)?;
     Ok(found.map(|bytes| PyBytes::new(py, &bytes).unbind()))
 }
 
@@ -75,7 +76,9 @@ pub struct RecordedEvents {
 impl RecordedEvents {
     #[new]
     fn new(py: Python<'_>, path: PathBuf, kinds: Vec<String>, first: u64, last: u64) -> PyResult<Self> {
-        let play = py.detach(|| Play::open(&path)).map_err(raised)?;
+        let recording = BoardRecording::from(path);
+        let open = || recording.overview().and_then(|_| Play::open(&recording));
+        let play = py.detach(open).map_err(raised)?;
         let range = Range { first, last };
         Ok(RecordedEvents { kinds, range, play: Mutex::new((play, Teller::default())) })
     }
@@ -123,7 +126,7 @@ type Told<Data> = (String, u64, u64, Data);
 impl RecordedMessages {
     #[new]
     fn new(py: Python<'_>, path: PathBuf, topic: Option<String>, first: u64, last: u64) -> PyResult<Self> {
-        let messages = py.detach(|| Messages::open(Path::new(&path))).map_err(raised)?;
+        let messages = py.detach(|| Messages::open(&BoardRecording::from(path).path)).map_err(raised)?;
         Ok(RecordedMessages { topic, range: Range { first, last }, messages: Mutex::new(messages) })
     }
 

@@ -227,3 +227,16 @@ def test_a_robot_by_hand_needs_garments(file: Path) -> None:
     file.write_text('name = "one"\n[[boards]]\nname = "a"\nsource = "sim:idle"\n')
     with pytest.raises(taxel.UsageError, match="board a has no `garment`"):
         taxel.SteppedRobot(file)
+
+
+def test_a_recording_has_the_events_of_each_board(file: Path, tmp_path: Path) -> None:
+    touch = tmp_path / "touch.mcap"
+    program("robot", "record", str(file), "-o", str(touch), "--seconds", "1")
+    for board, taxels in (("torso", 2048), ("hand", 64)):
+        part = taxel.read(f"{touch}#{board}")
+        assert part.images().values.shape == (part.topics[f"/taxel/{board}/frames"], taxels)
+        lines = program("replay", f"{touch}#{board}", "--json").splitlines()
+        contacts = [json.loads(line) for line in lines if '"type":"contacts"' in line]
+        assert [event.to_dict() for event in part.contacts()] == contacts
+    with pytest.raises(taxel.UsageError, match="name one, .*touch.mcap#torso"):
+        next(taxel.read(touch).frames())

@@ -127,7 +127,7 @@ pub fn measure(folder: &Path) -> Result<RecordCost> {
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let file = |name: &str| folder.join(name);
     play(SourceSpec::Sim(SCENE.into()), &mut recorder(file("scene.mcap"), false)?)?;
-    let scene = SourceSpec::Replay { path: file("scene.mcap"), board: None, speed: Speed::Max };
+    let scene = SourceSpec::Replay { recording: file("scene.mcap").into(), speed: Speed::Max };
     let mut images = Images::default();
     play(scene.clone(), &mut images)?;
     let frames = images.0.len();

@@ -53,10 +53,10 @@ fn the_commands_of_the_document_run() {
         let words: Vec<&str> = line.split(' ').collect();
         let done = run(&folder, &words[1..]);
         assert!(words[0] == "taxel" && done.status.success(), "{line}: {}", text(&done.stderr));
-        assert!(!done.stdout.is_empty() || line.contains("record"), "{line}");
+        assert!(!done.stdout.is_empty() || line.contains(" -o "), "{line}");
         count += 1;
     }
-    assert_eq!(count, 8);
+    assert_eq!(count, 9);
 }
 
 #[test]
@@ -160,6 +160,61 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
     assert_eq!(lines.matches(" end: ").count(), 2, "{lines}");
 }
 
+/// Number of lines of a table, without its head.
+fn rows(done: &Output) -> usize {
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    text(&done.stdout).lines().count() - 1
+}
+
+#[test]
+fn a_board_of_a_recording_is_read_by_all_commands() {
+    let folder = folder("parts", &two());
+    let done =
+        run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let counted = |board: &str| {
+        let info = run(&folder, &["info", "touch.mcap", "--json"]);
+        let told: Value = serde_json::from_slice(&info.stdout).unwrap();
+        told["boards"][board]["frames"].as_u64().unwrap() as usize
+    };
+    for (board, taxels) in [("torso", 2048), ("hand", 64)] {
+        let part = format!("touch.mcap#{board}");
+        let table = run(&folder, &["export", &part, "--to", "csv", "--every", "10", "-o", "-"]);
+        assert_eq!(rows(&table), counted(board).div_ceil(10) * taxels, "{board}");
+        let contacts = run(&folder, &["export", &part, "--to", "csv", "--contacts", "-o", "-"]);
+        assert!(rows(&contacts) > 100, "{board}");
+        let page = run(&folder, &["report", &part, "-o", "-"]);
+        assert!(page.status.success() && text(&page.stdout).contains(&part), "{}", text(&page.stderr));
+        let replayed = run(&folder, &["replay", &part, "--json"]);
+        let source = format!("replay:{part}");
+        assert_eq!(replayed.stdout, run(&folder, &["live", "--source", &source, "--json"]).stdout, "{board}");
+    }
+    // Who names none is told how.
+    for args in [
+        &["export", "touch.mcap", "--to", "csv", "-o", "-"][..],
+        &["report", "touch.mcap", "-o", "-"],
+        &["replay", "touch.mcap", "--json"],
+        &["view", "touch.mcap"],
+        &["body", "learn", "touch.mcap", "-o", "folds.taxel"],
+    ] {
+        let done = run(&folder, args);
+        let why = text(&done.stderr);
+        let names = "touch.mcap is of a robot's boards, torso, hand: name one, touch.mcap#torso";
+        assert!(!done.status.success() && why.contains(names), "{args:?}: {why}");
+    }
+    let over = run(&folder, &["export", "touch.mcap#hand", "--to", "npz", "-o", "touch.mcap", "--force"]);
+    assert!(!over.status.success() && counted("hand") > 0, "{}", text(&over.stderr));
+    let alone =
+        run(&folder, &["record", "--source", "sim:pat", "--seconds", "0.2", "-o", "pat.mcap", "--force"]);
+    assert!(alone.status.success());
+    let none = run(&folder, &["report", "pat.mcap#hand", "-o", "-"]);
+    assert!(
+        text(&none.stderr).contains("pat.mcap is of a single board: leave out #hand"),
+        "{}",
+        text(&none.stderr)
+    );
+}
+
 #[test]
 fn record_and_doctor_tell_of_all_boards() {
     let folder = folder("record", &two());
@@ -178,6 +233,14 @@ fn record_and_doctor_tell_of_all_boards() {
         count += 1;
     }
     assert!(count > 100, "{count}");
+    let table = text(&run(&folder, &["info", "touch.mcap"]).stdout).to_string();
+    for board in ["torso", "hand"] {
+        let counts = &told["boards"][board];
+        assert_eq!((&counts["lost"], &counts["restarts"]), (&json!("0"), &json!("0")), "{counts}");
+        let frames = counts["frames"].as_u64().unwrap();
+        assert!(frames > 190 && table.contains(&format!("\n  {board}: {frames} frames (")), "{table}");
+        assert!(table.contains(&format!("\n{board}\n  counts_per_newton")), "{table}");
+    }
     let again = run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1"]);
     assert_eq!(again.status.code(), Some(1));
     assert!(text(&again.stderr).contains("touch.mcap already exists"));

@@ -40,6 +40,9 @@ class Images(NamedTuple):
 class Recording:
     """A recording: an MCAP file, read as it is iterated, however long it is.
 
+    Of the recording of a robot, ``FILE#BOARD`` has the events of a board; messages, topics and attachments are
+    those of the whole file.
+
     ``start`` and ``end`` of its methods are seconds from the beginning of the recording, both included.
 
     >>> import os, subprocess, sys, tempfile, taxel

@@ -1,10 +1,9 @@
 //! The joints' angles that a recording holds.
 
 use crate::error::{LearnError, Result};
-use crate::recording::Messages;
+use crate::recording::{BoardRecording, Messages};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Topic of the postures that were sent to the board.
 const POSTURE: &str = "/taxel/posture";
@@ -32,12 +31,12 @@ struct ToldAngle {
 
 impl Angles {
     /// Reads those of a recording. Error if it holds none.
-    pub fn read(path: &Path) -> Result<Angles> {
+    pub fn read(recording: &BoardRecording) -> Result<Angles> {
         let mut angles = Angles::default();
-        let mut messages = Messages::of_topic(path, POSTURE)?;
+        let mut messages = Messages::of_topic(&recording.path, &recording.topic(POSTURE))?;
         while let Some(message) = messages.next_message()? {
             let told: ToldAngles = serde_json::from_slice(message.data).map_err(|error| {
-                error!(LearnError::Data, "{}: a message of {POSTURE} is damaged: {error}", path.display())
+                error!(LearnError::Data, "{recording}: a message of {POSTURE} is damaged: {error}")
             })?;
             let all = told.joints.into_iter().map(|it| (told.time_us, it.joint, it.degrees));
             angles.told.extend(all);
@@ -45,8 +44,7 @@ impl Angles {
         require!(
             !angles.told.is_empty(),
             LearnError::Data,
-            "{}: no angles of joints in it: tell the board its posture while you record",
-            path.display()
+            "{recording}: no angles of joints in it: tell the board its posture while you record"
         );
         angles.told.sort_by_key(|(time, ..)| *time);
         angles.joints = angles.told.iter().map(|(_, joint, _)| joint.clone()).collect();

@@ -4,7 +4,7 @@ use super::play::Play;
 use super::tally::Tally;
 use crate::client::{Client, Event};
 use crate::error::{RecordingError, Result};
-use crate::recording::{Overview, Skipped, WIRE, attachment_of, boards, of_board};
+use crate::recording::{BoardRecording, Overview, Skipped, WIRE, boards};
 use std::path::Path;
 use taxel_core::contact::Phase;
 use taxel_core::intent::Leading;
@@ -49,9 +49,8 @@ impl BoardSummary {
     /// recording of taxel, or cannot be read.
     pub fn read(path: &Path) -> Result<Vec<BoardSummary>> {
         let overview = Overview::of(path)?;
-        let topics = || overview.channels.iter().map(|info| info.channel.topic.as_str());
-        let mut names: Vec<Option<&str>> = boards(topics()).into_iter().map(Some).collect();
-        names.extend(topics().any(|topic| topic == of_board(None, WIRE)).then_some(None));
+        let mut names: Vec<Option<&str>> = boards(overview.topics()).into_iter().map(Some).collect();
+        names.extend(overview.topics().any(|topic| topic == WIRE).then_some(None));
         if names.is_empty() {
             let path = path.display();
             fail!(RecordingError::Record, "{path} has no topic {WIRE}: it is not a recording of taxel");
@@ -62,7 +61,8 @@ impl BoardSummary {
     fn of(path: &Path, overview: &Overview, board: Option<&str>) -> Result<BoardSummary> {
         let word =
             |of: &str, name: &str| overview.words(of)?.get(name).filter(|word| !word.is_empty()).cloned();
-        let about = attachment_of(board, "taxel");
+        let recording = BoardRecording { path: path.into(), board: board.map(String::from) };
+        let about = recording.attachment("taxel");
         let mut summary = BoardSummary {
             robot: board.and_then(|_| word("robot", "name")),
             board: board.map(String::from),
@@ -74,7 +74,7 @@ impl BoardSummary {
             is_whole: overview.torn.is_none(),
             ..BoardSummary::default()
         };
-        let mut play = Play::of_board(path, board)?;
+        let mut play = Play::open(&recording)?;
         let mut leading = Leading::None;
         while let Some((header, event)) = play.next_event()? {
             let us = header.log_time / super::NS;

@@ -2,9 +2,8 @@
 
 use crate::client::{Client, Event};
 use crate::error::Result;
-use crate::recording::{Skipped, WireReader};
+use crate::recording::{BoardRecording, Skipped, WireReader};
 use mcap::records::MessageHeader;
-use std::path::Path;
 
 /// A recording being played.
 #[derive(Debug)]
@@ -14,14 +13,9 @@ pub struct Play {
 }
 
 impl Play {
-    /// Opens a file of one board.
-    pub fn open(path: &Path) -> Result<Play> {
-        Play::of_board(path, None)
-    }
-
-    /// Opens a file for its only board, or for this board of a robot.
-    pub fn of_board(path: &Path, board: Option<&str>) -> Result<Play> {
-        Ok(Play { wire: WireReader::of_board(path, board)?, client: Client::new() })
+    /// Opens the recording of a board.
+    pub fn open(recording: &BoardRecording) -> Result<Play> {
+        Ok(Play { wire: WireReader::open(recording)?, client: Client::new() })
     }
 
     /// The client after the last event.

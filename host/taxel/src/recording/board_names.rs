@@ -1,8 +1,10 @@
 //! Names of what a recording holds of one board of a robot: topics such as `/taxel/BOARD/wire`, attachments
 //! and metadata such as `BOARD/garment.toml`.
 
-/// End of the topic that each board has.
-const WIRE: &str = "/wire";
+/// Topic of the frames of the wire from the board.
+pub const WIRE: &str = "/taxel/wire";
+/// End of that topic of a board of a robot.
+const END: &str = "/wire";
 
 /// The topic of the only board of a recording (`/taxel/wire`), or that of this board of a robot
 /// (`/taxel/BOARD/wire`).
@@ -20,7 +22,7 @@ pub fn attachment_of(board: Option<&str>, name: &str) -> String {
 
 /// Names of the boards of a robot's recording, by its topics; none of a recording of one board.
 pub fn boards<'a>(topics: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
-    let board = |topic: &'a str| topic.strip_prefix("/taxel/")?.strip_suffix(WIRE);
+    let board = |topic: &'a str| topic.strip_prefix("/taxel/")?.strip_suffix(END);
     topics.into_iter().filter_map(board).collect()
 }
 

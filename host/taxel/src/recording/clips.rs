@@ -1,6 +1,7 @@
 //! Random access to a recording: the places of its chunks, and the messages of any of them.
 
 use super::attached::attached;
+use super::board_recording::BoardRecording;
 use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
@@ -8,7 +9,6 @@ use super::texts::parse_record;
 use crate::error::{Context, Error, RecordingError, Result};
 use mcap::records::{Channel, MessageHeader, Record, op};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Chunks kept uncompressed: the one being played, and those needed for a step back.
@@ -43,25 +43,25 @@ pub struct ClipMessage {
 #[derive(Debug)]
 pub struct Clips {
     records: Records,
-    path: PathBuf,
+    recording: BoardRecording,
+    /// The topic whose messages are read, as that of a single board.
     topic: &'static str,
     places: Vec<ChunkPlace>,
     channels: BTreeMap<u16, Channel>,
-    /// Metadata by name.
-    pub words: BTreeMap<String, BTreeMap<String, String>>,
+    words: BTreeMap<String, BTreeMap<String, String>>,
     /// Attachments by name, the newest of each.
-    pub attached: BTreeMap<String, Vec<u8>>,
+    attached: BTreeMap<String, Vec<u8>>,
     plain: Vec<u8>,
     held: Vec<(usize, Arc<[ClipMessage]>)>,
 }
 
 impl Clips {
-    /// Opens a file; only messages of this topic are read. Bodies of chunks are skipped, so this takes little
-    /// time.
-    pub fn open(path: &Path, topic: &'static str) -> Result<Clips> {
+    /// Opens the recording of a board; only its messages of this topic are read, and of a robot's file only the
+    /// chunks that hold any. Bodies of chunks are skipped, so this takes little time.
+    pub fn open(recording: &BoardRecording, topic: &'static str) -> Result<Clips> {
         let mut clips = Clips {
-            records: Records::open(path)?,
-            path: path.into(),
+            records: Records::open(&recording.path)?,
+            recording: recording.clone(),
             topic,
             places: Vec::new(),
             channels: BTreeMap::new(),
@@ -70,13 +70,14 @@ impl Clips {
             plain: Vec::new(),
             held: Vec::new(),
         };
-        clips.walk().with_context(|| format!("{} cannot be read", path.display()))?;
+        clips.walk().with_context(|| format!("{} cannot be read", recording.path.display()))?;
+        clips.arrange();
         Ok(clips)
     }
 
     /// Another reader of the same file.
     pub fn again(&self) -> Result<Clips> {
-        Clips::open(&self.path, self.topic)
+        Clips::open(&self.recording, self.topic)
     }
 
     /// The chunks in order of time.
@@ -84,16 +85,28 @@ impl Clips {
         &self.places
     }
 
+    /// Metadata of the board.
+    pub fn words(&self, name: &str) -> Option<&BTreeMap<String, String>> {
+        self.words.get(&self.recording.attachment(name))
+    }
+
+    /// The newest attachment of the board of this name.
+    pub fn attached(&self, name: &str) -> Option<&[u8]> {
+        self.attached.get(&self.recording.attachment(name)).map(Vec::as_slice)
+    }
+
     /// True if the file has the topic.
     pub fn has_topic(&self) -> bool {
-        self.channels.values().any(|channel| channel.topic == self.topic)
+        let topic = self.recording.topic(self.topic);
+        self.channels.values().any(|channel| channel.topic == topic)
     }
 
     /// Chunks before `end` with messages of a topic, last first.
-    pub fn with_topic<'a>(&'a self, topic: &'a str, end: usize) -> impl Iterator<Item = usize> + 'a {
+    pub fn with_topic(&self, topic: &str, end: usize) -> impl Iterator<Item = usize> {
+        let topic = self.recording.topic(topic);
         let is_of = move |id: &u16| self.channels.get(id).is_some_and(|channel| channel.topic == topic);
         let before = self.places.iter().take(end).enumerate().rev();
-        before.filter(move |(_, place)| place.channels.iter().any(is_of)).map(|(chunk, _)| chunk)
+        before.filter(move |(_, place)| place.channels.iter().any(&is_of)).map(|(chunk, _)| chunk)
     }
 
     /// Visits all records up to the end of the data, or of what is readable.
@@ -103,19 +116,38 @@ impl Clips {
             let offset = self.records.offset();
             let damaged = match self.records.next_head()? {
                 None => true,
-                Some(head) if head.op == op::DATA_END && is_end(&self.path, &head)? => return Ok(()),
-                Some(head) if is_known(head.op) || !is_chunk_at(&self.path, &head)? => {
+                Some(head) if head.op == op::DATA_END && is_end(&self.recording.path, &head)? => {
+                    return Ok(());
+                }
+                Some(head) if is_known(head.op) || !is_chunk_at(&self.recording.path, &head)? => {
                     self.step(head)?;
                     false
                 }
                 Some(_) => true,
             };
             if damaged {
-                match Damage::at(offset).pass(&mut self.records, &self.path, &mut skipped)? {
+                match Damage::at(offset).pass(&mut self.records, &self.recording.path, &mut skipped)? {
                     Some(next) => self.records.go_to(next)?,
                     None => return Ok(()),
                 }
             }
+        }
+    }
+
+    /// Leaves out chunks of a robot's other boards, and brings the rest into order of time.
+    fn arrange(&mut self) {
+        if self.recording.board.is_some() {
+            let topic = self.recording.topic(self.topic);
+            // A channel that is not declared yet may be of this topic.
+            let may_be = |id: &u16| self.channels.get(id).is_none_or(|channel| channel.topic == topic);
+            self.places.retain(|place| place.channels.iter().any(may_be));
+        }
+        let mut before = 0;
+        for place in &mut self.places {
+            // If a clock was set back, a chunk still begins no earlier than the one before it.
+            place.start = place.start.max(before);
+            place.end = place.end.max(place.start);
+            before = place.start;
         }
     }
 
@@ -126,11 +158,7 @@ impl Clips {
                 let times = self.records.rest(16)?;
                 let time = |at: usize| times.get(at..)?.first_chunk().map(|bytes| u64::from_le_bytes(*bytes));
                 let (start, end) = (time(0).unwrap_or(0), time(8).unwrap_or(0));
-                // If a clock was set back, a chunk still begins no earlier than the one before it.
-                let start = self.places.last().map_or(start, |before| start.max(before.start));
-                let place =
-                    ChunkPlace { offset: head.offset, start, end: end.max(start), channels: Vec::new() };
-                self.places.push(place);
+                self.places.push(ChunkPlace { offset: head.offset, start, end, channels: Vec::new() });
             }
             op::MESSAGE_INDEX if head.length >= 2 => {
                 let id = self.records.rest(2)?;
@@ -167,8 +195,9 @@ impl Clips {
             self.held.push(known);
         } else {
             let read = self.read(chunk);
-            let clip =
-                read.map_err(|why| Error::caused(RecordingError::Damaged { path: self.path.clone() }, why))?;
+            let clip = read.map_err(|why| {
+                Error::caused(RecordingError::Damaged { path: self.recording.path.clone() }, why)
+            })?;
             self.held.push((chunk, clip));
             while self.held.len() > HELD || self.held_bytes() > HELD_BYTES {
                 self.held.remove(0);
@@ -194,12 +223,13 @@ impl Clips {
             fail!(RecordingError::Record, "a chunk was overwritten");
         };
         chunk::plain(&header, &data, &mut self.plain)?;
+        let topic = self.recording.topic(self.topic);
         let mut pieces = Vec::new();
         for record in Inside::of(&self.plain, 0) {
             match (record.op, record.body) {
                 (op::MESSAGE, [low, high, ..]) => {
                     let channel = self.channels.get(&u16::from_le_bytes([*low, *high]));
-                    if channel.is_none_or(|channel| channel.topic != self.topic) {
+                    if channel.is_none_or(|channel| channel.topic != topic) {
                         continue;
                     }
                     if let Record::Message { header, data } = parse_record(record.op, record.body)? {

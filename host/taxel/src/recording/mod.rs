@@ -27,13 +27,15 @@
 //! | `salvage/` | the records of a file that may be damaged |
 //! | `scan.rs`, `found.rs` | contents of a file, by a scan |
 //! | `board_names.rs` | names of what a recording holds of one board of a robot |
-//! | `wire_reader.rs` | the frames of the wire in a file |
+//! | `board_recording.rs` | a file of one board, or a board of a robot's file |
+//! | `wire_reader.rs` | the frames of the wire of a board |
 //! | `renumber.rs` | numbers of the messages in such frames |
 //! | `repair.rs` | rewrites a damaged or truncated file |
 
 mod append;
 mod attached;
 mod board_names;
+mod board_recording;
 mod chunk;
 mod clips;
 mod contents;
@@ -60,7 +62,8 @@ mod written;
 #[cfg(test)]
 mod tests;
 
-pub use board_names::{attachment_of, boards, of_board};
+pub use board_names::{WIRE, attachment_of, boards, of_board};
+pub use board_recording::{BoardRecording, is_board};
 pub use chunk::FullChunk;
 pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};
@@ -75,5 +78,5 @@ pub use salvage::Unreadable;
 pub use scan::{Scan, scan};
 pub use store::Store;
 pub use summary::{Summary, chunk_indexes, footer, summary};
-pub use wire_reader::{HELLO, WIRE, WireReader};
+pub use wire_reader::{HELLO, WireReader};
 pub use writer::{Format, Writer};

@@ -72,6 +72,11 @@ impl Overview {
         }
     }
 
+    /// Its topics.
+    pub fn topics(&self) -> impl Iterator<Item = &str> {
+        self.channels.iter().map(|info| info.channel.topic.as_str())
+    }
+
     /// Number of messages of a topic.
     pub fn messages(&self, topic: &str) -> u64 {
         let of = self.channels.iter().filter(|info| info.channel.topic == topic);

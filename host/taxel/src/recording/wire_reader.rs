@@ -1,14 +1,12 @@
 //! Reads the board's frames of the wire from a recording.
 
-use super::board_names::{attachment_of, of_board};
+use super::board_names::WIRE;
+use super::board_recording::BoardRecording;
 use super::lost;
 use crate::error::Result;
 use crate::recording::{Message, Messages, Skipped};
 use mcap::records::MessageHeader;
-use std::path::Path;
 
-/// Topic of the frames of the wire from the board.
-pub const WIRE: &str = "/taxel/wire";
 /// Attachment with the first `Hello`, a frame of the wire. Without it nothing else of the board can be read,
 /// and the chunk that holds it may be damaged.
 pub const HELLO: &str = "hello.taxel-wire";
@@ -25,15 +23,10 @@ pub struct WireReader {
 }
 
 impl WireReader {
-    /// Opens a file of one board.
-    pub fn open(path: &Path) -> Result<WireReader> {
-        WireReader::of_board(path, None)
-    }
-
-    /// Opens a file for its only board, or for this board of a robot.
-    pub fn of_board(path: &Path, board: Option<&str>) -> Result<WireReader> {
-        let messages =
-            Messages::of_topic(path, &of_board(board, WIRE))?.wanting(&attachment_of(board, HELLO));
+    /// Opens the recording of a board.
+    pub fn open(recording: &BoardRecording) -> Result<WireReader> {
+        let messages = Messages::of_topic(&recording.path, &recording.topic(WIRE))?
+            .wanting(&recording.attachment(HELLO));
         Ok(WireReader { messages, begun: false, first: None, given: Vec::new() })
     }
 

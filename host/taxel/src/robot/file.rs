@@ -14,7 +14,8 @@ use crate::fcm::map::MapFile;
 use crate::fcm::unite::{EdgeConflict, United, unite};
 use crate::files::calibrate::{Calibration, Forces};
 use crate::files::{garments, scripts};
-use crate::source::{SceneFile, SourceSpec, is_board};
+use crate::recording::{BoardRecording, is_board};
+use crate::source::{SceneFile, SourceSpec};
 use crate::tell::verbose;
 use std::path::Path;
 use std::sync::Arc;
@@ -201,8 +202,9 @@ impl BoardReader<'_> {
             }
             SourceSpec::Emulator(scene) => SourceSpec::Emulator(beside(&scene)),
             SourceSpec::File(path) => SourceSpec::File(beside(&path.display().to_string()).into()),
-            SourceSpec::Replay { path, board, speed } => {
-                SourceSpec::Replay { path: beside(&path.display().to_string()).into(), board, speed }
+            SourceSpec::Replay { recording: BoardRecording { path, board }, speed } => {
+                let path = beside(&path.display().to_string()).into();
+                SourceSpec::Replay { recording: BoardRecording { path, board }, speed }
             }
             SourceSpec::Zenoh { place, config } => {
                 let config = config.map(|file| beside(&file.display().to_string()).into());

@@ -20,7 +20,7 @@ pub use auto::{PortKind, listed as ports};
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
 pub(crate) use sim::{info as simulated_info, lasting};
-pub use spec::{SourceSpec, is_board};
+pub use spec::SourceSpec;
 
 use crate::error::Result;
 #[cfg(not(feature = "zenoh"))]
@@ -193,6 +193,6 @@ fn of_kind(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
             let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);
             Ok(Source { listens: false, ..saved })
         }
-        SourceSpec::Replay { path, board, speed } => replay::open(path, board.as_deref(), *speed, options),
+        SourceSpec::Replay { recording, speed } => replay::open(recording, *speed, options),
     }
 }

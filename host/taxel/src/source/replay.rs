@@ -1,13 +1,11 @@
 //! Plays a recording: the board's bytes in their original timing, scaled, or as fast as possible.
 
 use super::{Port, Source, SourceOptions};
-use crate::error::{Context, RecordingError, Result, UsageError};
-use crate::recording::{Overview, WIRE, WireReader, boards, of_board};
+use crate::error::{Context, RecordingError, Result};
+use crate::recording::{BoardRecording, WIRE, WireReader};
 use crate::tell::progress::{Progress, Unit};
-use crate::tell::words;
 use std::fmt;
 use std::io::{self, IsTerminal};
-use std::path::Path;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
@@ -50,47 +48,24 @@ impl fmt::Display for Speed {
     }
 }
 
-/// Opens a recording of one board, or for this board of a robot.
-pub fn open(path: &Path, board: Option<&str>, speed: Speed, options: &SourceOptions) -> Result<Source> {
+/// Opens the recording of a board.
+pub fn open(recording: &BoardRecording, speed: Speed, options: &SourceOptions) -> Result<Source> {
     let speed = match speed {
         Speed::AsAsked if options.realtime => Some(1.0),
         Speed::Times(times) => Some(times),
         Speed::AsAsked | Speed::Max => None,
     };
-    let overview = Overview::of(path)?;
-    check(path, board, &overview)?;
-    let scale = overview.counts_per_newton(board).map(|counts| counts as f32);
-    let wire = WireReader::of_board(path, board)?;
-    let progress =
-        || Progress::of(format!("playing {}", path.display()), Unit::Bytes, Some(wire.passed()[1]));
+    let overview = recording.overview()?;
+    if overview.topics().all(|topic| topic != recording.topic(WIRE)) {
+        return Err(RecordingError::NotTaxel { path: recording.path.clone(), topic: WIRE }.into());
+    }
+    let scale = overview.counts_per_newton(recording.board.as_deref()).map(|counts| counts as f32);
+    let wire = WireReader::open(recording)?;
+    let progress = || Progress::of(format!("playing {recording}"), Unit::Bytes, Some(wire.passed()[1]));
     let progress = (!io::stdout().is_terminal()).then(progress);
     let replay = Player { wire, speed, began: None, next: Vec::new(), due: None, progress };
-    let of_one = board.map_or(String::new(), |board| format!("#{board}"));
-    let label = format!("replay:{}{of_one}", path.display());
+    let label = format!("replay:{recording}");
     Ok(Source { counts_per_newton: scale, listens: false, ..Source::new(label, replay) })
-}
-
-/// Error if a recording holds nothing of this board.
-fn check(path: &Path, board: Option<&str>, overview: &Overview) -> Result<()> {
-    let topic = of_board(board, WIRE);
-    let topics = overview.channels.iter().map(|info| info.channel.topic.as_str());
-    if topics.clone().any(|known| known == topic) {
-        return Ok(());
-    }
-    let (shown, of_robot) = (path.display(), boards(topics));
-    match (board, &of_robot[..]) {
-        (Some(board), [_, ..]) => {
-            fail!(UsageError::Unknown, "{shown}: {}", words::unknown("board", board, of_robot))
-        }
-        (None, [first, ..]) => {
-            let all = of_robot.join(", ");
-            fail!(
-                UsageError::Argument,
-                "{shown} is of a robot's boards, {all}: name one, replay:{shown}#{first}"
-            )
-        }
-        (_, []) => Err(RecordingError::NotTaxel { path: path.into(), topic: WIRE }.into()),
-    }
 }
 
 /// A recording being played.

@@ -2,6 +2,7 @@
 
 use super::replay::Speed;
 use crate::network::BoardPlace;
+use crate::recording::BoardRecording;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -42,10 +43,8 @@ pub enum SourceSpec {
     File(PathBuf),
     /// A recording.
     Replay {
-        /// The file.
-        path: PathBuf,
-        /// The board to play, of the recording of a robot.
-        board: Option<String>,
+        /// The file, and the board to play of a robot's.
+        recording: BoardRecording,
         /// Speed of the replay.
         speed: Speed,
     },
@@ -60,7 +59,9 @@ impl SourceSpec {
     /// Path of its file, if it has one, which no output may replace.
     pub fn file(&self) -> Option<PathBuf> {
         match self {
-            SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Some(path.clone()),
+            SourceSpec::File(path) | SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => {
+                Some(path.clone())
+            }
             SourceSpec::Sim(scene) | SourceSpec::Emulator(scene) => Some(scene.into()),
             SourceSpec::Zenoh { config, .. } => config.clone(),
             _ => None,
@@ -104,24 +105,13 @@ fn serial(port: &str) -> Result<SourceSpec, String> {
     }
 }
 
-/// Text behind the last `@` that is not a speed, or behind the last `#` that is not a board, belongs to the
-/// file name.
+/// Text behind the last `@` that is not a speed belongs to the file name.
 fn replay(text: &str) -> SourceSpec {
     let (path, speed) = match text.rsplit_once('@').map(|(path, speed)| (path, speed.parse())) {
         Some((path, Ok(speed))) if !path.is_empty() => (path, speed),
         _ => (text, Speed::AsAsked),
     };
-    let (path, board) = match path.rsplit_once('#') {
-        Some((path, board)) if !path.is_empty() && is_board(board) => (path, Some(board.into())),
-        _ => (path, None),
-    };
-    SourceSpec::Replay { path: path.into(), board, speed }
-}
-
-/// True if this can be the name of a board of a robot: letters, digits, `_` and `-`. A dot makes it a part of
-/// a file's name.
-pub fn is_board(name: &str) -> bool {
-    !name.is_empty() && name.chars().all(|sign| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-'))
+    SourceSpec::Replay { recording: path.into(), speed }
 }
 
 fn tcp(address: &str) -> Result<SourceSpec, String> {
@@ -155,10 +145,7 @@ impl fmt::Display for SourceSpec {
             }
             SourceSpec::Emulator(scene) => write!(f, "emulator:{scene}"),
             SourceSpec::File(path) => write!(f, "file:{}", path.display()),
-            SourceSpec::Replay { path, board, speed } => {
-                let board = board.as_ref().map_or(String::new(), |board| format!("#{board}"));
-                write!(f, "replay:{}{board}{speed}", path.display())
-            }
+            SourceSpec::Replay { recording, speed } => write!(f, "replay:{recording}{speed}"),
         }
     }
 }
@@ -188,7 +175,7 @@ mod tests {
             assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
         }
         let read = |text: &str| text.parse::<SourceSpec>();
-        let robot = SourceSpec::Replay { path: "a".into(), board: Some("b".into()), speed: Speed::Max };
+        let robot = SourceSpec::Replay { recording: "a#b".into(), speed: Speed::Max };
         assert_eq!(read("replay:a#b@max").unwrap(), robot);
         assert_eq!(robot.file(), Some("a".into()));
         assert_eq!(read("sim").unwrap(), SourceSpec::simulation());

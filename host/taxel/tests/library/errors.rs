@@ -114,14 +114,14 @@ fn garbage_a_foreign_recording_and_a_damaged_one_are_told_apart() {
     let whole = recording(&folder);
     let error = failed(taxel::open(&format!("replay:{}", whole.display())));
     assert!(matches!(error.kind(), ErrorKind::Recording(RecordingError::NotTaxel { .. })), "{error:?}");
-    let mut clips = Clips::open(&whole, "/a").unwrap();
+    let mut clips = Clips::open(&whole.as_path().into(), "/a").unwrap();
     assert_eq!(clips.clip(0).unwrap().len(), 4);
     let mut bytes = fs::read(&whole).unwrap();
     // In the first block of its LZ4 frame.
     let frame = bytes.windows(4).position(|four| four == [0x04, 0x22, 0x4D, 0x18]).unwrap();
     bytes[frame + 12] ^= 0x5A;
     let damaged = folder.file("damaged.mcap", bytes);
-    let error = failed(Clips::open(&damaged, "/a").and_then(|mut clips| clips.clip(0)));
+    let error = failed(Clips::open(&damaged.as_path().into(), "/a").and_then(|mut clips| clips.clip(0)));
     match error.kind() {
         ErrorKind::Recording(RecordingError::Damaged { path, .. }) => assert_eq!(*path, damaged),
         other => panic!("{other:?}"),

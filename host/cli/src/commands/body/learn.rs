@@ -10,16 +10,17 @@ use taxel::files::garments;
 use taxel::files::output::Output;
 use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFold, learn};
 use taxel::record::{Angles, Play};
+use taxel::recording::BoardRecording;
 use taxel_core::capacity::TAXELS;
 use taxel_core::garment::Layout;
 
 /// Sweeps, and how to learn from them.
 #[derive(Debug, Clone, Args)]
 pub struct BodyLearnArgs {
-    /// Recordings (.mcap) with the joints' angles, in which nothing touches the garment: each of another day,
+    /// Recordings (.mcap, of a robot .mcap#BOARD) with the joints' angles, in which nothing touches the garment: each of another day,
     /// or after it was put on anew
     #[arg(required = true, value_name = "RECORDING")]
-    recordings: Vec<PathBuf>,
+    recordings: Vec<BoardRecording>,
     /// The garment: a TOML file or a preset
     #[arg(long, value_name = "G", default_value = "reference")]
     garment: String,
@@ -54,12 +55,16 @@ fn length(text: &str) -> Result<f32, String> {
 
 /// Learns, and says what.
 pub fn run(args: &BodyLearnArgs) -> Result<()> {
-    let inputs = args.recordings.iter().map(PathBuf::as_path).chain([Path::new(&args.garment)]);
+    let inputs =
+        args.recordings.iter().map(|recording| recording.path.as_path()).chain([Path::new(&args.garment)]);
     let output = Output::file(&args.output, args.force, inputs)?;
     let garment = garments::read(&args.garment)?;
     let layout = Layout::build(&garment.garment, TAXELS, u16::MAX).map_err(|e| garment.error(&e))?;
-    let sweeps =
-        args.recordings.iter().map(|path| sweep(path, layout.taxels())).collect::<Result<Vec<_>>>()?;
+    let sweeps = args
+        .recordings
+        .iter()
+        .map(|recording| sweep(recording, layout.taxels()))
+        .collect::<Result<Vec<_>>>()?;
     let folds = args.folds.iter().map(|fold| fold.split('+').map(String::from).collect()).collect();
     let settings =
         FoldSettings { folds, step_deg: args.step, shift_mm: args.shift, shift_deg: args.shift_angle };
@@ -71,13 +76,14 @@ pub fn run(args: &BodyLearnArgs) -> Result<()> {
 }
 
 /// What the taxels felt in a recording, with the angles that the board knew then.
-fn sweep(path: &Path, taxels: usize) -> Result<FoldSweep> {
-    let angles = Angles::read(path)?;
+fn sweep(recording: &BoardRecording, taxels: usize) -> Result<FoldSweep> {
+    recording.overview()?;
+    let angles = Angles::read(recording)?;
     let joints = angles.joints();
     let mut sweep = FoldSweep::new(joints.to_vec(), taxels);
     let mut now: BTreeMap<&str, f32> = BTreeMap::new();
     let mut told = angles.all().peekable();
-    let mut play = Play::open(path)?;
+    let mut play = Play::open(recording)?;
     while let Some((_, event)) = play.next_event()? {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { continue };
         while let Some((_, joint, degrees)) = told.next_if(|(at_us, ..)| *at_us <= time.0) {
@@ -86,7 +92,7 @@ fn sweep(path: &Path, taxels: usize) -> Result<FoldSweep> {
         // Until every joint was told, nobody knows the posture.
         let all: Option<Vec<f32>> = joints.iter().map(|joint| now.get(joint.as_str()).copied()).collect();
         if let (Some(degrees), Some((_, image))) = (all, play.client().image()) {
-            sweep.push(&degrees, image).with_context(|| path.display().to_string())?;
+            sweep.push(&degrees, image).with_context(|| recording.to_string())?;
         }
     }
     Ok(sweep)

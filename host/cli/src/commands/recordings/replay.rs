@@ -6,14 +6,14 @@ use crate::watch::LiveArgs;
 use anyhow::Result;
 use clap::Args;
 use std::io::{IsTerminal, stdout};
-use std::path::PathBuf;
+use taxel::recording::BoardRecording;
 use taxel::source::{SourceSpec, Speed};
 
 /// Arguments of `taxel replay`.
 #[derive(Debug, Clone, Args)]
 pub struct ReplayArgs {
-    /// Recording: .mcap
-    pub file: PathBuf,
+    /// Recording: .mcap, of a robot .mcap#BOARD
+    pub file: BoardRecording,
     /// Speed as a multiple of the recorded one, or `max` [default: 1 in a terminal, else max]
     #[arg(long, value_name = "N|max")]
     pub speed: Option<Speed>,
@@ -31,7 +31,7 @@ pub struct ReplayArgs {
 /// Runs the command.
 pub fn run(args: ReplayArgs) -> Result<()> {
     let speed = args.speed.unwrap_or_default();
-    let source = SourceSpec::Replay { path: args.file, board: None, speed };
+    let source = SourceSpec::Replay { recording: args.file, speed };
     live::run(LiveArgs {
         frames: args.frames,
         json: args.json,

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use taxel::client::Event;
 use taxel::files::output::Output;
 use taxel::record::Play;
-use taxel::recording::Overview;
+use taxel::recording::BoardRecording;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel::tell::progress::{Progress, Unit};
@@ -19,9 +19,9 @@ use taxel::tell::progress::{Progress, Unit};
 /// Arguments of `taxel report`.
 #[derive(Debug, Clone, Args)]
 pub struct ReportArgs {
-    /// Recording: .mcap
+    /// Recording: .mcap, of a robot .mcap#BOARD
     #[arg(conflicts_with = "source")]
-    pub file: Option<PathBuf>,
+    pub file: Option<BoardRecording>,
     /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
     /// `zenoh:ROBOT/BOARD`, `emulator[:TOUCHES]` or `file:FILE`
     #[arg(long, value_name = "SOURCE")]
@@ -58,14 +58,15 @@ pub fn run(args: ReportArgs) -> Result<()> {
     let read =
         |body: &String| Wearer::read(body, args.robot.as_deref(), args.joints.as_deref().unwrap_or_default());
     let wearer = args.body.as_ref().map(read).transpose()?;
-    let inputs = args.file.clone().into_iter().chain(args.source.as_ref().and_then(SourceSpec::file));
+    let file = args.file.iter().map(|recording| recording.path.clone());
+    let inputs = file.chain(args.source.as_ref().and_then(SourceSpec::file));
     let named = [&args.body, &args.robot].into_iter().flatten().map(PathBuf::from).chain(args.folds.clone());
     let lists = wearer.iter().flat_map(Wearer::lists).map(Path::to_path_buf);
     let output = Output::stream(&args.output, args.force, inputs.chain(named).chain(lists))?;
     let seen = match (&args.file, args.source) {
-        (Some(path), _) => {
-            let folding = args.folds.as_ref().map(|folds| Folding::recorded(folds, path)).transpose()?;
-            recorded(path, args.seconds, wearer, folding)?
+        (Some(recording), _) => {
+            let folding = args.folds.as_ref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
+            recorded(recording, args.seconds, wearer, folding)?
         }
         (None, Some(spec)) => watched(spec, args.seconds, wearer, args.folds)?,
         (None, None) => bail!(Fault::usage("give a recording, or a --source")),
@@ -83,17 +84,16 @@ pub fn run(args: ReportArgs) -> Result<()> {
 
 /// Reads a recording.
 fn recorded(
-    path: &Path,
+    recording: &BoardRecording,
     seconds: Option<f64>,
     wearer: Option<Wearer>,
     folding: Option<Folding>,
 ) -> Result<Seen> {
-    let overview = Overview::of(path)?;
-    let mut play = Play::open(path)?;
-    let mut progress =
-        Progress::of(format!("reading {}", path.display()), Unit::Bytes, Some(play.passed()[1]));
-    let scale = overview.counts_per_newton(None).map(|counts| counts as f32);
-    let mut seen = Seen::new(path.display().to_string(), scale).on(wearer).folding(folding);
+    let overview = recording.overview()?;
+    let mut play = Play::open(recording)?;
+    let mut progress = Progress::of(format!("reading {recording}"), Unit::Bytes, Some(play.passed()[1]));
+    let scale = overview.counts_per_newton(recording.board.as_deref()).map(|counts| counts as f32);
+    let mut seen = Seen::new(recording.to_string(), scale).on(wearer).folding(folding);
     let mut began = None;
     while let Some((_, event)) = play.next_event()? {
         seen.event(play.client(), &event)?;

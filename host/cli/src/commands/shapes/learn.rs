@@ -11,6 +11,7 @@ use taxel::learn::fingerprint::Fingerprint;
 use taxel::learn::shapes::base::{Base, ImagesFile, LEFT_OUT};
 use taxel::learn::shapes::extend::{check_name, extend};
 use taxel::learn::shapes::view::Choice;
+use taxel::recording::BoardRecording;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel_core::shape::Point;
 
@@ -119,7 +120,9 @@ fn held(args: &ShapesLearnArgs, base: &Base) -> Result<(Vec<Point>, ImagesFile)>
     }
     ensure!(!points.is_empty(), "{label} ended before anything was held against it for half a second");
     let fingerprint = match &args.board.source {
-        SourceSpec::File(path) | SourceSpec::Replay { path, .. } => Fingerprint::of(path)?.to_string(),
+        SourceSpec::File(path) | SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => {
+            Fingerprint::of(path)?.to_string()
+        }
         _ => String::new(),
     };
     let images = points.len();

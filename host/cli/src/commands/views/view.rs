@@ -7,11 +7,11 @@ use crate::view::{PageHub, PageHubs, Player, Tape, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, ensure};
 use std::net::{Ipv4Addr, TcpListener};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 use taxel::files::calibrate::Calibration;
 use taxel::record::Origin;
+use taxel::recording::BoardRecording;
 use taxel::source::{SourceOptions, SourceSpec, Speed};
 
 /// Default port, unless it is taken: T, A, X, L on a telephone keypad.
@@ -20,9 +20,10 @@ const PORT: u16 = 8295;
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ViewArgs {
-    /// Recording (.mcap) to open in the page instead of a board: `--source replay:FILE` is the same
+    /// Recording (.mcap, of a robot .mcap#BOARD) to open in the page instead of a board: `--source replay:FILE`
+    /// is the same
     #[arg(conflicts_with = "source")]
-    pub file: Option<PathBuf>,
+    pub file: Option<BoardRecording>,
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
@@ -40,16 +41,16 @@ pub struct ViewArgs {
 
 impl ViewArgs {
     /// Recording to show, and its speed; none for a board.
-    fn recording(&self) -> Option<(PathBuf, f64)> {
+    fn recording(&self) -> Option<(BoardRecording, f64)> {
         match (&self.file, &self.board.source) {
             (Some(file), _) => Some((file.clone(), 1.0)),
-            (None, SourceSpec::Replay { path, board: None, speed }) => {
+            (None, SourceSpec::Replay { recording, speed }) => {
                 let times = match speed {
                     Speed::AsAsked => 1.0,
                     Speed::Times(times) => *times,
                     Speed::Max => f64::INFINITY,
                 };
-                Some((path.clone(), times))
+                Some((recording.clone(), times))
             }
             _ => None,
         }
@@ -95,23 +96,20 @@ pub fn run(args: ViewArgs) -> Result<()> {
 }
 
 /// Shows a recording.
-fn play(args: &ViewArgs, file: &Path, speed: f64) -> Result<()> {
+fn play(args: &ViewArgs, recording: &BoardRecording, speed: f64) -> Result<()> {
     // The host places the taxels of a recording, and knows where it folds: its board is not asked.
     BoardArgs { body: None, robot: None, folds: None, ..args.board.clone() }
-        .check_recorded(&file.display().to_string())?;
+        .check_recorded(&recording.to_string())?;
     ensure!(
         args.board.joint_states.is_none(),
-        Fault::usage(format!(
-            "--joint-states: {} is a recording, whose robot does not move now",
-            file.display()
-        ))
+        Fault::usage(format!("--joint-states: {recording} is a recording, whose robot does not move now"))
     );
     let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(PageHub::default());
     args.wearer()?.into_iter().for_each(|wearer| hub.wear(wearer));
-    let folding = args.board.folds.as_deref().map(|folds| Folding::recorded(folds, file)).transpose()?;
-    let player = Player::open(file, speed, calibration, folding, hub.clone())?;
-    announce(&file.display().to_string(), bind(args.port)?, hub, args.open)?;
+    let folding = args.board.folds.as_deref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
+    let player = Player::open(recording, speed, calibration, folding, hub.clone())?;
+    announce(&recording.to_string(), bind(args.port)?, hub, args.open)?;
     player.run()
 }
 

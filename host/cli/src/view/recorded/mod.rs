@@ -36,14 +36,13 @@ use deck::{Deck, Go};
 use reel::Reel;
 use screen::PageScreen;
 use std::collections::VecDeque;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use survey::{RecordedTime, Survey};
 use taxel::client::Event;
 use taxel::files::calibrate::Calibration;
 use taxel::record::{CALIBRATION, Origin};
-use taxel::recording::{Clips, WIRE};
+use taxel::recording::{BoardRecording, Clips, WIRE};
 
 /// Time between two messages about the position.
 const TOLD: Duration = Duration::from_millis(250);
@@ -65,21 +64,22 @@ impl Player {
     /// Opens a recording and shows its first image. `calibration` replaces the attached one; `folding` says
     /// where the garment folds.
     pub fn open(
-        path: &Path,
+        recording: &BoardRecording,
         speed: f64,
         calibration: Option<Calibration>,
         folding: Option<Folding>,
         hub: Arc<PageHub>,
     ) -> Result<Player> {
-        let mut clips = Clips::open(path, WIRE)?;
+        recording.overview()?;
+        let mut clips = Clips::open(recording, WIRE)?;
         if !clips.has_topic() && !clips.places().is_empty() {
             // Channels may be declared in the first chunk.
             clips.clip(0)?;
         }
         if !clips.has_topic() {
-            bail!("{} has no topic {WIRE}: it is not a recording of taxel", path.display());
+            bail!("{recording} has no topic {WIRE}: it is not a recording of taxel");
         }
-        let origin = origin(&clips, path, calibration)?;
+        let origin = origin(&clips, recording, calibration)?;
         let scale = origin.counts_per_newton;
         let clock = RecordedTime::of(&clips);
         let survey = Survey::start(clips.again()?, clock, scale, hub.clone())?;
@@ -88,11 +88,11 @@ impl Player {
         let mut player = Player {
             deck: Deck::new(clock.duration(), speed, Instant::now()),
             reel: Reel::new(clips, survey),
-            screen: PageScreen::new(hub.clone(), path.display().to_string(), scale, folding),
+            screen: PageScreen::new(hub.clone(), recording.to_string(), scale, folding),
             told: Instant::now(),
             hub,
         };
-        let Some((at, event)) = player.reel.seek(0) else { bail!("{} holds no image", path.display()) };
+        let Some((at, event)) = player.reel.seek(0) else { bail!("{recording} holds no image") };
         // A body that does not fit is an error, unless another garment is worn later on.
         player.hub.worn(player.reel.client())?;
         player.moment(at, &event);
@@ -181,14 +181,14 @@ impl Player {
 }
 
 /// Origin of a recording, and its calibration.
-fn origin(clips: &Clips, path: &Path, calibration: Option<Calibration>) -> Result<Origin> {
-    let name = format!("{CALIBRATION} of {}", path.display());
-    let attached = clips.attached.get(CALIBRATION).map(|bytes| {
+fn origin(clips: &Clips, recording: &BoardRecording, calibration: Option<Calibration>) -> Result<Origin> {
+    let name = format!("{CALIBRATION} of {recording}");
+    let attached = clips.attached(CALIBRATION).map(|bytes| {
         let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
         anyhow::Ok(Calibration::parse(text, &name)?)
     });
     let calibration = calibration.or(attached.transpose()?);
-    let words = clips.words.get("taxel");
+    let words = clips.words("taxel");
     let word = |name: &str| words.and_then(|words| words.get(name)).cloned().unwrap_or_default();
     let told =
         word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);

@@ -90,7 +90,7 @@ impl Survey {
 fn beginning(clips: &mut Clips) -> Standing {
     let first = (0..clips.places().len()).find_map(|chunk| clips.clip(chunk).ok()?.first().cloned());
     let mut standing = Standing::default();
-    if let (Some(first), Some(hello)) = (first, clips.attached.get(HELLO))
+    if let (Some(first), Some(hello)) = (first, clips.attached(HELLO))
         && let Some(frame) = lost(hello, &first.data)
     {
         let piece = ClipMessage { data: frame.into(), ..first };

@@ -130,7 +130,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
 fn times_up_to_the_last_overflow_nowhere() {
     let path = shown("all", true);
     let hub = Arc::new(PageHub::default());
-    Player::open(&path, 1.0, None, None, hub.clone()).unwrap();
+    Player::open(&path.as_path().into(), 1.0, None, None, hub.clone()).unwrap();
     for form in [Form::Csv, Form::Npz, Form::Png] {
         let output = path.with_extension(format!("{form:?}"));
         export::run(ExportArgs::of(vec![path.clone()], form, output.clone())).unwrap();

@@ -9,7 +9,7 @@ use taxel_cli::fault::status;
 /// A client after the `Hello` of a board that sends no raw codes.
 fn acquainted() -> Client {
     record("sim:idle", plan("raw-idle.mcap", "sim", None, false));
-    let mut play = Play::open(&file("raw-idle.mcap")).unwrap();
+    let mut play = Play::open(&file("raw-idle.mcap").into()).unwrap();
     while play.client().worn().is_none() {
         play.next_event().unwrap().expect("it says what it is");
     }

@@ -36,6 +36,37 @@ fn any_moment_is_that_of_a_recording_played_from_its_beginning() {
 }
 
 #[test]
+fn the_moments_of_a_board_are_found_in_the_recording_of_a_robot() {
+    let (robot, path) = (file("robot.toml"), file("robot.mcap"));
+    let boards = ["torso\"\nsource = \"sim:five", "hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16"];
+    let boards = boards.map(|board| format!("[[boards]]\nname = \"{board}\"\n")).concat();
+    std::fs::write(&robot, format!("name = \"two\"\n{boards}")).unwrap();
+    let mut record = std::process::Command::new(PROGRAM);
+    record.args(["robot", "record", "--seconds", "4", "--force", "-o"]).args([&path, &robot]);
+    assert!(record.stderr(std::process::Stdio::null()).status().unwrap().success());
+    for board in ["torso", "hand"] {
+        let part = format!("{}#{board}", path.display());
+        let (all, view) = (moments(part.as_ref()), View::start(&[&part]));
+        assert!(all.len() > 700, "{}", all.len());
+        let mut page = view.page();
+        let mut seeks = page.stand();
+        for round in 0..2 {
+            for seconds in [3.9, 0.3, 1.2, 2.0, 0.0, 3.217] {
+                let (line, image, health) = page.seek(seconds, &mut seeks);
+                let wanted = at(&all, seconds);
+                assert_eq!(touch(&line), touch(&wanted.line), "{board}, {seconds} s, round {round}");
+                assert_eq!(
+                    (image, health),
+                    (wanted.image.clone(), wanted.health.clone()),
+                    "{board}, {seconds} s"
+                );
+            }
+            page.overview();
+        }
+    }
+}
+
+#[test]
 fn steps_go_from_image_to_image_both_ways() {
     let path = recorded("steps.mcap", "sim:lash", 4, &[]);
     let (all, view) = (moments(&path), View::start(&[path.to_str().unwrap()]));

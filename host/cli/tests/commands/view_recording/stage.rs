@@ -46,8 +46,8 @@ pub struct Moment {
 
 /// All frames of a recording, played from its beginning.
 pub fn moments(path: &Path) -> Vec<Moment> {
-    let start = Clips::open(path, WIRE).unwrap().places()[0].start;
-    let (mut play, mut found, mut health) = (Play::open(path).unwrap(), Vec::new(), None);
+    let start = Clips::open(&path.into(), WIRE).unwrap().places()[0].start;
+    let (mut play, mut found, mut health) = (Play::open(&path.into()).unwrap(), Vec::new(), None);
     while let Some((header, event)) = play.next_event().unwrap() {
         let client = play.client();
         if matches!(event, Event::Health(_)) {

@@ -7,7 +7,7 @@ use std::time::Duration;
 use taxel::files::output::Force;
 use taxel::json::message;
 use taxel::record::{COUNTS, Play, Tally};
-use taxel::recording::{Messages, Overview, boards, scan};
+use taxel::recording::{BoardRecording, Clips, Messages, Overview, WIRE, WireReader, boards, scan};
 use taxel::robot::{BoardEvent, RobotRecorder, RobotSession, WhenFull};
 use taxel::session::Session;
 
@@ -33,14 +33,13 @@ fn each_board_is_read_back_as_it_is_alone() {
     let path = record("robot.mcap");
     assert!(scan(&path).unwrap().whole);
     let overview = Overview::of(&path).unwrap();
-    let topics = overview.channels.iter().map(|info| info.channel.topic.as_str());
-    assert_eq!(boards(topics), BOARDS.map(|(name, ..)| name));
+    assert_eq!(boards(overview.topics()), BOARDS.map(|(name, ..)| name));
     let words = overview.words("robot").unwrap();
     assert_eq!((words["name"].as_str(), words["boards"].as_str()), ("three", "chest,arm,back"));
     assert_eq!(overview.attached("robot.toml").unwrap().unwrap(), robot().text.as_bytes());
     for board in BOARDS {
         let (name, alone) = (board.0, alone(board));
-        let mut play = Play::of_board(&path, Some(name)).unwrap();
+        let mut play = Play::open(&format!("{}#{name}", path.display()).into()).unwrap();
         let mut played = Vec::new();
         while let Some((_, event)) = play.next_event().unwrap() {
             played.push(message(play.client(), &event).to_string());
@@ -70,13 +69,35 @@ fn each_board_is_read_back_as_it_is_alone() {
 }
 
 #[test]
+fn the_chunks_of_a_board_are_those_of_its_stream() {
+    let path = record("robot-chunks.mcap");
+    for (name, ..) in BOARDS {
+        let recording = BoardRecording { path: path.clone(), board: Some(name.into()) };
+        let mut clips = Clips::open(&recording, WIRE).unwrap();
+        let starts: Vec<u64> = clips.places().iter().map(|place| place.start).collect();
+        assert!(clips.has_topic() && starts.is_sorted() && !starts.is_empty(), "{name}: {starts:?}");
+        let mut frames = WireReader::open(&recording).unwrap();
+        for chunk in 0..clips.places().len() {
+            let clip = clips.clip(chunk).unwrap();
+            assert!(!clip.is_empty(), "{name}: another board's chunk");
+            for message in clip.iter() {
+                let frame = frames.next_frame().unwrap().unwrap();
+                assert_eq!((message.header, &*message.data), (frame.header, frame.data), "{name}");
+            }
+        }
+        assert_eq!(frames.next_frame().unwrap(), None, "{name}");
+        assert!(clips.words("taxel").is_some() && clips.attached("garment.toml").is_some());
+    }
+}
+
+#[test]
 fn a_recording_of_a_robot_is_opened_by_the_name_of_a_board() {
     let path = record("robot-named.mcap");
     let why = |board: &str| {
         let error = Session::open(&format!("replay:{}{board}", path.display())).err().unwrap();
         error.to_string().replace(&path.display().to_string(), "FILE")
     };
-    assert_eq!(why(""), "FILE is of a robot's boards, chest, arm, back: name one, replay:FILE#chest");
+    assert_eq!(why(""), "FILE is of a robot's boards, chest, arm, back: name one, FILE#chest");
     let unknown = "FILE: there is no board \"bakc\": did you mean \"back\"? Known are chest, arm, back";
     assert_eq!(why("#bakc"), unknown);
 }

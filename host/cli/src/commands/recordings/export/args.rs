@@ -5,7 +5,8 @@ use crate::watch::Overwrite;
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use std::num::{NonZeroU16, NonZeroU64};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use taxel::recording::BoardRecording;
 
 /// Format of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -23,9 +24,9 @@ pub enum Form {
 /// Arguments of `taxel export`.
 #[derive(Debug, Clone, Args)]
 pub struct ExportArgs {
-    /// Recording: .mcap; for LeRobot one or more
+    /// Recording: .mcap, of a robot .mcap#BOARD; for LeRobot one or more
     #[arg(required = true, value_name = "FILE")]
-    pub files: Vec<PathBuf>,
+    pub files: Vec<BoardRecording>,
     /// Format to write
     #[arg(long, value_name = "FORM")]
     pub to: Form,
@@ -62,7 +63,7 @@ impl ExportArgs {
     /// All of these recordings, with all options at their defaults.
     pub fn of(files: Vec<PathBuf>, to: Form, output: PathBuf) -> ExportArgs {
         ExportArgs {
-            files,
+            files: files.into_iter().map(Into::into).collect(),
             to,
             output,
             force: Overwrite::default(),
@@ -76,6 +77,11 @@ impl ExportArgs {
         }
     }
 
+    /// The files that no output may replace.
+    pub fn inputs(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|recording| recording.path.as_path())
+    }
+
     /// Refuses options of other formats.
     pub fn check(&self) -> Result<()> {
         let refuse = Fault::usage;
@@ -84,6 +90,11 @@ impl ExportArgs {
             refuse(
                 "this program was built without LeRobot: `cargo run --release --features lerobot -- export ...` builds it in"
             )
+        );
+        let count = self.files.len();
+        ensure!(
+            count <= 1 || self.to == Form::Lerobot,
+            Fault::usage(format!("{count} recordings: only --to lerobot takes more than one"))
         );
         ensure!(!self.touched || self.to == Form::Csv, refuse("--touched is for --to csv"));
         ensure!(!self.contacts || self.to == Form::Csv, refuse("--contacts is for --to csv"));

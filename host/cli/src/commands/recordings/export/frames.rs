@@ -4,11 +4,10 @@ use super::units::{Scale, Units};
 use anyhow::{Context, Result, bail};
 use std::cell::Cell;
 use std::num::NonZeroU64;
-use std::path::Path;
 use std::rc::Rc;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::record::Play;
-use taxel::recording::{Overview, Skipped};
+use taxel::recording::{BoardRecording, Skipped};
 use taxel::tell::progress::{Progress, Unit};
 use taxel_core::body::Placed;
 use taxel_core::format::{Name, Q15};
@@ -17,7 +16,7 @@ use taxel_core::garment::{Area, Layout};
 /// Selected images of a recording.
 #[derive(Debug)]
 pub struct Frames<'a> {
-    file: &'a Path,
+    recording: &'a BoardRecording,
     every: NonZeroU64,
     /// Scale; none for counts.
     scale: Option<Scale>,
@@ -60,15 +59,16 @@ pub struct Frame {
 }
 
 impl<'a> Frames<'a> {
-    /// Every N-th image of a file, in counts or in the unit that the file knows.
-    pub fn new(file: &'a Path, every: NonZeroU64, counts: bool) -> Result<Frames<'a>> {
-        let scale = if counts { None } else { Some(Scale::of(&Overview::of(file)?, file)?) };
-        Ok(Frames { file, every, scale, skipped: Cell::default() })
+    /// Every N-th image of a recording, in counts or in the unit that the file knows.
+    pub fn new(recording: &'a BoardRecording, every: NonZeroU64, counts: bool) -> Result<Frames<'a>> {
+        let overview = recording.overview()?;
+        let scale = if counts { None } else { Some(Scale::of(&overview, recording)?) };
+        Ok(Frames { recording, every, scale, skipped: Cell::default() })
     }
 
     /// The recording.
-    pub fn file(&self) -> &Path {
-        self.file
+    pub fn recording(&self) -> &BoardRecording {
+        self.recording
     }
 
     /// Damage found in the last pass.
@@ -80,12 +80,12 @@ impl<'a> Frames<'a> {
     /// or unit are refused, because the formats have one of each. Memory is that of one image, whatever the
     /// recording's length.
     pub fn each(&self, what: &str, mut take: impl FnMut(&Frame) -> Result<()>) -> Result<u64> {
-        let mut play = Play::open(self.file)?;
+        let mut play = Play::open(self.recording)?;
         let total = play.passed()[1];
-        let mut progress = Progress::of(format!("{what} {}", self.file.display()), Unit::Bytes, Some(total));
+        let mut progress = Progress::of(format!("{what} {}", self.recording), Unit::Bytes, Some(total));
         let (mut seen, mut count) = (0u64, 0);
         let mut current = Current::default();
-        let place = || self.file.display().to_string();
+        let place = || self.recording.to_string();
         while let Some((header, event)) = play.next_event()? {
             let client = play.client();
             match event {
@@ -113,7 +113,7 @@ impl<'a> Frames<'a> {
         current.give(&mut take)?;
         self.skipped.set(play.skipped());
         if count == 0 {
-            bail!("{} holds no image", self.file.display());
+            bail!("{} holds no image", self.recording);
         }
         Ok(count)
     }

@@ -35,21 +35,19 @@ pub fn run(args: ExportArgs) -> Result<()> {
     args.check()?;
     // The others hold counts, and describe them in their own way.
     let in_units = matches!(args.to, Form::Csv | Form::Lerobot) && !args.counts;
-    let frames = |file| Frames::new(file, args.every, !in_units);
-    let recordings = args.files.iter().map(|file| frames(file)).collect::<Result<Vec<_>>>()?;
+    let frames = |recording| Frames::new(recording, args.every, !in_units);
+    let recordings = args.files.iter().map(frames).collect::<Result<Vec<_>>>()?;
     let done = match (args.to, recordings.as_slice()) {
         #[cfg(feature = "lerobot")]
         (Form::Lerobot, all) => lerobot(all, &args),
-        (Form::Csv, [one]) => csv(one, &args),
-        (Form::Npz, [one]) => npz(one, &args),
-        (Form::Png, [one]) => png(one, &args),
-        (_, all) => {
-            bail!(Fault::usage(format!("{} recordings: only --to lerobot takes more than one", all.len())))
-        }
+        (Form::Csv, [one, ..]) => csv(one, &args),
+        (Form::Npz, [one, ..]) => npz(one, &args),
+        (Form::Png, [one, ..]) => png(one, &args),
+        _ => bail!(Fault::usage("no recording was given")),
     };
     eprintln!("{}: {} frames", args.output.display(), done?);
     for frames in recordings.iter().filter(|frames| !frames.skipped().is_none()) {
-        eprintln!("{}: {}", frames.file().display(), frames.skipped());
+        eprintln!("{}: {}", frames.recording(), frames.skipped());
     }
     Ok(())
 }
@@ -61,7 +59,7 @@ fn to(args: &ExportArgs) -> String {
 
 /// Writes a table. Returns the number of frames.
 fn csv(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
-    let mut draft = Output::stream(&args.output, args.force, &args.files)?.draft()?;
+    let mut draft = Output::stream(&args.output, args.force, args.inputs())?.draft()?;
     let count =
         if args.contacts { contacts::write(frames, &mut draft) } else { taxels(frames, args, &mut draft) };
     let count = count.with_context(|| to(args))?;
@@ -70,14 +68,14 @@ fn csv(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
 }
 
 fn npz(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
-    let mut draft = Output::file(&args.output, args.force, &args.files)?.draft()?;
+    let mut draft = Output::file(&args.output, args.force, args.inputs())?.draft()?;
     let count = npz::write(frames, &args.output, &mut draft).with_context(|| to(args))?;
     draft.keep()?;
     Ok(count)
 }
 
 fn png(frames: &Frames<'_>, args: &ExportArgs) -> Result<u64> {
-    let folder = Folder::begin(&args.output, args.force, &args.files, png::is_ours)?;
+    let folder = Folder::begin(&args.output, args.force, args.inputs(), png::is_ours)?;
     let count = png::write(frames, args.counts, &folder).with_context(|| to(args))?;
     folder.keep_unsynced()?;
     Ok(count)
@@ -99,7 +97,7 @@ fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Resul
 
 #[cfg(feature = "lerobot")]
 fn lerobot(recordings: &[Frames<'_>], args: &ExportArgs) -> Result<u64> {
-    let folder = Folder::begin(&args.output, args.force, &args.files, lerobot::is_ours)?;
+    let folder = Folder::begin(&args.output, args.force, args.inputs(), lerobot::is_ours)?;
     lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, folder)
         .with_context(|| to(args))
 }

@@ -1,10 +1,9 @@
 //! Units of pressure in exports.
 
 use anyhow::{Context, Result};
-use std::path::Path;
 use taxel::files::calibrate::{Calibration, Forces};
 use taxel::record::CALIBRATION;
-use taxel::recording::Overview;
+use taxel::recording::{BoardRecording, Overview};
 use taxel_core::garment::Layout;
 
 /// A recording's scale of force.
@@ -16,14 +15,15 @@ pub struct Scale {
 
 impl Scale {
     /// The attached calibration, else the counts per newton of its source.
-    pub fn of(overview: &Overview, path: &Path) -> Result<Scale> {
-        let attached = overview.attached(CALIBRATION)?;
-        let name = format!("{CALIBRATION} of {}", path.display());
+    pub fn of(overview: &Overview, recording: &BoardRecording) -> Result<Scale> {
+        let attached = overview.attached(&recording.attachment(CALIBRATION))?;
+        let name = format!("{CALIBRATION} of {recording}");
         let parsed = attached.map(|bytes| {
             let text = String::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
             anyhow::Ok(Calibration::parse(&text, &name)?)
         });
-        Ok(Scale { calibration: parsed.transpose()?, counts_per_newton: overview.counts_per_newton(None) })
+        let counts_per_newton = overview.counts_per_newton(recording.board.as_deref());
+        Ok(Scale { calibration: parsed.transpose()?, counts_per_newton })
     }
 
     /// Units for a garment whose board reports this calibration.

@@ -5,7 +5,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 use taxel::record::{COUNTS, Play, Tally};
-use taxel::recording::{ChannelInfo, Overview, Scan, Skipped, footer, scan};
+use taxel::recording::{BoardRecording, ChannelInfo, Overview, Scan, Skipped, boards, footer, scan};
 use taxel::tell::progress::{Progress, Unit};
 use taxel::tell::words::printable;
 
@@ -19,12 +19,41 @@ pub struct Contents<'a> {
     file: &'a Path,
     bytes: u64,
     overview: Overview,
-    frames: u64,
-    /// Line counters of the board's messages; none if the file holds none and was not read.
-    line: Option<Tally>,
+    /// Its only board, or those of a robot.
+    boards: Vec<RecordedCounts>,
     /// Damage, and what readers pass over; none if the file was not read.
     checked: Option<(Scan, Skipped)>,
     repaired: bool,
+}
+
+/// What was counted of a board.
+struct RecordedCounts {
+    recording: BoardRecording,
+    /// Its images.
+    frames: u64,
+    /// Line counters of its messages; none if the file holds none and was not read.
+    line: Option<Tally>,
+}
+
+impl RecordedCounts {
+    /// By the file's summary.
+    fn told(overview: &Overview, recording: BoardRecording) -> RecordedCounts {
+        RecordedCounts {
+            frames: overview.messages(&recording.topic(FRAMES)),
+            line: overview.words(&recording.attachment(COUNTS)).and_then(Tally::read),
+            recording,
+        }
+    }
+
+    /// Losses in words.
+    fn losses(&self) -> String {
+        match &self.line {
+            Some(Tally { lost, thinned, restarts, .. }) => {
+                format!("{lost} lost, {thinned} thinned, {restarts} restarts")
+            }
+            None => "losses are not counted: --check counts them".into(),
+        }
+    }
 }
 
 impl Contents<'_> {
@@ -35,20 +64,28 @@ impl Contents<'_> {
         let scan = read.then(|| scan(file)).transpose()?;
         let overview =
             scan.as_ref().map_or_else(|| Overview::of(file), |scan| Ok(Overview::found(file, scan)))?;
-        let mut found = Contents {
-            file,
-            bytes,
-            frames: overview.messages(FRAMES),
-            line: overview.words(COUNTS).and_then(Tally::read),
-            checked: None,
-            repaired,
-            overview,
-        };
+        let counted = recordings(file, &overview).into_iter().map(|one| RecordedCounts::told(&overview, one));
+        let mut found =
+            Contents { file, bytes, boards: counted.collect(), checked: None, repaired, overview };
         if let Some(scan) = scan {
-            let (line, skipped) = played(file)?;
-            (found.frames, found.line, found.checked) = (line.frames, Some(line), Some((scan, skipped)));
+            let mut skipped = Skipped::default();
+            for board in &mut found.boards {
+                // Each board's reader passes over all damage of the file.
+                let (line, passed_over) = played(&board.recording)?;
+                (board.frames, board.line, skipped) = (line.frames, Some(line), passed_over);
+            }
+            found.checked = Some((scan, skipped));
         }
         Ok(found)
+    }
+
+    /// Frames of all boards.
+    fn frames(&self) -> u64 {
+        self.boards.iter().map(|board| board.frames).sum()
+    }
+
+    fn is_of_robot(&self) -> bool {
+        self.boards.iter().any(|board| board.recording.board.is_some())
     }
 
     fn seconds(&self) -> f64 {
@@ -90,7 +127,17 @@ impl Contents<'_> {
         let [first, last] = self.overview.stretch.unwrap_or([0; 2]);
         let metadata = self.overview.metadata.iter();
         let words: serde_json::Map<_, _> = metadata.map(|m| (m.name.clone(), json!(m.metadata))).collect();
-        let line = |count: fn(&Tally) -> u64| self.line.as_ref().map(count);
+        let line = |count: fn(&Tally) -> u64| {
+            self.boards.iter().map(|board| board.line.as_ref().map(count)).sum::<Option<u64>>()
+        };
+        let board = |counted: &RecordedCounts| {
+            let RecordedCounts { recording, frames, line } = counted;
+            let name = recording.board.clone()?;
+            let mut told = line.map_or(json!({}), |line| json!(line.words(Tally::default())));
+            told["frames"] = json!(frames);
+            Some((name, told))
+        };
+        let boards: serde_json::Map<_, _> = self.boards.iter().filter_map(board).collect();
         let scan = self.checked.as_ref().map(|(scan, _)| scan);
         json!({
             "file": self.file.display().to_string(),
@@ -108,12 +155,13 @@ impl Contents<'_> {
             "start_us": first / 1000,
             "end_us": last / 1000,
             "seconds": self.seconds(),
-            "frames": self.frames,
+            "frames": self.frames(),
             "lost": line(|line| line.lost),
             "thinned": line(|line| line.thinned),
             "undecoded": line(|line| line.undecoded),
             "refused": line(|line| line.refused),
             "restarts": line(|line| line.restarts),
+            "boards": boards,
             "channels": self.channels().map(channel).collect::<Vec<_>>(),
             "attachments": self.attached(),
             "metadata": words,
@@ -129,6 +177,21 @@ impl Contents<'_> {
         }
     }
 
+    /// Metadata for people, of a robot board by board.
+    fn told(&self) -> String {
+        let mut text = String::new();
+        let is_counts = |name: &str| name == COUNTS || name.ends_with("/counts");
+        for metadata in self.overview.metadata.iter().filter(|words| !is_counts(&words.name)) {
+            if self.is_of_robot() {
+                text += &format!("{}\n", printable(metadata.name.trim_end_matches("/taxel")));
+            }
+            for (name, value) in metadata.metadata.iter().filter(|(_, value)| !value.is_empty()) {
+                text += &format!("  {:<18} {}\n", printable(name), printable(value));
+            }
+        }
+        text
+    }
+
     /// Formats for people.
     pub fn table(&self) -> String {
         let mut text =
@@ -136,20 +199,16 @@ impl Contents<'_> {
         if let Some((_, skipped)) = self.checked.as_ref().filter(|(_, skipped)| !skipped.is_none()) {
             text += &format!("  {:<18} {skipped}\n", "readers");
         }
-        for metadata in self.overview.metadata.iter().filter(|words| words.name != COUNTS) {
-            for (name, value) in metadata.metadata.iter().filter(|(_, value)| !value.is_empty()) {
-                text += &format!("  {:<18} {}\n", printable(name), printable(value));
-            }
-        }
+        text += &self.told();
         text += &format!("  {:<18} {}\n\n", "attached", printable(&self.attached().join(", ")));
-        let line = match &self.line {
-            Some(Tally { lost, thinned, restarts, .. }) => {
-                format!("{lost} lost, {thinned} thinned, {restarts} restarts")
-            }
-            None => "losses are not counted: --check counts them".into(),
-        };
-        let (frames, rate) = (self.frames, self.rate(self.frames));
-        text += &format!("{:.2} s, {frames} frames ({rate:.1} a second), {line}\n", self.seconds());
+        text += &format!("{:.2} s", self.seconds());
+        for board in &self.boards {
+            let name = board.recording.board.as_ref().map(|name| format!("\n  {name}:"));
+            let (frames, rate) = (board.frames, self.rate(board.frames));
+            let name = name.as_deref().unwrap_or(",");
+            text += &format!("{name} {frames} frames ({rate:.1} a second), {}", board.losses());
+        }
+        text.push('\n');
         for (info, count) in self.channels() {
             let ChannelInfo { channel, schema } = info;
             let [topic, encoding, schema] =
@@ -160,11 +219,20 @@ impl Contents<'_> {
     }
 }
 
-/// Plays the file. Returns lost, thinned and restart counters, and the damage.
-fn played(file: &Path) -> Result<(Tally, Skipped)> {
-    let mut play = Play::open(file)?;
-    let mut progress =
-        Progress::of(format!("reading {}", file.display()), Unit::Bytes, Some(play.passed()[1]));
+/// The only board of a file, or those of a robot.
+fn recordings(file: &Path, overview: &Overview) -> Vec<BoardRecording> {
+    let of_robot = boards(overview.topics()).into_iter().map(|board| Some(board.to_string()));
+    let mut names: Vec<Option<String>> = of_robot.collect();
+    if names.is_empty() {
+        names.push(None);
+    }
+    names.into_iter().map(|board| BoardRecording { path: file.into(), board }).collect()
+}
+
+/// Plays a board's part of the file. Returns lost, thinned and restart counters, and the damage.
+fn played(recording: &BoardRecording) -> Result<(Tally, Skipped)> {
+    let mut play = Play::open(recording)?;
+    let mut progress = Progress::of(format!("reading {recording}"), Unit::Bytes, Some(play.passed()[1]));
     while play.next_event()?.is_some() {
         progress.at(play.passed()[0]);
     }

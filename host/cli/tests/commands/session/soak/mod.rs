@@ -71,7 +71,7 @@ fn nothing_grows_and_nothing_is_lost_unexplained() {
         child.wait().unwrap();
     }
     let lines = lines.join().unwrap();
-    let mut reader = WireReader::open(&file).unwrap();
+    let mut reader = WireReader::open(&file.as_path().into()).unwrap();
     let mut kept = Vec::new();
     while let Some(message) = reader.next_frame().unwrap() {
         kept.push(message.data.to_vec());

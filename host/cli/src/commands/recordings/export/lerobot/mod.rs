@@ -51,7 +51,7 @@ pub fn write(recordings: &[Frames<'_>], choices: &Choices<'_>, folder: Folder) -
     let mut rows = 0;
     for (index, frames) in recordings.iter().enumerate() {
         let path = meta::data_path(index);
-        let place = || frames.file().display().to_string();
+        let place = || frames.recording().to_string();
         let mut episode = Episode::begin(&folder, path, [index as u64, rows], choices.fps);
         frames.each("exporting", |frame| episode.take(frame, &mut known, &mut stats).with_context(place))?;
         let [length, leaps] = episode.finish(&mut stats).with_context(place)?;
