@@ -58,7 +58,7 @@ impl Condition {
             if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
                 // The garment at rest is not bent.
                 folds.begin(sampled.now, true);
-                folds.renew(|_| 0, |_, _| ());
+                folds.renew(None::<fn(&[u16; 4]) -> u32>, |_, _| ());
                 folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
             }
         } else {
@@ -66,9 +66,11 @@ impl Condition {
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
                 folds.begin(sampled.now, renewed);
-                let touched = Touched::of(layout, feedback, 1, &asked(folds, feedback));
+                let asked = asked(folds, feedback);
+                let touched = (!asked.is_empty()).then(|| Touched::of(layout, feedback, 1, &asked));
+                let touched = touched.as_ref().filter(|touched| !touched.is_empty);
                 folds.renew(
-                    |taxels| touched.bytes(taxels),
+                    touched.map(|touched| |taxels: &[u16; 4]| touched.bytes(taxels)),
                     |taxels, levels| calibration.set_levels(taxels, levels, terms),
                 );
             }
