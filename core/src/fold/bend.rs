@@ -78,6 +78,7 @@ impl Bend {
     };
 
     /// Number of the nearest knot.
+    #[inline(never)] // M0+: once, for size
     pub fn nearest(&self) -> u16 {
         let [first, rest @ ..] = self.corners;
         rest.into_iter().fold(first, |most, next| if next.weight > most.weight { next } else { most }).knot
@@ -138,6 +139,7 @@ impl Bend {
         }
     }
 
+    #[inline(never)] // seldom
     fn follow(&mut self, fold: &FoldRecord, angles: [Option<i16>; 2]) {
         let FoldRecord { joints, knots: [_, inner], play, .. } = *fold;
         let [mut first, mut second] = [(0, 0); 2];

@@ -262,17 +262,8 @@ impl FoldState {
         found: &mut Quads,
     ) {
         let own = quads.start - at.quad..quads.end - at.quad;
-        let around = |corner: &Corner| {
-            let knot = usize::from(corner.knot);
-            let first = at.correction + knot * fold.quads();
-            let cells = table.knot(fold, at, knot).and_then(|cells| cells.get(own.clone()));
-            let corrections = self.corrections.get(first + own.start..first + own.end);
-            Around {
-                cells: cells.unwrap_or(&[]),
-                corrections: corrections.unwrap_or(&[]),
-                weight: corner.weight.into(),
-            }
-        };
+        let corrections = &self.corrections;
+        let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
         let there = || bend.corners.iter().filter(|corner| corner.weight > 0);
         if !bend.is_known {
             let most = table.most(fold, at).and_then(|most| most.get(own.clone()));
@@ -320,6 +311,7 @@ impl FoldState {
     }
 
     /// Level beyond which a touch begins on a taxel, counts.
+    #[inline(never)] // seldom
     pub(crate) fn level(&self, taxel: usize) -> u16 {
         let slot = if self.holds(taxel) { self.slot(taxel as u16) } else { None };
         let of = |slot: usize| {
@@ -467,6 +459,25 @@ impl FoldState {
 impl Default for FoldState {
     fn default() -> Self {
         FoldState::new()
+    }
+}
+
+/// Some quads of a fold at a knot.
+#[inline(never)] // M0+: once, for size
+fn around<'a>(
+    (table, fold, at): (&FoldTable<'a>, &FoldRecord, &FoldStart),
+    corrections: &'a [u32],
+    own: &Range<usize>,
+    corner: &Corner,
+) -> Around<'a> {
+    let knot = usize::from(corner.knot);
+    let first = at.correction + knot * fold.quads();
+    let cells = table.knot(fold, at, knot).and_then(|cells| cells.get(own.clone()));
+    let corrections = corrections.get(first + own.start..first + own.end);
+    Around {
+        cells: cells.unwrap_or(&[]),
+        corrections: corrections.unwrap_or(&[]),
+        weight: corner.weight.into(),
     }
 }
 
