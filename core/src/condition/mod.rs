@@ -42,7 +42,7 @@ pub use crate::calibrate::certificate::Certificate;
 pub use crate::calibrate::sampled::Sampled;
 pub use crate::calibrate::scale::UNITY;
 pub use crate::filter::kinds::Filter;
-pub use crate::filter::points::{MARGIN, POINTS};
+pub use crate::filter::points::{MARGIN, POINTS, stands_out};
 pub(crate) use crate::filter::withheld::Withheld;
 pub use crate::filter::withheld::WithheldTaxel;
 pub use crate::image::rows::Rows;

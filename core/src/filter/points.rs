@@ -17,7 +17,7 @@ pub const MARGIN: u16 = 64;
 
 /// True if a taxel is a point, given its smoothed value.
 #[inline(always)]
-pub(crate) const fn stands_out(value: u16, smooth: u16) -> bool {
+pub const fn stands_out(value: u16, smooth: u16) -> bool {
     let smooth = smooth as u32;
     value as u32 > smooth + (smooth >> 4) + MARGIN as u32
 }

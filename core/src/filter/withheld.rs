@@ -4,11 +4,12 @@
 //! as an impulse until it lasts, although more may press beyond the edge, on the panel of another board. Only
 //! the host knows both: it is told what was withheld, and judges.
 
-use super::points::{Points, stands_out};
+use super::points::Points;
 use crate::garment::{Layout, Place};
 use serde::{Deserialize, Serialize};
 
-/// A taxel at the edge of a panel, of which the filter withholds more than noise.
+/// A taxel at the edge of a panel that stands out from its neighbours, and of which the filter withholds more
+/// than noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WithheldTaxel {
     /// Number of the taxel.
@@ -18,6 +19,9 @@ pub struct WithheldTaxel {
     /// Its pressure after the filter, counts.
     pub filtered: u16,
 }
+
+/// Part of what the filter leaves of a taxel that may be noise.
+const NOISE: u16 = 16;
 
 /// What the filter withholds of the last frame.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +37,8 @@ impl Withheld<'_> {
     pub fn taxels(self, layout: &Layout) -> impl Iterator<Item = WithheldTaxel> {
         self.points.now().filter_map(move |(taxel, value)| {
             let filtered = *self.filtered.get(taxel)?;
-            let is_told = stands_out(value, filtered) && is_at_edge(layout, layout.place(taxel)?);
+            let is_told =
+                value > filtered.saturating_add(filtered / NOISE) && is_at_edge(layout, layout.place(taxel)?);
             is_told.then_some(WithheldTaxel { taxel: taxel as u16, value, filtered })
         })
     }

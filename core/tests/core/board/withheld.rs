@@ -40,6 +40,12 @@ fn a_press_at_an_edge_is_withheld_until_it_lasts() {
         bench.press(&[taxel], 2_000);
         let told = WithheldTaxel { taxel: taxel as u16, value: 2_000, filtered: 900 };
         assert_eq!(withheld(&mut bench), Some(vec![told]), "more than lasted");
+        assert_eq!(withheld(&mut bench), None, "it lasts");
+        bench.press(&[taxel], 2_000 + 2_000 / 16);
+        assert_eq!(withheld(&mut bench), None, "no more than noise");
+        bench.press(&[taxel], 2_300);
+        let told = WithheldTaxel { taxel: taxel as u16, value: 2_300, filtered: 2_125 };
+        assert_eq!(withheld(&mut bench), Some(vec![told]), "a little more");
         bench.press(&[taxel], 0);
         (0..9).for_each(|_| assert_eq!(withheld(&mut bench), None));
     }

@@ -1,8 +1,8 @@
 //! A touch of a board, carried on to a time between two of the board's scans.
 
-use super::history::{TouchHistory, TouchSample};
+use super::history::TouchHistory;
 use super::plane::{PlanePoint, PlaneSide};
-use super::seam_press::SeamPress;
+use super::seam_change::SeamChange;
 use super::touched::BoardTouch;
 
 /// A touch of a board as it was reported last.
@@ -10,7 +10,7 @@ use super::touched::BoardTouch;
 pub struct CarriedTouch {
     /// Number of the board.
     pub board: usize,
-    /// What the board says of it.
+    /// What the board says of it, with what presses beyond seams.
     pub touch: BoardTouch,
     /// The host's time of that, us.
     pub host_us: u64,
@@ -45,23 +45,22 @@ impl CarriedTouch {
         touch: BoardTouch,
         host_us: u64,
         interval_us: u64,
-        before: Option<&CarriedTouch>,
+        before: Option<CarriedTouch>,
     ) -> CarriedTouch {
-        let mut history = before.map_or_else(TouchHistory::default, |before| before.history.clone());
-        let sample = TouchSample { host_us, total: f64::from(touch.total), centroid: touch.centroid };
-        if before.is_none() && interval_us > 0 {
-            history.push(TouchSample { host_us: host_us.saturating_sub(interval_us), total: 0.0, ..sample });
+        let mut history = before.map(|before| before.history).unwrap_or_default();
+        if history.is_empty() && interval_us > 0 {
+            history.push(host_us.saturating_sub(interval_us), BoardTouch { total: 0, ..touch.clone() });
         }
-        history.push(sample);
+        history.push(host_us, touch.clone());
         CarriedTouch { board, touch, host_us, history, interval_us }
     }
 
-    /// Adds what the board's filter withheld in that scan.
-    pub fn press(&mut self, press: &SeamPress) {
-        self.touch.press(press);
-        let (total, centroid) = (f64::from(self.touch.total), self.touch.centroid);
-        // Instead of the sample of the same time.
-        self.history.push(TouchSample { host_us: self.host_us, total, centroid });
+    /// Makes in the scan at the host's time, us, the changes that lie at the touch, and takes them out.
+    pub fn change(&mut self, host_us: u64, changes: &mut Vec<SeamChange>) {
+        let changed = self.history.change(host_us, changes);
+        if let Some(touch) = changed.filter(|_| host_us == self.host_us) {
+            self.touch.clone_from(touch);
+        }
     }
 
     /// The same, carried on for that long.
@@ -88,15 +87,15 @@ impl CarriedTouch {
     /// Its total then, counts.
     pub fn total(&self, host_us: u64) -> f64 {
         match self.history.at(host_us) {
-            Some(sample) => sample.total,
+            Some(moment) => moment.total,
             None => (f64::from(self.touch.total) + self.history.rate() * self.carried(host_us)).max(0.0),
         }
     }
 
     /// Its centroid then, `[x, y]` in taxels of its panel.
     pub fn centroid(&self, host_us: u64) -> [f64; 2] {
-        if let Some(sample) = self.history.at(host_us) {
-            return sample.centroid;
+        if let Some(moment) = self.history.at(host_us) {
+            return moment.centroid;
         }
         let ([x, y], [right, down]) = (self.touch.centroid, self.moved(host_us));
         [x + right, y + down]

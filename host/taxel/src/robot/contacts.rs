@@ -66,19 +66,16 @@ impl RobotContacts {
         listed.scanned(host_us);
         self.edges.note(board, scan, host_us);
         if let Some(faint) = &scan.faint {
-            let mut faint = faint.clone();
-            for press in self.edges.pressed(board, &scan.withheld, host_us) {
-                let here = faint.iter_mut().find(|touch| touch.reaches(press.place, 1));
-                here.into_iter().for_each(|touch| touch.press(&press));
-            }
-            listed.image(&faint, host_us);
+            listed.image(faint, host_us);
         }
         match &scan.contacts {
             Some(contacts) => {
                 let gone = listed.list(contacts, host_us);
-                listed.withhold(&scan.withheld, host_us);
                 gone.iter().for_each(|old| self.wait(old, host_us));
-                self.boards.iter_mut().for_each(|listed| listed.press(&self.edges));
+                for beside in self.edges.beside(board) {
+                    let listed = self.boards.get_mut(beside);
+                    listed.into_iter().for_each(|listed| listed.change(&self.edges));
+                }
                 self.join(host_us)
             }
             None => self.pass(host_us),

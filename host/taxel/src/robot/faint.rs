@@ -6,10 +6,12 @@
 
 use super::file::ReadRobot;
 use super::seam_taxels::seam_taxels;
+use super::seam_value::SeamValue;
 use super::touched::BoardTouch;
 use crate::client::Client;
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
+use taxel_core::condition::{Filter, WithheldTaxel};
 use taxel_core::garment::{Layout, Place, Rect};
 
 /// Finds what touches the seams of a board and is none of its contacts.
@@ -41,11 +43,23 @@ impl FaintFinder {
         (image.len() == self.layout.taxels()).then(|| self.find_in(image, low, client.contacts()))
     }
 
-    /// What presses along the seams in the client's image, counts by taxel; none if there is no image.
-    pub fn edge(&self, client: &Client) -> Option<BTreeMap<u16, u16>> {
+    /// What presses along the seams in the client's image, of which its filter withheld this, by taxel; none if
+    /// there is no image.
+    pub fn edge(&self, client: &Client, withheld: &[WithheldTaxel]) -> Option<BTreeMap<u16, SeamValue>> {
         let (_, image) = client.image().filter(|_| !self.edges.is_empty())?;
-        let pressed = |edge: &usize| Some((*edge as u16, image.get(*edge).copied().filter(|v| *v > 0)?));
-        Some(self.edges.iter().filter_map(pressed).collect())
+        let is_persistent = client.worn()?.scene.condition.filter == Filter::Persistent;
+        let value = |taxel: usize| {
+            let of = withheld.iter().find(|of| usize::from(of.taxel) == taxel);
+            of.map_or(image.get(taxel).copied().unwrap_or(0), |of| of.value)
+        };
+        let pressed = self.edges.iter().map(|edge| (*edge, value(*edge))).filter(|(_, value)| *value > 0);
+        let told = |(edge, pressed): (usize, u16)| {
+            let beside = neighbours(&self.layout, edge).map(value).max();
+            let beside = beside.filter(|_| is_persistent).unwrap_or(u16::MAX);
+            let told = image.get(edge).copied().unwrap_or(0);
+            (edge as u16, SeamValue { told, value: pressed, beside })
+        };
+        Some(pressed.map(told).collect())
     }
 
     fn find_in(&self, image: &[u16], low: u16, contacts: &[Placed]) -> Vec<BoardTouch> {

@@ -128,9 +128,12 @@ impl<'a> JoinedTouches<'a> {
     /// The newest time for which all of these boards have told what touches them, us; boards that have been
     /// silent for long do not count.
     fn told_by_all(&self, members: &[usize]) -> u64 {
+        let boards = members.iter().map(|index| self.all[*index].carried.board);
+        let is_at_seam = boards.clone().any(|board| Some(board) != boards.clone().next());
         let told = |index: &usize| {
             let CarriedTouch { board, touch, .. } = &self.all[*index].carried;
-            self.boards[*board].told_us(touch.contact.is_some())
+            let board = &self.boards[*board];
+            if is_at_seam { board.told_seams_us() } else { board.told_us(touch.contact.is_some()) }
         };
         let fresh = |told_us: &u64| self.host_us.abs_diff(*told_us) <= FRESH_US;
         members.iter().filter_map(told).filter(fresh).min().unwrap_or(self.host_us).min(self.host_us)

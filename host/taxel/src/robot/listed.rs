@@ -3,7 +3,6 @@
 use super::carried::CarriedTouch;
 use super::edges::SeamEdges;
 use super::touched::BoardTouch;
-use taxel_core::condition::WithheldTaxel;
 
 /// Time between two scans of a board that has not told two, us.
 const USUAL_US: u64 = 20_000;
@@ -25,8 +24,6 @@ pub struct ListedBoard {
     pub contacts: Vec<ListedTouch>,
     /// What touches a seam and is too faint to be a contact, then what was one.
     pub faint: Vec<ListedTouch>,
-    /// Host time of its last list of contacts, us, and what the filter withheld then and is not counted yet.
-    withheld: (u64, Vec<WithheldTaxel>),
 }
 
 /// A touch of a board, and the robot's contact that it belongs to.
@@ -49,8 +46,8 @@ impl ListedTouch {
     /// The same once a scan has told that it is over.
     fn over(self, host_us: u64, interval_us: u64) -> ListedTouch {
         let touch = BoardTouch { total: 0, ..self.carried.touch.clone() };
-        let carried = CarriedTouch::new(self.carried.board, touch, host_us, interval_us, Some(&self.carried));
-        ListedTouch { carried, has_ended: true, ..self }
+        let carried = CarriedTouch::new(self.carried.board, touch, host_us, interval_us, Some(self.carried));
+        ListedTouch { carried, has_ended: true, id: self.id }
     }
 }
 
@@ -64,7 +61,6 @@ impl ListedBoard {
             imaged_us: None,
             contacts: Vec::new(),
             faint: Vec::new(),
-            withheld: (0, Vec::new()),
         }
     }
 
@@ -76,6 +72,15 @@ impl ListedBoard {
     /// Host time until which it has told its contacts, or what is too faint for that, us.
     pub fn told_us(&self, contacts: bool) -> Option<u64> {
         if contacts { self.scanned_us } else { self.imaged_us }
+    }
+
+    /// Host time until which it has told what touches its seams, us: that of its last image, if one comes with
+    /// each scan.
+    pub fn told_seams_us(&self) -> Option<u64> {
+        let is_recent = |imaged_us: &u64| {
+            self.scanned_us.is_none_or(|at| at.saturating_sub(*imaged_us) <= self.interval_us * 3 / 2)
+        };
+        self.imaged_us.filter(is_recent).or(self.scanned_us)
     }
 
     /// What touches it, and what has just ended.
@@ -119,14 +124,8 @@ impl ListedBoard {
                 // It may have been too faint until now.
                 _ => self.take_faint_beside(contact),
             };
-            let carried = CarriedTouch::new(
-                self.board,
-                contact.clone(),
-                host_us,
-                interval_us,
-                old.as_ref().map(|old| &old.carried),
-            );
-            let id = old.and_then(|old| old.id);
+            let (id, old) = old.map_or((None, None), |old| (old.id, Some(old.carried)));
+            let carried = CarriedTouch::new(self.board, contact.clone(), host_us, interval_us, old);
             self.contacts.push(ListedTouch { carried, id, has_ended: false });
         }
         self.contacts.append(&mut gone);
@@ -134,25 +133,10 @@ impl ListedBoard {
         before
     }
 
-    /// Notes what the filter withheld of its last list of contacts.
-    pub fn withhold(&mut self, withheld: &[WithheldTaxel], host_us: u64) {
-        self.withheld = (host_us, withheld.to_vec());
-    }
-
-    /// Adds to the contacts of its last list what the filter withheld there, as far as the edges now tell that
-    /// it is pressed.
-    pub fn press(&mut self, edges: &SeamEdges) {
-        let (host_us, withheld) = &mut self.withheld;
-        for press in edges.pressed(self.board, withheld, *host_us) {
-            let is_pressed = |listed: &&mut ListedTouch| {
-                let CarriedTouch { touch, host_us: at_us, .. } = &listed.carried;
-                listed.is_contact() && at_us == host_us && touch.reaches(press.place, 1)
-            };
-            let Some(listed) = self.contacts.iter_mut().find(is_pressed) else { continue };
-            listed.carried.press(&press);
-            // What is counted is withheld no more.
-            let counted = withheld.iter_mut().filter(|withheld| withheld.taxel == press.taxel);
-            counted.for_each(|withheld| withheld.filtered = press.value);
+    /// Makes of its touches what they are with what presses beyond its seams, as far as the edges now tell.
+    pub fn change(&mut self, edges: &SeamEdges) {
+        for (host_us, mut changes) in edges.changes(self.board) {
+            self.touches_mut().for_each(|listed| listed.carried.change(host_us, &mut changes));
         }
     }
 
@@ -164,9 +148,9 @@ impl ListedBoard {
         let mut found = Vec::new();
         for touch in faint {
             let old = self.take_faint_beside(touch);
-            let before = old.as_ref().map(|old| &old.carried);
-            let carried = CarriedTouch::new(self.board, touch.clone(), host_us, interval_us, before);
-            found.push(ListedTouch { carried, id: old.and_then(|old| old.id), has_ended: false });
+            let (id, old) = old.map_or((None, None), |old| (old.id, Some(old.carried)));
+            let carried = CarriedTouch::new(self.board, touch.clone(), host_us, interval_us, old);
+            found.push(ListedTouch { carried, id, has_ended: false });
         }
         let over = |old: ListedTouch| if old.has_ended { old } else { old.over(host_us, interval_us) };
         found.extend(std::mem::take(&mut self.faint).into_iter().map(over));

@@ -23,11 +23,12 @@
 //! | `open.rs` | the boards of a file, followed |
 //! | `plane.rs` | the plane of a seam, on which both panels lie |
 //! | `seam_taxels.rs` | the taxels of a board along its seams |
-//! | `seam_press.rs` | what presses on a taxel at a seam, and its board's filter withheld |
+//! | `seam_value.rs` | [`SeamValue`]: what is told of a taxel at a seam, and what one filter over all would leave |
+//! | `seam_change.rs` | what one filter over both panels would change at a seam |
 //! | `touched.rs` | [`BoardTouch`]: what touches a board |
 //! | `faint.rs` | what touches a seam and is too faint to be a contact of its board |
 //! | `scan.rs` | [`ScanReader`]: contacts of a board's scan, and what is too faint for that |
-//! | `edges.rs` | what a board's filter withholds at a seam, and what presses beyond it |
+//! | `edges.rs` | what the boards' filters leave at the seams, judged with what presses beyond |
 //! | `history.rs` | pressure and place of a touch in its last scans |
 //! | `carried.rs` | a touch of a board, carried on to the time of another board's scan |
 //! | `listed.rs` | what a board has told last of what touches it |
@@ -73,8 +74,9 @@ mod recorder;
 mod refused;
 mod scan;
 mod seam;
-mod seam_press;
+mod seam_change;
 mod seam_taxels;
+mod seam_value;
 mod session;
 mod touch;
 mod touched;
@@ -99,6 +101,7 @@ pub use record_teller::{BoardRecord, RecordTeller};
 pub use recorder::{RobotRecorder, RobotTopic};
 pub use scan::{BoardScan, ScanReader};
 pub use seam::{RobotEdge, RobotSeam};
+pub use seam_value::SeamValue;
 pub use session::RobotSession;
 pub use touch::{RobotTouch, RobotTouchPart};
 pub use touched::BoardTouch;

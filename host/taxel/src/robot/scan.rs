@@ -2,6 +2,7 @@
 
 use super::faint::FaintFinder;
 use super::file::ReadRobot;
+use super::seam_value::SeamValue;
 use super::touched::BoardTouch;
 use crate::client::{Client, Event, ImageNews, Worn};
 use crate::files::calibrate::{Calibration, Forces};
@@ -16,8 +17,8 @@ pub struct BoardScan {
     pub contacts: Option<Vec<BoardTouch>>,
     /// What touches a seam to another board and is too faint to be a contact; none if there is no image.
     pub faint: Option<Vec<BoardTouch>>,
-    /// What presses along the seams to other boards, counts by taxel; none if there is no image.
-    pub edge: Option<BTreeMap<u16, u16>>,
+    /// What presses along the seams to other boards, by taxel; none if there is no image.
+    pub edge: Option<BTreeMap<u16, SeamValue>>,
     /// What the filter withholds of it at the edges of panels.
     pub withheld: Vec<WithheldTaxel>,
 }
@@ -51,7 +52,8 @@ impl ScanReader {
             }
             Event::Frame { image: ImageNews::Whole, frame, .. } => {
                 let faint = self.finder.find(client).map(|found| self.weighed(client, found));
-                let (edge, withheld) = (self.finder.edge(client), client.withheld(*frame).to_vec());
+                let withheld = client.withheld(*frame).to_vec();
+                let edge = self.finder.edge(client, &withheld);
                 Some(BoardScan { contacts: None, faint, edge, withheld })
             }
             Event::Frame { .. } => Some(BoardScan::default()),

@@ -1,6 +1,6 @@
 //! What touches a board: a contact, or what is too faint to be one.
 
-use super::seam_press::SeamPress;
+use super::seam_change::SeamChange;
 use taxel_core::contact::{Contact, Phase};
 use taxel_core::garment::{Place, Rect};
 
@@ -27,6 +27,15 @@ pub struct BoardTouch {
     pub velocity: [f64; 2],
     /// Newtons per count of the total; none without a calibration in force.
     pub newtons_per_count: Option<f64>,
+}
+
+/// Pressure and place of a touch at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TouchMoment {
+    /// Its total, counts.
+    pub total: f64,
+    /// Its centroid, `[x, y]` in taxels of its panel.
+    pub centroid: [f64; 2],
 }
 
 impl From<&Contact> for BoardTouch {
@@ -56,16 +65,22 @@ impl BoardTouch {
         place.panel == panel && is_near(place.row, top, bottom) && is_near(place.column, left, right)
     }
 
-    /// Adds what its board's filter withheld.
-    pub fn press(&mut self, press: &SeamPress) {
-        let SeamPress { place: Place { row, column, .. }, value, more, .. } = *press;
-        let (before, added) = (f64::from(self.total), f64::from(more));
+    /// Its pressure and place.
+    pub fn moment(&self) -> TouchMoment {
+        TouchMoment { total: self.total.into(), centroid: self.centroid }
+    }
+
+    /// Takes a taxel as it is with what presses beyond the seam.
+    pub fn change(&mut self, change: &SeamChange) {
+        let SeamChange { place: Place { row, column, .. }, told, value, .. } = *change;
+        let (before, added) = (f64::from(self.total), f64::from(value) - f64::from(told));
+        let total = (before + added).max(1.0);
         for (centroid, at) in self.centroid.iter_mut().zip([column, row]) {
-            *centroid += (f64::from(at) - *centroid) * added / (before + added);
+            *centroid += (f64::from(at) - *centroid) * added / total;
         }
-        self.total = self.total.saturating_add(more.into());
+        self.total = total as u32;
         self.peak = self.peak.max(value);
-        self.area = self.area.saturating_add((value == more).into());
+        self.area = self.area.saturating_add((told == 0).into());
         (self.bounds.top, self.bounds.bottom) = (self.bounds.top.min(row), self.bounds.bottom.max(row));
         (self.bounds.left, self.bounds.right) = (self.bounds.left.min(column), self.bounds.right.max(column));
     }

@@ -227,12 +227,12 @@ fn told(pass: &Pass, filter: Filter) -> Told {
     }
 }
 
-/// Totals of the same touch wholly inside a panel, by time, us.
-fn inside(pass: &Pass, filter: Filter) -> Vec<(u64, f64)> {
+/// Totals of the same touch wholly inside a panel, by time, us, as the board of this number scans it.
+fn inside(pass: &Pass, number: usize, filter: Filter) -> Vec<(u64, f64)> {
     let garment = panel(pass.pitch_um);
     // In the middle of its panel when it would be on the seam.
     let world = World::build(&pass.script("mat", f64::from(WIDE) / 2.0 - 1.0), &garment).unwrap();
-    let mut board = scans(&world, 0, pass, pass.from, filter);
+    let mut board = scans(&world, 0, pass, number, filter);
     let mut totals = Vec::new();
     while board.next_us < (pass.end_s() * 1e6) as u64 {
         let (time, scans) = board.scan();
@@ -282,15 +282,21 @@ fn share(sorted: &[f64], part: f64) -> f64 {
     100.0 * sorted[((sorted.len() - 1) as f64 * part) as usize]
 }
 
-/// What is told on the seam by both boards together: the host's time, us, and the total.
-fn on_seam(told: &Told) -> Vec<(u64, f64)> {
+/// What is told on the seam by both boards together: the host's time, us, and what each board has of it.
+fn on_seam(told: &Told) -> Vec<(u64, [f64; 2])> {
     let mut lists = Vec::new();
     for (_, contacts) in told {
         let there: Vec<&RobotContact> = contacts.iter().filter(|c| c.touch.parts.len() == 2).collect();
-        if let [contact] = there[..] {
-            lists.push((contact.touch.host_us, f64::from(contact.touch.total)));
+        if let [RobotContact { touch, .. }] = there[..] {
+            let of = |board: usize| {
+                let parts = touch.parts.iter().filter(|part| part.board == board);
+                parts.map(|part| f64::from(part.total)).sum()
+            };
+            lists.push((touch.host_us, [of(0), of(1)]));
         }
     }
+    // A board that has told nothing new changes nothing.
+    lists.dedup_by_key(|(time, _)| *time);
     lists
 }
 
@@ -303,16 +309,23 @@ fn at(scans: &[(u64, f64)], time: u64) -> Option<f64> {
 
 /// How far the force on a seam differs from that inside a panel, sorted: means of the passes, and single lists
 /// of all touches and of slow ones.
+///
+/// What the filter takes inside a panel of a touch that is small and fast depends on where its board's scans
+/// find it: the part of the touch that a board has is compared with what that board tells inside.
 fn differences(filter: Filter) -> [Vec<f64>; 3] {
     let mut found = [Vec::new(), Vec::new(), Vec::new()];
     let [means, moments, slow] = &mut found;
     for seed in seeds() {
         let pass = Pass::random(seed);
-        let inside = inside(&pass, filter);
-        let [mut sum, mut want_sum, mut count] = [0.0; 3];
-        for (time, total) in on_seam(&told(&pass, filter)) {
-            let Some(want) = at(&inside, time) else { continue };
-            (sum, want_sum, count) = (sum + total, want_sum + want, count + 1.0);
+        let inside = [0, 1].map(|number| inside(&pass, number, filter));
+        let (mut sum, mut wanted, mut count) = (0.0, 0.0, 0);
+        for (time, [one, two]) in on_seam(&told(&pass, filter)) {
+            let (Some(want_one), Some(want_two)) = (at(&inside[0], time), at(&inside[1], time)) else {
+                continue;
+            };
+            let total = one + two;
+            let want = (want_one * one + want_two * two) / total;
+            (sum, wanted, count) = (sum + total, wanted + want, count + 1);
             let difference = (total / want - 1.0).abs();
             moments.push(difference);
             let step = pass.speed[0] * pass.periods_us[0].max(pass.periods_us[1]) as f64 / 1e6;
@@ -320,13 +333,12 @@ fn differences(filter: Filter) -> [Vec<f64>; 3] {
                 slow.push(difference);
             }
         }
-        if count > 0.0 {
-            let difference = (sum / want_sum - 1.0_f64).abs();
-            if difference > BAR {
-                println!("seed {seed}: {:.1} %, {count} lists, {pass:?}", 100.0 * (sum / want_sum - 1.0));
-            }
-            means.push(difference);
+        assert!(count > 0, "seed {seed}: {pass:?}");
+        let difference = sum / wanted - 1.0;
+        if difference.abs() > BAR {
+            println!("seed {seed}: {:.1} %, {count} lists, {pass:?}", 100.0 * difference);
         }
+        means.push(difference.abs());
     }
     for (what, values) in ["passes", "lists", "slow lists"].iter().zip(&mut found) {
         values.sort_by(f64::total_cmp);
@@ -347,63 +359,11 @@ fn the_force_on_a_seam_is_that_inside_a_panel() {
     assert!(share(&means, 0.5) <= 0.1 && share(&slow, 0.99) <= 2.0);
 }
 
-/// Moments of the first scan, parts of the time between two, at which a touch is scanned inside a panel.
-const MOMENTS: u64 = 4;
-
-/// Means of what a panel's filter leaves of the same touch inside the panel at these times, by the rate of either
-/// board and the moment of its first scan: of a touch that is small and fast, it depends on where the scans find
-/// it.
-fn left_inside(pass: &Pass, filter: Filter, times: &[u64]) -> Vec<f64> {
-    let mut left = vec![mean_at(&inside(pass, filter), times)];
-    for period_us in pass.periods_us {
-        for moment in 0..MOMENTS {
-            let mut scanned = pass.clone();
-            scanned.periods_us[pass.from] = period_us;
-            scanned.first_us[pass.from] = period_us * moment / MOMENTS;
-            left.push(mean_at(&inside(&scanned, filter), times));
-        }
-    }
-    left
-}
-
-fn mean_at(scans: &[(u64, f64)], times: &[u64]) -> f64 {
-    let told: Vec<f64> = times.iter().filter_map(|time| at(scans, *time)).collect();
-    told.iter().sum::<f64>() / told.len() as f64
-}
-
 /// Inside a panel, the filter takes up to a sixth of a touch of two taxels that moves by two taxels from scan to
-/// scan. On a seam it takes no more, and nothing is told twice: what is told lies between the least that a
-/// panel's filter leaves and what presses. It differs from what is left inside by more than the bar only where
-/// that itself does, from one moment of the first scan to another.
+/// scan: on a seam it takes as much.
 #[test]
-fn a_filter_takes_no_more_on_a_seam_than_inside_a_panel() {
-    let filter = Filter::default();
-    let (mut off, mut unsure) = (Vec::new(), 0);
-    for seed in seeds() {
-        let pass = Pass::random(seed);
-        let told = on_seam(&told(&pass, filter));
-        let times: Vec<u64> = told.iter().map(|(time, _)| *time).collect();
-        assert!(!told.is_empty(), "seed {seed}: {pass:?}");
-        let total = told.iter().map(|(_, total)| total).sum::<f64>() / told.len() as f64;
-        let left = left_inside(&pass, filter, &times);
-        let [least, greatest] = [f64::min, f64::max].map(|of| left.iter().copied().reduce(of).unwrap());
-        let pressed = mean_at(&inside(&pass, Filter::Off), &times);
-        let [low, high] = [least.min(pressed), least.max(pressed)];
-        let beyond = (total / low - 1.0).min(0.0) + (total / high - 1.0).max(0.0);
-        let (differs, own) = ((total / left[0] - 1.0).abs(), greatest / least - 1.0);
-        if beyond.abs() > BAR || differs > BAR {
-            println!("seed {seed}: {total:.0} of {low:.0} to {high:.0}, {} lists, {pass:?}", told.len());
-            println!("  {:.1} % from {:.0}, which is {:.1} % unsure", 100.0 * differs, left[0], 100.0 * own);
-            assert!(own > BAR);
-            unsure += 1;
-        }
-        off.push(beyond.abs());
-    }
-    off.sort_by(f64::total_cmp);
-    let [median, most, worst] = [0.5, 0.99, 1.0].map(|part| share(&off, part));
-    println!("beyond what is left inside: median {median:.2} %, 99 % {most:.2} %, worst {worst:.2} %");
-    println!("{unsure} passes differ from inside by more than 5 %, and it from itself");
-    assert!(off.iter().all(|beyond| *beyond <= BAR));
-    let [means, _, slow] = differences(filter);
-    assert!(unsure * 100 <= means.len() && share(&means, 0.5) <= 0.5 && share(&slow, 0.99) <= 5.0);
+fn a_filter_leaves_on_a_seam_what_it_leaves_inside_a_panel() {
+    let [means, _, slow] = differences(Filter::default());
+    assert!(means.iter().all(|difference| *difference <= BAR));
+    assert!(share(&means, 0.5) <= 0.25 && share(&slow, 0.99) <= 3.0);
 }
