@@ -90,12 +90,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     /// taxels are left out.
     pub fn set_levels(&mut self, taxels: &[[u16; 4]], levels: &[LevelPairs], terms: LimitTerms) {
         let TaxelCalibration { baseline: rest, gain, limit, ones: are_ones, .. } = self;
-        let mut limits = LevelLimits { rest, gain, limit, are_ones: *are_ones };
-        if terms.is_falling() {
-            limits.set::<true>(taxels, levels, terms);
-        } else {
-            limits.set::<false>(taxels, levels, terms);
-        }
+        LevelLimits { rest, gain, limit, are_ones: *are_ones }.set(taxels, levels, terms);
     }
 
     /// Recomputes the limit of one taxel, whose calibration has changed, and on which so many counts press that

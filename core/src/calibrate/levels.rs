@@ -28,15 +28,10 @@ pub(super) struct LevelLimits<'a> {
 impl LevelLimits<'_> {
     /// Sets the limits of taxels; other numbers than those of taxels are left out.
     #[inline(never)] // own registers
-    pub fn set<const FALLING: bool>(
-        &mut self,
-        mut taxels: &[[u16; 4]],
-        mut levels: &[LevelPairs],
-        terms: LimitTerms,
-    ) {
+    pub fn set(&mut self, mut taxels: &[[u16; 4]], mut levels: &[LevelPairs], terms: LimitTerms) {
         while let [first, ..] = taxels {
             let row = consecutive(first).map_or(0..0, |start| start..start + 4 * in_a_row(taxels, start));
-            let done = match self.set_row::<FALLING>(row, levels, terms.margin_of_unity()) {
+            let done = match self.set_row(row, levels, terms) {
                 Ok(done) => done,
                 Err(count) => {
                     self.set_each(taxels.get(..count).unwrap_or(taxels), levels, terms);
@@ -49,12 +44,13 @@ impl LevelLimits<'_> {
 
     /// Sets the limits of taxels in a row, up to four one of which has another gain than 1. Returns the number of
     /// fours; an error with the number of those that are to be set by taxel, at least one.
-    fn set_row<const FALLING: bool>(
+    fn set_row(
         &mut self,
         row: Range<usize>,
         levels: &[LevelPairs],
-        margin: u16,
+        terms: LimitTerms,
     ) -> Result<usize, usize> {
+        let margin = u32::from(terms.margin_of_unity());
         let (rest, gain) =
             (self.rest.get(row.clone()).unwrap_or(&[]), self.gain.get(row.clone()).unwrap_or(&[]));
         let limit = self.limit.get_mut(row).unwrap_or_default();
@@ -68,11 +64,11 @@ impl LevelLimits<'_> {
         };
         let count = if self.are_ones { gain.len() } else { unities(gain) };
         let rest = rest.get(..2 * count).unwrap_or(&[]);
-        if count == 0 || u32::from(margin) & HIGH >> 16 != 0 {
+        if count == 0 || margin & HIGH >> 16 != 0 {
             return Err(1);
         }
-        let is_set =
-            set_pairs::<FALLING>(rest, levels.as_flattened(), limit, u32::from(margin) * 0x0001_0001);
+        let set = if terms.is_falling() { set_pairs::<true> } else { set_pairs::<false> };
+        let is_set = set(rest, levels.as_flattened(), limit, margin * 0x0001_0001);
         if is_set { Ok(count) } else { Err(count) }
     }
 
@@ -167,12 +163,7 @@ mod tests {
             let pairs: Vec<LevelPairs> =
                 levels.iter().map(|&[a, b, c, d]| bytemuck::cast([a, b, c, d])).collect();
             let are_ones = gain.iter().all(|gain| *gain == UNITY);
-            let mut limits = LevelLimits { rest, gain, limit, are_ones };
-            if terms.is_falling() {
-                limits.set::<true>(&taxels, &pairs, terms);
-            } else {
-                limits.set::<false>(&taxels, &pairs, terms);
-            }
+            LevelLimits { rest, gain, limit, are_ones }.set(&taxels, &pairs, terms);
             let mut want = [7; 64];
             for (taxel, level) in taxels.as_flattened().iter().zip(levels.as_flattened()) {
                 let Some(want) = want.get_mut(usize::from(*taxel)) else { continue };
