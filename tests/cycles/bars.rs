@@ -77,15 +77,35 @@ fn reading(table: &Table) -> u64 {
     table.forms.first().map_or(1, |row| row.cost.max(1))
 }
 
-/// What a change of posture costs, cycles for each taxel that folds: all that a bending arm adds to an empty
-/// frame, by the taxels that are renewed in it. All of them are in 20 ms.
-fn bending(table: &Table) -> Option<u64> {
-    let condition = |variant| {
-        let mut rows = table.rows.iter().filter(|row| row.name == TouchPattern::Empty.name());
-        Some(rows.find(|row| row.variant == variant)?.stage(Stage::Condition))
-    };
-    let more = condition(Variant::Bending)?.saturating_sub(condition(Variant::Shipped)?);
-    Some(more * 20_000 / (FOLDED as u64 * PERIOD_US))
+/// What the garment's own folds cost, cycles for each taxel that folds and is renewed: all of them are in 20 ms.
+struct Bending {
+    /// All that an arm that turns between two knots adds to an empty frame.
+    posture: u64,
+    /// All that coming to another knot with each posture adds to that.
+    compared: u64,
+    /// All that an arm adds that comes where it was not before, and is compared at every other posture.
+    onward: u64,
+    /// All that an arm adds that stands still.
+    still: u64,
+}
+
+impl Bending {
+    fn of(table: &Table) -> Option<Bending> {
+        let condition = |variant| {
+            let mut rows = table.rows.iter().filter(|row| row.name == TouchPattern::Empty.name());
+            Some(rows.find(|row| row.variant == variant)?.stage(Stage::Condition))
+        };
+        let shipped = condition(Variant::Shipped)?;
+        let swaying = condition(Variant::Swaying)?;
+        let by_taxel =
+            |more: u64, than: u64| more.saturating_sub(than) * 20_000 / (FOLDED as u64 * PERIOD_US);
+        Some(Bending {
+            posture: by_taxel(swaying, shipped),
+            compared: by_taxel(condition(Variant::Comparing)?, swaying),
+            onward: by_taxel(condition(Variant::Bending)?, shipped),
+            still: by_taxel(condition(Variant::Folds)?, shipped),
+        })
+    }
 }
 
 /// The bars for people, each beside the cost of merely reading each taxel.
@@ -99,8 +119,11 @@ pub fn text(table: &Table) -> String {
         )
     };
     let stack = table.rows.iter().filter_map(|row| row.stack).max().unwrap_or(0);
-    let posture = bending(table).map(|cycles| {
-        format!("bending: {cycles} cycles a change of posture and taxel that folds, comparisons included\n")
+    let posture = Bending::of(table).map(|Bending { posture, compared, onward, still }| {
+        format!(
+            "bending: {posture} cycles a change of posture and taxel, {compared} more where it is compared; {onward} on the way to new \
+             postures, comparisons included; {still} every 20 ms while the arm stands still\n"
+        )
     });
     bars(table).map(line).collect::<String>()
         + &posture.unwrap_or_default()

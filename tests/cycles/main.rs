@@ -61,8 +61,9 @@ fn measure() -> Result<Table, String> {
     let mut steps = steps.map_err(|error| format!("{error:#}"))?;
     steps.extend(forms.iter().map(Form::steps));
     let costs = together(&steps)?;
-    let of_cases = cases.iter().zip(&costs);
-    let rows: Vec<Row> = of_cases.map(|(case, (costs, told))| Row::of(case, costs, told)).collect();
+    let of_cases = cases.iter().zip(&steps).zip(&costs);
+    let rows: Vec<Row> =
+        of_cases.map(|((case, steps), (costs, told))| Row::of(case, steps, costs, told)).collect();
     let of_forms = forms.iter().zip(costs.iter().skip(cases.len()));
     let forms: Vec<FormRow> = of_forms.map(|(form, (costs, _))| form.row(costs)).collect();
     let compiler = std::env::var("TAXEL_COMPILER").unwrap_or("an unknown compiler".into());

@@ -95,7 +95,7 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         let folds = self.folds;
         let folded = folds.holds_any(first..first + usize::from(area.columns));
         if !touched && !folded && !self.images.rows.contains(area.first_row.saturating_add(row)) {
-            return self.follow_row(area, row, common, |_, _| beside + OWN, |_| false);
+            return self.follow_row(area, row, common, |_, _| beside + OWN, |_| 0);
         }
         let fast = consensus.was_fast(panel);
         let is_held = |column: u16| folded && folds.holds(first + usize::from(column));
@@ -108,11 +108,12 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
                 false => beside + own,
             }
         };
-        self.follow_row(area, row, common, own, is_held);
+        let level = |column: u16| if folded { folds.level(first + usize::from(column)) } else { 0 };
+        self.follow_row(area, row, common, own, level);
     }
 
     /// Moves the baselines of a row by `common`, and from there towards each taxel's code by at most
-    /// `own(column, shown pressure)`. `is_held(column)`: the garment's fold presses there.
+    /// `own(column, shown pressure)`. `level(column)`: what the garment's fold may press there, counts.
     #[inline(always)]
     fn follow_row(
         &mut self,
@@ -120,7 +121,7 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         row: u16,
         common: i32,
         own: impl Fn(u16, u16) -> i32,
-        is_held: impl Fn(u16) -> bool,
+        level: impl Fn(u16) -> u16,
     ) {
         let Drift { calibration, images, sampled, terms, .. } = self;
         let silent = terms.silent();
@@ -141,10 +142,8 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
             }
             *rest = now as u16;
             *limit = match *limit {
-                // Saturated: the true limit may lie beyond the range, so it is computed again. That of a taxel
-                // on which a fold presses lies further, and is computed again by its fold.
-                same if same == silent && is_held(column) => same,
-                same if same == silent => terms.limit(*rest, terms.margin(*gain)),
+                // Saturated: the true limit may lie beyond the range, so it is computed again.
+                same if same == silent => terms.limit_beyond(level(column), *rest, *gain),
                 limit => (i32::from(limit) + step).clamp(0, 0xffff) as u16,
             };
         }

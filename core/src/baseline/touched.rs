@@ -12,7 +12,8 @@ const WORDS: usize = TAXELS.div_ceil(32) + 1;
 /// A bit for each taxel within some taxels of a contact.
 pub(crate) struct Touched {
     taxels: [u32; WORDS],
-    is_empty: bool,
+    /// True if it is none of those that were asked for.
+    pub is_empty: bool,
 }
 
 impl Touched {
@@ -65,13 +66,8 @@ impl Touched {
     }
 
     /// All bits of each byte, of four, whose taxel is one of them.
-    #[inline(always)]
-    pub fn bytes(&self, taxels: &[u16; 4]) -> u32 {
-        if self.is_empty { 0 } else { self.bytes_of(taxels) }
-    }
-
     #[inline(never)] // own registers
-    fn bytes_of(&self, taxels: &[u16; 4]) -> u32 {
+    pub fn bytes(&self, taxels: &[u16; 4]) -> u32 {
         if let Some(first) = consecutive(taxels) {
             // Bits to the lowest bits of bytes, and these to bytes: no product reaches another one.
             return (self.four(first).wrapping_mul(0x0020_4081) & 0x0101_0101).wrapping_mul(0xFF);

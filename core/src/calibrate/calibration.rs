@@ -24,6 +24,8 @@ pub(crate) struct TaxelCalibration<const TAXELS: usize> {
     pub limits_for: Option<LimitTerms>,
     /// True if every gain is 1, or 0, with which no taxel exceeds its limit.
     unity: bool,
+    /// True if every gain of the garment is 1.
+    ones: bool,
 }
 
 impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
@@ -35,6 +37,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
             limit: [0; TAXELS],
             limits_for: None,
             unity: false,
+            ones: false,
         }
     }
 
@@ -64,6 +67,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
         }
         self.limits_for = Some(terms);
         self.unity = self.gain.iter().all(is_unity);
+        self.ones = self.gain.iter().all(|gain| *gain == UNITY);
         // Neighbours often have the same gain.
         let (mut last, mut margin) = (0, u16::MAX);
         for ((limit, rest), gain) in self.limit.iter_mut().zip(&self.baseline).zip(&self.gain) {
@@ -85,13 +89,8 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     /// Sets the limits of taxels on which so many counts press that are no touch; other numbers than those of
     /// taxels are left out.
     pub fn set_levels(&mut self, taxels: &[[u16; 4]], levels: &[LevelPairs], terms: LimitTerms) {
-        let TaxelCalibration { baseline: rest, gain, limit, .. } = self;
-        let mut limits = LevelLimits { rest, gain, limit };
-        if terms.is_falling() {
-            limits.set::<true>(taxels, levels, terms);
-        } else {
-            limits.set::<false>(taxels, levels, terms);
-        }
+        let TaxelCalibration { baseline: rest, gain, limit, ones: are_ones, .. } = self;
+        LevelLimits { rest, gain, limit, are_ones: *are_ones }.set(taxels, levels, terms);
     }
 
     /// Recomputes the limit of one taxel, whose calibration has changed, and on which so many counts press that
@@ -99,6 +98,7 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
     pub fn set_limit(&mut self, taxel: usize, level: u16) {
         let (Some(terms), Some(gain)) = (self.limits_for, self.gain.get(taxel)) else { return };
         self.unity &= is_unity(gain);
+        self.ones &= *gain == UNITY;
         self.set_levels(&[[taxel as u16, u16::MAX, u16::MAX, u16::MAX]], &[[level.into(), 0]], terms);
     }
 

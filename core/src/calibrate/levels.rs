@@ -3,6 +3,7 @@
 use super::scale::UNITY;
 use super::terms::LimitTerms;
 use crate::fold::LevelPairs;
+use core::ops::Range;
 
 /// The highest bit of each half of a word.
 const HIGH: u32 = 0x8000_8000;
@@ -20,46 +21,55 @@ pub(super) struct LevelLimits<'a> {
     pub rest: &'a [u16],
     pub gain: &'a [u16],
     pub limit: &'a mut [u16],
+    /// True if every gain is known to be 1.
+    pub are_ones: bool,
 }
 
 impl LevelLimits<'_> {
     /// Sets the limits of taxels; other numbers than those of taxels are left out.
     #[inline(never)] // own registers
-    pub fn set<const FALLING: bool>(
-        &mut self,
-        mut taxels: &[[u16; 4]],
-        mut levels: &[LevelPairs],
-        terms: LimitTerms,
-    ) {
+    pub fn set(&mut self, mut taxels: &[[u16; 4]], mut levels: &[LevelPairs], terms: LimitTerms) {
         while let [first, ..] = taxels {
-            let done = consecutive(first).and_then(|first| {
-                let in_a_row =
-                    taxels.iter().zip((first as u16..).step_by(4)).take_while(in_its_place).count();
-                self.set_row::<FALLING>(first, levels.get(..in_a_row)?, terms.margin_of_unity())
-            });
-            let done = done.filter(|done| *done > 0).unwrap_or_else(|| {
-                self.set_each(taxels.get(..1).unwrap_or(taxels), levels, terms);
-                1
-            });
+            let row = consecutive(first).map_or(0..0, |start| start..start + 4 * in_a_row(taxels, start));
+            let done = match self.set_row(row, levels, terms) {
+                Ok(done) => done,
+                Err(count) => {
+                    self.set_each(taxels.get(..count).unwrap_or(taxels), levels, terms);
+                    count
+                }
+            };
             (taxels, levels) = (taxels.get(done..).unwrap_or(&[]), levels.get(done..).unwrap_or(&[]));
         }
     }
 
-    /// Sets the limits of taxels in a row, up to four one of which has another gain than 1, or a number that is
-    /// large. Returns the number of fours. None if the row is not aligned to words.
-    fn set_row<const FALLING: bool>(
+    /// Sets the limits of taxels in a row, up to four one of which has another gain than 1. Returns the number of
+    /// fours; an error with the number of those that are to be set by taxel, at least one.
+    fn set_row(
         &mut self,
-        first: usize,
+        row: Range<usize>,
         levels: &[LevelPairs],
-        margin: u16,
-    ) -> Option<usize> {
-        let levels = levels.as_flattened();
-        let row = first..first + 2 * levels.len();
-        let rest = bytemuck::try_cast_slice(self.rest.get(row.clone())?).ok()?;
-        let gain = bytemuck::try_cast_slice(self.gain.get(row.clone())?).ok()?;
-        let limit = bytemuck::try_cast_slice_mut(self.limit.get_mut(row)?).ok()?;
-        (u32::from(margin) & HIGH >> 16 == 0)
-            .then(|| set_pairs::<FALLING>(rest, gain, levels, limit, u32::from(margin) * 0x0001_0001) / 2)
+        terms: LimitTerms,
+    ) -> Result<usize, usize> {
+        let margin = u32::from(terms.margin_of_unity());
+        let (rest, gain) =
+            (self.rest.get(row.clone()).unwrap_or(&[]), self.gain.get(row.clone()).unwrap_or(&[]));
+        let limit = self.limit.get_mut(row).unwrap_or_default();
+        // Aligned to words.
+        let (Ok(rest), Ok(gain), Ok(limit)) = (
+            bytemuck::try_cast_slice::<_, u32>(rest),
+            bytemuck::try_cast_slice(gain),
+            bytemuck::try_cast_slice_mut(limit),
+        ) else {
+            return Err(1);
+        };
+        let count = if self.are_ones { gain.len() } else { unities(gain) };
+        let rest = rest.get(..2 * count).unwrap_or(&[]);
+        if count == 0 || margin & HIGH >> 16 != 0 {
+            return Err(1);
+        }
+        let set = if terms.is_falling() { set_pairs::<true> } else { set_pairs::<false> };
+        let is_set = set(rest, levels.as_flattened(), limit, margin * 0x0001_0001);
+        if is_set { Ok(count) } else { Err(count) }
     }
 
     /// Sets the limits of any taxels.
@@ -70,60 +80,53 @@ impl LevelLimits<'_> {
             let taxel = usize::from(*taxel);
             let calibration = self.rest.get(taxel).zip(self.gain.get(taxel)).zip(self.limit.get_mut(taxel));
             let Some(((rest, gain), limit)) = calibration else { continue };
-            *limit = match *gain {
-                // The same, without a division.
-                UNITY => {
-                    let (rest, margin) =
-                        (u32::from(*rest), u32::from(terms.margin_of_unity()) + u32::from(level));
-                    let limit = if terms.is_falling() { rest.saturating_sub(margin) } else { rest + margin };
-                    u16::try_from(limit).unwrap_or(u16::MAX)
-                }
-                gain => terms.limit(*rest, terms.beyond(level).margin(gain)),
-            };
+            *limit = terms.limit_beyond(level, *rest, *gain);
         }
     }
 }
 
-/// True if the numbers of four taxels that follow each other begin with this one.
-fn in_its_place((taxels, first): &(&[u16; 4], u16)) -> bool {
-    consecutive(taxels) == Some(usize::from(*first))
+/// Of fours of taxels from `start` on, the number of those that follow each other.
+fn in_a_row(taxels: &[[u16; 4]], start: usize) -> usize {
+    if let Some([.., last]) = taxels.last()
+        && usize::from(*last) == start + 4 * taxels.len() - 1
+    {
+        // The numbers ascend: there is one taxel for each of them.
+        return taxels.len();
+    }
+    taxels
+        .iter()
+        .zip((start..).step_by(4))
+        .take_while(|(taxels, first)| consecutive(taxels) == Some(*first))
+        .count()
 }
 
-/// Sets the limits of pairs of taxels, up to one with another gain than 1, or with a number that is large.
-/// Returns their number.
+/// Number of fours up to one with another gain than 1.
 #[inline(never)] // own registers
-fn set_pairs<const FALLING: bool>(
-    rest: &[u32],
-    gain: &[u32],
-    levels: &[u32],
-    limit: &mut [u32],
-    margins: u32,
-) -> usize {
-    let mut done = 0;
-    for (((rest, gain), level), limit) in rest.iter().zip(gain).zip(levels).zip(limit) {
-        let Some(pair) = pair::<FALLING>(*rest, *level, margins).filter(|_| *gain == UNITIES) else { break };
-        *limit = pair;
-        done += 1;
-    }
-    done
+fn unities(gain: &[[u32; 2]]) -> usize {
+    let other = gain.iter().position(|[a, b]| *a != UNITIES || *b != UNITIES);
+    other.unwrap_or(gain.len())
 }
 
-/// Limits of two taxels with gains of 1; none if one of their numbers is large, or a limit would be below 0.
-#[inline(always)]
-fn pair<const FALLING: bool>(rest: u32, level: u32, margins: u32) -> Option<u32> {
+/// Sets the limits of pairs of taxels with gains of 1. False if a number is too large for that, or a limit would
+/// be below 0.
+#[inline(never)] // own registers
+fn set_pairs<const FALLING: bool>(rest: &[u32], levels: &[u32], limit: &mut [u32], margins: u32) -> bool {
     // Halves below 2^15: no sum of two of them reaches the other half.
-    if FALLING {
-        let margins = level.wrapping_add(margins);
-        if (rest | level | margins) & HIGH != 0 {
-            return None;
+    let mut large = 0;
+    for ((rest, level), limit) in rest.iter().zip(levels).zip(limit) {
+        if FALLING {
+            let margins = level.wrapping_add(margins);
+            // The highest bit of a half stays as long as the limit is not below 0.
+            let limits = (rest | HIGH).wrapping_sub(margins);
+            large |= rest | level | margins | !limits;
+            *limit = limits ^ HIGH;
+        } else {
+            let beyond = rest.wrapping_add(*level);
+            large |= rest | level | beyond;
+            *limit = beyond.wrapping_add(margins);
         }
-        // The highest bit of a half stays as long as the limit is not below 0.
-        let limits = (rest | HIGH).wrapping_sub(margins);
-        (limits & HIGH == HIGH).then_some(limits ^ HIGH)
-    } else {
-        let beyond = rest.wrapping_add(level);
-        ((rest | level | beyond) & HIGH == 0).then_some(beyond.wrapping_add(margins))
     }
+    large & HIGH == 0
 }
 
 #[cfg(test)]
@@ -148,7 +151,7 @@ mod tests {
             let mut size = || sizes[next(5) as usize];
             let (rest_size, level_size, floor_size) = (size(), size(), size());
             let mut gain = || if next(8) == 0 { [0, 4095, 9000][next(3) as usize] } else { UNITY };
-            let gain: [u16; 64] = std::array::from_fn(|_| gain());
+            let gain: [u16; 64] = if round % 4 == 0 { [UNITY; 64] } else { std::array::from_fn(|_| gain()) };
             let rest: [u16; 64] = std::array::from_fn(|_| next(rest_size) as u16);
             // Some in a row, from an even or odd taxel on, some apart, and one that there is not.
             let first = next(61) as u16;
@@ -159,12 +162,8 @@ mod tests {
             let [rest, gain, limit] = &mut aligned.0;
             let pairs: Vec<LevelPairs> =
                 levels.iter().map(|&[a, b, c, d]| bytemuck::cast([a, b, c, d])).collect();
-            let mut limits = LevelLimits { rest, gain, limit };
-            if terms.is_falling() {
-                limits.set::<true>(&taxels, &pairs, terms);
-            } else {
-                limits.set::<false>(&taxels, &pairs, terms);
-            }
+            let are_ones = gain.iter().all(|gain| *gain == UNITY);
+            LevelLimits { rest, gain, limit, are_ones }.set(&taxels, &pairs, terms);
             let mut want = [7; 64];
             for (taxel, level) in taxels.as_flattened().iter().zip(levels.as_flattened()) {
                 let Some(want) = want.get_mut(usize::from(*taxel)) else { continue };

@@ -1,5 +1,7 @@
 //! Distance that a code may have from the baseline before its taxel is active.
 
+use super::scale::UNITY;
+
 /// Terms of the limits: the floor, and whether pressure lowers the code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LimitTerms {
@@ -47,6 +49,17 @@ impl LimitTerms {
     /// active.
     pub fn limit(&self, rest: u16, margin: u16) -> u16 {
         if self.is_falling() { rest.saturating_sub(margin) } else { rest.saturating_add(margin) }
+    }
+
+    /// Last inactive code of a taxel on which so many counts press that are no touch.
+    pub fn limit_beyond(&self, level: u16, rest: u16, gain: u16) -> u16 {
+        if gain != UNITY {
+            return self.limit(rest, self.beyond(level).margin(gain));
+        }
+        // The same, without a division.
+        let (rest, margin) = (u32::from(rest), u32::from(self.margin_of_unity()) + u32::from(level));
+        let limit = if self.is_falling() { rest.saturating_sub(margin) } else { rest + margin };
+        u16::try_from(limit).unwrap_or(u16::MAX)
     }
 
     /// Limit that no code passes.

@@ -58,7 +58,7 @@ impl Condition {
             if tracking.progress.tare() == Tare::Done && folds.table().is_some() {
                 // The garment at rest is not bent.
                 folds.begin(sampled.now, true);
-                folds.renew(|_| 0, |_, _| ());
+                renew(folds, calibration, None, None);
                 folds.each(|taxel, expected| calibration.relieve(taxel, expected, falling));
             }
         } else {
@@ -66,11 +66,10 @@ impl Condition {
             let renewed = calibration.set_limits(terms);
             if folds.table().is_some() {
                 folds.begin(sampled.now, renewed);
-                let touched = Touched::of(layout, feedback, 1, &asked(folds, feedback));
-                folds.renew(
-                    |taxels| touched.bytes(taxels),
-                    |taxels, levels| calibration.set_levels(taxels, levels, terms),
-                );
+                let asked = asked(folds, feedback);
+                let touched = (!asked.is_empty()).then(|| Touched::of(layout, feedback, 1, &asked));
+                let touched = touched.as_ref().filter(|touched| !touched.is_empty);
+                renew(folds, calibration, touched, Some(terms));
             }
             self.perceive(calibration, images, points, folds, layout, sampled);
             if self.config.track_baseline {
@@ -119,6 +118,21 @@ impl Condition {
             filter.apply(images, points, area);
         }
     }
+}
+
+/// Renews the taxels whose turn it is, and their limits, if there are terms of any.
+#[inline(never)] // M0+: once, not for each caller
+fn renew<const TAXELS: usize>(
+    folds: &mut FoldState,
+    calibration: &mut TaxelCalibration<TAXELS>,
+    touched: Option<&Touched>,
+    terms: Option<LimitTerms>,
+) {
+    folds.renew(touched.map(|touched| |taxels: &[u16; 4]| touched.bytes(taxels)), |taxels, levels| {
+        if let Some(terms) = terms {
+            calibration.set_levels(taxels, levels, terms);
+        }
+    });
 }
 
 /// Taxels beside a contact that may belong to it.

@@ -16,6 +16,8 @@ pub(super) struct Corner {
 /// The bend of a fold.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Bend {
+    /// Angles of the joints, hundredths of a degree.
+    angles: [Option<i16>; 2],
     /// Angles that the sleeve has followed to, hundredths of a degree.
     played: [Option<i16>; 2],
     /// The knots around the present posture.
@@ -28,28 +30,117 @@ pub(super) struct Bend {
     pub left: u16,
     /// Taxels that were compared there.
     pub compared: u16,
+    /// Fours, of those whose turn was last, that are expected as at these knots; at most all. Counted from 0 up:
+    /// an image does not hold a state of zeros.
+    found: u16,
+    /// Those that are doubted as near this knot.
+    doubted: u16,
+    /// Those that are expected as here between the knots.
+    placed: u16,
+    /// Those whose levels are set, while nothing has touched them.
+    set: u16,
+}
+
+/// What there is to do with the taxels of a fold whose turn it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Due {
+    /// The knots around are others, or they have other corrections.
+    pub knots: bool,
+    /// The nearest knot is another.
+    pub doubt: bool,
+    /// The posture is another between the knots.
+    pub posture: bool,
+    /// What touches them is another.
+    pub touch: bool,
+}
+
+impl Due {
+    /// True if all is as it was in their last turn.
+    pub fn is_nothing(self) -> bool {
+        !(self.knots || self.doubt || self.posture || self.touch)
+    }
 }
 
 impl Bend {
     /// Nowhere.
     pub const NONE: Bend = Bend {
+        angles: [None; 2],
         played: [None; 2],
         corners: [Corner { knot: 0, weight: 0 }; 4],
         is_known: false,
         knot: None,
         left: 0,
         compared: 0,
+        found: 0,
+        doubted: 0,
+        placed: 0,
+        set: 0,
     };
 
     /// Number of the nearest knot.
+    #[inline(never)] // M0+: once, for size
     pub fn nearest(&self) -> u16 {
         let [first, rest @ ..] = self.corners;
         rest.into_iter().fold(first, |most, next| if next.weight > most.weight { next } else { most }).knot
     }
 
+    /// The taxels are to be expected anew, each in its turn.
+    pub fn renew(&mut self) {
+        (self.found, self.doubted) = (0, 0);
+    }
+
+    /// The levels of the taxels are to be set, each in its turn.
+    pub fn set(&mut self) {
+        self.set = 0;
+    }
+
+    /// What is due with the next `count` fours, which then is done; `touched`: something touches taxels.
+    pub fn due(&mut self, fold: &FoldRecord, count: usize, touched: bool) -> Due {
+        let (all, count) = (fold.quads() as u16, count as u16);
+        let was_due = |done: &mut u16| {
+            let was_due = *done < all;
+            *done = all.min(*done + count);
+            was_due
+        };
+        let due = Due {
+            knots: was_due(&mut self.found),
+            doubt: was_due(&mut self.doubted),
+            posture: was_due(&mut self.placed),
+            touch: was_due(&mut self.set) || touched,
+        };
+        if touched {
+            // What is touched now may be let go of by its next turn.
+            self.set = 0;
+        }
+        due
+    }
+
     /// Moves to these angles (hundredths of a degree) of the fold's joints, if they are known. When it
     /// comes to another knot than the last one, its taxels are to be compared.
     pub fn turn(&mut self, fold: &FoldRecord, angles: [Option<i16>; 2]) {
+        if angles == self.angles {
+            return;
+        }
+        let before = *self;
+        self.angles = angles;
+        self.follow(fold, angles);
+        if before.is_known == self.is_known && before.corners == self.corners {
+            return;
+        }
+        self.placed = 0;
+        let corners = self.corners;
+        let around = || before.corners.iter().zip(&corners);
+        if before.is_known != self.is_known || around().any(|(was, is)| was.knot != is.knot) {
+            self.renew();
+        }
+        let is_other = around().any(|(was, is)| (was.weight > 0) != (is.weight > 0));
+        if is_other || before.nearest() != self.nearest() {
+            self.doubted = 0;
+        }
+    }
+
+    #[inline(never)] // seldom
+    fn follow(&mut self, fold: &FoldRecord, angles: [Option<i16>; 2]) {
         let FoldRecord { joints, knots: [_, inner], play, .. } = *fold;
         let [mut first, mut second] = [(0, 0); 2];
         self.is_known = false;

@@ -4,6 +4,8 @@
 
 /// Bytes 0 and 2.
 const EVEN: u32 = 0x00FF_00FF;
+/// The highest bit of each byte.
+const HIGH: u32 = 0x8080_8080;
 /// 1 for each sum of a word.
 const ONE: u32 = 0x0001_0001;
 /// Most of the weights that a sum may have together: two bytes with all of it fill 16 bits.
@@ -18,7 +20,7 @@ pub(super) const ZERO: u32 = 128;
 pub(crate) type LevelPairs = [u32; 2];
 
 /// Weighted sums of the bytes of words.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct LaneSums {
     even: u32,
     odd: u32,
@@ -31,8 +33,24 @@ impl LaneSums {
     /// Nothing yet: half of a unit, so that [`LaneSums::bytes`] rounds.
     pub const NONE: LaneSums = LaneSums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
 
-    /// Nothing yet: almost a unit, so that [`LaneSums::bytes`] rounds up.
+    /// Nothing yet: almost a unit, so that [`LaneSums::within`] rounds up.
     pub const ALMOST: LaneSums = LaneSums { even: ONE * (WHOLE as u32 - 1), odd: ONE * (WHOLE as u32 - 1) };
+
+    /// The sum of each two bytes.
+    #[inline(always)]
+    pub fn of([a, b]: [u32; 2]) -> LaneSums {
+        let [even, odd] = [0, 8].map(|shift| (a >> shift & EVEN).wrapping_add(b >> shift & EVEN));
+        LaneSums { even, odd }
+    }
+
+    /// So much of each of two sums of two bytes, and half of a unit, so that [`LaneSums::bytes`] rounds.
+    #[inline(always)]
+    pub fn between(a: &LaneSums, b: &LaneSums, [first, last]: [u32; 2]) -> LaneSums {
+        let sum = |a: u32, b: u32| {
+            a.wrapping_mul(first).wrapping_add(b.wrapping_mul(last)).wrapping_add(ONE << (SHIFT - 1))
+        };
+        LaneSums { even: sum(a.even, b.even), odd: sum(a.odd, b.odd) }
+    }
 
     /// Adds `weight` of each byte.
     #[inline(always)]
@@ -54,23 +72,46 @@ impl LaneSums {
         even + odd
     }
 
-    /// Each sum divided by [`WHOLE`], less `less` (at most 128), within 0 and 255.
+    /// Each sum divided by [`WHOLE`], less [`ZERO`], within 0 and 255.
     #[inline(always)]
-    pub fn bytes(self, less: u32) -> u32 {
-        // The highest bit of a sum stays as long as the sum is not less.
-        let reduced = |sums: u32| (sums >> SHIFT & (ONE * 0x1FF) | ONE << 15).wrapping_sub(ONE * less);
-        let (even, odd) = (reduced(self.even), reduced(self.odd));
-        // Below 0 as above 255, this bit is set.
-        if (even | odd) & ONE << 8 == 0 {
-            return even & EVEN | (odd & EVEN) << 8;
+    pub fn bytes(self) -> u32 {
+        // Of the two highest bits of a sum exactly one is set where what is left is within these.
+        let is_out = !(self.even ^ self.even << 1) | !(self.odd ^ self.odd << 1);
+        if is_out & ONE << 15 == 0 {
+            // What is less by 128 has another eighth bit.
+            return self.within() ^ ZERO.wrapping_mul(0x0101_0101);
         }
-        within(even) | within(odd) << 8
+        clamped(self.even) | clamped(self.odd) << 8
     }
+
+    /// Each sum divided by [`WHOLE`]: none is above 255.
+    #[inline(always)]
+    pub fn within(self) -> u32 {
+        self.even >> SHIFT & EVEN | (self.odd >> SHIFT & EVEN) << 8
+    }
+}
+
+/// Sums divided by [`WHOLE`], less [`ZERO`], within 0 and 255.
+#[inline(never)] // seldom
+fn clamped(sums: u32) -> u32 {
+    // The highest bit stays as long as the sum is not less.
+    let rest = (sums >> SHIFT & (ONE * 0x1FF) | ONE << 15).wrapping_sub(ONE * ZERO);
+    limited(rest)
+}
+
+/// The sum of each two bytes, at most 255.
+#[inline(always)]
+pub(super) fn both(a: u32, b: u32) -> u32 {
+    if (a | b) & HIGH == 0 {
+        return a.wrapping_add(b);
+    }
+    let [even, odd] = [0, 8].map(|shift| (a >> shift & EVEN) + (b >> shift & EVEN));
+    limited(even | ONE << 15) | limited(odd | ONE << 15) << 8
 }
 
 /// Differences, which have their highest bit as long as they are not below 0, within 0 and 255.
 #[inline(never)] // seldom
-fn within(rest: u32) -> u32 {
+fn limited(rest: u32) -> u32 {
     let rest = rest & (rest >> 15 & ONE).wrapping_mul(0x7FFF);
     (rest | (rest >> 8 & ONE).wrapping_mul(0xFF)) & EVEN
 }
@@ -111,29 +152,37 @@ mod tests {
         #[test]
         fn four_lanes_are_four_bytes(
             a in any::<[u8; 4]>(), b in any::<[u8; 4]>(), c in any::<[u8; 4]>(), d in any::<[u8; 4]>(),
-            weight in 0u32..=128, less in 0u32..=128,
+            weight in 0u32..=128,
         ) {
             let mut sums = LaneSums::NONE;
             let [wa, wb, wc, wd] = [a, b, c, d].map(u32::from_le_bytes);
             sums.add_both([wa, wb], weight);
             sums.add_both([wc, wd], 128 - weight);
-            let both = |a: u8, b: u8| u32::from(a) + u32::from(b);
+            let sum = |a: u8, b: u8| u32::from(a) + u32::from(b);
             let want = core::array::from_fn(|i| {
-                let sum = (both(a[i], b[i]) * weight + both(c[i], d[i]) * (128 - weight) + 64) / 128;
-                sum.saturating_sub(less).min(255) as u8
+                let sum = (sum(a[i], b[i]) * weight + sum(c[i], d[i]) * (128 - weight) + 64) / 128;
+                sum.saturating_sub(128).min(255) as u8
             });
-            prop_assert_eq!(sums.bytes(less).to_le_bytes(), want);
+            prop_assert_eq!(sums.bytes().to_le_bytes(), want);
+            let [first, last] = [LaneSums::of([wa, wb]), LaneSums::of([wc, wd])];
+            let between = LaneSums::between(&first, &last, [weight, 128 - weight]);
+            prop_assert_eq!(between.bytes().to_le_bytes(), want);
             let mut sums = LaneSums::NONE;
             sums.add(wa, weight);
             let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);
-            prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);
+            prop_assert_eq!(sums.within().to_le_bytes(), want);
+            let want = core::array::from_fn(|i| a[i].saturating_add(b[i]));
+            prop_assert_eq!(both(wa, wb).to_le_bytes(), want);
+            let [small, smaller] = [wa, wb].map(|word| word & 0x7F7F_7F7F);
+            let want = core::array::from_fn(|i| small.to_le_bytes()[i] + smaller.to_le_bytes()[i]);
+            prop_assert_eq!(both(small, smaller).to_le_bytes(), want);
             let mut sums = LaneSums::ZERO;
             sums.add(wa, 1);
             prop_assert_eq!(sums.total(), a.map(u32::from).iter().sum());
             let mut sums = LaneSums::ALMOST;
             sums.add(wa, weight);
             let want = a.map(|a| (u32::from(a) * weight).div_ceil(128) as u8);
-            prop_assert_eq!(sums.bytes(0).to_le_bytes(), want);
+            prop_assert_eq!(sums.within().to_le_bytes(), want);
         }
 
         #[test]

@@ -1,10 +1,12 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
-use super::bend::Bend;
-use super::lanes::{LaneSums, LevelPairs, WHOLE, ZERO, byte, summed, whole_bytes, zeros};
+use super::bend::{Bend, Corner, Due};
+use super::corners::{AT_ONCE, Around, Quads, blend, find_end};
+use super::lanes::{LaneSums, LevelPairs, byte, zeros};
 use super::lesson::{Lesson, MOST_PASSES};
 use super::posture::PostureState;
-use super::record::FoldRecord;
+use super::quads::{change, compare, raise, sum_levels, take, take_expected};
+use super::record::{FoldRecord, NO_JOINT};
 use super::table::{FoldStart, FoldTable};
 use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
 use crate::capacity::TAXELS;
@@ -22,8 +24,6 @@ const USED: usize = if cfg!(feature = "folds") { 1 } else { 0 };
 const WORDS: usize = if cfg!(feature = "folds") { TAXELS.div_ceil(32) } else { 0 };
 /// Joints of a table.
 const KNOWN: usize = if cfg!(feature = "folds") { JOINTS } else { 0 };
-/// Quads that are renewed at once.
-const AT_ONCE: usize = 16;
 
 /// Sums of what is expected at the present posture.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,11 +55,13 @@ pub struct FoldState {
     /// Number in the scene of each joint of the table.
     joints: [Option<u8>; KNOWN],
     bends: [Bend; FOLDS],
-    /// Corrections of the cells' means, in units of the table and [`ZERO`] more, as the rows of the table lie.
+    /// Corrections of the cells' means, in units of the table and 128 more, as the rows of the table lie.
     /// 0 for a cell that was not compared yet: one that was touched whenever its joint came there.
     corrections: [u32; CELLS / 4],
     /// Comparisons so far at each knot, at most [`MOST_PASSES`].
     passes: [u8; KNOTS],
+    /// What is expected at the two knots around the posture of each fold of one joint.
+    ends: [[LaneSums; FOLDED / 4]; 2],
     /// Expectations and doubts of four taxels each, in units of the table.
     felt: [[u32; 2]; FOLDED / 4],
     /// The doubts that are part of the levels of four taxels each: all but those of a touch that was there.
@@ -93,6 +95,7 @@ impl FoldState {
             bends: [Bend::NONE; FOLDS],
             corrections: [0; CELLS / 4],
             passes: [0; KNOTS],
+            ends: [[LaneSums::ZERO; FOLDED / 4]; 2],
             felt: [[0; 2]; FOLDED / 4],
             raised: [0; FOLDED / 4],
             held: [0; WORDS],
@@ -159,6 +162,18 @@ impl FoldState {
         let turn = [start, start.saturating_add(count).min(all)];
         let is_posed = self.posture.is_fresh(now);
         *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
+        if whole {
+            self.bends.iter_mut().for_each(Bend::set);
+        }
+    }
+
+    /// All taxels are due in their next turn, whether anything changes or not.
+    #[cfg(test)]
+    pub(crate) fn renew_all(&mut self) {
+        for bend in &mut self.bends {
+            bend.renew();
+            bend.set();
+        }
     }
 
     /// Numbers of taxels among which are those whose turn it is.
@@ -173,20 +188,19 @@ impl FoldState {
         all.0.into()..usize::from(all.1) + 1
     }
 
-    /// Renews the taxels whose turn it is, and hands over some at a time, in fours, with the levels beyond
-    /// which a touch begins there, counts, or goes on where `touched` has all bits of their bytes.
+    /// Renews those of the taxels whose turn it is of which something may have changed since their last turn,
+    /// and hands over some at a time, in fours, with the levels beyond which a touch begins there, counts, or
+    /// goes on where `touched` has all bits of their bytes; none if nothing touches the garment.
     #[inline(never)]
-    pub(crate) fn renew(
+    pub(crate) fn renew<T: Fn(&[u16; 4]) -> u32>(
         &mut self,
-        touched: impl Fn(&[u16; 4]) -> u32,
+        touched: Option<T>,
         mut set: impl FnMut(&[[u16; 4]], &[LevelPairs]),
     ) {
         let Some(InForce { table: Some(table), turn, is_posed, .. }) = self.in_force.first().copied() else {
             return;
         };
-        let unit = u32::from(table.unit());
         let mut at = FoldStart::FIRST;
-        let (mut felt, mut levels) = ([[0; 2]; AT_ONCE], [[0; 2]; AT_ONCE]);
         for (index, fold) in table.folds().iter().enumerate() {
             let angle = |joint: u8| {
                 let joint = self.joints.get(usize::from(joint)).copied().flatten()?;
@@ -195,61 +209,87 @@ impl FoldState {
             let angles = if is_posed { fold.joints.map(angle) } else { [None; 2] };
             let Some(bend) = self.bends.get_mut(index) else { break };
             bend.turn(fold, angles);
-            let bend = *bend;
-            let corners = self.corners(&table, fold, &bend, &at);
-            let mut quads = within(&at, fold, turn);
-            while !quads.is_empty() {
-                let some = quads.start..quads.end.min(quads.start + AT_ONCE);
-                quads.start = some.end;
-                let own = some.start - at.quad..some.end - at.quad;
-                if bend.is_known {
-                    corners.felt(&self.corrections, own, &mut felt);
-                } else {
-                    let most = table.most(fold, &at).and_then(|most| most.get(own)).unwrap_or(&[]);
-                    felt.iter_mut().zip(most).for_each(|(felt, most)| *felt = [0, *most]);
-                }
-                let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
-                let raised = self.raised.get_mut(some.clone()).unwrap_or_default();
-                let before = self.felt.get_mut(some).unwrap_or_default();
-                for ((((before, raised), felt), taxels), levels) in
-                    before.iter_mut().zip(raised).zip(&felt).zip(taxels).zip(&mut levels)
-                {
-                    let [was, is] = [*before, *felt].map(|[expected, doubt]| zeros(expected | doubt));
-                    *before = *felt;
-                    if was != is {
-                        hold(&mut self.held, taxels, is);
-                    }
-                    let [expected, doubt] = *felt;
-                    // A touch that is there is in no doubt, unless the posture is unknown.
-                    let certain = if bend.is_known { touched(taxels) } else { 0 };
-                    *raised = doubt & !certain;
-                    *levels = summed(expected, *raised, unit);
-                }
-                set(taxels, &levels);
+            let quads = within(&at, fold, turn);
+            let due = bend.due(fold, quads.len(), touched.is_some());
+            if !due.is_nothing() && !quads.is_empty() {
+                let bend = *bend;
+                // A touch that is there is in no doubt, unless the posture is unknown.
+                let certain = touched.as_ref().filter(|_| bend.is_known);
+                self.renew_fold(&table, (fold, &at, &bend), (due, quads), certain, &mut set);
             }
             at = at.after(fold);
         }
     }
 
-    /// The knots around a posture.
-    fn corners<'a>(
-        &self,
-        table: &FoldTable<'a>,
-        fold: &FoldRecord,
-        bend: &Bend,
-        start: &FoldStart,
-    ) -> Corners<'a> {
-        let at = |knot: u16, weight: u16| {
-            let knot = usize::from(knot);
-            let cells = table.knot(fold, start, knot).unwrap_or(&[]);
-            Around { cells, corrections: start.correction + knot * fold.quads(), weight: weight.into() }
-        };
-        let there = bend.corners.iter().filter(|corner| corner.weight > 0);
-        let passes = there.filter_map(|corner| self.passes.get(start.knot + usize::from(corner.knot)));
-        let fewest = passes.min().copied().unwrap_or(0);
-        Corners {
-            around: bend.corners.map(|corner| at(corner.knot, corner.weight)),
-            nearest: at(bend.nearest(), SHARES.get(usize::from(fewest)).copied().unwrap_or(WHOLE)),
+    /// Renews taxels of a fold.
+    #[inline(never)] // own stack
+    fn renew_fold<T: Fn(&[u16; 4]) -> u32>(
+        &mut self,
+        table: &FoldTable<'_>,
+        fold: (&FoldRecord, &FoldStart, &Bend),
+        (due, mut quads): (Due, Range<usize>),
+        certain: Option<&T>,
+        set: &mut impl FnMut(&[[u16; 4]], &[LevelPairs]),
+    ) {
+        let unit = u32::from(table.unit());
+        let (mut found, mut levels) = (Quads::NONE, [[0; 2]; AT_ONCE]);
+        while !quads.is_empty() {
+            let some = quads.start..quads.end.min(quads.start + AT_ONCE);
+            quads.start = some.end;
+            let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
+            if due.knots || due.doubt || due.posture {
+                self.expect(table, fold, due, &some, &mut found);
+            }
+            let raised = self.raised.get_mut(some.clone()).unwrap_or_default();
+            let felt = self.felt.get(some).unwrap_or_default();
+            match certain {
+                Some(certain) => raise(raised, felt, taxels, certain),
+                None if due.doubt || due.touch => raise(raised, felt, taxels, |_| 0),
+                None => {}
+            }
+            sum_levels(felt, raised, unit, &mut levels);
+            set(taxels, &levels);
+        }
+    }
+
+    /// Renews what is expected of some quads of a fold.
+    fn expect(
+        &mut self,
+        table: &FoldTable<'_>,
+        (fold, at, bend): (&FoldRecord, &FoldStart, &Bend),
+        due: Due,
+        quads: &Range<usize>,
+        found: &mut Quads,
+    ) {
+        let own = quads.start - at.quad..quads.end - at.quad;
+        let corrections = &self.corrections;
+        let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
+        let there = || bend.corners.iter().filter(|corner| corner.weight > 0);
+        if !bend.is_known {
+            let most = table.most(fold, at).and_then(|most| most.get(own.clone()));
+            found.doubt_all(most.unwrap_or(&[]));
+        } else if fold.joints[1] == NO_JOINT {
+            let [first, _, last, _] = &bend.corners;
+            let [one, other] = self.ends.each_mut().map(|end| end.get_mut(quads.clone()).unwrap_or_default());
+            if due.knots {
+                find_end(one, around(first));
+                find_end(other, around(last));
+            }
+            blend(&mut found.expected, [one, other], [first, last].map(|corner| corner.weight.into()));
+        } else {
+            found.expect(there().map(around));
+        }
+        if bend.is_known && due.doubt {
+            let passes = there().filter_map(|corner| self.passes.get(at.knot + usize::from(corner.knot)));
+            let nearest = around(&Corner { knot: bend.nearest(), weight: 0 });
+            found.doubt(nearest, passes.min().copied().unwrap_or(0), there().map(around));
+        }
+        let felt = self.felt.get_mut(quads.clone()).unwrap_or_default();
+        let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
+        if due.doubt {
+            take(felt, found, taxels, &mut self.held);
+        } else {
+            take_expected(felt, &found.expected, taxels, &mut self.held);
         }
     }
 
@@ -271,6 +311,7 @@ impl FoldState {
     }
 
     /// Level beyond which a touch begins on a taxel, counts.
+    #[inline(never)] // seldom
     pub(crate) fn level(&self, taxel: usize) -> u16 {
         let slot = if self.holds(taxel) { self.slot(taxel as u16) } else { None };
         let of = |slot: usize| {
@@ -328,6 +369,7 @@ impl FoldState {
                         bend.compared += told.count_ones() as u16;
                     }
                 }
+                bend.renew();
                 bend.left -= quads.len() as u16;
                 // A comparison in which most taxels may have been touched is none.
                 if bend.left == 0 && bend.compared > fold.taxels / 2 {
@@ -420,119 +462,29 @@ impl Default for FoldState {
     }
 }
 
-/// What is left of the doubt of days after so many comparisons, whose mean is nearer to the day's own:
-/// `1 / (1 + n)`, of [`WHOLE`].
-const SHARES: [u16; MOST_PASSES as usize + 1] = [128, 64, 43, 32, 26, 22, 19, 16];
-
-/// A knot beside the present posture.
-struct Around<'a> {
-    /// Means, spreads and days of four taxels each.
-    cells: &'a [[u32; 3]],
-    /// Word of the corrections of its first four taxels.
-    corrections: usize,
-    /// How much it counts, of [`WHOLE`].
-    weight: u32,
-}
-
-/// The knots around the present posture.
-struct Corners<'a> {
-    around: [Around<'a>; 4],
-    /// The nearest of them. Its weight is what is left of the doubt of days, where fewest were compared.
-    nearest: Around<'a>,
-}
-
-impl<'a> Around<'a> {
-    /// Cells and corrections of some quads of the fold.
-    fn of<'b>(&self, corrections: &'b [u32], quads: &Range<usize>) -> (&'a [[u32; 3]], &'b [u32]) {
-        let own = self.corrections + quads.start..self.corrections + quads.end;
-        (self.cells.get(quads.clone()).unwrap_or(&[]), corrections.get(own).unwrap_or(&[]))
+/// Some quads of a fold at a knot.
+#[inline(never)] // M0+: once, for size
+fn around<'a>(
+    (table, fold, at): (&FoldTable<'a>, &FoldRecord, &FoldStart),
+    corrections: &'a [u32],
+    own: &Range<usize>,
+    corner: &Corner,
+) -> Around<'a> {
+    let knot = usize::from(corner.knot);
+    let first = at.correction + knot * fold.quads();
+    let cells = table.knot(fold, at, knot).and_then(|cells| cells.get(own.clone()));
+    let corrections = corrections.get(first + own.start..first + own.end);
+    Around {
+        cells: cells.unwrap_or(&[]),
+        corrections: corrections.unwrap_or(&[]),
+        weight: corner.weight.into(),
     }
-}
-
-impl Corners<'_> {
-    /// Expectations and doubts of some quads of a fold, units.
-    #[inline(never)] // own registers
-    fn felt(&self, corrections: &[u32], quads: Range<usize>, felt: &mut [[u32; 2]; AT_ONCE]) {
-        let mut means = [(LaneSums::NONE, 0); AT_ONCE];
-        for corner in self.around.iter().filter(|corner| corner.weight > 0) {
-            add_means(&mut means, corner.of(corrections, &quads), corner.weight);
-        }
-        let (cells, _) = self.nearest.of(corrections, &quads);
-        for ((felt, (means, new)), [_, spread, days]) in felt.iter_mut().zip(&means).zip(cells) {
-            // The doubt of days is whole where a knot around was not compared yet.
-            let whole = days & whole_bytes(*new);
-            let mut doubt = LaneSums::ALMOST;
-            doubt.add_both([*spread, whole], WHOLE.into());
-            doubt.add(days ^ whole, self.nearest.weight);
-            *felt = [means.bytes(ZERO), doubt.bytes(0)];
-        }
-    }
-}
-
-/// Adds a knot's part to the expectations of quads, and notes the taxels that were not compared there, by the
-/// highest bits of their bytes.
-#[inline(never)] // own registers
-fn add_means(means: &mut [(LaneSums, u32)], (cells, corrections): (&[[u32; 3]], &[u32]), weight: u32) {
-    for (((sums, new), [mean, ..]), correction) in means.iter_mut().zip(cells).zip(corrections) {
-        let none = zeros(*correction);
-        *new |= none;
-        // 128 stands for a correction of 0.
-        sums.add_both([*mean, correction | none], weight);
-    }
-}
-
-/// Changes the values of the taxels that press, four at a time, by their bytes times `unit`, which is at most
-/// 128.
-#[inline(always)]
-fn change<'a>(
-    values: &mut [u16],
-    quads: impl Iterator<Item = (&'a [u16; 4], u32)>,
-    unit: u32,
-    by: impl Fn(u16, u16) -> u16 + Copy,
-) {
-    for (taxels, mut bytes) in quads {
-        if bytes == 0 {
-            continue;
-        }
-        for taxel in taxels {
-            if let Some(value) = values.get_mut(usize::from(*taxel))
-                && *value > 0
-            {
-                *value = by(*value, ((bytes & 0xFF) * unit) as u16);
-            }
-            bytes >>= 8;
-        }
-    }
-}
-
-/// Corrections after a comparison of those of four taxels that tell.
-#[inline(never)] // own registers
-fn compare(mut told: u32, felt: &[u16; 4], mut expected: u32, mut corrections: u32, lesson: Lesson) -> u32 {
-    // After four turns each byte is where it was.
-    for felt in felt {
-        if told & 1 == 1 {
-            let to = lesson.corrected(*felt, expected as u8, corrections as u8);
-            corrections = corrections & !0xFF | u32::from(to);
-        }
-        (corrections, expected, told) = (corrections.rotate_right(8), expected >> 8, told >> 1);
-    }
-    corrections
 }
 
 /// The fold's quads within a range of the table's.
 fn within(start: &FoldStart, fold: &FoldRecord, [first, end]: [u16; 2]) -> Range<usize> {
     let own = start.quads(fold);
     own.start.max(first.into())..own.end.min(end.into())
-}
-
-/// Notes of which of four taxels nothing is expected or in doubt, by the highest bits of `nothing`.
-#[inline(never)] // seldom
-fn hold(held: &mut [u32], taxels: &[u16; 4], nothing: u32) {
-    for (lane, taxel) in taxels.iter().enumerate() {
-        let Some(word) = held.get_mut(usize::from(taxel / 32)) else { continue };
-        let bit = 1 << (taxel % 32);
-        if byte(nothing, lane) == 0 { *word |= bit } else { *word &= !bit }
-    }
 }
 
 /// True if a bit of a range is set.

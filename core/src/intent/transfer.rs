@@ -95,19 +95,16 @@ impl Gain {
     /// 2^60. A numerator of 0 counts as 1. Only `build` calls this, hence the 128-bit arithmetic.
     pub(crate) fn new(numerator: u64, denominator: u64) -> Gain {
         let (n, d) = (u128::from(numerator.max(1)), u128::from(denominator.max(1)));
-        let rounded = |n: u128, d: u128| (n + d / 2).checked_div(d).unwrap_or(u128::MAX);
-        // n / d * 2^(16 - shift), which must be in [2^15, 2^16).
-        let scaled = |shift: i8| {
-            let up = 16 - i32::from(shift);
-            if up >= 0 { rounded(n << up.min(63), d) } else { rounded(n, d << (-up).min(63)) }
-        };
         let mut shift = -31i8;
-        while shift < 30 && scaled(shift) > u128::from(u16::MAX) {
+        // The factor must be in [2^15, 2^16).
+        let mut factor = scaled(n, d, shift);
+        while shift < 30 && factor > u128::from(u16::MAX) {
             shift += 1;
+            factor = scaled(n, d, shift);
         }
-        let limit = (u128::from(LIMIT as u32) * d + n - 1).checked_div(n).unwrap_or(u128::MAX);
+        let limit = quotient(u128::from(LIMIT as u32) * d + n - 1, n);
         Gain {
-            factor: scaled(shift).min(u128::from(u16::MAX)) as u16,
+            factor: factor.min(u128::from(u16::MAX)) as u16,
             shift,
             limit: limit.min(i32::MAX as u128) as i32,
         }
@@ -126,6 +123,20 @@ impl Gain {
         let product = high.wrapping_add(low);
         if self.shift < 0 { product >> self.shift.unsigned_abs().min(31) } else { product }
     }
+}
+
+/// `n / d * 2^(16 - shift)`, rounded.
+#[inline(never)] // for size
+fn scaled(n: u128, d: u128, shift: i8) -> u128 {
+    let up = 16 - i32::from(shift);
+    let (n, d) = if up >= 0 { (n << up.min(63), d) } else { (n, d << (-up).min(63)) };
+    quotient(n + d / 2, d)
+}
+
+/// The quotient of two large numbers, or the largest number. M0+: a division of 128 bits takes 600 bytes.
+#[inline(never)] // for size
+fn quotient(n: u128, d: u128) -> u128 {
+    n.checked_div(d).unwrap_or(u128::MAX)
 }
 
 #[cfg(test)]

@@ -51,16 +51,35 @@ struct Unread<'a> {
 
 impl<'a> Unread<'a> {
     fn next<T: Deserialize<'a>>(&mut self, field: &str) -> Result<T, Refusal> {
-        let what = self.what;
         match postcard::take_from_bytes(self.bytes) {
             Ok((value, rest)) => {
                 self.bytes = rest;
                 Ok(value)
             }
-            Err(postcard::Error::DeserializeUnexpectedEnd) => {
-                Err(format_args!("{what}: it ends within {field}").into())
+            Err(error) => Err(self.refuse(field, &error)),
+        }
+    }
+
+    /// Number of what follows, of which there is room for so many.
+    #[inline(never)] // for size: once, not for each list
+    fn count(&mut self, field: &str, room: usize) -> Result<u32, Refusal> {
+        let found: u32 = self.next(field)?;
+        if found as usize > room {
+            let what = self.what;
+            return Err(format_args!("{what}: {found} {field}, and there is room for {room}").into());
+        }
+        Ok(found)
+    }
+
+    /// Refusal of a field that cannot be read.
+    #[inline(never)] // for size: once, not for each type
+    fn refuse(&self, field: &str, error: &postcard::Error) -> Refusal {
+        let what = self.what;
+        match error {
+            postcard::Error::DeserializeUnexpectedEnd => {
+                format_args!("{what}: it ends within {field}").into()
             }
-            Err(_) => Err(format_args!("{what}: {field} cannot be read").into()),
+            _ => format_args!("{what}: {field} cannot be read").into(),
         }
     }
 
@@ -75,11 +94,7 @@ impl<'a> Unread<'a> {
         to: &mut Vec<T, N>,
     ) -> Result<(), Refusal> {
         to.clear();
-        let found: u32 = self.next(field)?;
-        if found as usize > N {
-            let what = self.what;
-            return Err(format_args!("{what}: {found} {field}, and there is room for {N}").into());
-        }
+        let found = self.count(field, N)?;
         for _ in 0..found {
             // There is room for `found` of them.
             let _ = to.push(self.next(field)?);

@@ -76,8 +76,13 @@ pub enum Variant {
     Pressing,
     /// With the left arm, all of which folds, all but still.
     Folds,
-    /// With the left arm bending, by 4.8 degrees from one posture to the next.
+    /// With the left arm bending, by 4.8 degrees from one posture to the next, to where it was not before.
     Bending,
+    /// With the left arm turning to and fro between two knots that it has been compared at: it comes to none.
+    Swaying,
+    /// With the left arm turning to and fro, at another of two such knots with each posture: all of it is
+    /// compared each time.
+    Comparing,
     /// One panel of 64 x 32 taxels.
     Columns32,
     /// One panel of 64 x 27 taxels.
@@ -99,6 +104,8 @@ impl Variant {
             Variant::Pressing => "pressing",
             Variant::Folds => "folds",
             Variant::Bending => "bending",
+            Variant::Swaying => "swaying",
+            Variant::Comparing => "comparing",
             Variant::Columns32 => "32 columns",
             Variant::Columns27 => "27 columns",
             Variant::Block => "4 x 16",
@@ -154,11 +161,17 @@ impl Variant {
         Ok(client.queued().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())
     }
 
-    /// Angle by which its elbow bends from frame to frame, hundredths of a degree; none if nothing folds.
-    const fn bends(self) -> Option<i16> {
+    /// Angle of its elbow in posture number `n`, hundredths of a degree; none if nothing folds. The table has a
+    /// knot each 9 degrees, and a play of 6: on the way back the sleeve is as much ahead of the joint as it is
+    /// behind on the way there.
+    fn bends(self, n: usize) -> Option<i16> {
+        // The first two are at a knot each; the sleeve is then between them.
+        let turning = |between: [i16; 4]| [0, 1500].into_iter().chain(between).nth(n);
         match self {
-            Variant::Folds => Some(30),
-            Variant::Bending => Some(120),
+            Variant::Folds => Some(120 * n as i16),
+            Variant::Bending => Some(480 * n as i16),
+            Variant::Swaying => turning([-100, 1200, -200, 1100]),
+            Variant::Comparing => turning([-420, 1320, -420, 1320]),
             _ => None,
         }
     }
@@ -201,6 +214,8 @@ impl Case {
             (TouchPattern::Five, Variant::Folds),
             (TouchPattern::Texture, Variant::Folds),
             (TouchPattern::Empty, Variant::Bending),
+            (TouchPattern::Empty, Variant::Swaying),
+            (TouchPattern::Empty, Variant::Comparing),
             (TouchPattern::Texture, Variant::Off),
             (TouchPattern::Texture, Variant::Median),
         ]);
@@ -273,16 +288,23 @@ impl Case {
         .map(ask)
         .collect::<Result<Vec<Step>>>()?;
         steps.extend(self.variant.taught()?);
-        steps.push(Step::Fold(self.variant.bends().is_some()));
+        let pose = |centidegrees| {
+            let angle = JointAngle { joint: 0, centidegrees };
+            ask(&Request::Posture(Posture { joints: [angle].into_iter().collect() }))
+        };
+        steps.push(Step::Fold(self.variant.bends(0).is_some()));
+        // The board still knows the last posture of the case before, and tares the arm as that bends it.
+        if let Some(first) = self.variant.bends(0) {
+            steps.push(pose(first)?);
+        }
         let (rest, touch) = self.frames.split_at(TARE.into());
         steps.extend(rest.iter().cloned().map(Step::Scan));
         steps.push(ask(&Request::Start)?);
-        for (number, codes) in (0..).zip(touch) {
-            if let Some(turn) = self.variant.bends()
+        for (number, codes) in (0usize..).zip(touch) {
+            if let Some(centidegrees) = self.variant.bends(number / 4)
                 && number % 4 == 0
             {
-                let angle = JointAngle { joint: 0, centidegrees: turn * number };
-                steps.push(ask(&Request::Posture(Posture { joints: [angle].into_iter().collect() }))?);
+                steps.push(pose(centidegrees)?);
             }
             steps.push(Step::Scan(codes.clone()));
         }

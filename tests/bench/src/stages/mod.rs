@@ -29,8 +29,9 @@ pub fn report() -> Result<Report> {
     }
     let mut rows = Vec::new();
     for case in &cases {
-        let (costs, told) = measure(&case.steps()?);
-        rows.push(Row::of(case, &costs, &told));
+        let steps = case.steps()?;
+        let (costs, told) = measure(&steps);
+        rows.push(Row::of(case, &steps, &costs, &told));
     }
     let forms = Form::all().into_iter().map(|form| form.row(&measure(&form.steps()).0)).collect();
     let table = Table { place: "this machine".into(), unit: "ns", rows, forms };

@@ -1,6 +1,6 @@
 //! A row of the table: cost of a case, and errors of its contacts.
 
-use super::case::{Case, MEASURED, Variant};
+use super::case::{Case, MEASURED, Step, Variant};
 use super::error::{Error, Truth};
 use super::twin::{STAGES, Told};
 use serde_json::{Value, json};
@@ -44,8 +44,12 @@ pub struct Row {
 }
 
 impl Row {
-    /// Row from the steps of a case, of which the last are the measured frames.
-    pub fn of(case: &Case, costs: &[Cost], told: &[Told]) -> Row {
+    /// Row from the steps of a case, of whose scans the last are the measured frames: what the host sends
+    /// between them is none.
+    pub fn of(case: &Case, steps: &[Step], costs: &[Cost], told: &[Told]) -> Row {
+        let scans =
+            steps.iter().zip(costs.iter().zip(told)).filter(|(step, _)| matches!(step, Step::Scan(_)));
+        let (costs, told): (Vec<&Cost>, Vec<&Told>) = scans.map(|(_, done)| done).unzip();
         let costs = costs.get(costs.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
         let told = told.get(told.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
         let frames = costs.len().max(1) as u64;
@@ -55,12 +59,12 @@ impl Row {
             frames.for_each(|(n, told)| truth.compare(pattern, Case::number(n), &told.contacts));
         }
         let last = told.last();
-        let present = |t: &Told| t.contacts.iter().filter(|c| c.contact.total > 0).count() as u64;
+        let present = |t: &&Told| t.contacts.iter().filter(|c| c.contact.total > 0).count() as u64;
         Row {
             name: case.name,
             variant: case.variant,
             stages: std::array::from_fn(|stage| costs.iter().map(|c| c.stages[stage]).sum::<u64>() / frames),
-            largest: costs.iter().map(Cost::whole).max().unwrap_or(0),
+            largest: costs.iter().map(|cost| cost.whole()).max().unwrap_or(0),
             bytes: told.iter().map(|t| u64::from(t.said.bytes)).sum::<u64>() / frames,
             stack: costs.iter().filter_map(|c| c.stack).max(),
             contacts: [last.map_or(0, present), last.map_or(0, |t| t.dropped.into())],

@@ -1,0 +1,143 @@
+//! Taxels that fold are renewed only where something has changed: nothing differs from renewing all of them.
+
+extern crate std;
+use super::{ConditionConfig, ConditionState, Feedback, Pressed, Sampled};
+use crate::fold::{
+    FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, Posture, fold_table_length,
+    write_fold_table,
+};
+use crate::format::{Code, Micros, name};
+use crate::garment::{Garment, Layout, Rect};
+use std::boxed::Box;
+use std::vec;
+use std::vec::Vec;
+
+type FullState = ConditionState<2048>;
+
+/// Numbers without a pattern.
+struct Noise(u32);
+
+impl Noise {
+    fn below(&mut self, end: u32) -> u32 {
+        self.0 = self.0.wrapping_mul(1664525).wrapping_add(1013904223);
+        (self.0 >> 10) % end
+    }
+}
+
+/// A fold of one joint and one of two, on rows and parts of rows.
+fn table(layout: &Layout, noise: &mut Noise) -> FoldTable<'static> {
+    let single = FoldRecord {
+        joints: [0, NO_JOINT],
+        knots: [6, 1],
+        first: [0, 0],
+        step: [900, 0],
+        play: [100, 0],
+        taxels: 70,
+        zero: 0,
+    };
+    let pair = FoldRecord {
+        joints: [1, 2],
+        knots: [3, 4],
+        first: [-1000, 0],
+        step: [1000, 700],
+        play: [0, 50],
+        taxels: 37,
+        zero: 0,
+    };
+    let taxels: Vec<u16> = (64..134).chain((512..586).step_by(2)).collect();
+    let cells: Vec<FoldCell> = (0..70 * 6 + 37 * 12)
+        .map(|_| {
+            let mut byte =
+                || [0, 0, 9, 60, 255].map(|end| noise.below(end + 1) as u8)[noise.below(5) as usize];
+            FoldCell { mean: byte(), spread: byte(), days: byte() }
+        })
+        .collect();
+    let folds = [single, pair];
+    let joints = ["elbow", "roll", "pitch"];
+    let parts = FoldTableParts { joints: &joints, folds: &folds, taxels: &taxels, cells: &cells, unit: 4 };
+    // Aligned like words.
+    let words = Box::leak(vec![0u32; fold_table_length(&folds) / 4].into_boxed_slice());
+    let bytes: &'static mut [u8] = bytemuck::cast_slice_mut(words);
+    write_fold_table(&parts, layout, bytes).unwrap();
+    FoldTable::check(bytes, layout).unwrap()
+}
+
+#[test]
+fn what_has_not_changed_need_not_be_renewed() {
+    let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
+    let mut noise = Noise(1);
+    let table = table(&layout, &mut noise);
+    let joints = ["elbow", "roll", "pitch"].map(name);
+    for falling in [false, true] {
+        let mut pair: [Box<FullState>; 2] = [(); 2].map(|()| Box::new(FullState::new()));
+        let rest = if falling { 700 } else { 64_500 };
+        for state in &mut pair {
+            state.reset(&layout, Code(rest));
+            state.wear(Some(table), &joints);
+            (0..2048).for_each(|taxel| assert!(state.set_baseline(taxel, Code(rest))));
+        }
+        let mut feedback = Feedback::<4>::new();
+        let (mut now, mut angles, mut drift) = (Micros(0), [0i32; 3], 0i32);
+        let mut floor = 24;
+        for frame in 0..6_000 {
+            now = Micros(now.0 + if noise.below(400) == 0 { 600_000 } else { 5_128 });
+            // It moves, it stands still and is told, it is not told.
+            let told = match noise.below(600) {
+                0 => None,
+                n => Some(if frame % 900 < 500 && n % 4 != 0 { 300 } else { 0 }),
+            };
+            if frame % 4 == 0
+                && let Some(turn) = told
+            {
+                for angle in &mut angles {
+                    *angle = (*angle + noise.below(2 * turn + 1) as i32 - turn as i32).clamp(-1500, 6000);
+                }
+                let joints = (0..).zip(&angles);
+                let joints = joints.map(|(joint, angle)| JointAngle { joint, centidegrees: *angle as i16 });
+                let posture = Posture { joints: joints.collect() };
+                for state in &mut pair {
+                    state.posture_mut().accept(&posture, &["elbow", "roll", "pitch"].map(name), now).unwrap();
+                }
+            }
+            if noise.below(40) == 0 {
+                feedback.home.clear();
+                if noise.below(2) == 0 {
+                    let (top, left) = (noise.below(12) as u16, noise.below(12) as u16);
+                    let rect =
+                        Rect { panel: noise.below(2) as u8, top, bottom: top + 3, left, right: left + 3 };
+                    feedback.home.push(Pressed { rect, peak: 300 }).unwrap();
+                }
+            }
+            match noise.below(900) {
+                0 => pair.iter_mut().for_each(|state| state.tare(3)),
+                1 => pair.iter_mut().for_each(|state| assert!(state.set_gain(70, 4000))),
+                2 => pair.iter_mut().for_each(|state| assert!(state.set_gain(70, 4096))),
+                3 => floor = 20 + noise.below(10) as u16,
+                _ => {}
+            }
+            drift = (drift + noise.below(3) as i32 - 1).clamp(-900, 900);
+            let codes: Vec<Code> = (0..2048)
+                .map(|_| Code((i32::from(rest) + drift + noise.below(30) as i32).clamp(0, 0xFFFF) as u16))
+                .collect();
+            let condition = ConditionConfig { floor, ..ConditionConfig::default() }.build().unwrap();
+            let sampled = Sampled { codes: &codes, falling, panels: 0xFF, now };
+            let [some, all] = &mut pair;
+            all.folds.renew_all();
+            let images = [some, all].map(|state| {
+                condition.process(state, &layout, &sampled, &feedback);
+                let of = |taxel| (state.folds.of(taxel), state.folds.level(taxel.into()));
+                let folds: Vec<_> = (0..1024).map(of).collect();
+                (state.images.calibrated.to_vec(), folds, state.calibration.baseline.to_vec())
+            });
+            let [some, all] = images;
+            assert!(some == all, "frame {frame}");
+            // Where a limit is at its end, drift may find its way back sooner than the fold's turn does.
+            let [some, all] = &pair;
+            let silent = if falling { 0 } else { u16::MAX };
+            for taxel in 0..2048 {
+                let [a, b] = [some, all].map(|state| state.calibration.limit[taxel]);
+                assert!(a == b || b == silent, "frame {frame}, taxel {taxel}: {a} {b}");
+            }
+        }
+    }
+}
