@@ -4,6 +4,7 @@ use super::attached::attached;
 use super::chunk;
 use super::damage::{Damage, Skipped, is_chunk_at, is_end, is_known};
 use super::records::{Head, Inside, Records};
+use super::summary::summary;
 use super::texts::parse_record;
 use crate::error::{Context, Result};
 use mcap::records::{Channel, MessageHeader, Record, op};
@@ -36,6 +37,8 @@ pub struct Messages {
     wanted: Option<String>,
     attached: Option<Vec<u8>>,
     channels: BTreeMap<u16, Channel>,
+    /// True if all channels are known from the file's summary.
+    are_all_known: bool,
     /// Uncompressed records of the current chunk, and the offset of the next one.
     plain: Vec<u8>,
     next: usize,
@@ -53,6 +56,7 @@ impl Messages {
             wanted: None,
             attached: None,
             channels: BTreeMap::new(),
+            are_all_known: false,
             plain: Vec::new(),
             next: 0,
             skipped: Skipped::default(),
@@ -60,9 +64,15 @@ impl Messages {
         })
     }
 
-    /// Opens a file for one topic.
+    /// Opens a file for one topic. Chunks without it, by the file's index, are neither read nor looked at for
+    /// damage.
     pub fn of_topic(path: &Path, topic: &str) -> Result<Messages> {
-        Ok(Messages { only: Some(topic.into()), ..Messages::open(path)? })
+        let mut messages = Messages { only: Some(topic.into()), ..Messages::open(path)? };
+        if let Some(summary) = summary(path)? {
+            messages.channels = summary.channels;
+            messages.are_all_known = true;
+        }
+        Ok(messages)
     }
 
     /// Keeps the first attachment of this name that is passed.
@@ -179,7 +189,32 @@ impl Messages {
         Ok(())
     }
 
+    /// True if a chunk is left out: it holds nothing of the only topic, by the index that follows it. Moves to
+    /// the chunk's end if so.
+    fn leaves_out(&mut self, head: Head) -> Result<bool> {
+        let Some(only) = self.only.as_ref().filter(|_| self.are_all_known) else { return Ok(false) };
+        let mut is_of_others = false;
+        self.records.go_to(head.end())?;
+        while let Some(index) = self.records.next_head()? {
+            if index.op != op::MESSAGE_INDEX || index.length < 2 {
+                break;
+            }
+            let channel = <[u8; 2]>::try_from(self.records.rest(2)?).ok().map(u16::from_le_bytes);
+            let topic = channel.and_then(|id| self.channels.get(&id)).map(|channel| &channel.topic);
+            is_of_others = topic.is_some_and(|topic| topic != only);
+            if !is_of_others {
+                break;
+            }
+            self.records.go_to(index.end())?;
+        }
+        self.records.go_to(if is_of_others { head.end() } else { head.body() })?;
+        Ok(is_of_others)
+    }
+
     fn chunk(&mut self, head: Head) -> Result<ReadStep> {
+        if self.leaves_out(head)? {
+            return Ok(ReadStep::Passed);
+        }
         let record = self.records.body(head)?;
         let mut damage = Damage { end: Some(head.end()), ..Damage::at(head.offset) };
         self.next = 0;

@@ -25,9 +25,14 @@ impl Head {
         Head { offset, op, length: u64::from_le_bytes(length) }
     }
 
+    /// Offset of its body.
+    pub(super) fn body(&self) -> u64 {
+        self.offset.saturating_add(HEAD as u64)
+    }
+
     /// Offset of the next record; saturates, because a damaged length may be any number.
     pub fn end(&self) -> u64 {
-        self.offset.saturating_add(HEAD as u64).saturating_add(self.length)
+        self.body().saturating_add(self.length)
     }
 }
 

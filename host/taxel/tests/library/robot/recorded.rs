@@ -7,7 +7,9 @@ use std::time::Duration;
 use taxel::files::output::Force;
 use taxel::json::message;
 use taxel::record::{COUNTS, Play, Tally};
-use taxel::recording::{BoardRecording, Clips, Messages, Overview, WIRE, WireReader, boards, scan};
+use taxel::recording::{
+    BoardRecording, Clips, Messages, Overview, WIRE, WireReader, boards, chunk_indexes, scan,
+};
 use taxel::robot::{BoardEvent, RobotRecorder, RobotSession, WhenFull};
 use taxel::session::Session;
 
@@ -88,6 +90,31 @@ fn the_chunks_of_a_board_are_those_of_its_stream() {
         assert_eq!(frames.next_frame().unwrap(), None, "{name}");
         assert!(clips.words("taxel").is_some() && clips.attached("garment.toml").is_some());
     }
+}
+
+#[test]
+fn what_is_damaged_of_one_board_is_passed_over_by_its_readers_alone() {
+    let path = record("robot-damaged.mcap");
+    let of = |name: &str| BoardRecording { path: path.clone(), board: Some(name.into()) };
+    let read = |name: &str| {
+        let mut play = Play::open(&of(name)).unwrap();
+        let mut frames = 0;
+        while play.next_event().unwrap().is_some() {
+            frames += 1;
+        }
+        (frames, play.skipped().chunks)
+    };
+    let whole = BOARDS.map(|(name, ..)| read(name));
+    // The last chunk is of the board that ends last.
+    let bytes = std::fs::read(&path).unwrap();
+    let last = chunk_indexes(&path).unwrap().pop().unwrap();
+    let mut damaged = bytes;
+    damaged[(last.chunk_start_offset + last.chunk_length) as usize - 40] ^= 1;
+    std::fs::write(&path, damaged).unwrap();
+    let after = BOARDS.map(|(name, ..)| read(name));
+    assert!(whole.iter().all(|(frames, skipped)| *frames > 100 && *skipped == 0), "{whole:?}");
+    let hit: Vec<_> = after.iter().zip(&whole).filter(|(after, whole)| after != whole).collect();
+    assert!(matches!(hit[..], [((frames, 1), (before, 0))] if frames < before), "{whole:?}, {after:?}");
 }
 
 #[test]

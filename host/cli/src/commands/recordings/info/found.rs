@@ -70,9 +70,12 @@ impl Contents<'_> {
         if let Some(scan) = scan {
             let mut skipped = Skipped::default();
             for board in &mut found.boards {
-                // Each board's reader passes over all damage of the file.
                 let (line, passed_over) = played(&board.recording)?;
-                (board.frames, board.line, skipped) = (line.frames, Some(line), passed_over);
+                (board.frames, board.line) = (line.frames, Some(line));
+                // Each reader passes over the damage of its own board's chunks: the worst is told.
+                if passed_over.time >= skipped.time {
+                    skipped = passed_over;
+                }
             }
             found.checked = Some((scan, skipped));
         }
