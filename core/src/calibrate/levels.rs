@@ -42,8 +42,8 @@ impl LevelLimits<'_> {
         }
     }
 
-    /// Sets the limits of taxels in a row, up to four one of which has another gain than 1. Returns the number of
-    /// fours; an error with the number of those that are to be set by taxel, at least one.
+    /// Sets the limits of taxels in a row, up to four one of which has another gain than 1. Returns the number
+    /// of fours; an error with the number of those that are to be set by taxel, at least one.
     fn set_row(
         &mut self,
         row: Range<usize>,
@@ -107,8 +107,8 @@ fn unities(gain: &[[u32; 2]]) -> usize {
     other.unwrap_or(gain.len())
 }
 
-/// Sets the limits of pairs of taxels with gains of 1. False if a number is too large for that, or a limit would
-/// be below 0.
+/// Sets the limits of pairs of taxels with gains of 1. False if a number is too large for that, or a limit
+/// would be below 0.
 #[inline(never)] // own registers
 fn set_pairs<const FALLING: bool>(rest: &[u32], levels: &[u32], limit: &mut [u32], margins: u32) -> bool {
     // Halves below 2^15: no sum of two of them reaches the other half.

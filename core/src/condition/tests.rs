@@ -15,9 +15,9 @@ use std::vec::Vec;
 type FullState = ConditionState<2048>;
 
 /// Numbers without a pattern.
-struct Noise(u32);
+struct Drawn(u32);
 
-impl Noise {
+impl Drawn {
     fn below(&mut self, end: u32) -> u32 {
         self.0 = self.0.wrapping_mul(1664525).wrapping_add(1013904223);
         (self.0 >> 10) % end
@@ -25,7 +25,7 @@ impl Noise {
 }
 
 /// A fold of one joint and one of two, on rows and parts of rows.
-fn table(layout: &Layout, noise: &mut Noise) -> FoldTable<'static> {
+fn table(layout: &Layout, drawn: &mut Drawn) -> FoldTable<'static> {
     let single = FoldRecord {
         joints: [0, NO_JOINT],
         knots: [6, 1],
@@ -48,7 +48,7 @@ fn table(layout: &Layout, noise: &mut Noise) -> FoldTable<'static> {
     let cells: Vec<FoldCell> = (0..70 * 6 + 37 * 12)
         .map(|_| {
             let mut byte =
-                || [0, 0, 9, 60, 255].map(|end| noise.below(end + 1) as u8)[noise.below(5) as usize];
+                || [0, 0, 9, 60, 255].map(|end| drawn.below(end + 1) as u8)[drawn.below(5) as usize];
             FoldCell { mean: byte(), spread: byte(), days: byte() }
         })
         .collect();
@@ -62,11 +62,32 @@ fn table(layout: &Layout, noise: &mut Noise) -> FoldTable<'static> {
     FoldTable::check(bytes, layout).unwrap()
 }
 
+/// Turns each joint by at most so much, hundredths of a degree.
+fn turned(angles: &mut [i32; 3], turn: u32, drawn: &mut Drawn) -> Posture {
+    for angle in angles.iter_mut() {
+        *angle = (*angle + drawn.below(2 * turn + 1) as i32 - turn as i32).clamp(-1500, 6000);
+    }
+    let joints = (0..).zip(angles);
+    Posture {
+        joints: joints.map(|(joint, angle)| JointAngle { joint, centidegrees: *angle as i16 }).collect(),
+    }
+}
+
+/// Something touches the garment, or nothing does.
+fn touch(feedback: &mut Feedback<4>, drawn: &mut Drawn) {
+    feedback.home.clear();
+    if drawn.below(2) == 0 {
+        let (top, left) = (drawn.below(12) as u16, drawn.below(12) as u16);
+        let rect = Rect { panel: drawn.below(2) as u8, top, bottom: top + 3, left, right: left + 3 };
+        feedback.home.push(Pressed { rect, peak: 300 }).unwrap();
+    }
+}
+
 #[test]
 fn what_has_not_changed_need_not_be_renewed() {
     let layout = Layout::build(&Garment::reference(), 2048, u16::MAX).unwrap();
-    let mut noise = Noise(1);
-    let table = table(&layout, &mut noise);
+    let mut drawn = Drawn(1);
+    let table = table(&layout, &mut drawn);
     let joints = ["elbow", "roll", "pitch"].map(name);
     for falling in [false, true] {
         let mut pair: [Box<FullState>; 2] = [(); 2].map(|()| Box::new(FullState::new()));
@@ -80,44 +101,33 @@ fn what_has_not_changed_need_not_be_renewed() {
         let (mut now, mut angles, mut drift) = (Micros(0), [0i32; 3], 0i32);
         let mut floor = 24;
         for frame in 0..6_000 {
-            now = Micros(now.0 + if noise.below(400) == 0 { 600_000 } else { 5_128 });
+            now = Micros(now.0 + if drawn.below(400) == 0 { 600_000 } else { 5_128 });
             // It moves, it stands still and is told, it is not told.
-            let told = match noise.below(600) {
+            let told = match drawn.below(600) {
                 0 => None,
                 n => Some(if frame % 900 < 500 && n % 4 != 0 { 300 } else { 0 }),
             };
             if frame % 4 == 0
                 && let Some(turn) = told
             {
-                for angle in &mut angles {
-                    *angle = (*angle + noise.below(2 * turn + 1) as i32 - turn as i32).clamp(-1500, 6000);
-                }
-                let joints = (0..).zip(&angles);
-                let joints = joints.map(|(joint, angle)| JointAngle { joint, centidegrees: *angle as i16 });
-                let posture = Posture { joints: joints.collect() };
+                let posture = turned(&mut angles, turn, &mut drawn);
                 for state in &mut pair {
-                    state.posture_mut().accept(&posture, &["elbow", "roll", "pitch"].map(name), now).unwrap();
+                    state.posture_mut().accept(&posture, &joints, now).unwrap();
                 }
             }
-            if noise.below(40) == 0 {
-                feedback.home.clear();
-                if noise.below(2) == 0 {
-                    let (top, left) = (noise.below(12) as u16, noise.below(12) as u16);
-                    let rect =
-                        Rect { panel: noise.below(2) as u8, top, bottom: top + 3, left, right: left + 3 };
-                    feedback.home.push(Pressed { rect, peak: 300 }).unwrap();
-                }
+            if drawn.below(40) == 0 {
+                touch(&mut feedback, &mut drawn);
             }
-            match noise.below(900) {
+            match drawn.below(900) {
                 0 => pair.iter_mut().for_each(|state| state.tare(3)),
                 1 => pair.iter_mut().for_each(|state| assert!(state.set_gain(70, 4000))),
                 2 => pair.iter_mut().for_each(|state| assert!(state.set_gain(70, 4096))),
-                3 => floor = 20 + noise.below(10) as u16,
+                3 => floor = 20 + drawn.below(10) as u16,
                 _ => {}
             }
-            drift = (drift + noise.below(3) as i32 - 1).clamp(-900, 900);
+            drift = (drift + drawn.below(3) as i32 - 1).clamp(-900, 900);
             let codes: Vec<Code> = (0..2048)
-                .map(|_| Code((i32::from(rest) + drift + noise.below(30) as i32).clamp(0, 0xFFFF) as u16))
+                .map(|_| Code((i32::from(rest) + drift + drawn.below(30) as i32).clamp(0, 0xFFFF) as u16))
                 .collect();
             let condition = ConditionConfig { floor, ..ConditionConfig::default() }.build().unwrap();
             let sampled = Sampled { codes: &codes, falling, panels: 0xFF, now };

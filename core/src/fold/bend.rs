@@ -30,8 +30,8 @@ pub(super) struct Bend {
     pub left: u16,
     /// Taxels that were compared there.
     pub compared: u16,
-    /// Fours, of those whose turn was last, that are expected as at these knots; at most all. Counted from 0 up:
-    /// an image does not hold a state of zeros.
+    /// Fours, of those whose turn was last, that are expected as at these knots; at most all. Counted from 0
+    /// up: an image does not hold a state of zeros.
     found: u16,
     /// Those that are doubted as near this knot.
     doubted: u16,

@@ -160,6 +160,14 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
     assert_eq!(lines.matches(" end: ").count(), 2, "{lines}");
 }
 
+/// Records a second of all boards to `touch.mcap`; returns what the program says of it.
+fn recorded(folder: &Path) -> String {
+    let record = ["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"];
+    let done = run(folder, &record);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    text(&done.stderr).into()
+}
+
 /// Number of lines of a table, without its head.
 fn rows(done: &Output) -> usize {
     assert!(done.status.success(), "{}", text(&done.stderr));
@@ -169,9 +177,7 @@ fn rows(done: &Output) -> usize {
 #[test]
 fn a_board_of_a_recording_is_read_by_all_commands() {
     let folder = folder("parts", &two());
-    let done =
-        run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"]);
-    assert!(done.status.success(), "{}", text(&done.stderr));
+    recorded(&folder);
     let counted = |board: &str| {
         let info = run(&folder, &["info", "touch.mcap", "--json"]);
         let told: Value = serde_json::from_slice(&info.stdout).unwrap();
@@ -218,10 +224,7 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
 #[test]
 fn record_and_doctor_tell_of_all_boards() {
     let folder = folder("record", &two());
-    let done =
-        run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"]);
-    assert!(done.status.success(), "{}", text(&done.stderr));
-    let summary = text(&done.stderr);
+    let summary = recorded(&folder);
     assert!(summary.contains("\ntorso  1.0 s, 19") && summary.contains("\nhand   1.0 s, "), "{summary}");
     let info = run(&folder, &["info", "touch.mcap", "--json"]);
     let told: Value = serde_json::from_slice(&info.stdout).unwrap();

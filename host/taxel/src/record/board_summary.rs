@@ -4,7 +4,7 @@ use super::play::Play;
 use super::tally::Tally;
 use crate::client::{Client, Event};
 use crate::error::{RecordingError, Result};
-use crate::recording::{BoardRecording, Overview, Skipped, WIRE, boards};
+use crate::recording::{BoardRecording, Overview, Skipped, WIRE};
 use std::path::Path;
 use taxel_core::contact::Phase;
 use taxel_core::intent::Leading;
@@ -49,23 +49,21 @@ impl BoardSummary {
     /// recording of taxel, or cannot be read.
     pub fn read(path: &Path) -> Result<Vec<BoardSummary>> {
         let overview = Overview::of(path)?;
-        let mut names: Vec<Option<&str>> = boards(overview.topics()).into_iter().map(Some).collect();
-        names.extend(overview.topics().any(|topic| topic == WIRE).then_some(None));
-        if names.is_empty() {
+        let recordings = BoardRecording::all(path, &overview);
+        if recordings.is_empty() {
             let path = path.display();
             fail!(RecordingError::Record, "{path} has no topic {WIRE}: it is not a recording of taxel");
         }
-        names.into_iter().map(|board| BoardSummary::of(path, &overview, board)).collect()
+        recordings.iter().map(|recording| BoardSummary::of(recording, &overview)).collect()
     }
 
-    fn of(path: &Path, overview: &Overview, board: Option<&str>) -> Result<BoardSummary> {
+    fn of(recording: &BoardRecording, overview: &Overview) -> Result<BoardSummary> {
         let word =
             |of: &str, name: &str| overview.words(of)?.get(name).filter(|word| !word.is_empty()).cloned();
-        let recording = BoardRecording { path: path.into(), board: board.map(String::from) };
         let about = recording.attachment("taxel");
         let mut summary = BoardSummary {
-            robot: board.and_then(|_| word("robot", "name")),
-            board: board.map(String::from),
+            robot: recording.board.as_ref().and_then(|_| word("robot", "name")),
+            board: recording.board.clone(),
             garment: word(&about, "garment"),
             scene: word(&about, "scene"),
             firmware: word(&about, "firmware"),
@@ -74,7 +72,7 @@ impl BoardSummary {
             is_whole: overview.torn.is_none(),
             ..BoardSummary::default()
         };
-        let mut play = Play::open(&recording)?;
+        let mut play = Play::open(recording)?;
         let mut leading = Leading::None;
         while let Some((header, event)) = play.next_event()? {
             let us = header.log_time / super::NS;

@@ -6,7 +6,7 @@ use crate::error::{RecordingError, Result, UsageError};
 use crate::tell::words;
 use std::ffi::OsString;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where a board was recorded, as text `FILE`, or `FILE#BOARD` for a board of a robot.
 ///
@@ -43,6 +43,13 @@ impl fmt::Display for BoardRecording {
 }
 
 impl BoardRecording {
+    /// The recordings of all boards in a file, in its order; none if it is not a recording of taxel.
+    pub fn all(path: &Path, overview: &Overview) -> Vec<BoardRecording> {
+        let of_robot = boards(overview.topics()).into_iter().map(|board| Some(board.to_string()));
+        let alone = overview.topics().any(|topic| topic == WIRE).then_some(None);
+        of_robot.chain(alone).map(|board| BoardRecording { path: path.into(), board }).collect()
+    }
+
     /// The topic of this board that the recording of a single board calls so.
     pub fn topic(&self, topic: &str) -> String {
         of_board(self.board.as_deref(), topic)
@@ -62,8 +69,9 @@ impl BoardRecording {
 
     fn check(&self, overview: &Overview) -> Result<()> {
         let path = self.path.display();
+        let is_alone = overview.topics().any(|topic| topic == WIRE);
         match (&self.board, &boards(overview.topics())[..]) {
-            (Some(board), []) if overview.topics().any(|topic| topic == WIRE) => {
+            (Some(board), []) if is_alone => {
                 fail!(UsageError::Unknown, "{path} is of a single board: leave out #{board}")
             }
             (Some(_), []) => Err(RecordingError::NotTaxel { path: self.path.clone(), topic: WIRE }.into()),
@@ -71,8 +79,8 @@ impl BoardRecording {
                 let known = of_robot.iter().copied();
                 fail!(UsageError::Unknown, "{path}: {}", words::unknown("board", board, known))
             }
-            (None, [first, ..]) if !overview.topics().any(|topic| topic == WIRE) => {
-                let all = boards(overview.topics()).join(", ");
+            (None, of_robot @ [first, ..]) if !is_alone => {
+                let all = of_robot.join(", ");
                 fail!(UsageError::Argument, "{path} is of a robot's boards, {all}: name one, {path}#{first}")
             }
             _ => Ok(()),

@@ -17,8 +17,8 @@ use taxel_core::garment::Layout;
 /// Sweeps, and how to learn from them.
 #[derive(Debug, Clone, Args)]
 pub struct BodyLearnArgs {
-    /// Recordings (.mcap, of a robot .mcap#BOARD) with the joints' angles, in which nothing touches the garment: each of another day,
-    /// or after it was put on anew
+    /// Recordings (.mcap, of a robot .mcap#BOARD) with the joints' angles, in which nothing touches the garment:
+    /// each of another day, or after it was put on anew
     #[arg(required = true, value_name = "RECORDING")]
     recordings: Vec<BoardRecording>,
     /// The garment: a TOML file or a preset

@@ -5,7 +5,7 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 use taxel::record::{COUNTS, Play, Tally};
-use taxel::recording::{BoardRecording, ChannelInfo, Overview, Scan, Skipped, boards, footer, scan};
+use taxel::recording::{BoardRecording, ChannelInfo, Overview, Scan, Skipped, footer, scan};
 use taxel::tell::progress::{Progress, Unit};
 use taxel::tell::words::printable;
 
@@ -64,7 +64,12 @@ impl Contents<'_> {
         let scan = read.then(|| scan(file)).transpose()?;
         let overview =
             scan.as_ref().map_or_else(|| Overview::of(file), |scan| Ok(Overview::found(file, scan)))?;
-        let counted = recordings(file, &overview).into_iter().map(|one| RecordedCounts::told(&overview, one));
+        let mut recordings = BoardRecording::all(file, &overview);
+        if recordings.is_empty() {
+            // A file of another program.
+            recordings.push(BoardRecording { path: file.into(), board: None });
+        }
+        let counted = recordings.into_iter().map(|one| RecordedCounts::told(&overview, one));
         let mut found =
             Contents { file, bytes, boards: counted.collect(), checked: None, repaired, overview };
         if let Some(scan) = scan {
@@ -220,16 +225,6 @@ impl Contents<'_> {
         }
         text
     }
-}
-
-/// The only board of a file, or those of a robot.
-fn recordings(file: &Path, overview: &Overview) -> Vec<BoardRecording> {
-    let of_robot = boards(overview.topics()).into_iter().map(|board| Some(board.to_string()));
-    let mut names: Vec<Option<String>> = of_robot.collect();
-    if names.is_empty() {
-        names.push(None);
-    }
-    names.into_iter().map(|board| BoardRecording { path: file.into(), board }).collect()
 }
 
 /// Plays a board's part of the file. Returns lost, thinned and restart counters, and the damage.
