@@ -78,6 +78,17 @@ impl CarriedTouch {
         host_us.wrapping_sub(self.host_us) as i64
     }
 
+    /// Time of its newest scan until a time of the host, us; none if all are later.
+    pub fn newest_until(&self, host_us: u64) -> Option<u64> {
+        self.history.newest_until(host_us)
+    }
+
+    /// How far what is interpolated for a time of the host, us, may be off: see
+    /// [`TouchHistory::interpolation_error`].
+    pub fn interpolation_error(&self, host_us: u64) -> f64 {
+        self.history.interpolation_error(host_us)
+    }
+
     /// Time by which it is carried on, s.
     fn carried(&self, host_us: u64) -> f64 {
         let most = self.interval_us as i64;

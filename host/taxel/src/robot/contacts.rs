@@ -9,8 +9,9 @@
 //! What meets a contact at a seam and is too faint to be one on its own board belongs to it: it is found in
 //! the board's image ([`ScanReader`](super::ScanReader)).
 //!
-//! Pressure and place of a contact on several boards are those of the newest time that all of them have told:
-//! what is newer is interpolated between a board's scans.
+//! Pressure and place of a contact on several boards are told from the newest scan of each, until the newest
+//! time that all of them have told; there the parts on the others are interpolated between their scans. The
+//! contact's time is the mean of these times.
 //!
 //! A contact that ends at a seam is not over yet: for [`CROSSING_US`], and twice the time between the scans
 //! of the board across, a contact that begins there, where it would be by its velocity, continues it.

@@ -58,7 +58,7 @@ pub struct RobotContactLine<'a> {
     pub area: u32,
     /// Time since the onset, s.
     pub duration: f64,
-    /// Age of pressure and place, us: the time until which all of its boards have told theirs.
+    /// Age of pressure and place, us: the mean age of the scans from which they are told.
     pub age_us: u64,
     /// What it consists of, board by board.
     pub parts: Vec<RobotContactPartLine<'a>>,

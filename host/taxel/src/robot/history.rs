@@ -53,6 +53,26 @@ impl TouchHistory {
         Some(touch)
     }
 
+    /// Time of the newest scan until a time of the host, us; none if all are later.
+    pub fn newest_until(&self, host_us: u64) -> Option<u64> {
+        self.0.iter().rev().map(|sample| sample.host_us).find(|at_us| *at_us <= host_us)
+    }
+
+    /// How far what is interpolated for a time of the host, us, may be off, in us^2: times half the second
+    /// derivative, it is what a linear interpolation leaves. 0 at a scan, and where nothing is interpolated.
+    pub fn interpolation_error(&self, host_us: u64) -> f64 {
+        match self.around(host_us) {
+            Some((a, b)) => (host_us - a.host_us) as f64 * (b.host_us - host_us) as f64,
+            None => 0.0,
+        }
+    }
+
+    /// The last scan until a time of the host, us, and the first after it.
+    fn around(&self, host_us: u64) -> Option<(&TouchSample, &TouchSample)> {
+        let after = self.0.partition_point(|sample| sample.host_us <= host_us);
+        Some((self.0.get(after.checked_sub(1)?)?, self.0.get(after)?))
+    }
+
     /// Change of the total from the last scan but one to the last, counts per second.
     pub fn rate(&self) -> f64 {
         let mut newest = self.0.iter().rev();
@@ -63,11 +83,10 @@ impl TouchHistory {
 
     /// The touch at a time between two scans, or as in the first; none from the last on.
     pub fn at(&self, host_us: u64) -> Option<TouchMoment> {
-        let after = self.0.partition_point(|sample| sample.host_us <= host_us);
-        let b = self.0.get(after)?;
-        let to = b.touch.moment();
-        let Some(a) = after.checked_sub(1).and_then(|before| self.0.get(before)) else { return Some(to) };
-        let from = a.touch.moment();
+        let Some((a, b)) = self.around(host_us) else {
+            return self.0.front().filter(|first| first.host_us > host_us).map(|first| first.touch.moment());
+        };
+        let (from, to) = (a.touch.moment(), b.touch.moment());
         let part = (host_us - a.host_us) as f64 / (b.host_us - a.host_us) as f64;
         let between = |a: f64, b: f64| a + (b - a) * part;
         let centroid = [0, 1].map(|axis| between(from.centroid[axis], to.centroid[axis]));
@@ -109,6 +128,12 @@ mod tests {
         assert_eq!(at(&history, 3000), Some((20.0, [20.0, 1.0])));
         assert_eq!((at(&history, 500), at(&history, 4000)), (Some((0.0, [0.0, 1.0])), None));
         assert_eq!(history.rate(), 10_000.0);
+        assert_eq!(
+            [999, 1000, 3999, 4001].map(|at_us| history.newest_until(at_us)),
+            [None, Some(1000), Some(2000), Some(4000)]
+        );
+        let error = [500, 1000, 1250, 3000, 4000, 5000].map(|at_us| history.interpolation_error(at_us));
+        assert_eq!(error, [0.0, 0.0, 187_500.0, 1e6, 0.0, 0.0]);
         history.push(600_000, touch(1));
         assert_eq!(history.0.len(), 1);
     }

@@ -4,7 +4,7 @@ use super::carried::{CarriedTouch, PlaneBox};
 use super::listed::{ListedBoard, ListedTouch};
 use super::plane::{PlaneSide, SeamPlane};
 use super::touch::{RobotTouch, RobotTouchPart};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Greatest age of what is joined, us; of boards with fewer scans, twice the time between two.
 const FRESH_US: u64 = 100_000;
@@ -92,15 +92,21 @@ impl<'a> JoinedTouches<'a> {
 
     /// What these touches are together.
     pub fn touch(&self, members: &[usize]) -> RobotTouch {
-        let at_us = self.told_by_all(members);
-        let total = |index: usize| self.all[index].carried.total(at_us);
+        let times = self.times(members);
+        let total = |index: usize| -> f64 {
+            times.iter().map(|(at_us, share)| share * self.all[index].carried.total(*at_us)).sum()
+        };
         let most = |a: usize, b: usize| if total(b) > total(a) { b } else { a };
         let home = members.iter().copied().reduce(most).unwrap_or(0);
         let (mut sum, mut at, mut peak, mut area, mut newtons) = (0.0, [0.0; 2], 0, 0, Some(0.0));
-        for (index, centroid) in self.seen_from(home, at_us) {
-            let weight = total(index).max(f64::MIN_POSITIVE);
-            sum += weight;
-            at = [at[0] + weight * centroid[0], at[1] + weight * centroid[1]];
+        for (at_us, share) in &times {
+            for (index, centroid) in self.seen_from(home, *at_us) {
+                let weight = (share * self.all[index].carried.total(*at_us)).max(f64::MIN_POSITIVE);
+                sum += weight;
+                at = [at[0] + weight * centroid[0], at[1] + weight * centroid[1]];
+            }
+        }
+        for index in members.iter().copied() {
             let touch = &self.all[index].carried.touch;
             (peak, area) = (touch.peak.max(peak), area + u32::from(touch.area));
             newtons = newtons.zip(touch.newtons_per_count).map(|(sum, each)| sum + each * total(index));
@@ -113,7 +119,7 @@ impl<'a> JoinedTouches<'a> {
         };
         let is_there = |index: &&usize| !self.all[**index].has_ended;
         RobotTouch {
-            host_us: at_us,
+            host_us: mean_us(&times),
             board: self.all[home].carried.board,
             panel: self.all[home].carried.touch.panel,
             centroid: at.map(|sum_of| sum_of / sum),
@@ -123,6 +129,33 @@ impl<'a> JoinedTouches<'a> {
             area,
             parts: members.iter().filter(is_there).map(part).collect(),
         }
+    }
+
+    /// The host's times, us, from which these touches are told, and the share of each; the shares sum up to 1.
+    ///
+    /// A touch on several boards is told from the newest scan of each of them, with its parts on the others
+    /// interpolated. While it moves over a seam, one part loses what the other gains: where the sum with the
+    /// first interpolated is too great, that with the second is too small. Shares in inverse proportion to these
+    /// errors cancel them.
+    fn times(&self, members: &[usize]) -> Vec<(u64, f64)> {
+        let until_us = self.told_by_all(members);
+        let all = || members.iter().map(|index| &self.all[*index].carried);
+        let boards: BTreeSet<usize> = all().map(|touch| touch.board).collect();
+        let time = |board: &usize| {
+            let (own, others): (Vec<_>, Vec<_>) = all().partition(|touch| touch.board == *board);
+            let at_us = own.iter().filter_map(|touch| touch.newest_until(until_us)).max()?;
+            // Where another board has scanned at the same time, nothing is interpolated.
+            let error = others.iter().map(|touch| touch.interpolation_error(at_us)).fold(1.0, f64::max);
+            Some((at_us, 1.0 / error))
+        };
+        let mut times: Vec<(u64, f64)> =
+            if boards.len() > 1 { boards.iter().filter_map(time).collect() } else { Vec::new() };
+        if times.is_empty() {
+            times.push((until_us, 1.0));
+        }
+        let sum: f64 = times.iter().map(|(_, share)| share).sum();
+        times.iter_mut().for_each(|(_, share)| *share /= sum);
+        times
     }
 
     /// The newest time for which all of these boards have told what touches them, us; boards that have been
@@ -165,6 +198,13 @@ impl<'a> JoinedTouches<'a> {
         };
         found.iter().map(centroid).collect()
     }
+}
+
+/// The mean of these times, us, by their shares.
+fn mean_us(times: &[(u64, f64)]) -> u64 {
+    let first_us = times.iter().map(|(at_us, _)| *at_us).min().unwrap_or(0);
+    let later: f64 = times.iter().map(|(at_us, share)| (at_us - first_us) as f64 * share).sum();
+    first_us + later.round() as u64
 }
 
 /// True if a touch is on the panel of a side.

@@ -3,7 +3,7 @@
 /// Pressure and place of a touch of the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotTouch {
-    /// Host time for which they are told, us since 1970.
+    /// Host time for which they are told, us since 1970: the mean time of the scans from which they are.
     pub host_us: u64,
     /// Number of the board on which most of it is.
     pub board: usize,

@@ -646,7 +646,7 @@ export type RobotContactsLine = {
     area: number;
     /** Time since the onset, s. */
     duration: number;
-    /** Age of pressure and place, us: the time until which all of its boards have told theirs. */
+    /** Age of pressure and place, us: the mean age of the scans from which they are told. */
     age_us: number;
     /** What it consists of, board by board. */
     parts: {

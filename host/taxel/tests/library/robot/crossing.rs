@@ -6,7 +6,6 @@
 use super::scanning::{self, BEGAN_US, Scanning};
 use fastrand::Rng;
 use std::collections::BTreeSet;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use taxel::robot::{BoardTouch, ReadRobot, RobotContact, RobotContacts, ScanReader};
@@ -23,6 +22,8 @@ const PITCHES_UM: [u32; 2] = [5_000, 10_000];
 const TAXELS: usize = WIDE as usize * WIDE as usize;
 /// Passes of the ordinary test, and of a campaign.
 const PASSES: [u64; 2] = [24, 1000];
+/// Passes of which the force differed by more than 5 % while a touch was told at one time alone.
+const ONCE_OFF: [u64; 7] = [20_099, 20_111, 20_612, 20_949, 40_490, 80_203, 120_989];
 /// Begin of a touch, s: until then the boards tare.
 const START_S: f64 = 0.25;
 /// Greatest difference of the force on a seam.
@@ -244,10 +245,12 @@ fn inside(pass: &Pass, number: usize, filter: Filter) -> Vec<(u64, f64)> {
 }
 
 /// Seeds of the passes.
-fn seeds() -> Range<u64> {
-    let campaign = std::env::var_os("TAXEL_CAMPAIGN").is_some();
+fn seeds() -> Vec<u64> {
     let first = std::env::var("TAXEL_SEED").map_or(0, |seed| seed.parse().unwrap());
-    first..first + PASSES[usize::from(campaign)]
+    match std::env::var_os("TAXEL_CAMPAIGN") {
+        Some(_) => (first..first + PASSES[1]).collect(),
+        None => (first..first + PASSES[0]).chain(ONCE_OFF).collect(),
+    }
 }
 
 /// Ids that were told, and those that were released.
@@ -260,7 +263,7 @@ fn ids(told: &Told) -> [BTreeSet<u32>; 2] {
 #[test]
 fn a_touch_keeps_its_id_over_a_seam_between_boards() {
     let mut kept = 0;
-    let passes = seeds().count() as u64;
+    let passes = seeds().len();
     for seed in seeds() {
         let pass = Pass::random(seed);
         let told = told(&pass, Filter::default());
@@ -271,7 +274,7 @@ fn a_touch_keeps_its_id_over_a_seam_between_boards() {
         if !is_kept {
             println!("seed {seed}: ids {all:?}, released {released:?}, boards {boards:?}, {pass:?}");
         }
-        kept += u64::from(is_kept);
+        kept += usize::from(is_kept);
     }
     println!("the id is kept in {kept} of {passes}");
     assert_eq!(kept, passes);
@@ -282,8 +285,9 @@ fn share(sorted: &[f64], part: f64) -> f64 {
     100.0 * sorted[((sorted.len() - 1) as f64 * part) as usize]
 }
 
-/// What is told on the seam by both boards together: the host's time, us, and what each board has of it.
-fn on_seam(told: &Told) -> Vec<(u64, [f64; 2])> {
+/// What is told on the seam by both boards together: the host's time, us, the total, and what each board has of it
+/// now.
+fn on_seam(told: &Told) -> Vec<(u64, f64, [f64; 2])> {
     let mut lists = Vec::new();
     for (_, contacts) in told {
         let there: Vec<&RobotContact> = contacts.iter().filter(|c| c.touch.parts.len() == 2).collect();
@@ -292,11 +296,12 @@ fn on_seam(told: &Told) -> Vec<(u64, [f64; 2])> {
                 let parts = touch.parts.iter().filter(|part| part.board == board);
                 parts.map(|part| f64::from(part.total)).sum()
             };
-            lists.push((touch.host_us, [of(0), of(1)]));
+            lists.push((touch.host_us, f64::from(touch.total), [of(0), of(1)]));
         }
     }
     // A board that has told nothing new changes nothing.
-    lists.dedup_by_key(|(time, _)| *time);
+    lists.dedup_by_key(|(time, ..)| *time);
+    assert!(lists.is_sorted_by_key(|(time, ..)| *time));
     lists
 }
 
@@ -319,12 +324,11 @@ fn differences(filter: Filter) -> [Vec<f64>; 3] {
         let pass = Pass::random(seed);
         let inside = [0, 1].map(|number| inside(&pass, number, filter));
         let (mut sum, mut wanted, mut count) = (0.0, 0.0, 0);
-        for (time, [one, two]) in on_seam(&told(&pass, filter)) {
+        for (time, total, [one, two]) in on_seam(&told(&pass, filter)) {
             let (Some(want_one), Some(want_two)) = (at(&inside[0], time), at(&inside[1], time)) else {
                 continue;
             };
-            let total = one + two;
-            let want = (want_one * one + want_two * two) / total;
+            let want = (want_one * one + want_two * two) / (one + two);
             (sum, wanted, count) = (sum + total, wanted + want, count + 1);
             let difference = (total / want - 1.0).abs();
             moments.push(difference);
