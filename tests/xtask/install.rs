@@ -15,6 +15,9 @@ pub const NODE: &[&str] = &["nodejs", "npm"];
 /// Debian packages of the browser.
 pub const BROWSER: &[&str] = &["chromium"];
 
+/// Debian packages that make machines of network namespaces, and lose packets between them.
+const MACHINES: &[&str] = &["iproute2", "nftables"];
+
 /// Checks run side by side; only one of them may install.
 static INSTALLING: Mutex<()> = Mutex::new(());
 
@@ -52,7 +55,8 @@ fn apt(args: &[&str]) -> Command {
     command
 }
 
-fn is_root() -> bool {
+/// True if this user may install packages.
+pub fn is_root() -> bool {
     process::output(Command::new("id").arg("-u")).as_deref() == Some("0")
 }
 
@@ -86,6 +90,13 @@ fn node(folder: &Path, package: &str) -> Result<(), String> {
         process::shown(&npm),
         folder.display()
     ))
+}
+
+/// Installs what makes machines of network namespaces.
+pub fn machines() -> Result<(), String> {
+    let _alone = alone();
+    let is_there = |tool: &str| process::output(Command::new(tool).arg("-V")).is_some();
+    if ["ip", "nft"].into_iter().all(is_there) { Ok(()) } else { packages(MACHINES) }
 }
 
 /// Creates a Python environment with the readers of recordings, in a folder of its own.

@@ -7,22 +7,16 @@ use crate::{install, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Programs that make machines of namespaces, and what they are for.
-const TOOLS: [(&str, &str); 2] = [("ip", "network namespaces"), ("nft", "loss of packets")];
-
 /// Beginnings of the names of variables that cargo sets for what it runs.
 const TOLD: [&str; 2] = ["CARGO_MANIFEST_", "CARGO_PKG_"];
 
-/// Tests library and program with Zenoh, checks the types of the cases, and runs them. Returns what they print. Not run without
-/// the tools, or if the user may make no machines.
+/// Tests library and program with Zenoh, checks the types of the cases, and runs them. Returns what they print. Not run
+/// if the user may make no machines.
 pub fn campaign(log: &Path) -> End<Vec<String>> {
-    let is_there = |tool: &str| process::output(Command::new(tool).arg("-V")).is_some();
-    if let Some((tool, what)) = TOOLS.into_iter().find(|(tool, _)| !is_there(tool)) {
-        return Err(format!("there is no {tool}, for {what}"));
-    }
-    if process::output(Command::new("id").arg("-u")).as_deref() != Some("0") {
+    if !install::is_root() {
         return Err("only root may make network namespaces".into());
     }
+    install::machines()?;
     install::python3("python3")?;
     let folder = paths::target().join("xtask/zenoh");
     let python = install::python_in("python3", &folder, &cases().join("requirements.txt"))?;
