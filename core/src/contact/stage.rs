@@ -46,12 +46,14 @@ pub(crate) struct PressedRuns<'a> {
     pub contact: usize,
     /// Index of the panel.
     pub panel: u8,
-    area: &'a Area,
-    runs: &'a [Run],
+    /// The panel.
+    pub area: &'a Area,
+    /// The runs, in the order of rows.
+    pub runs: &'a [Run],
 }
 
 impl<'a> PressedRuns<'a> {
-    /// The runs, in the order of rows, each with the number of its first taxel.
+    /// The runs, each with the number of its first taxel.
     #[inline(always)] // M0+: one loop
     pub fn each(&self) -> impl Iterator<Item = (usize, &'a Run)> + use<'a> {
         let Area { base, first_row, columns, .. } = *self.area;

@@ -234,3 +234,74 @@ fn add_near(to: &mut [i64; 6], near: &[i32; 6]) {
         *to = to.wrapping_add(i64::from(*near));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::garment::{Garment, Layout};
+    use crate::segment::run::Run;
+    use crate::segment::sums::RunSums;
+    use std::vec::Vec;
+
+    #[test]
+    fn sums_are_exact_however_strongly_taxels_press() {
+        let mut noise = 1u32;
+        let mut next = |end: u32| {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            (noise >> 8) % end
+        };
+        let layout = Layout::build(&Garment::mat(), 2048, u16::MAX).unwrap();
+        let area = &layout.areas()[0];
+        let columns = usize::from(area.columns);
+        for round in 0..500 {
+            let most = [30, 4096, 0x1_0000, 0x1_0000][round % 4];
+            let after: Vec<u16> = (0..layout.taxels()).map(|_| next(most) as u16).collect();
+            // As they are, cut, or an impulse.
+            let mut before =
+                |after: &u16| [*after, after.saturating_add(next(200) as u16), !0][next(3) as usize];
+            let before: Vec<u16> = after.iter().map(&mut before).collect();
+            // Halves at their ends, or any.
+            let mut half = || [0x8000, 0x7FFF, next(1 << 16)][next(3) as usize];
+            let records: Vec<RecordWords> =
+                after.iter().map(|_| core::array::from_fn(|_| half() << 16 | half())).collect();
+            let rows = 1 + next(area.rows.into()) as u16;
+            let run = |row: u16| {
+                // Whole ones, and some with gaps.
+                let (left, right) = (next(20) as u16, 20 + next(12) as u16);
+                let ends = 1 << left | 1 << right;
+                let between = u32::MAX << left & u32::MAX >> (31 - right);
+                let taxels =
+                    if next(2) == 0 { between } else { between & (next(1 << 24) << 8 | next(256)) | ends };
+                let area = taxels.count_ones() as u16;
+                Run { taxels, row, label: 0, left, right, area, peak: 0, sums: RunSums::NONE }
+            };
+            let runs: Vec<Run> = (0..rows).map(run).collect();
+            let image = PressedImage { before: &before, after: &after, records: &records };
+            let pressed = PressedRuns { contact: 0, panel: 0, area, runs: &runs };
+            let (mut sums, mut batch) = (PressSums::NONE, [(0, NO_RECORD); BATCH]);
+            sums.press(&image, &pressed, &mut batch);
+            let (mut want, mut total) = ([0i64; 6], 0);
+            let of = |run: &Run| (0..columns).filter(|at| run.taxels >> at & 1 == 1).collect::<Vec<_>>();
+            for taxel in
+                runs.iter().flat_map(|run| of(run).into_iter().map(|at| usize::from(run.row) * columns + at))
+            {
+                let (before, after) = (i64::from(before[taxel]), i64::from(after[taxel]));
+                let is_cut = before > after && before <= after + after / 16 + i64::from(MARGIN);
+                let value = if is_cut { before } else { after };
+                total += value;
+                let halves = records[taxel][2..].iter().flat_map(|word| [*word as i16, (word >> 16) as i16]);
+                want.iter_mut().zip(halves).for_each(|(sum, half)| *sum += value * i64::from(half));
+            }
+            assert_eq!(sums.sums().as_flattened(), want);
+            assert_eq!(i64::from(sums.pressed()), total);
+        }
+    }
+
+    #[test]
+    fn what_presses_together_fits_in_32_bits() {
+        for half in [i16::MIN, i16::MAX] {
+            assert!(i32::try_from(i64::from(TOGETHER) * i64::from(half)).is_ok());
+        }
+    }
+}
