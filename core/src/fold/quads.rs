@@ -126,7 +126,8 @@ pub(super) fn change(
             Ok(row @ [_, ..]) => {
                 for (pairs, quad) in row.iter_mut().zip(quads) {
                     let bytes = of(quad);
-                    if bytes != 0 {
+                    // 0 stays 0.
+                    if *pairs != [0, 0] && bytes != 0 {
                         change_pairs(pairs, times(bytes, unit), change);
                     }
                 }

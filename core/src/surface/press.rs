@@ -57,11 +57,9 @@ impl PressSums {
         let (mut count, mut held) = (0, 0);
         for (first, run) in pressed.each() {
             let range = first..first + usize::from(run.width());
-            let (Some(before), Some(after), Some(records)) =
-                (image.before.get(range.clone()), image.after.get(range.clone()), image.records.get(range))
-            else {
-                break;
-            };
+            let Some(before) = image.before.get(range.clone()) else { break };
+            let Some(after) = image.after.get(range.clone()) else { break };
+            let Some(records) = image.records.get(range) else { break };
             let slots = batch.get_mut(count..).unwrap_or_default();
             let (taxels, sum) = if run.is_whole() {
                 gather(slots, before, after, records)

@@ -173,12 +173,15 @@ impl Bench {
         fold(words.into_iter())
     }
 
+    #[inline(never)] // out of line: its stack is needed only during the call
     fn subtract(
         &mut self,
         codes: &[Code; TAXELS],
         beyond_levels: bool,
         probe: &mut impl Probe,
     ) -> Option<u32> {
+        // To put a table in force takes longer than the work.
+        probe.begin(Stage::Scan);
         let mut values = codes.map(|code| code.0);
         self.folds.pose(FoldTable::view(&FOLDS.0)?, &[ELBOW]).ok()?;
         begin(probe);
