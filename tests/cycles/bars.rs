@@ -125,8 +125,9 @@ pub fn text(table: &Table) -> String {
     let stack = table.rows.iter().filter_map(|row| row.stack).max().unwrap_or(0);
     let posture = Bending::of(table).map(|Bending { posture, turning, compared, onward, still }| {
         format!(
-            "bending: {posture} cycles a change of posture and taxel, {compared} more where it is compared; with comparisons, \
-             {turning} a change at 1 rad/s, {onward} on the way to new postures; {still} every 20 ms while the arm stands still\n"
+            "bending: {posture} cycles a change of posture and taxel, {compared} more where it is compared; with \
+             comparisons, {turning} a change at 1 rad/s, {onward} on the way to new postures; {still} every 20 ms \
+             while the arm stands still\n"
         )
     });
     bars(table).map(line).collect::<String>()

@@ -64,6 +64,13 @@ impl<'a> PressedRuns<'a> {
     }
 }
 
+/// Number of runs up to one of another label than the first.
+#[inline(never)] // M0+: once, for size
+fn of_one_label(runs: &[Run]) -> usize {
+    let of_first = |run: &&Run| runs.first().is_some_and(|first| run.label == first.label);
+    runs.iter().take_while(of_first).count()
+}
+
 /// Result of a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Touches<'a, S = Contact> {
@@ -173,8 +180,7 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
             let count = runs.partition_point(|run| run.row < end);
             let mut own = runs.split_off(..count).unwrap_or_default();
             while let [first, ..] = own {
-                let count = own.iter().position(|run| run.label != first.label).unwrap_or(own.len());
-                let runs = own.split_off(..count).unwrap_or_default();
+                let runs = own.split_off(..of_one_label(own)).unwrap_or_default();
                 let Some(label) = self.labeller.labels.get(usize::from(first.label)) else { continue };
                 // NONE, if it is of no component.
                 let contact = contacts.get(usize::from(label.contact)).copied().flatten();

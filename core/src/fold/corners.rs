@@ -21,16 +21,8 @@ pub(super) struct Around<'a> {
     pub weight: u32,
 }
 
-/// Sums of what is expected of some quads between the knots around the posture, as [`LaneSums::ends`]: a start
-/// without a step.
-#[inline(never)] // own stack
-pub(super) fn sum_means<'a>(ends: &mut [[LaneSums; 2]; AT_ONCE], around: impl Iterator<Item = Around<'a>>) {
-    *ends = [[LaneSums::NONE, LaneSums::ZERO]; AT_ONCE];
-    around.for_each(|knot| add_means(ends, knot));
-}
-
-/// Doubts of some quads: as much as at the nearest knot, after so many comparisons at that one which was compared
-/// least.
+/// Doubts of some quads: as much as at the nearest knot, after so many comparisons at that one which was
+/// compared least.
 pub(super) fn find_doubts<'a>(
     doubts: &mut [u32; AT_ONCE],
     nearest: Around<'a>,
@@ -46,9 +38,9 @@ pub(super) fn find_doubts<'a>(
     }
 }
 
-/// Adds a knot's part to the expectations of quads.
+/// Adds a knot's part to what is expected of quads: to the start, see [`LaneSums::ends`].
 #[inline(never)] // own registers
-fn add_means(ends: &mut [[LaneSums; 2]], Around { cells, corrections, weight }: Around<'_>) {
+pub(super) fn add_means(ends: &mut [[LaneSums; 2]], Around { cells, corrections, weight }: Around<'_>) {
     for (([sums, _], [mean, ..]), correction) in ends.iter_mut().zip(cells).zip(corrections) {
         // 128 stands for a correction of 0.
         sums.add_both([*mean, correction | zeros(*correction)], weight);

@@ -90,7 +90,7 @@ impl LaneSums {
         let is_out = !(self.even ^ self.even << 1) | !(self.odd ^ self.odd << 1);
         if is_out & ONE << 15 == 0 {
             // What is less by 128 has another eighth bit.
-            let [even, odd] = [self.even, self.odd].map(|sums| (sums >> SHIFT & EVEN) ^ ONE * ZERO);
+            let [even, odd] = [self.even, self.odd].map(|sums| (sums >> SHIFT & EVEN) ^ (ONE * ZERO));
             return LaneSums { even, odd };
         }
         LaneSums { even: clamped(self.even), odd: clamped(self.odd) }
@@ -102,8 +102,8 @@ impl LaneSums {
         self.even | self.odd << 8
     }
 
-    /// The sum of each lane, which is a byte, and each byte, times `unit`, at most 128: each product fits in its
-    /// half of a word. In the order of the bytes.
+    /// The sum of each lane, which is a byte, and each byte, times `unit`, at most 128: each product fits in
+    /// its half of a word. In the order of the bytes.
     #[inline(always)]
     pub fn levels(&self, bytes: u32, unit: u32) -> LevelPairs {
         let sum = |lanes: u32, bytes: u32| (lanes.wrapping_add(bytes & EVEN)).wrapping_mul(unit);

@@ -24,8 +24,8 @@ impl Quad {
     }
 }
 
-/// Takes over doubts, all of which are part of the levels. True if some taxel is in no doubt: whether it is held
-/// depends on what is expected, see [`hold_all`].
+/// Takes over doubts, all of which are part of the levels. True if some taxel is in no doubt: whether it is
+/// held depends on what is expected, see [`hold_all`].
 #[inline(never)] // own registers
 pub(super) fn take_doubts(quads: &mut [Quad], doubts: &[u32], taxels: &[[u16; 4]], held: &mut [u32]) -> bool {
     let mut certain = 0;
@@ -73,68 +73,79 @@ pub(super) fn sum_levels(quads: &[Quad], unit: u32, levels: &mut [LevelPairs]) {
     }
 }
 
-/// How a value changes by so many counts, at most 2^15 - 1.
-pub(super) struct Change {
-    /// A value.
-    one: fn(u16, u16) -> u16,
-    /// The halves of a word, which are below 2^15.
-    two: fn(u32, u32) -> u32,
+/// How values change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Change {
+    /// They become less by what is expected, at least 0.
+    Lower,
+    /// They become more by the doubts of the levels, at most 65,535, where something presses: 0 stays 0.
+    Raise,
 }
 
 impl Change {
-    /// Becomes less, at least 0.
-    pub const LOWER: Change = Change {
-        one: u16::saturating_sub,
-        two: |values, by| {
+    /// What a value becomes by so many counts.
+    #[inline(never)] // seldom
+    fn one(self, value: u16, by: u16) -> u16 {
+        match self {
+            Change::Lower => value.saturating_sub(by),
+            Change::Raise if value > 0 => value.saturating_add(by),
+            Change::Raise => 0,
+        }
+    }
+
+    /// What the halves of a word become, which are below 2^15, as `by` is.
+    #[inline(always)]
+    fn two(self, values: u32, by: u32) -> u32 {
+        /// All bits below those that are set, of the highest ones of halves.
+        const fn below(highs: u32) -> u32 {
+            highs.wrapping_sub(highs >> 15)
+        }
+        if self == Change::Lower {
             // The highest bit of a half stays as long as what is left is not below 0.
             let left = (values | HIGHS).wrapping_sub(by);
             left & below(left & HIGHS)
-        },
-    };
-
-    /// Becomes more, at most 65,535, if it presses: 0 stays 0.
-    pub const RAISE: Change = Change {
-        one: |value, by| if value > 0 { value.saturating_add(by) } else { 0 },
-        // 1 and more reach the highest bit of a half.
-        two: |values, by| values.wrapping_add(by & below(values.wrapping_add(!HIGHS) & HIGHS)),
-    };
+        } else {
+            // 1 and more reach the highest bit of a half.
+            values.wrapping_add(by & below(values.wrapping_add(!HIGHS) & HIGHS))
+        }
+    }
 }
 
 /// The highest bit of each half of a word.
 const HIGHS: u32 = 0x8000_8000;
 
-/// All bits below those that are set, of the highest ones of halves.
-#[inline(always)]
-fn below(highs: u32) -> u32 {
-    highs.wrapping_sub(highs >> 15)
-}
-
-/// Changes the values of a fold's taxels by their bytes, see `of`, times `unit`, which is at most 128: those of
-/// taxels that follow each other two at a time.
-#[inline(always)]
+/// Changes the values of a fold's taxels by what is expected or in doubt times `unit`, which is at most 128:
+/// those of taxels that follow each other two at a time.
+#[inline(never)] // own registers
 pub(super) fn change(
     values: &mut [u16],
     (mut taxels, mut quads): (&[[u16; 4]], &[Quad]),
-    of: impl Fn(&Quad) -> u32,
     unit: u32,
-    change: &Change,
+    change: Change,
 ) {
+    let of = |quad: &Quad| if change == Change::Lower { quad.expected } else { quad.raised };
     while let ([first, ..], [quad, ..]) = (taxels, quads) {
         let row = consecutive(first).map_or(0..0, |start| start..start + 4 * in_a_row(taxels, start));
         let row = values.get_mut(row).unwrap_or_default();
-        let done = match bytemuck::try_cast_slice_mut(row) {
+        let done = match bytemuck::try_cast_slice_mut::<u16, LevelPairs>(row) {
             Ok(row @ [_, ..]) => {
                 for (pairs, quad) in row.iter_mut().zip(quads) {
-                    let bytes = of(quad);
-                    // 0 stays 0.
-                    if *pairs != [0, 0] && bytes != 0 {
-                        change_pairs(pairs, times(bytes, unit), change);
+                    let ([a, b], bytes) = (*pairs, of(quad));
+                    if a | b == 0 || bytes == 0 {
+                        continue;
+                    }
+                    let by = times(bytes, unit);
+                    if (a | b) & HIGHS == 0 {
+                        let [by_a, by_b] = by;
+                        *pairs = [change.two(a, by_a), change.two(b, by_b)];
+                    } else {
+                        change_each(bytemuck::cast_slice_mut(pairs), &[0, 1, 2, 3], by, change);
                     }
                 }
                 row.len()
             }
             _ => {
-                change_each(values, first, times(of(quad), unit), change.one);
+                change_each(values, first, times(of(quad), unit), change);
                 1
             }
         };
@@ -142,23 +153,12 @@ pub(super) fn change(
     }
 }
 
-/// Changes four values that lie in two words.
-#[inline(always)]
-fn change_pairs(pairs: &mut LevelPairs, by: LevelPairs, change: &Change) {
-    let ([a, b], [by_a, by_b]) = (*pairs, by);
-    if (a | b) & HIGHS == 0 {
-        *pairs = [(change.two)(a, by_a), (change.two)(b, by_b)];
-    } else {
-        change_each(bytemuck::cast_slice_mut(pairs), &[0, 1, 2, 3], by, change.one);
-    }
-}
-
 /// Changes the values of four taxels, as far as there are such taxels.
 #[inline(never)] // few fours are apart, or strong
-fn change_each(values: &mut [u16], taxels: &[u16; 4], [a, b]: LevelPairs, change: fn(u16, u16) -> u16) {
+fn change_each(values: &mut [u16], taxels: &[u16; 4], [a, b]: LevelPairs, change: Change) {
     for (taxel, by) in taxels.iter().zip([a, a >> 16, b, b >> 16]) {
         if let Some(value) = values.get_mut(usize::from(*taxel)) {
-            *value = change(*value, by as u16);
+            *value = change.one(*value, by as u16);
         }
     }
 }
@@ -223,14 +223,15 @@ mod tests {
             let bytes: [u32; 5] =
                 core::array::from_fn(|_| [0, next(1 << 20) << 8 | next(256), !0][next(3) as usize]);
             let unit = 1 + next(128);
-            // Some in a row, from an even or odd taxel on, one four that is apart, and one that ends beyond all.
+            // Some in a row, from an even or odd taxel on, one four that is apart, and one that ends beyond
+            // all.
             let first = 8 + next(9) as u16;
             let row = |at: u16| [0, 1, 2, 3].map(|taxel| first + 4 * at + taxel);
             let taxels = [[1, 2, 4, 7], row(0), row(1), row(2), [60, 61, 63, u16::MAX]];
             let quads = bytes.map(|bytes| Quad { expected: bytes, doubt: !0, raised: bytes });
-            let changed = |change_by: &Change, of: fn(&Quad) -> u32| {
+            let changed = |how| {
                 let mut aligned = Aligned(values);
-                change(&mut aligned.0, (&taxels, &quads), of, unit, change_by);
+                change(&mut aligned.0, (&taxels, &quads), unit, how);
                 aligned.0
             };
             let want = |by: fn(u16, u16) -> u16| {
@@ -243,13 +244,9 @@ mod tests {
                 }
                 want
             };
-            assert_eq!(
-                changed(&Change::LOWER, |quad| quad.expected),
-                want(u16::saturating_sub),
-                "{values:?}"
-            );
+            assert_eq!(changed(Change::Lower), want(u16::saturating_sub), "{values:?}");
             let raise = |value: u16, by| if value == 0 { 0 } else { value.saturating_add(by) };
-            assert_eq!(changed(&Change::RAISE, |quad| quad.raised), want(raise), "{values:?}");
+            assert_eq!(changed(Change::Raise), want(raise), "{values:?}");
         }
     }
 }

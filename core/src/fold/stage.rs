@@ -1,7 +1,7 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::{Bend, Corner, Due};
-use super::corners::{AT_ONCE, Around, find_doubts, find_ends, sum_means};
+use super::corners::{AT_ONCE, Around, add_means, find_doubts, find_ends};
 use super::lanes::{LaneSums, LevelPairs, byte, zeros};
 use super::lesson::{Lesson, MOST_PASSES};
 use super::posture::PostureState;
@@ -62,7 +62,8 @@ pub struct FoldState {
     corrections: [u32; CELLS / 4],
     /// Comparisons so far at each knot, at most [`MOST_PASSES`].
     passes: [u8; KNOTS],
-    /// What is expected at the two knots around the posture of each fold of one joint, see [`LaneSums::ends`].
+    /// What is expected around the posture, see [`LaneSums::ends`]: from knot to knot of a fold of one joint,
+    /// all together, without a step, of one of two.
     ends: [[LaneSums; 2]; FOLDED / 4],
     /// Expectations and doubts of four taxels each.
     quads: [Quad; FOLDED / 4],
@@ -132,14 +133,16 @@ impl FoldState {
     }
 
     /// Forgets all corrections: a new day. The posture stays.
+    #[inline(never)] // seldom
     pub(crate) fn forget(&mut self) {
         if !cfg!(feature = "folds") {
             return;
         }
         self.corrections.fill(0);
         self.passes.fill(0);
-        self.bends.fill(Bend::NONE);
-        self.quads.fill(Quad::NONE);
+        // Not `fill`, whose loops the compiler unrolls.
+        self.bends = [Bend::NONE; FOLDS];
+        self.quads = [Quad::NONE; FOLDED / 4];
         self.held.fill(0);
         self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
     }
@@ -311,23 +314,25 @@ impl FoldState {
         let corrections = &self.corrections;
         let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
         let (its, unit) = (self.quads.get_mut(quads.clone()).unwrap_or_default(), u32::from(table.unit()));
-        if bend.is_known && fold.joints[1] == NO_JOINT {
-            let [first, _, last, _] = &bend.corners;
-            let ends = self.ends.get_mut(quads.clone()).unwrap_or_default();
+        let ends = self.ends.get_mut(quads.clone()).unwrap_or_default();
+        let [first, _, last, _] = &bend.corners;
+        let mut weight = 0;
+        if !bend.is_known {
+            // Nothing is expected: sums of 0 are below a byte.
+            ends.fill([LaneSums::ZERO; 2]);
+        } else if fold.joints[1] != NO_JOINT {
+            ends.fill([LaneSums::NONE, LaneSums::ZERO]);
+            let there = bend.corners.iter().filter(|corner| corner.weight > 0);
+            there.for_each(|corner| add_means(ends, around(corner)));
+        } else {
+            weight = last.weight.into();
             if knots {
                 let (first, last) = (around(first), around(last));
                 // There is no knot after the last one, which then counts nothing.
                 find_ends(ends, first, if last.cells.is_empty() { first } else { last });
             }
-            expect(its, (ends, last.weight.into()), unit, levels);
-        } else {
-            // Where the posture is unknown, nothing is expected: sums of 0 are below a byte.
-            let mut sums = [[LaneSums::ZERO; 2]; AT_ONCE];
-            if bend.is_known {
-                sum_means(&mut sums, bend.corners.iter().filter(|corner| corner.weight > 0).map(around));
-            }
-            expect(its, (&sums, 0), unit, levels);
         }
+        expect(its, (ends, weight), unit, levels);
         if bend.has_certain {
             hold_all(its, table.taxels().get(quads.clone()).unwrap_or(&[]), &mut self.held);
         }
@@ -369,17 +374,13 @@ impl FoldState {
     pub fn subtract(&self, values: &mut [u16], beyond_levels: bool) {
         let Some(table) = self.table() else { return };
         let unit = u32::from(table.unit());
+        let how = if beyond_levels { Change::Raise } else { Change::Lower };
         let mut at = FoldStart::FIRST;
         for fold in table.folds() {
             let quads = at.quads(fold);
             at = at.after(fold);
-            let its =
-                (table.taxels().get(quads.clone()).unwrap_or(&[]), self.quads.get(quads).unwrap_or(&[]));
-            if beyond_levels {
-                change(values, its, |quad| quad.raised, unit, &Change::RAISE);
-            } else {
-                change(values, its, |quad| quad.expected, unit, &Change::LOWER);
-            }
+            let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
+            change(values, (taxels, self.quads.get(quads).unwrap_or(&[])), unit, how);
         }
     }
 

@@ -14,7 +14,7 @@ use core::ops::Range;
 /// The image of a frame before and after the filter. Aligned to words: what folds press is subtracted from two
 /// taxels at a time.
 #[derive(Debug, Clone)]
-#[repr(C, align(4))]
+#[repr(align(4))]
 pub(crate) struct Images<const TAXELS: usize> {
     /// Image before the filter. During a tare: the high halves of the sums.
     pub calibrated: [u16; TAXELS],

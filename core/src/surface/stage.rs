@@ -341,7 +341,8 @@ impl LinkSums {
     }
 }
 
-/// Number of saturated taxels of a run, whose first one is number `first`, among those of `level` counts and more.
+/// Number of saturated taxels of a run, whose first one is number `first`, among those of `level` counts and
+/// more.
 #[inline(never)] // M0+: out of line
 fn saturated(first: usize, run: &Run, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
     let (mut saturated, mut mask) = (0, run.rebased());
