@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::path::Path;
 use taxel_bench::stages::case::Variant;
-use taxel_bench::stages::format::INFERENCE;
+use taxel_bench::stages::format::{INFERENCE, SUBTRACTION};
 use taxel_bench::stages::row::Row;
 use taxel_bench::stages::table::Table;
 use taxel_core::fold::FOLDED;
@@ -30,7 +30,7 @@ fn kernel(table: &Table, what: &str) -> Option<u64> {
 }
 
 /// Of what ships.
-const BARS: [Bar; 6] = [
+const BARS: [Bar; 7] = [
     Bar { scene: "empty", what: "all", most: 60_000, of: |table, scene| chain(table, scene, Row::whole) },
     Bar {
         scene: "5 contacts",
@@ -57,6 +57,7 @@ const BARS: [Bar; 6] = [
         of: |table, scene| chain(table, scene, Row::whole),
     },
     Bar { scene: INFERENCE, what: "ten concepts", most: 25_000, of: kernel },
+    Bar { scene: SUBTRACTION, what: "a taxel and frame", most: 20, of: kernel },
 ];
 
 /// How far a figure may be from the one that was written, in percent, and in cycles where it is small, if
@@ -81,7 +82,9 @@ fn reading(table: &Table) -> u64 {
 struct Bending {
     /// All that an arm that turns between two knots adds to an empty frame.
     posture: u64,
-    /// All that coming to another knot with each posture adds to that.
+    /// All that an arm adds that turns with 1 rad/s, from knot to knot, comparisons included.
+    turning: u64,
+    /// All that coming to another knot with each posture adds to the first.
     compared: u64,
     /// All that an arm adds that comes where it was not before, and is compared at every other posture.
     onward: u64,
@@ -101,6 +104,7 @@ impl Bending {
             |more: u64, than: u64| more.saturating_sub(than) * 20_000 / (FOLDED as u64 * PERIOD_US);
         Some(Bending {
             posture: by_taxel(swaying, shipped),
+            turning: by_taxel(condition(Variant::Turning)?, shipped),
             compared: by_taxel(condition(Variant::Comparing)?, swaying),
             onward: by_taxel(condition(Variant::Bending)?, shipped),
             still: by_taxel(condition(Variant::Folds)?, shipped),
@@ -119,10 +123,11 @@ pub fn text(table: &Table) -> String {
         )
     };
     let stack = table.rows.iter().filter_map(|row| row.stack).max().unwrap_or(0);
-    let posture = Bending::of(table).map(|Bending { posture, compared, onward, still }| {
+    let posture = Bending::of(table).map(|Bending { posture, turning, compared, onward, still }| {
         format!(
-            "bending: {posture} cycles a change of posture and taxel, {compared} more where it is compared; {onward} on the way to new \
-             postures, comparisons included; {still} every 20 ms while the arm stands still\n"
+            "bending: {posture} cycles a change of posture and taxel, {compared} more where it is compared; with \
+             comparisons, {turning} a change at 1 rad/s, {onward} on the way to new postures; {still} every 20 ms \
+             while the arm stands still\n"
         )
     });
     bars(table).map(line).collect::<String>()

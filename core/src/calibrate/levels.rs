@@ -85,8 +85,8 @@ impl LevelLimits<'_> {
     }
 }
 
-/// Of fours of taxels from `start` on, the number of those that follow each other.
-fn in_a_row(taxels: &[[u16; 4]], start: usize) -> usize {
+/// Of fours of taxels from `start` on, whose numbers ascend, the number of those that follow each other.
+pub(crate) fn in_a_row(taxels: &[[u16; 4]], start: usize) -> usize {
     if let Some([.., last]) = taxels.last()
         && usize::from(*last) == start + 4 * taxels.len() - 1
     {

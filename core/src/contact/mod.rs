@@ -57,5 +57,5 @@ pub use crate::measure::moments::{Central, Moments};
 pub use crate::measure::quartic::Quartic;
 pub use crate::segment::config::{ContactConfig, NO_SLIP};
 pub use crate::track::slot::Slot;
-pub(crate) use stage::PressedRun;
+pub(crate) use stage::PressedRuns;
 pub use stage::{ContactState, Contacts, Touches};

@@ -2,7 +2,7 @@
 
 use crate::baseline::feedback::Feedback;
 use crate::format::{Invalid, LEFT_OUT, Micros};
-use crate::garment::Layout;
+use crate::garment::{Area, Layout};
 use crate::image::view::Image;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
@@ -18,7 +18,6 @@ use crate::track::assign::Matching;
 use crate::track::motion::Trail;
 use crate::track::slot::Slot;
 use crate::track::tracks::Tracks;
-use core::ops::Range;
 
 /// Finds and follows contacts; see the [module](super).
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
@@ -41,23 +40,35 @@ pub struct ContactState<const CONTACTS: usize, const RUNS: usize, const LABELS: 
     feedback: Feedback<CONTACTS>,
 }
 
-/// Touched taxels of a row that belong to one contact.
-pub(crate) struct PressedRun<'a> {
+/// Touched taxels of some rows of a panel that belong to one contact.
+pub(crate) struct PressedRuns<'a> {
     /// Index of the contact, in the order of their onset.
     pub contact: usize,
     /// Index of the panel.
     pub panel: u8,
-    /// Number of its first taxel.
-    pub first: usize,
-    /// The run.
-    pub run: &'a Run,
+    /// The panel.
+    pub area: &'a Area,
+    /// The runs, in the order of rows.
+    pub runs: &'a [Run],
 }
 
-impl PressedRun<'_> {
-    /// Numbers of the taxels from its first column to its last one.
-    pub fn taxels(&self) -> Range<usize> {
-        self.first..self.first + usize::from(self.run.right - self.run.left) + 1
+impl<'a> PressedRuns<'a> {
+    /// The runs, each with the number of its first taxel.
+    #[inline(always)] // M0+: one loop
+    pub fn each(&self) -> impl Iterator<Item = (usize, &'a Run)> + use<'a> {
+        let Area { base, first_row, columns, .. } = *self.area;
+        self.runs.iter().map(move |run| {
+            let row = usize::from(run.row.wrapping_sub(first_row)) * usize::from(columns);
+            (usize::from(base) + row + usize::from(run.left), run)
+        })
     }
+}
+
+/// Number of runs up to one of another label than the first.
+#[inline(never)] // M0+: once, for size
+fn of_one_label(runs: &[Run]) -> usize {
+    let of_first = |run: &&Run| runs.first().is_some_and(|first| run.label == first.label);
+    runs.iter().take_while(of_first).count()
 }
 
 /// Result of a frame.
@@ -158,24 +169,24 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         })
     }
 
-    /// Hands over the runs of the last frame's contacts, in the order of rows.
+    /// Hands over the runs of the last frame's contacts, in the order of rows; those that follow each other
+    /// under one label together.
     #[inline(always)] // M0+: what a panel has in common stays in registers
-    pub(crate) fn each_pressed(&self, layout: &Layout, mut take: impl FnMut(PressedRun<'_>)) {
+    pub(crate) fn each_pressed(&self, layout: &Layout, mut take: impl FnMut(PressedRuns<'_>)) {
         let contacts = self.tracks.contacts_of_components();
         let mut runs = &self.labeller.runs[..];
         for (panel, area) in (0..).zip(layout.areas()) {
             let end = area.first_row.saturating_add(area.rows);
             let count = runs.partition_point(|run| run.row < end);
-            let own = runs.split_off(..count).unwrap_or_default();
-            let columns = usize::from(area.columns);
-            for run in own {
-                let Some(label) = self.labeller.labels.get(usize::from(run.label)) else { continue };
+            let mut own = runs.split_off(..count).unwrap_or_default();
+            while let [first, ..] = own {
+                let runs = own.split_off(..of_one_label(own)).unwrap_or_default();
+                let Some(label) = self.labeller.labels.get(usize::from(first.label)) else { continue };
                 // NONE, if it is of no component.
                 let contact = contacts.get(usize::from(label.contact)).copied().flatten();
-                let Some(contact) = contact.map(usize::from) else { continue };
-                let row = usize::from(run.row.wrapping_sub(area.first_row));
-                let first = usize::from(area.base) + row * columns + usize::from(run.left);
-                take(PressedRun { contact, panel, first, run });
+                if let Some(contact) = contact.map(usize::from) {
+                    take(PressedRuns { contact, panel, area, runs });
+                }
             }
         }
     }

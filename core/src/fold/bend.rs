@@ -24,6 +24,8 @@ pub(super) struct Bend {
     pub corners: [Corner; 4],
     /// True if both joints are known.
     pub is_known: bool,
+    /// True if some taxel may be in no doubt, of those that are doubted as near this knot.
+    pub has_certain: bool,
     /// The knot that the posture was at last.
     pub knot: Option<u16>,
     /// What is yet to be compared there, each four taxels.
@@ -68,6 +70,7 @@ impl Bend {
         played: [None; 2],
         corners: [Corner { knot: 0, weight: 0 }; 4],
         is_known: false,
+        has_certain: false,
         knot: None,
         left: 0,
         compared: 0,
@@ -86,7 +89,13 @@ impl Bend {
 
     /// The taxels are to be expected anew, each in its turn.
     pub fn renew(&mut self) {
-        (self.found, self.doubted) = (0, 0);
+        self.found = 0;
+        self.doubt();
+    }
+
+    /// The taxels are to be doubted anew, each in its turn.
+    fn doubt(&mut self) {
+        (self.doubted, self.has_certain) = (0, false);
     }
 
     /// The levels of the taxels are to be set, each in its turn.
@@ -135,7 +144,7 @@ impl Bend {
         }
         let is_other = around().any(|(was, is)| (was.weight > 0) != (is.weight > 0));
         if is_other || before.nearest() != self.nearest() {
-            self.doubted = 0;
+            self.doubt();
         }
     }
 

@@ -21,65 +21,42 @@ pub(super) struct Around<'a> {
     pub weight: u32,
 }
 
-/// What some quads are expected to feel.
-pub(super) struct Quads {
-    pub expected: [u32; AT_ONCE],
-    pub doubts: [u32; AT_ONCE],
-}
-
-impl Quads {
-    pub const NONE: Quads = Quads { expected: [0; AT_ONCE], doubts: [0; AT_ONCE] };
-
-    /// Nothing is expected: taxels may feel anything up to these.
-    pub fn doubt_all(&mut self, most: &[u32]) {
-        self.expected.fill(0);
-        self.doubts.iter_mut().zip(most).for_each(|(doubt, most)| *doubt = *most);
-    }
-
-    /// Expects what lies between the knots around the posture of two joints.
-    #[inline(never)] // own stack
-    pub fn expect<'a>(&mut self, around: impl Iterator<Item = Around<'a>>) {
-        let mut sums = [LaneSums::NONE; AT_ONCE];
-        around.for_each(|knot| add_means(&mut sums, knot));
-        self.expected.iter_mut().zip(sums).for_each(|(expected, sums)| *expected = sums.bytes());
-    }
-
-    /// Doubts as much as at the nearest knot, after so many comparisons at that one which was compared least.
-    pub fn doubt<'a>(&mut self, nearest: Around<'a>, passes: u8, around: impl Iterator<Item = Around<'a>>) {
-        let share = SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE);
-        if share == WHOLE {
-            doubt_whole(&mut self.doubts, nearest.cells);
-        } else {
-            self.doubts.fill(0);
-            around.for_each(|knot| note_new(&mut self.doubts, knot.corrections));
-            doubt_share(&mut self.doubts, nearest.cells, share.into());
-        }
+/// Doubts of some quads: as much as at the nearest knot, after so many comparisons at that one which was
+/// compared least.
+pub(super) fn find_doubts<'a>(
+    doubts: &mut [u32; AT_ONCE],
+    nearest: Around<'a>,
+    passes: u8,
+    around: impl Iterator<Item = Around<'a>>,
+) {
+    let share = SHARES.get(usize::from(passes)).copied().unwrap_or(WHOLE);
+    if share == WHOLE {
+        doubt_whole(doubts, nearest.cells);
+    } else {
+        around.for_each(|knot| note_new(doubts, knot.corrections));
+        doubt_share(doubts, nearest.cells, share.into());
     }
 }
 
-/// Adds a knot's part to the expectations of quads.
+/// Adds a knot's part to what is expected of quads: to the start, see [`LaneSums::ends`].
 #[inline(never)] // own registers
-fn add_means(sums: &mut [LaneSums], Around { cells, corrections, weight }: Around<'_>) {
-    for ((sums, [mean, ..]), correction) in sums.iter_mut().zip(cells).zip(corrections) {
+pub(super) fn add_means(ends: &mut [[LaneSums; 2]], Around { cells, corrections, weight }: Around<'_>) {
+    for (([sums, _], [mean, ..]), correction) in ends.iter_mut().zip(cells).zip(corrections) {
         // 128 stands for a correction of 0.
         sums.add_both([*mean, correction | zeros(*correction)], weight);
     }
 }
 
-/// Finds what is expected at a knot: means and corrections together.
+/// Finds what is expected at two knots: means and corrections together, see [`LaneSums::ends`].
 #[inline(never)] // own registers
-pub(super) fn find_end(end: &mut [LaneSums], Around { cells, corrections, .. }: Around<'_>) {
-    for ((end, [mean, ..]), correction) in end.iter_mut().zip(cells).zip(corrections) {
-        *end = LaneSums::of([*mean, correction | zeros(*correction)]);
-    }
-}
-
-/// What is expected between two knots, which count so much.
-#[inline(never)] // own registers
-pub(super) fn blend(expected: &mut [u32], ends: [&[LaneSums]; 2], weights: [u32; 2]) {
-    let [first, last] = ends;
-    for ((expected, first), last) in expected.iter_mut().zip(first).zip(last) {
-        *expected = LaneSums::between(first, last, weights).bytes();
+pub(super) fn find_ends(ends: &mut [[LaneSums; 2]], first: Around<'_>, last: Around<'_>) {
+    let sums = |mean: u32, correction: u32| LaneSums::of([mean, correction | zeros(correction)]);
+    let first = first.cells.iter().zip(first.corrections);
+    let last = last.cells.iter().zip(last.corrections);
+    for ((ends, ([mean, ..], correction)), ([next, ..], next_correction)) in
+        ends.iter_mut().zip(first).zip(last)
+    {
+        *ends = LaneSums::ends(sums(*mean, *correction), sums(*next, *next_correction));
     }
 }
 

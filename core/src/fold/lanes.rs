@@ -30,7 +30,7 @@ impl LaneSums {
     /// Nothing yet.
     pub const ZERO: LaneSums = LaneSums { even: 0, odd: 0 };
 
-    /// Nothing yet: half of a unit, so that [`LaneSums::bytes`] rounds.
+    /// Nothing yet: half of a unit, so that [`LaneSums::lanes`] rounds.
     pub const NONE: LaneSums = LaneSums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
 
     /// Nothing yet: almost a unit, so that [`LaneSums::within`] rounds up.
@@ -43,13 +43,24 @@ impl LaneSums {
         LaneSums { even, odd }
     }
 
-    /// So much of each of two sums of two bytes, and half of a unit, so that [`LaneSums::bytes`] rounds.
+    /// Two sums of two bytes each as a start, with half of a unit, so that [`LaneSums::lanes`] rounds, and the
+    /// step from there to the second one for a weight of 1: see [`LaneSums::toward`].
     #[inline(always)]
-    pub fn between(a: &LaneSums, b: &LaneSums, [first, last]: [u32; 2]) -> LaneSums {
-        let sum = |a: u32, b: u32| {
-            a.wrapping_mul(first).wrapping_add(b.wrapping_mul(last)).wrapping_add(ONE << (SHIFT - 1))
-        };
-        LaneSums { even: sum(a.even, b.even), odd: sum(a.odd, b.odd) }
+    pub fn ends(first: LaneSums, last: LaneSums) -> [LaneSums; 2] {
+        let start = |sums: u32| sums.wrapping_mul(WHOLE.into()).wrapping_add(ONE << (SHIFT - 1));
+        let step = |first: u32, last: u32| last.wrapping_sub(first);
+        [
+            LaneSums { even: start(first.even), odd: start(first.odd) },
+            LaneSums { even: step(first.even, last.even), odd: step(first.odd, last.odd) },
+        ]
+    }
+
+    /// The sum of two bytes that counts `weight` and that which counts the rest. A step may borrow from the
+    /// next lane; its product with the weight gives that back.
+    #[inline(always)]
+    pub fn toward(&self, step: &LaneSums, weight: u32) -> LaneSums {
+        let sum = |start: u32, step: u32| start.wrapping_add(step.wrapping_mul(weight));
+        LaneSums { even: sum(self.even, step.even), odd: sum(self.odd, step.odd) }
     }
 
     /// Adds `weight` of each byte.
@@ -74,14 +85,30 @@ impl LaneSums {
 
     /// Each sum divided by [`WHOLE`], less [`ZERO`], within 0 and 255.
     #[inline(always)]
-    pub fn bytes(self) -> u32 {
+    pub fn lanes(&self) -> LaneSums {
         // Of the two highest bits of a sum exactly one is set where what is left is within these.
         let is_out = !(self.even ^ self.even << 1) | !(self.odd ^ self.odd << 1);
         if is_out & ONE << 15 == 0 {
             // What is less by 128 has another eighth bit.
-            return self.within() ^ ZERO.wrapping_mul(0x0101_0101);
+            let [even, odd] = [self.even, self.odd].map(|sums| (sums >> SHIFT & EVEN) ^ (ONE * ZERO));
+            return LaneSums { even, odd };
         }
-        clamped(self.even) | clamped(self.odd) << 8
+        LaneSums { even: clamped(self.even), odd: clamped(self.odd) }
+    }
+
+    /// Sums that are bytes.
+    #[inline(always)]
+    pub fn bytes(&self) -> u32 {
+        self.even | self.odd << 8
+    }
+
+    /// The sum of each lane, which is a byte, and each byte, times `unit`, at most 128: each product fits in
+    /// its half of a word. In the order of the bytes.
+    #[inline(always)]
+    pub fn levels(&self, bytes: u32, unit: u32) -> LevelPairs {
+        let sum = |lanes: u32, bytes: u32| (lanes.wrapping_add(bytes & EVEN)).wrapping_mul(unit);
+        let (even, odd) = (sum(self.even, bytes), sum(self.odd, bytes >> 8));
+        [even & 0xFFFF | odd << 16, even >> 16 | odd & 0xFFFF_0000]
     }
 
     /// Each sum divided by [`WHOLE`]: none is above 255.
@@ -129,12 +156,16 @@ pub(super) fn whole_bytes(flags: u32) -> u32 {
     (flags >> 7).wrapping_mul(0xFF)
 }
 
-/// The sum of each two bytes, times `unit`, at most 128: each product fits in its half of a word. In the order
-/// of the bytes.
+/// Each byte, times `unit`, see [`LaneSums::levels`].
+#[inline(always)]
+pub(super) fn times(bytes: u32, unit: u32) -> LevelPairs {
+    LaneSums::ZERO.levels(bytes, unit)
+}
+
+/// The sum of each two bytes, times `unit`, see [`LaneSums::levels`].
 #[inline(always)]
 pub(super) fn summed(a: u32, b: u32, unit: u32) -> LevelPairs {
-    let [even, odd] = [0, 8].map(|shift| ((a >> shift & EVEN) + (b >> shift & EVEN)) * unit);
-    [even & 0xFFFF | odd << 16, even >> 16 | odd & 0xFFFF_0000]
+    LaneSums { even: a & EVEN, odd: a >> 8 & EVEN }.levels(b, unit)
 }
 
 /// Byte number `lane`, 0 ..= 3.
@@ -163,10 +194,9 @@ mod tests {
                 let sum = (sum(a[i], b[i]) * weight + sum(c[i], d[i]) * (128 - weight) + 64) / 128;
                 sum.saturating_sub(128).min(255) as u8
             });
-            prop_assert_eq!(sums.bytes().to_le_bytes(), want);
-            let [first, last] = [LaneSums::of([wa, wb]), LaneSums::of([wc, wd])];
-            let between = LaneSums::between(&first, &last, [weight, 128 - weight]);
-            prop_assert_eq!(between.bytes().to_le_bytes(), want);
+            prop_assert_eq!(sums.lanes().bytes().to_le_bytes(), want);
+            let [start, step] = LaneSums::ends(LaneSums::of([wc, wd]), LaneSums::of([wa, wb]));
+            prop_assert_eq!(start.toward(&step, weight).lanes().bytes().to_le_bytes(), want);
             let mut sums = LaneSums::NONE;
             sums.add(wa, weight);
             let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);
@@ -197,9 +227,11 @@ mod tests {
         fn sums_are_those_of_the_bytes(a in any::<[u8; 4]>(), b in any::<[u8; 4]>(), unit in 0u32..=128) {
             let [x, y] = [a, b].map(u32::from_le_bytes);
             let want: [u32; 4] = core::array::from_fn(|i| (u32::from(a[i]) + u32::from(b[i])) * unit);
-            let [first, second] = summed(x, y, unit);
-            let found = [first & 0xFFFF, first >> 16, second & 0xFFFF, second >> 16];
-            prop_assert_eq!(found, want);
+            let apart = |[first, second]: LevelPairs| {
+                [first & 0xFFFF, first >> 16, second & 0xFFFF, second >> 16]
+            };
+            prop_assert_eq!(apart(summed(x, y, unit)), want);
+            prop_assert_eq!(apart(times(x, unit)), a.map(|a| u32::from(a) * unit));
         }
     }
 }

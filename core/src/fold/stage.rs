@@ -1,18 +1,20 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::{Bend, Corner, Due};
-use super::corners::{AT_ONCE, Around, Quads, blend, find_end};
+use super::corners::{AT_ONCE, Around, add_means, find_doubts, find_ends};
 use super::lanes::{LaneSums, LevelPairs, byte, zeros};
 use super::lesson::{Lesson, MOST_PASSES};
 use super::posture::PostureState;
-use super::quads::{change, compare, raise, sum_levels, take, take_expected};
+#[cfg(feature = "folds")]
+use super::posture::{JointAngle, Posture};
+use super::quads::{Change, Quad, change, compare, expect, hold_all, raise, sum_levels, take_doubts};
 use super::record::{FoldRecord, NO_JOINT};
 use super::table::{FoldStart, FoldTable};
 use super::{CELLS, FOLDED, FOLDS, JOINTS, KNOTS};
 use crate::capacity::TAXELS;
 use crate::format::Micros;
 #[cfg(feature = "folds")]
-use crate::format::Name;
+use crate::format::{Invalid, Name, name};
 use core::ops::Range;
 use serde::{Deserialize, Serialize};
 
@@ -60,12 +62,11 @@ pub struct FoldState {
     corrections: [u32; CELLS / 4],
     /// Comparisons so far at each knot, at most [`MOST_PASSES`].
     passes: [u8; KNOTS],
-    /// What is expected at the two knots around the posture of each fold of one joint.
-    ends: [[LaneSums; FOLDED / 4]; 2],
-    /// Expectations and doubts of four taxels each, in units of the table.
-    felt: [[u32; 2]; FOLDED / 4],
-    /// The doubts that are part of the levels of four taxels each: all but those of a touch that was there.
-    raised: [u32; FOLDED / 4],
+    /// What is expected around the posture, see [`LaneSums::ends`]: from knot to knot of a fold of one joint,
+    /// all together, without a step, of one of two.
+    ends: [[LaneSums; 2]; FOLDED / 4],
+    /// Expectations and doubts of four taxels each.
+    quads: [Quad; FOLDED / 4],
     /// A bit for each taxel of which something is expected, or that is in doubt.
     held: [u32; WORDS],
 }
@@ -95,9 +96,8 @@ impl FoldState {
             bends: [Bend::NONE; FOLDS],
             corrections: [0; CELLS / 4],
             passes: [0; KNOTS],
-            ends: [[LaneSums::ZERO; FOLDED / 4]; 2],
-            felt: [[0; 2]; FOLDED / 4],
-            raised: [0; FOLDED / 4],
+            ends: [[LaneSums::ZERO; 2]; FOLDED / 4],
+            quads: [Quad::NONE; FOLDED / 4],
             held: [0; WORDS],
         }
     }
@@ -115,16 +115,34 @@ impl FoldState {
         self.forget();
     }
 
+    /// Puts a table in force at these angles of its joints, hundredths of a degree, and expects at once what it
+    /// says: for who has no board to pass frames to.
+    #[cfg(feature = "folds")]
+    pub fn pose(&mut self, table: FoldTable<'static>, angles: &[i16]) -> Result<(), Invalid> {
+        let (mut joints, mut posture) = (heapless::Vec::<Name, JOINTS>::new(), Posture::default());
+        for (joint, centidegrees) in (0..).zip(angles.iter().copied()) {
+            // There are as many places as joints.
+            let _ = joints.push(name(table.joint(joint).unwrap_or_default()));
+            let _ = posture.joints.push(JointAngle { joint, centidegrees });
+        }
+        self.wear(Some(table), &joints);
+        self.posture.accept(&posture, &joints, Micros(0))?;
+        self.begin(Micros(0), true);
+        self.renew(None::<fn(&[u16; 4]) -> u32>, |_, _| ());
+        Ok(())
+    }
+
     /// Forgets all corrections: a new day. The posture stays.
+    #[inline(never)] // seldom
     pub(crate) fn forget(&mut self) {
         if !cfg!(feature = "folds") {
             return;
         }
         self.corrections.fill(0);
         self.passes.fill(0);
-        self.bends.fill(Bend::NONE);
-        self.felt.fill([0; 2]);
-        self.raised.fill(0);
+        // Not `fill`, whose loops the compiler unrolls.
+        self.bends = [Bend::NONE; FOLDS];
+        self.quads = [Quad::NONE; FOLDED / 4];
         self.held.fill(0);
         self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
     }
@@ -212,10 +230,13 @@ impl FoldState {
             let quads = within(&at, fold, turn);
             let due = bend.due(fold, quads.len(), touched.is_some());
             if !due.is_nothing() && !quads.is_empty() {
-                let bend = *bend;
+                let mut known = *bend;
                 // A touch that is there is in no doubt, unless the posture is unknown.
-                let certain = touched.as_ref().filter(|_| bend.is_known);
-                self.renew_fold(&table, (fold, &at, &bend), (due, quads), certain, &mut set);
+                let certain = touched.as_ref().filter(|_| known.is_known);
+                self.renew_fold(&table, (fold, &at, &mut known), (due, quads), certain, &mut set);
+                if let Some(bend) = self.bends.get_mut(index) {
+                    bend.has_certain = known.has_certain;
+                }
             }
             at = at.after(fold);
         }
@@ -226,77 +247,101 @@ impl FoldState {
     fn renew_fold<T: Fn(&[u16; 4]) -> u32>(
         &mut self,
         table: &FoldTable<'_>,
-        fold: (&FoldRecord, &FoldStart, &Bend),
+        (fold, at, bend): (&FoldRecord, &FoldStart, &mut Bend),
         (due, mut quads): (Due, Range<usize>),
         certain: Option<&T>,
         set: &mut impl FnMut(&[[u16; 4]], &[LevelPairs]),
     ) {
-        let unit = u32::from(table.unit());
-        let (mut found, mut levels) = (Quads::NONE, [[0; 2]; AT_ONCE]);
+        let (unit, mut levels) = (u32::from(table.unit()), [[0; 2]; AT_ONCE]);
         while !quads.is_empty() {
             let some = quads.start..quads.end.min(quads.start + AT_ONCE);
             quads.start = some.end;
             let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
-            if due.knots || due.doubt || due.posture {
-                self.expect(table, fold, due, &some, &mut found);
+            if due.doubt || due.knots && !bend.is_known {
+                bend.has_certain |= self.doubt(table, (fold, at, bend), &some);
             }
-            let raised = self.raised.get_mut(some.clone()).unwrap_or_default();
-            let felt = self.felt.get(some).unwrap_or_default();
+            let own = self.quads.get_mut(some.clone()).unwrap_or_default();
             match certain {
-                Some(certain) => raise(raised, felt, taxels, certain),
-                None if due.doubt || due.touch => raise(raised, felt, taxels, |_| 0),
+                Some(certain) => raise(own, taxels, certain),
+                None if due.touch => raise(own, taxels, |_| 0),
                 None => {}
             }
-            sum_levels(felt, raised, unit, &mut levels);
+            if due.knots || due.doubt || due.posture {
+                self.expect(table, (fold, at, bend), due.knots, &some, &mut levels);
+            } else {
+                sum_levels(own, unit, &mut levels);
+            }
             set(taxels, &levels);
         }
     }
 
-    /// Renews what is expected of some quads of a fold.
-    fn expect(
+    /// Renews the doubts of some quads of a fold. True if some taxel is in no doubt.
+    #[inline(never)] // own stack
+    fn doubt(
         &mut self,
         table: &FoldTable<'_>,
         (fold, at, bend): (&FoldRecord, &FoldStart, &Bend),
-        due: Due,
         quads: &Range<usize>,
-        found: &mut Quads,
-    ) {
+    ) -> bool {
         let own = quads.start - at.quad..quads.end - at.quad;
         let corrections = &self.corrections;
         let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
         let there = || bend.corners.iter().filter(|corner| corner.weight > 0);
-        if !bend.is_known {
-            let most = table.most(fold, at).and_then(|most| most.get(own.clone()));
-            found.doubt_all(most.unwrap_or(&[]));
-        } else if fold.joints[1] == NO_JOINT {
-            let [first, _, last, _] = &bend.corners;
-            let [one, other] = self.ends.each_mut().map(|end| end.get_mut(quads.clone()).unwrap_or_default());
-            if due.knots {
-                find_end(one, around(first));
-                find_end(other, around(last));
-            }
-            blend(&mut found.expected, [one, other], [first, last].map(|corner| corner.weight.into()));
-        } else {
-            found.expect(there().map(around));
-        }
-        if bend.is_known && due.doubt {
+        let mut found = [0; AT_ONCE];
+        let doubts = if bend.is_known {
             let passes = there().filter_map(|corner| self.passes.get(at.knot + usize::from(corner.knot)));
             let nearest = around(&Corner { knot: bend.nearest(), weight: 0 });
-            found.doubt(nearest, passes.min().copied().unwrap_or(0), there().map(around));
-        }
-        let felt = self.felt.get_mut(quads.clone()).unwrap_or_default();
-        let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
-        if due.doubt {
-            take(felt, found, taxels, &mut self.held);
+            find_doubts(&mut found, nearest, passes.min().copied().unwrap_or(0), there().map(around));
+            &found
         } else {
-            take_expected(felt, &found.expected, taxels, &mut self.held);
+            // Taxels may feel anything up to the most.
+            table.most(fold, at).and_then(|most| most.get(own.clone())).unwrap_or(&found)
+        };
+        let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
+        take_doubts(self.quads.get_mut(quads.clone()).unwrap_or_default(), doubts, taxels, &mut self.held)
+    }
+
+    /// Renews what is expected of some quads of a fold, and their levels; `knots`: the knots are others.
+    fn expect(
+        &mut self,
+        table: &FoldTable<'_>,
+        (fold, at, bend): (&FoldRecord, &FoldStart, &Bend),
+        knots: bool,
+        quads: &Range<usize>,
+        levels: &mut [LevelPairs],
+    ) {
+        let own = quads.start - at.quad..quads.end - at.quad;
+        let corrections = &self.corrections;
+        let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
+        let (its, unit) = (self.quads.get_mut(quads.clone()).unwrap_or_default(), u32::from(table.unit()));
+        let ends = self.ends.get_mut(quads.clone()).unwrap_or_default();
+        let [first, _, last, _] = &bend.corners;
+        let mut weight = 0;
+        if !bend.is_known {
+            // Nothing is expected: sums of 0 are below a byte.
+            ends.fill([LaneSums::ZERO; 2]);
+        } else if fold.joints[1] != NO_JOINT {
+            ends.fill([LaneSums::NONE, LaneSums::ZERO]);
+            let there = bend.corners.iter().filter(|corner| corner.weight > 0);
+            there.for_each(|corner| add_means(ends, around(corner)));
+        } else {
+            weight = last.weight.into();
+            if knots {
+                let (first, last) = (around(first), around(last));
+                // There is no knot after the last one, which then counts nothing.
+                find_ends(ends, first, if last.cells.is_empty() { first } else { last });
+            }
+        }
+        expect(its, (ends, weight), unit, levels);
+        if bend.has_certain {
+            hold_all(its, table.taxels().get(quads.clone()).unwrap_or(&[]), &mut self.held);
         }
     }
 
     /// Hands over each taxel of which something is expected or in doubt, with its expectation, counts.
     pub(crate) fn each(&self, mut take: impl FnMut(usize, u16)) {
         let Some(table) = self.table() else { return };
-        for (taxels, [expected, doubt]) in table.taxels().iter().zip(&self.felt) {
+        for (taxels, Quad { expected, doubt, .. }) in table.taxels().iter().zip(&self.quads) {
             let (mut any, mut expected) = (expected | doubt, *expected);
             if any == 0 {
                 continue;
@@ -315,7 +360,7 @@ impl FoldState {
     pub(crate) fn level(&self, taxel: usize) -> u16 {
         let slot = if self.holds(taxel) { self.slot(taxel as u16) } else { None };
         let of = |slot: usize| {
-            let ([expected, _], raised) = (self.felt.get(slot / 4)?, self.raised.get(slot / 4)?);
+            let Quad { expected, raised, .. } = self.quads.get(slot / 4)?;
             let units = [*expected, *raised].map(|bytes| u16::from(byte(bytes, slot % 4)));
             Some(units.iter().sum::<u16>().saturating_mul(self.table()?.unit()))
         };
@@ -326,15 +371,16 @@ impl FoldState {
     /// `beyond_levels`: a value is what a taxel feels beyond its level, and that holds the doubt, too.
     /// Otherwise it is all that it feels.
     #[inline(never)] // own registers
-    pub(crate) fn subtract(&self, values: &mut [u16], beyond_levels: bool) {
+    pub fn subtract(&self, values: &mut [u16], beyond_levels: bool) {
         let Some(table) = self.table() else { return };
         let unit = u32::from(table.unit());
-        if beyond_levels {
-            let raised = table.taxels().iter().zip(self.raised.iter().copied());
-            change(values, raised, unit, u16::saturating_add);
-        } else {
-            let expected = table.taxels().iter().zip(self.felt.iter().map(|[expected, _]| *expected));
-            change(values, expected, unit, u16::saturating_sub);
+        let how = if beyond_levels { Change::Raise } else { Change::Lower };
+        let mut at = FoldStart::FIRST;
+        for fold in table.folds() {
+            let quads = at.quads(fold);
+            at = at.after(fold);
+            let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
+            change(values, (taxels, self.quads.get(quads).unwrap_or(&[])), unit, how);
         }
     }
 
@@ -360,9 +406,11 @@ impl FoldState {
                 let first = at.correction + knot * fold.quads() + quads.start - at.quad;
                 let corrections = self.corrections.get_mut(first..first + quads.len()).unwrap_or_default();
                 let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
-                let expected = self.felt.get(quads.clone()).unwrap_or(&[]);
+                let expected = self.quads.get(quads.clone()).unwrap_or(&[]);
                 let lesson = Lesson::of(table.unit(), *passes);
-                for ((taxels, [expected, _]), corrections) in taxels.iter().zip(expected).zip(corrections) {
+                for ((taxels, Quad { expected, .. }), corrections) in
+                    taxels.iter().zip(expected).zip(corrections)
+                {
                     let (told, felt) = felt(taxels);
                     if told != 0 {
                         *corrections = compare(told, &felt, *expected, *corrections, lesson);
@@ -383,8 +431,8 @@ impl FoldState {
     /// Expectation of a taxel and its doubt, counts; none if it does not fold.
     pub fn of(&self, taxel: u16) -> Option<[u16; 2]> {
         let (table, slot) = (self.table()?, self.slot(taxel)?);
-        let felt = self.felt.get(slot / 4)?;
-        Some(felt.map(|bytes| u16::from(byte(bytes, slot % 4)).saturating_mul(table.unit())))
+        let Quad { expected, doubt, .. } = self.quads.get(slot / 4)?;
+        Some([*expected, *doubt].map(|bytes| u16::from(byte(bytes, slot % 4)).saturating_mul(table.unit())))
     }
 
     /// Position of a taxel in the table's list; none if it does not fold.
@@ -414,8 +462,8 @@ impl FoldState {
                 continue;
             }
             let first = its.partition_point(|[.., last]| usize::from(*last) < taxels.start);
-            let doubts = self.felt.get(quads.start + first..quads.end).unwrap_or(&[]);
-            for (its, [_, doubt]) in its.iter().skip(first).zip(doubts) {
+            let doubts = self.quads.get(quads.start + first..quads.end).unwrap_or(&[]);
+            for (its, Quad { doubt, .. }) in its.iter().skip(first).zip(doubts) {
                 let [first, .., last] = its.map(usize::from);
                 if first >= taxels.end {
                     break;
@@ -442,16 +490,16 @@ impl FoldState {
     /// Sums over all taxels.
     pub fn expected(&self) -> Expected {
         let Some(table) = self.table() else { return Expected::default() };
-        let felt = self.felt.get(..table.taxels().len()).unwrap_or(&self.felt);
+        let quads = self.quads.get(..table.taxels().len()).unwrap_or(&self.quads);
         let mut sums = [LaneSums::ZERO; 3];
-        for [expected, doubt] in felt {
+        for Quad { expected, doubt, .. } in quads {
             let nothing = zeros(expected | doubt) >> 7;
             for (sum, bytes) in sums.iter_mut().zip([nothing, *expected, *doubt]) {
                 sum.add(bytes, 1);
             }
         }
         let [nothing, expected, doubt] = sums.map(LaneSums::total);
-        let (taxels, unit) = ((4 * felt.len()) as u32 - nothing, u32::from(table.unit()));
+        let (taxels, unit) = ((4 * quads.len()) as u32 - nothing, u32::from(table.unit()));
         Expected { taxels: taxels as u16, total: expected * unit, doubt: doubt * unit }
     }
 }

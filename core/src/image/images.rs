@@ -11,8 +11,10 @@ use super::view::Image;
 use crate::garment::{Area, Layout};
 use core::ops::Range;
 
-/// The image of a frame before and after the filter.
+/// The image of a frame before and after the filter. Aligned to words: what folds press is subtracted from two
+/// taxels at a time.
 #[derive(Debug, Clone)]
+#[repr(align(4))]
 pub(crate) struct Images<const TAXELS: usize> {
     /// Image before the filter. During a tare: the high halves of the sums.
     pub calibrated: [u16; TAXELS],

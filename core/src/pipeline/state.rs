@@ -155,9 +155,10 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     pub(crate) fn doubts(&self, layout: &Layout) -> Vec<Doubt, CONTACTS> {
         let folds = self.condition.folds();
         let mut sums = [0u32; CONTACTS];
-        self.contact.each_pressed(layout, |run| {
-            if let Some(sum) = sums.get_mut(run.contact) {
-                *sum = sum.saturating_add(folds.doubt_within(&run.taxels()));
+        self.contact.each_pressed(layout, |pressed| {
+            let Some(sum) = sums.get_mut(pressed.contact) else { return };
+            for (first, run) in pressed.each() {
+                *sum = sum.saturating_add(folds.doubt_within(&(first..first + usize::from(run.width()))));
             }
         });
         let mut doubts = Vec::new();

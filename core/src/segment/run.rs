@@ -32,6 +32,16 @@ impl Run {
         first_column(self.left)
     }
 
+    /// Number of columns from the first to the last one.
+    pub const fn width(&self) -> u16 {
+        self.right - self.left + 1
+    }
+
+    /// True if its taxels are adjacent: there is no gap between the first and the last one.
+    pub const fn is_whole(&self) -> bool {
+        self.area == self.width()
+    }
+
     /// Position of the word as one number, in the order of the runs.
     pub const fn key(&self) -> u32 {
         key(self.row, self.left)

@@ -4,9 +4,9 @@
 //! it cuts from a crest is part of the force: a taxel counts with its value before the filter, unless that
 //! exceeds the filtered one by more than noise, which an impulse does.
 
+use crate::contact::PressedRuns;
 use crate::filter::points::MARGIN;
 use crate::segment::bits::WORD;
-use crate::segment::run::Run;
 
 /// Most that taxels may press together so that their products fit in 32 bits: 65,535 * 2^15 < 2^31.
 const TOGETHER: u32 = u16::MAX as u32;
@@ -20,6 +20,15 @@ pub(super) struct PressedImage<'a> {
 
 /// A [`TaxelRecord`](super::TaxelRecord) in words: its halves are link and region, place, normal, arm.
 pub(super) type RecordWords = [u32; 5];
+
+/// Pressure of a taxel, counts, and its record.
+pub(super) type PressedTaxel<'a> = (u32, &'a RecordWords);
+
+/// Most taxels that are gathered before they are summed up: those of a small contact.
+pub(super) const BATCH: usize = 64;
+
+/// The record of no taxel.
+pub(super) const NO_RECORD: &RecordWords = &[0; 5];
 
 /// What taxels press on their link: sums over values in counts, and records in units of 2^-14.
 #[derive(Debug, Clone, Copy)]
@@ -37,94 +46,67 @@ impl PressSums {
     /// Nothing presses.
     pub const NONE: PressSums = PressSums { near: [0; 6], held: 0, wide: [0; 6], settled: 0 };
 
-    /// Adds the taxels of a run whose first one is number `first`.
+    /// Adds the taxels of runs; `batch` is room to work in.
     #[inline(never)] // M0+: own registers
-    pub fn press(&mut self, image: &PressedImage<'_>, first: usize, run: &Run) {
-        let range = first..first + usize::from(run.right - run.left) + 1;
-        let Some(before) = image.before.get(range.clone()) else { return };
-        let Some(after) = image.after.get(range.clone()) else { return };
-        let Some(records) = image.records.get(range) else { return };
-        let (taxels, total) = (run.rebased(), run.sums.s0);
-        let most = most_pressed(total);
-        // Without a gap between them all columns are taxels of the run.
-        if most > TOGETHER || taxels & taxels.wrapping_add(1) != 0 {
-            return self.press_apart(before, after, records, taxels);
-        }
-        self.make_room(most);
-        self.press_all(before, after, records, total);
-    }
-
-    /// Adds those of some taxels whose bits are set.
-    #[inline(never)] // seldom
-    fn press_apart(&mut self, before: &[u16], after: &[u16], records: &[RecordWords], mut taxels: u32) {
-        let (mut values, mut total) = ([[0; WORD as usize]; 2], 0);
-        let [to_before, to_after] = &mut values;
-        for (((to_before, to_after), before), after) in
-            to_before.iter_mut().zip(to_after).zip(before).zip(after)
-        {
-            if taxels & 1 == 1 {
-                (*to_before, *to_after) = (*before, *after);
-                total += u32::from(*after);
-            }
-            taxels >>= 1;
-        }
-        let [before, after] = values.each_ref().map(|values| values.get(..records.len()).unwrap_or(values));
-        if most_pressed(total) <= TOGETHER {
-            self.make_room(most_pressed(total));
-            return self.press_all(before, after, records, total);
-        }
-        for ((before, after), record) in before.iter().zip(after).zip(records) {
-            self.press_alone(*before, *after, record);
-        }
-    }
-
-    /// Adds a taxel of those that press too much together.
-    #[inline(never)] // seldom
-    fn press_alone(&mut self, before: u16, after: u16, record: &RecordWords) {
-        self.make_room(TOGETHER);
-        let mut pressed = after.into();
-        self.add(&[before], &[after], &[*record], &mut pressed);
-        self.held += pressed;
-    }
-
-    /// Adds taxels for which there is room, whose values after the filter are `total` together.
-    #[inline(always)] // M0+: a call takes as long as two taxels
-    fn press_all(&mut self, before: &[u16], after: &[u16], records: &[RecordWords], total: u32) {
-        let mut pressed = total;
-        let [(before, last_before), (after, last_after)] = [before, after].map(|values| values.as_chunks());
-        let (records, last_record) = records.as_chunks();
-        for ((before, after), records) in before.iter().zip(after).zip(records) {
-            self.add::<2>(before, after, records, &mut pressed);
-        }
-        if let ([before], [after], [record]) = (last_before, last_after, last_record) {
-            self.add(&[*before], &[*after], &[*record], &mut pressed);
-        }
-        self.held += pressed;
-    }
-
-    /// Adds some taxels, and to `pressed` what the filter has cut from them.
-    #[inline(always)]
-    fn add<const N: usize>(
+    pub fn press<'a>(
         &mut self,
-        before: &[u16; N],
-        after: &[u16; N],
-        records: &[RecordWords; N],
-        pressed: &mut u32,
+        image: &PressedImage<'a>,
+        pressed: &PressedRuns<'_>,
+        batch: &mut [PressedTaxel<'a>; BATCH],
     ) {
-        let mut values = after.map(i32::from);
-        for ((value, before), after) in values.iter_mut().zip(before).zip(after) {
-            if before != after {
-                *value = pressure(*before, *after).into();
-                *pressed += value.unsigned_abs() - u32::from(*after);
+        let (mut count, mut held) = (0, 0);
+        for (first, run) in pressed.each() {
+            let range = first..first + usize::from(run.width());
+            let Some(before) = image.before.get(range.clone()) else { break };
+            let Some(after) = image.after.get(range.clone()) else { break };
+            let Some(records) = image.records.get(range) else { break };
+            let slots = batch.get_mut(count..).unwrap_or_default();
+            let (taxels, sum) = if run.is_whole() {
+                gather(slots, before, after, records)
+            } else {
+                gather_apart(slots, before, after, records, run.rebased())
+            };
+            if held + sum > TOGETHER || count + taxels > BATCH - WORD as usize {
+                let (gathered, last) = batch.split_at_checked(count).unwrap_or_default();
+                self.add_batch(gathered, held);
+                self.add_run(last.get(..taxels).unwrap_or(last), sum);
+                (count, held) = (0, 0);
+            } else {
+                (count, held) = (count + taxels, held + sum);
             }
         }
+        self.add_batch(batch.get(..count).unwrap_or(batch), held);
+    }
+
+    /// Adds taxels that press `sum` counts together.
+    #[inline(never)] // seldom
+    fn add_run(&mut self, taxels: &[PressedTaxel<'_>], sum: u32) {
+        if sum <= TOGETHER {
+            return self.add_batch(taxels, sum);
+        }
+        for (value, record) in taxels {
+            self.add_batch(&[(*value, record)], *value);
+        }
+    }
+
+    /// Adds taxels that press `held` counts together, at most [`TOGETHER`].
+    #[inline(never)] // M0+: own registers
+    fn add_batch(&mut self, batch: &[PressedTaxel<'_>], held: u32) {
+        self.make_room(held);
+        self.held += held;
         let [x, y, z, u, v, w] = &mut self.near;
-        for (word, [low, high]) in [[x, y], [z, u], [v, w]].into_iter().enumerate() {
-            for (value, record) in values.iter().zip(records) {
-                let word = record[2 + word];
-                *low = low.wrapping_add(value * i32::from(word as i16));
-                *high = high.wrapping_add(value * (word as i32 >> 16));
-            }
+        // M0+: three sums at a time stay in registers.
+        for (value, [_, _, xy, z_, _]) in batch {
+            let value = *value as i32;
+            *x = x.wrapping_add(value.wrapping_mul(low(*xy)));
+            *y = y.wrapping_add(value.wrapping_mul(high(*xy)));
+            *z = z.wrapping_add(value.wrapping_mul(low(*z_)));
+        }
+        for (value, [.., u_, vw]) in batch {
+            let value = *value as i32;
+            *u = u.wrapping_add(value.wrapping_mul(high(*u_)));
+            *v = v.wrapping_add(value.wrapping_mul(low(*vw)));
+            *w = w.wrapping_add(value.wrapping_mul(high(*vw)));
         }
     }
 
@@ -132,15 +114,16 @@ impl PressSums {
     #[inline(always)]
     fn make_room(&mut self, most: u32) {
         if self.held + most > TOGETHER {
-            self.settle();
+            self.settle(self.near, self.held);
+            (self.near, self.held) = ([0; 6], 0);
         }
     }
 
-    /// Settles all that is held.
+    /// Settles sums of taxels that press `held` counts together.
     #[inline(never)] // M0+: out of line
-    fn settle(&mut self) {
-        add_near(&mut self.wide, &core::mem::take(&mut self.near));
-        self.settled += core::mem::take(&mut self.held);
+    fn settle(&mut self, near: [i32; 6], held: u32) {
+        add_near(&mut self.wide, &near);
+        self.settled += held;
     }
 
     /// Sum of the values.
@@ -180,20 +163,143 @@ impl PressSums {
     }
 }
 
-/// The most that taxels of a run press whose values after the filter are `total` together.
-const fn most_pressed(total: u32) -> u32 {
-    total + total / 16 + WORD as u32 * MARGIN as u32
+/// The lower half of a word, signed.
+const fn low(word: u32) -> i32 {
+    word as i16 as i32
+}
+
+/// The upper half of a word, signed.
+const fn high(word: u32) -> i32 {
+    word as i32 >> 16
+}
+
+/// Gathers the taxels of a run; returns their number and the sum of their values.
+#[inline(always)]
+fn gather<'a>(
+    slots: &mut [PressedTaxel<'a>],
+    before: &[u16],
+    after: &[u16],
+    records: &'a [RecordWords],
+) -> (usize, u32) {
+    let mut sum = 0;
+    for (((slot, before), after), record) in slots.iter_mut().zip(before).zip(after).zip(records) {
+        let value = pressure((*before).into(), (*after).into());
+        sum += value;
+        *slot = (value, record);
+    }
+    (records.len(), sum)
+}
+
+/// Gathers those of some taxels whose bits are set.
+#[inline(never)] // few runs have gaps
+fn gather_apart<'a>(
+    slots: &mut [PressedTaxel<'a>],
+    before: &[u16],
+    after: &[u16],
+    records: &'a [RecordWords],
+    mut taxels: u32,
+) -> (usize, u32) {
+    let (mut slots, mut count, mut sum) = (slots.iter_mut(), 0, 0);
+    for ((before, after), record) in before.iter().zip(after).zip(records) {
+        if taxels & 1 == 1
+            && let Some(slot) = slots.next()
+        {
+            let value = pressure((*before).into(), (*after).into());
+            (count, sum) = (count + 1, sum + value);
+            *slot = (value, record);
+        }
+        taxels >>= 1;
+    }
+    (count, sum)
 }
 
 /// Pressure of a taxel, from its values before and after the filter: at least that after it.
+#[inline(always)]
+fn pressure(before: u32, after: u32) -> u32 {
+    // Most taxels are left as they are.
+    if before == after { after } else { uncut(before, after) }
+}
+
+/// Pressure of a taxel that the filter has changed.
 #[inline(never)] // seldom
-fn pressure(before: u16, after: u16) -> u16 {
-    let most = after.saturating_add(after / 16).saturating_add(MARGIN);
+fn uncut(before: u32, after: u32) -> u32 {
+    let most = after + after / 16 + u32::from(MARGIN);
     if before <= most { before.max(after) } else { after }
 }
 
 fn add_near(to: &mut [i64; 6], near: &[i32; 6]) {
     for (to, near) in to.iter_mut().zip(near) {
         *to = to.wrapping_add(i64::from(*near));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::garment::{Garment, Layout};
+    use crate::segment::run::Run;
+    use crate::segment::sums::RunSums;
+    use std::vec::Vec;
+
+    #[test]
+    fn sums_are_exact_however_strongly_taxels_press() {
+        let mut noise = 1u32;
+        let mut next = |end: u32| {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            (noise >> 8) % end
+        };
+        let layout = Layout::build(&Garment::mat(), 2048, u16::MAX).unwrap();
+        let area = &layout.areas()[0];
+        let columns = usize::from(area.columns);
+        for round in 0..500 {
+            let most = [30, 4096, 0x1_0000, 0x1_0000][round % 4];
+            let after: Vec<u16> = (0..layout.taxels()).map(|_| next(most) as u16).collect();
+            // As they are, cut, or an impulse.
+            let mut before =
+                |after: &u16| [*after, after.saturating_add(next(200) as u16), !0][next(3) as usize];
+            let before: Vec<u16> = after.iter().map(&mut before).collect();
+            // Halves at their ends, or any.
+            let mut half = || [0x8000, 0x7FFF, next(1 << 16)][next(3) as usize];
+            let records: Vec<RecordWords> =
+                after.iter().map(|_| core::array::from_fn(|_| half() << 16 | half())).collect();
+            let rows = 1 + next(area.rows.into()) as u16;
+            let run = |row: u16| {
+                // Whole ones, and some with gaps.
+                let (left, right) = (next(20) as u16, 20 + next(12) as u16);
+                let ends = 1 << left | 1 << right;
+                let between = u32::MAX << left & u32::MAX >> (31 - right);
+                let taxels =
+                    if next(2) == 0 { between } else { between & (next(1 << 24) << 8 | next(256)) | ends };
+                let area = taxels.count_ones() as u16;
+                Run { taxels, row, label: 0, left, right, area, peak: 0, sums: RunSums::NONE }
+            };
+            let runs: Vec<Run> = (0..rows).map(run).collect();
+            let image = PressedImage { before: &before, after: &after, records: &records };
+            let pressed = PressedRuns { contact: 0, panel: 0, area, runs: &runs };
+            let (mut sums, mut batch) = (PressSums::NONE, [(0, NO_RECORD); BATCH]);
+            sums.press(&image, &pressed, &mut batch);
+            let (mut want, mut total) = ([0i64; 6], 0);
+            let of = |run: &Run| (0..columns).filter(|at| run.taxels >> at & 1 == 1).collect::<Vec<_>>();
+            for taxel in
+                runs.iter().flat_map(|run| of(run).into_iter().map(|at| usize::from(run.row) * columns + at))
+            {
+                let (before, after) = (i64::from(before[taxel]), i64::from(after[taxel]));
+                let is_cut = before > after && before <= after + after / 16 + i64::from(MARGIN);
+                let value = if is_cut { before } else { after };
+                total += value;
+                let halves = records[taxel][2..].iter().flat_map(|word| [*word as i16, (word >> 16) as i16]);
+                want.iter_mut().zip(halves).for_each(|(sum, half)| *sum += value * i64::from(half));
+            }
+            assert_eq!(sums.sums().as_flattened(), want);
+            assert_eq!(i64::from(sums.pressed()), total);
+        }
+    }
+
+    #[test]
+    fn what_presses_together_fits_in_32_bits() {
+        for half in [i16::MIN, i16::MAX] {
+            assert!(i32::try_from(i64::from(TOGETHER) * i64::from(half)).is_ok());
+        }
     }
 }

@@ -2,15 +2,16 @@
 
 use super::frames::LinkFrames;
 use super::place::SurfacePoint;
-use super::press::{PressSums, PressedImage};
+use super::press::{BATCH, NO_RECORD, PressSums, PressedImage};
 use super::table::Table;
 use super::taxel::TaxelRecord;
 use super::uncertainty::{BlindTaxel, Uncertainty, distance, most_at, of_faulty};
 use super::{LINKS, LinkName, Micrometres, UnitVector};
-use crate::contact::{ContactState, PressedRun, Slot};
+use crate::contact::{ContactState, Slot};
 use crate::format::{Inverse, signed_wide};
 use crate::garment::{Layout, PANELS, Place};
 use crate::health::{FAULTY_TAXELS, FaultyTaxel};
+use crate::segment::run::Run;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -146,16 +147,17 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         let links = links_of(table, layout);
         let [before, after] = images;
         let image = PressedImage { before, after, records: bytemuck::cast_slice(table.taxels()) };
-        contact.each_pressed(layout, |run| {
-            let Some(link) = links.get(usize::from(run.panel)) else { return };
-            let (landing, of) = placed.get(run.contact).copied().unwrap_or((NONE, NONE));
+        let mut batch = [(0, NO_RECORD); BATCH];
+        contact.each_pressed(layout, |pressed| {
+            let Some(link) = links.get(usize::from(pressed.panel)) else { return };
+            let (landing, of) = placed.get(pressed.contact).copied().unwrap_or((NONE, NONE));
             let sums = if of == *link {
                 self.landings.get_mut(usize::from(landing)).map(|landing| &mut landing.sums)
             } else {
                 self.sums.get_mut(usize::from(*link)).map(|sums| &mut sums.press)
             };
             if let Some(sums) = sums {
-                sums.press(&image, run.first, run.run);
+                sums.press(&image, &pressed, &mut batch);
             }
         });
         for landing in &self.landings {
@@ -190,11 +192,11 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
             }
         }
         if levels.iter().any(|level| *level != u16::MAX) {
-            contact.each_pressed(layout, |run| {
-                let level = levels.get(run.contact).copied().unwrap_or(u16::MAX);
-                if run.run.peak >= level {
-                    let saturated = saturated(&run, level, calibrated, &senses.ceiling);
-                    self.saturate(saturated, run.contact, table.taxels().get(run.first));
+            contact.each_pressed(layout, |pressed| {
+                let level = levels.get(pressed.contact).copied().unwrap_or(u16::MAX);
+                for (first, run) in pressed.each().filter(|(_, run)| run.peak >= level) {
+                    let saturated = saturated(first, run, level, calibrated, &senses.ceiling);
+                    self.saturate(saturated, pressed.contact, table.taxels().get(first));
                 }
             });
         }
@@ -339,11 +341,13 @@ impl LinkSums {
     }
 }
 
-/// Number of saturated taxels of a run among those of `level` counts and more.
+/// Number of saturated taxels of a run, whose first one is number `first`, among those of `level` counts and
+/// more.
 #[inline(never)] // M0+: out of line
-fn saturated(run: &PressedRun<'_>, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
-    let (mut saturated, mut mask) = (0, run.run.rebased());
-    for (taxel, value) in run.taxels().zip(calibrated.get(run.taxels()).unwrap_or(&[])) {
+fn saturated(first: usize, run: &Run, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
+    let (mut saturated, mut mask) = (0, run.rebased());
+    let taxels = first..first + usize::from(run.width());
+    for (taxel, value) in taxels.clone().zip(calibrated.get(taxels).unwrap_or(&[])) {
         if *value >= level && mask & 1 == 1 && *value >= ceiling(taxel) {
             saturated += 1;
         }

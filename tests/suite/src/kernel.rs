@@ -4,9 +4,11 @@ use crate::activation::{Activation, CONCEPTS, Maps, PLAIN};
 use crate::chain::TAXELS;
 use crate::copies;
 use crate::dense::Dense;
+use crate::folds::FOLDS;
 use crate::measure::Measure;
 use crate::windows::{AREA, SIDE, WINDOWS};
 use core::hint::black_box;
+use taxel_core::fold::{FoldState, FoldTable};
 use taxel_core::format::Code;
 use taxel_core::gesture::{Model, ShippedModel, TouchClassifier, TouchState};
 use taxel_core::intent::{Inference, Outcome};
@@ -38,10 +40,19 @@ pub enum Kernel {
     Nearest,
     /// Copies packets of bytes between all positions in a word.
     Copy,
+    /// Subtracts what folds are expected to press from all that the left arm's taxels feel, or from what they
+    /// feel beyond their levels.
+    Subtract {
+        /// True if a value is what a taxel feels beyond its level.
+        beyond_levels: bool,
+    },
 }
 
 /// Number of taxels of a panel of the reference garment.
 const PANEL: usize = 512;
+
+/// Angle of the elbow whose folds are subtracted, hundredths of a degree: all taxels are pressed.
+const ELBOW: i16 = 4700;
 
 /// Work space of the kernels.
 pub struct Bench {
@@ -51,6 +62,7 @@ pub struct Bench {
     gestures: Option<TouchClassifier<'static>>,
     touch: TouchState,
     gallery: Gallery<GALLERY_PROTOTYPES>,
+    folds: FoldState,
 }
 
 impl Default for Bench {
@@ -65,6 +77,7 @@ impl Default for Bench {
             gestures,
             touch: const { TouchState::new() },
             gallery: gallery(),
+            folds: const { FoldState::new() },
         }
     }
 }
@@ -82,6 +95,8 @@ impl Kernel {
             Kernel::Describe,
             Kernel::Nearest,
             Kernel::Copy,
+            Kernel::Subtract { beyond_levels: false },
+            Kernel::Subtract { beyond_levels: true },
         ])
     }
 
@@ -111,6 +126,7 @@ impl Kernel {
             Kernel::Describe => done(probe, describe(codes)),
             Kernel::Nearest => bench.nearest(codes, probe),
             Kernel::Copy => copy(codes, probe),
+            Kernel::Subtract { beyond_levels } => bench.subtract(codes, beyond_levels, probe).unwrap_or(0),
         }
     }
 }
@@ -155,6 +171,23 @@ impl Bench {
         let found = done(probe, self.gallery.recognise(&measures));
         let words = [found.distance.into(), found.class.unwrap_or(99).into(), found.share.0 as u32];
         fold(words.into_iter())
+    }
+
+    #[inline(never)] // out of line: its stack is needed only during the call
+    fn subtract(
+        &mut self,
+        codes: &[Code; TAXELS],
+        beyond_levels: bool,
+        probe: &mut impl Probe,
+    ) -> Option<u32> {
+        // To put a table in force takes longer than the work.
+        probe.begin(Stage::Scan);
+        let mut values = codes.map(|code| code.0);
+        self.folds.pose(FoldTable::view(&FOLDS.0)?, &[ELBOW]).ok()?;
+        begin(probe);
+        self.folds.subtract(&mut values, beyond_levels);
+        probe.begin(Stage::Scan);
+        Some(fold(values.into_iter().map(u32::from)))
     }
 }
 

@@ -24,8 +24,8 @@ use taxel_suite::pattern::{COLUMNS, ROWS, TouchPattern};
 const TARE: u16 = 16;
 /// Frames before the measured ones: contacts are tracked by then, and the images are differences.
 const WARM: usize = 8;
-/// Measured frames.
-pub const MEASURED: usize = 16;
+/// Measured frames of a case, if it needs no more.
+const MEASURED: usize = 16;
 
 /// Recording, its posture and its first frame: a person lying still.
 const RECORDING: (&str, &str, usize) = ("pmatdata/subject_01.npz", "posture_03", 40);
@@ -78,6 +78,8 @@ pub enum Variant {
     Folds,
     /// With the left arm bending, by 4.8 degrees from one posture to the next, to where it was not before.
     Bending,
+    /// With the left arm turning on and on with 1 rad/s, as far as from one knot to the next.
+    Turning,
     /// With the left arm turning to and fro between two knots that it has been compared at: it comes to none.
     Swaying,
     /// With the left arm turning to and fro, at another of two such knots with each posture: all of it is
@@ -104,6 +106,7 @@ impl Variant {
             Variant::Pressing => "pressing",
             Variant::Folds => "folds",
             Variant::Bending => "bending",
+            Variant::Turning => "turning",
             Variant::Swaying => "swaying",
             Variant::Comparing => "comparing",
             Variant::Columns32 => "32 columns",
@@ -170,9 +173,19 @@ impl Variant {
         match self {
             Variant::Folds => Some(120 * n as i16),
             Variant::Bending => Some(480 * n as i16),
+            // After its play is used up.
+            Variant::Turning => Some(if n == 0 { 0 } else { 782 + 118 * n as i16 }),
             Variant::Swaying => turning([-100, 1200, -200, 1100]),
             Variant::Comparing => turning([-420, 1320, -420, 1320]),
             _ => None,
+        }
+    }
+
+    /// Number of measured frames.
+    const fn measured(self) -> usize {
+        match self {
+            Variant::Turning => 2 * MEASURED,
+            _ => MEASURED,
         }
     }
 
@@ -214,6 +227,7 @@ impl Case {
             (TouchPattern::Five, Variant::Folds),
             (TouchPattern::Texture, Variant::Folds),
             (TouchPattern::Empty, Variant::Bending),
+            (TouchPattern::Empty, Variant::Turning),
             (TouchPattern::Empty, Variant::Swaying),
             (TouchPattern::Empty, Variant::Comparing),
             (TouchPattern::Texture, Variant::Off),
@@ -231,7 +245,7 @@ impl Case {
     fn of(pattern: TouchPattern, variant: Variant) -> Case {
         let (scene, taxels) = (variant.scene(), variant.taxels());
         let rest = (0..u32::from(TARE)).map(|n| (TouchPattern::Empty, n));
-        let touch = (u32::from(TARE)..).map(|n| (pattern, n)).take(WARM + MEASURED);
+        let touch = (u32::from(TARE)..).map(|n| (pattern, n)).take(WARM + variant.measured());
         let frames = rest.chain(touch).map(|(pattern, number)| {
             let mut codes = [Code(0); TAXELS];
             pattern.codes(number, &mut codes);
@@ -267,7 +281,12 @@ impl Case {
         TARE as u32 + (WARM + measured) as u32
     }
 
-    /// Inputs in order; the last [`MEASURED`] scans are the measured ones.
+    /// Number of measured frames: the last ones.
+    pub const fn measured(&self) -> usize {
+        self.variant.measured()
+    }
+
+    /// Inputs in order; the last scans are the measured ones.
     pub fn steps(&self) -> Result<Vec<Step>> {
         let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&self.scene)];
         let (garment, scene) = (garment?, scene?);

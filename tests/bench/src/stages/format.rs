@@ -6,6 +6,7 @@ use super::error::Error;
 use super::row::Cost;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
+use taxel_core::fold::FOLDED;
 use taxel_core::format::Code;
 use taxel_suite::activation::{Activation, CONCEPTS, Maps};
 use taxel_suite::chain::TAXELS;
@@ -21,6 +22,9 @@ const COMPARED: u32 = 250;
 
 /// Name of the row of a whole inference.
 pub const INFERENCE: &str = "map, to its end";
+
+/// Name of the rows that subtract what folds press, by taxel that folds.
+pub const SUBTRACTION: &str = "folds, subtract";
 
 /// One kernel on one kind of input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +73,15 @@ impl Form {
         ];
         all.extend(others.map(|(what, form, kernel)| Form { what, form, kernel, pattern: None }));
         all.push(Form { what: INFERENCE, form: "Q15", kernel: Kernel::Infer, pattern: None });
+        all.extend([("all that is felt", false), ("beyond levels", true)].map(|(form, beyond_levels)| {
+            Form {
+                what: SUBTRACTION,
+                form,
+                kernel: Kernel::Subtract { beyond_levels },
+                // Each taxel presses.
+                pattern: Some(TouchPattern::Texture),
+            }
+        }));
         all
     }
 
@@ -85,11 +98,12 @@ impl Form {
         (1..=MEASURED).map(codes).collect()
     }
 
-    /// Row from the costs of the steps, per frame, contact, step of the map or copy.
+    /// Row from the costs of the steps, per frame, contact, step of the map, copy or taxel that folds.
     pub fn row(self, costs: &[Cost]) -> FormRow {
         let each = match self.kernel {
             Kernel::Measure(_) | Kernel::Describe => WINDOWS,
             Kernel::Copy => PAIRS,
+            Kernel::Subtract { .. } => FOLDED,
             _ => 1,
         };
         let sum: u64 = costs.iter().flat_map(|cost| cost.stages).sum();
@@ -111,7 +125,7 @@ impl Form {
 pub struct FormRow {
     /// The kernel.
     pub form: Form,
-    /// Cost per frame, contact, step or copy.
+    /// Cost per frame, contact, step, copy or taxel that folds.
     pub cost: u64,
     /// Bytes of stack.
     pub stack: Option<u64>,

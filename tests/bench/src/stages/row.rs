@@ -1,6 +1,6 @@
 //! A row of the table: cost of a case, and errors of its contacts.
 
-use super::case::{Case, MEASURED, Step, Variant};
+use super::case::{Case, Step, Variant};
 use super::error::{Error, Truth};
 use super::twin::{STAGES, Told};
 use serde_json::{Value, json};
@@ -50,8 +50,8 @@ impl Row {
         let scans =
             steps.iter().zip(costs.iter().zip(told)).filter(|(step, _)| matches!(step, Step::Scan(_)));
         let (costs, told): (Vec<&Cost>, Vec<&Told>) = scans.map(|(_, done)| done).unzip();
-        let costs = costs.get(costs.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
-        let told = told.get(told.len().saturating_sub(MEASURED)..).unwrap_or(&[]);
+        let costs = costs.get(costs.len().saturating_sub(case.measured())..).unwrap_or(&[]);
+        let told = told.get(told.len().saturating_sub(case.measured())..).unwrap_or(&[]);
         let frames = costs.len().max(1) as u64;
         let mut truth = Truth::default();
         if let Some(pattern) = case.pattern {

@@ -115,7 +115,7 @@ impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{}: {} a frame of 2,048 taxels, mean of 16 frames; 12 bit unless said.",
+            "{}: {} a frame of 2,048 taxels, mean of 16 frames (32 while turning); 12 bit unless said.",
             self.place, self.unit
         )?;
         writeln!(
