@@ -1,8 +1,8 @@
 //! Where contacts lie, to be asked of many taxels.
 
 use super::feedback::{Feedback, Pressed};
-use crate::calibrate::levels::consecutive;
 use crate::capacity::TAXELS;
+use crate::fold::consecutive;
 use crate::garment::Layout;
 use core::ops::Range;
 

@@ -2,19 +2,13 @@
 
 use super::scale::UNITY;
 use super::terms::LimitTerms;
-use crate::fold::LevelPairs;
+use crate::fold::{LevelPairs, consecutive, in_a_row};
 use core::ops::Range;
 
 /// The highest bit of each half of a word.
 const HIGH: u32 = 0x8000_8000;
 /// Two gains of 1.
 const UNITIES: u32 = UNITY as u32 * 0x0001_0001;
-
-/// Number of the first of four taxels, if they follow each other; the numbers ascend.
-#[inline(always)]
-pub(crate) fn consecutive([first, _, _, last]: &[u16; 4]) -> Option<usize> {
-    (last.wrapping_sub(*first) == 3).then_some((*first).into())
-}
 
 /// Calibration of all taxels: baselines, gains, and the limits that are set.
 pub(super) struct LevelLimits<'a> {
@@ -83,21 +77,6 @@ impl LevelLimits<'_> {
             *limit = terms.limit_beyond(level, *rest, *gain);
         }
     }
-}
-
-/// Of fours of taxels from `start` on, whose numbers ascend, the number of those that follow each other.
-pub(crate) fn in_a_row(taxels: &[[u16; 4]], start: usize) -> usize {
-    if let Some([.., last]) = taxels.last()
-        && usize::from(*last) == start + 4 * taxels.len() - 1
-    {
-        // The numbers ascend: there is one taxel for each of them.
-        return taxels.len();
-    }
-    taxels
-        .iter()
-        .zip((start..).step_by(4))
-        .take_while(|(taxels, first)| consecutive(taxels) == Some(*first))
-        .count()
 }
 
 /// Number of fours up to one with another gain than 1.

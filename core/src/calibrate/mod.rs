@@ -12,7 +12,7 @@ pub(crate) mod calibration;
 pub(crate) mod certificate;
 pub(crate) mod chunks;
 pub(crate) mod dispatch;
-pub(crate) mod levels;
+mod levels;
 pub(crate) mod marks;
 pub(crate) mod panel;
 pub(crate) mod sampled;

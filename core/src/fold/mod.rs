@@ -31,6 +31,7 @@
 
 mod bend;
 mod corners;
+mod fours;
 mod lanes;
 mod lesson;
 mod posture;
@@ -39,6 +40,7 @@ mod record;
 mod stage;
 mod table;
 
+pub(crate) use fours::{consecutive, in_a_row};
 pub(crate) use lanes::LevelPairs;
 pub use posture::{JOINTS, JointAngle, Posture, PostureState, STALE_US};
 pub use record::{FoldCell, FoldRecord, NO_JOINT, NO_TAXEL};

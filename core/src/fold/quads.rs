@@ -1,8 +1,8 @@
 //! What is kept of the taxels that fold, four at a time: how it is renewed, subtracted and corrected.
 
+use super::fours::{consecutive, in_a_row};
 use super::lanes::{LaneSums, LevelPairs, byte, summed, times, zeros};
 use super::lesson::Lesson;
-use crate::calibrate::levels::{consecutive, in_a_row};
 
 /// What four taxels are expected to feel, in units of the table.
 #[derive(Debug, Clone, Copy)]
