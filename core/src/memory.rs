@@ -34,11 +34,11 @@ macro_rules! states {
 }
 
 states! {
-    ConditionState<TAXELS>, "condition/mod.rs", 34472, 34504;
+    ConditionState<TAXELS>, "condition/mod.rs", 34488, 34520;
     ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 65312, 65368;
     HardnessCue, "measure/hardness.rs", 20, 20;
     PostureState, "fold/mod.rs", 96, 96;
-    FoldState, "fold/mod.rs", 12880, 12912;
+    FoldState, "fold/mod.rs", 12896, 12928;
     TouchState, "gesture/mod.rs", 3712, 3720;
     Monitor, "health/mod.rs", 2812, 2816;
     Evidence, "intent/evidence.rs", 224, 224;

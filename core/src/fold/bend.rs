@@ -5,6 +5,9 @@ use super::record::{FoldRecord, NO_JOINT};
 
 /// Share of the way to the next knot within which a posture counts as at a knot.
 const NEAR: u16 = WHOLE / 4;
+/// How much more another knot must count than the one whose doubts are in force: an arm that trembles midway
+/// between two knots then does not change them with each posture.
+const NEARER: u16 = WHOLE / 4;
 
 /// A knot beside the present posture, and how much it counts, of [`WHOLE`].
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +27,8 @@ pub(super) struct Bend {
     pub corners: [Corner; 4],
     /// True if both joints are known.
     pub is_known: bool,
+    /// The knot whose doubts are in force: the nearest, or one that counts almost as much.
+    pub doubted_at: u16,
     /// True if some taxel may be in no doubt, of those that are doubted as near this knot.
     pub has_certain: bool,
     /// The knot that the posture was at last.
@@ -70,6 +75,7 @@ impl Bend {
         played: [None; 2],
         corners: [Corner { knot: 0, weight: 0 }; 4],
         is_known: false,
+        doubted_at: 0,
         has_certain: false,
         knot: None,
         left: 0,
@@ -85,6 +91,11 @@ impl Bend {
     pub fn nearest(&self) -> u16 {
         let [first, rest @ ..] = self.corners;
         rest.into_iter().fold(first, |most, next| if next.weight > most.weight { next } else { most }).knot
+    }
+
+    /// How much a knot counts.
+    fn weight(&self, knot: u16) -> u16 {
+        self.corners.iter().filter(|corner| corner.knot == knot).map(|corner| corner.weight).sum()
     }
 
     /// The taxels are to be expected anew, each in its turn.
@@ -143,7 +154,9 @@ impl Bend {
             self.renew();
         }
         let is_other = around().any(|(was, is)| (was.weight > 0) != (is.weight > 0));
-        if is_other || before.nearest() != self.nearest() {
+        let (nearest, weight) = (self.nearest(), self.weight(self.doubted_at));
+        if is_other || weight == 0 || self.weight(nearest) > weight + NEARER {
+            self.doubted_at = nearest;
             self.doubt();
         }
     }
@@ -238,6 +251,31 @@ mod tests {
             assert!((down - f64::from(a.clamp(-1000, 1000))).abs() <= 16.0, "{a}: {down}");
             assert!((right - f64::from(b.clamp(0, 1500))).abs() <= 8.0, "{b}: {right}");
         }
+    }
+
+    #[test]
+    fn doubts_are_those_of_a_knot_nearby_and_change_seldom() {
+        let fold = pair();
+        let mut noise = 1u32;
+        let mut next = |end: i16| {
+            noise = noise.wrapping_mul(1664525).wrapping_add(1013904223);
+            ((noise >> 16) % end.unsigned_abs() as u32) as i16
+        };
+        let mut bend = Bend::NONE;
+        for _ in 0..20_000 {
+            bend.turn(&fold, [Some(next(2400) - 1200), Some(next(1800) - 200)]);
+            let most = bend.corners.iter().map(|corner| corner.weight).max().unwrap();
+            let weight = bend.weight(bend.doubted_at);
+            assert!(weight > 0 && weight + NEARER >= most, "{bend:?}");
+        }
+        // It trembles midway between two knots.
+        let mut changes = |angle: i16| {
+            bend.doubted = u16::MAX;
+            bend.turn(&fold, [Some(angle), Some(0)]);
+            bend.doubted == 0
+        };
+        assert_eq!([-1000, -450, -550, -450, -550].map(&mut changes), [true, true, false, false, false]);
+        assert_eq!([-300, -700, -500, -300].map(&mut changes), [false, true, false, true]);
     }
 
     #[test]

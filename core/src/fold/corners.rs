@@ -42,21 +42,21 @@ pub(super) fn find_doubts<'a>(
 #[inline(never)] // own registers
 pub(super) fn add_means(ends: &mut [[LaneSums; 2]], Around { cells, corrections, weight }: Around<'_>) {
     for (([sums, _], [mean, ..]), correction) in ends.iter_mut().zip(cells).zip(corrections) {
-        // 128 stands for a correction of 0.
-        sums.add_both([*mean, correction | zeros(*correction)], weight);
+        sums.add_lanes(&LaneSums::at_knot(*mean, *correction), weight);
     }
 }
 
-/// Finds what is expected at two knots: means and corrections together, see [`LaneSums::ends`].
+/// Finds what is expected at two knots, see [`LaneSums::ends`].
 #[inline(never)] // own registers
 pub(super) fn find_ends(ends: &mut [[LaneSums; 2]], first: Around<'_>, last: Around<'_>) {
-    let sums = |mean: u32, correction: u32| LaneSums::of([mean, correction | zeros(correction)]);
     let first = first.cells.iter().zip(first.corrections);
     let last = last.cells.iter().zip(last.corrections);
     for ((ends, ([mean, ..], correction)), ([next, ..], next_correction)) in
         ends.iter_mut().zip(first).zip(last)
     {
-        *ends = LaneSums::ends(sums(*mean, *correction), sums(*next, *next_correction));
+        let (first, last) =
+            (LaneSums::at_knot(*mean, *correction), LaneSums::at_knot(*next, *next_correction));
+        *ends = LaneSums::ends(first, last);
     }
 }
 
@@ -85,6 +85,6 @@ fn doubt_share(doubts: &mut [u32], cells: &[[u32; 3]], share: u32) {
         let mut sums = LaneSums::ALMOST;
         sums.add(days ^ whole, share);
         // Each byte is of one of them.
-        *doubt = both(*spread, sums.within() | whole);
+        *doubt = both(*spread, sums.lanes().bytes() | whole);
     }
 }

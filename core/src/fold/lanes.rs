@@ -33,18 +33,28 @@ impl LaneSums {
     /// Nothing yet: half of a unit, so that [`LaneSums::lanes`] rounds.
     pub const NONE: LaneSums = LaneSums { even: ONE << (SHIFT - 1), odd: ONE << (SHIFT - 1) };
 
-    /// Nothing yet: almost a unit, so that [`LaneSums::within`] rounds up.
+    /// Nothing yet: almost a unit, so that [`LaneSums::lanes`] rounds up.
     pub const ALMOST: LaneSums = LaneSums { even: ONE * (WHOLE as u32 - 1), odd: ONE * (WHOLE as u32 - 1) };
 
-    /// The sum of each two bytes.
+    /// What is expected at a knot: means and corrections together, within 0 and 255.
     #[inline(always)]
-    pub fn of([a, b]: [u32; 2]) -> LaneSums {
-        let [even, odd] = [0, 8].map(|shift| (a >> shift & EVEN).wrapping_add(b >> shift & EVEN));
-        LaneSums { even, odd }
+    pub fn at_knot(means: u32, corrections: u32) -> LaneSums {
+        // 128 stands for a correction of 0, as 0 does for none yet.
+        let corrections = corrections | zeros(corrections);
+        // The highest bit of a lane stays as long as what is left is not below 0.
+        let less = |shift: u32| {
+            let sum = (means >> shift & EVEN).wrapping_add(corrections >> shift & EVEN);
+            (sum | ONE << 15).wrapping_sub(ONE * ZERO)
+        };
+        let (even, odd) = (less(0), less(8));
+        if (even | odd) & (ONE * 0x7F00) == 0 {
+            return LaneSums { even: even & EVEN, odd: odd & EVEN };
+        }
+        LaneSums { even: limited(even), odd: limited(odd) }
     }
 
-    /// Two sums of two bytes each as a start, with half of a unit, so that [`LaneSums::lanes`] rounds, and the
-    /// step from there to the second one for a weight of 1: see [`LaneSums::toward`].
+    /// Two knots as a start, with half of a unit, so that [`LaneSums::lanes`] rounds, and the step from there to
+    /// the second one for a weight of 1: see [`LaneSums::toward`].
     #[inline(always)]
     pub fn ends(first: LaneSums, last: LaneSums) -> [LaneSums; 2] {
         let start = |sums: u32| sums.wrapping_mul(WHOLE.into()).wrapping_add(ONE << (SHIFT - 1));
@@ -55,7 +65,7 @@ impl LaneSums {
         ]
     }
 
-    /// The sum of two bytes that counts `weight` and that which counts the rest. A step may borrow from the
+    /// The knot that counts `weight` and the one that counts the rest. A step may borrow from the
     /// next lane; its product with the weight gives that back.
     #[inline(always)]
     pub fn toward(&self, step: &LaneSums, weight: u32) -> LaneSums {
@@ -70,11 +80,10 @@ impl LaneSums {
         self.odd = self.odd.wrapping_add((bytes >> 8 & EVEN).wrapping_mul(weight));
     }
 
-    /// Adds `weight` of the sum of each two bytes.
+    /// Adds `weight` of bytes in lanes.
     #[inline(always)]
-    pub fn add_both(&mut self, [a, b]: [u32; 2], weight: u32) {
-        self.even = self.even.wrapping_add((a & EVEN).wrapping_add(b & EVEN).wrapping_mul(weight));
-        self.odd = self.odd.wrapping_add((a >> 8 & EVEN).wrapping_add(b >> 8 & EVEN).wrapping_mul(weight));
+    pub fn add_lanes(&mut self, lanes: &LaneSums, weight: u32) {
+        *self = self.toward(lanes, weight);
     }
 
     /// The sum of all sums.
@@ -83,17 +92,10 @@ impl LaneSums {
         even + odd
     }
 
-    /// Each sum divided by [`WHOLE`], less [`ZERO`], within 0 and 255.
+    /// Each sum divided by [`WHOLE`]: none is above 255.
     #[inline(always)]
     pub fn lanes(&self) -> LaneSums {
-        // Of the two highest bits of a sum exactly one is set where what is left is within these.
-        let is_out = !(self.even ^ self.even << 1) | !(self.odd ^ self.odd << 1);
-        if is_out & ONE << 15 == 0 {
-            // What is less by 128 has another eighth bit.
-            let [even, odd] = [self.even, self.odd].map(|sums| (sums >> SHIFT & EVEN) ^ (ONE * ZERO));
-            return LaneSums { even, odd };
-        }
-        LaneSums { even: clamped(self.even), odd: clamped(self.odd) }
+        LaneSums { even: self.even >> SHIFT & EVEN, odd: self.odd >> SHIFT & EVEN }
     }
 
     /// Sums that are bytes.
@@ -110,20 +112,6 @@ impl LaneSums {
         let (even, odd) = (sum(self.even, bytes), sum(self.odd, bytes >> 8));
         [even & 0xFFFF | odd << 16, even >> 16 | odd & 0xFFFF_0000]
     }
-
-    /// Each sum divided by [`WHOLE`]: none is above 255.
-    #[inline(always)]
-    pub fn within(self) -> u32 {
-        self.even >> SHIFT & EVEN | (self.odd >> SHIFT & EVEN) << 8
-    }
-}
-
-/// Sums divided by [`WHOLE`], less [`ZERO`], within 0 and 255.
-#[inline(never)] // seldom
-fn clamped(sums: u32) -> u32 {
-    // The highest bit stays as long as the sum is not less.
-    let rest = (sums >> SHIFT & (ONE * 0x1FF) | ONE << 15).wrapping_sub(ONE * ZERO);
-    limited(rest)
 }
 
 /// The sum of each two bytes, at most 255.
@@ -185,22 +173,25 @@ mod tests {
             a in any::<[u8; 4]>(), b in any::<[u8; 4]>(), c in any::<[u8; 4]>(), d in any::<[u8; 4]>(),
             weight in 0u32..=128,
         ) {
-            let mut sums = LaneSums::NONE;
             let [wa, wb, wc, wd] = [a, b, c, d].map(u32::from_le_bytes);
-            sums.add_both([wa, wb], weight);
-            sums.add_both([wc, wd], 128 - weight);
-            let sum = |a: u8, b: u8| u32::from(a) + u32::from(b);
+            let knot = |mean: u8, correction: u8| {
+                let correction = if correction == 0 { 128 } else { u32::from(correction) };
+                (u32::from(mean) + correction).saturating_sub(128).min(255)
+            };
+            let (first, last) = (LaneSums::at_knot(wa, wb), LaneSums::at_knot(wc, wd));
             let want = core::array::from_fn(|i| {
-                let sum = (sum(a[i], b[i]) * weight + sum(c[i], d[i]) * (128 - weight) + 64) / 128;
-                sum.saturating_sub(128).min(255) as u8
+                ((knot(a[i], b[i]) * (128 - weight) + knot(c[i], d[i]) * weight + 64) / 128) as u8
             });
+            let mut sums = LaneSums::NONE;
+            sums.add_lanes(&first, 128 - weight);
+            sums.add_lanes(&last, weight);
             prop_assert_eq!(sums.lanes().bytes().to_le_bytes(), want);
-            let [start, step] = LaneSums::ends(LaneSums::of([wc, wd]), LaneSums::of([wa, wb]));
+            let [start, step] = LaneSums::ends(first, last);
             prop_assert_eq!(start.toward(&step, weight).lanes().bytes().to_le_bytes(), want);
             let mut sums = LaneSums::NONE;
             sums.add(wa, weight);
             let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);
-            prop_assert_eq!(sums.within().to_le_bytes(), want);
+            prop_assert_eq!(sums.lanes().bytes().to_le_bytes(), want);
             let want = core::array::from_fn(|i| a[i].saturating_add(b[i]));
             prop_assert_eq!(both(wa, wb).to_le_bytes(), want);
             let [small, smaller] = [wa, wb].map(|word| word & 0x7F7F_7F7F);
@@ -212,7 +203,7 @@ mod tests {
             let mut sums = LaneSums::ALMOST;
             sums.add(wa, weight);
             let want = a.map(|a| (u32::from(a) * weight).div_ceil(128) as u8);
-            prop_assert_eq!(sums.within().to_le_bytes(), want);
+            prop_assert_eq!(sums.lanes().bytes().to_le_bytes(), want);
         }
 
         #[test]

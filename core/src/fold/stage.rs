@@ -290,7 +290,7 @@ impl FoldState {
         let mut found = [0; AT_ONCE];
         let doubts = if bend.is_known {
             let passes = there().filter_map(|corner| self.passes.get(at.knot + usize::from(corner.knot)));
-            let nearest = around(&Corner { knot: bend.nearest(), weight: 0 });
+            let nearest = around(&Corner { knot: bend.doubted_at, weight: 0 });
             find_doubts(&mut found, nearest, passes.min().copied().unwrap_or(0), there().map(around));
             &found
         } else {

@@ -55,11 +55,20 @@ impl PressSums {
         batch: &mut [PressedTaxel<'a>; BATCH],
     ) {
         let (mut count, mut held) = (0, 0);
+        // Of one length, so that one check of a run is that of all.
+        let all = image.before.len().min(image.after.len()).min(image.records.len());
+        let (Some(before), Some(after), Some(records)) =
+            (image.before.get(..all), image.after.get(..all), image.records.get(..all))
+        else {
+            return;
+        };
         for (first, run) in pressed.each() {
             let range = first..first + usize::from(run.width());
-            let Some(before) = image.before.get(range.clone()) else { break };
-            let Some(after) = image.after.get(range.clone()) else { break };
-            let Some(records) = image.records.get(range) else { break };
+            let (Some(before), Some(after), Some(records)) =
+                (before.get(range.clone()), after.get(range.clone()), records.get(range))
+            else {
+                break;
+            };
             let slots = batch.get_mut(count..).unwrap_or_default();
             let (taxels, sum) = if run.is_whole() {
                 gather(slots, before, after, records)

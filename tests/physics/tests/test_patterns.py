@@ -37,16 +37,16 @@ SHIFTS_MM = (30.0, 20.0)
 """Most by which the garment is said to shift: the first one for which a board has room. The days of ``creases.toml``
 have a standard deviation of 7.8 mm, so that less would not be true."""
 
-DAYS, DAY_S, TOUCHED_S = range(200, 203), 40.0, 40.0
-"""Days that are judged, and the length of the motion on each without touches and with them."""
+DAYS, DAY_S, TOUCHED_S = range(200, 203), 600.0, 40.0
+"""Days that are judged, and the length of the motion on each without touches and with them. On the second one the
+creases press 1.4 times as strongly as on the day of the one sweep, and appear 12 degrees later."""
 
-LEFT = {"one": 0.4, "six": 0.01}
-"""Most of the scans with a false contact that may be left. Learned from one sweep it misses the bar, which is 1 %: on a
-stronger day a bulge that was compared before it had appeared is no longer in doubt when it does."""
+LEFT = 0.01
+"""Most of the scans with a false contact that may be left."""
 
-UNLIKE = {"one": 0.3, "six": 0.06}
-"""Most that the correlation of expected and measured pressure may lack of 1: both miss the bar, which is 0.02. Creases
-a taxel wide lie on another taxel each day, and nobody knows which until it has been pressed."""
+UNLIKE = 0.02
+"""Most that the correlation of expected and measured pressure may lack of 1 over the ten minutes of a day. In the first
+one it lacks more: creases a taxel wide lie on another taxel each day, and nobody knows which until it has been pressed."""
 
 MISSED, FORCE_OFF, UNCERTAIN = 0.05, 0.1, 0.05
 """Most touches inside folds that may be missed, share; error of a force that is small, share; and share of the
@@ -93,12 +93,13 @@ def test_recorded_creases_are_no_touches(sweeps: str, tmp_path: Path) -> None:
         verdicts.append(judged(garment, DAYS, DAY_S, FORCES_N, TOUCHED_S))
         lines.append(f"  {name:8}{shift_mm:7.0f}{verdicts[-1].line(FORCE_OFF)}")
         print(lines[-1], flush=True)
-    head = f"Creases of {len(IMAGES)} recorded trousers, learned from sweeps of {sweeps} day, on {len(DAYS)} other days each"
+    days = "one day" if sweeps == "one" else f"{sweeps} days"
+    head = f"Creases of {len(IMAGES)} recorded trousers, learned from sweeps of {days}, on {len(DAYS)} other days each"
     note("\n".join([head, f"  {'':8}{'mm':>7}{COLUMNS}", *lines]))
     assert len(verdicts) >= len(IMAGES) - 1, "a board has no room for some of them"
     for verdict in verdicts:
         inside, elsewhere = verdict.missed
-        assert verdict.left <= LEFT[sweeps]
-        assert verdict.unlike <= UNLIKE[sweeps]
+        assert verdict.left <= LEFT
+        assert verdict.unlike <= UNLIKE
         assert (inside <= MISSED, elsewhere) == (True, 0)
         assert verdict.known(FORCE_OFF) >= 1.0 - UNCERTAIN

@@ -2,7 +2,7 @@
 
 use crate::random::Noise;
 use std::path::PathBuf;
-use taxel::client::{Event, ImageNews};
+use taxel::client::{Client, Event, ImageNews};
 use taxel::error::{ErrorKind, LearnError};
 use taxel::files::scripts;
 use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFolds, learn};
@@ -205,6 +205,73 @@ fn a_bulge_that_appears_at_once_may_do_so_beside_where_it_did() {
     assert_eq!(spread(beside), spread(pressed));
     // A whole shift away: its doubt is that of days, which falls as the day is learned.
     assert_eq!(spread(away), 0);
+}
+
+/// A bulge that presses on two taxels of the reference garment, 101 and 102 as it was learned, so many counts each
+/// at 100 degrees.
+fn bulge(at: usize, counts: f32, degrees: f32) -> Vec<u16> {
+    let mut felt = vec![0; 2048];
+    felt[at..at + 2].fill((counts * degrees / 100.0) as u16);
+    felt
+}
+
+/// What is learned from one sweep of such a bulge, of 600 counts.
+fn learned_once() -> LearnedFolds {
+    let mut sweep = FoldSweep::new(vec!["left_elbow".into()], 2048);
+    for frame in 0..1200 {
+        let angle = 50.0 - 50.0 * (frame as f32 / 50.0).cos();
+        sweep.push(&[angle], &bulge(101, 600.0, angle)).expect("it fits");
+    }
+    learn(&layout(&bending(1)), &[sweep], &FoldSettings::default()).expect("it folds")
+}
+
+#[test]
+fn one_day_leaves_room_for_another_that_is_twice_as_strong() {
+    let learned = learned_once();
+    let table = FoldTable::view(&learned.table).expect("it is one");
+    let last = table.folds()[0].cells() - 1;
+    for taxel in [99, 101, 104] {
+        let cell = table.cell(taxel, last).expect("it is within the shift");
+        let level = [cell.mean, cell.days].map(|units| u32::from(units) * u32::from(table.unit()));
+        assert!((1150..1300).contains(&level.iter().sum::<u32>()), "{taxel}: {level:?}");
+        assert!(cell.mean.max(cell.days) <= 127, "{cell:?}");
+    }
+}
+
+#[test]
+fn a_board_learns_all_that_another_day_brings() {
+    let script = scripts::load("elbow").expect("built in");
+    let mut board =
+        Stepped::new(scripts::garment(&script).expect("it is a preset"), Scene::shipped()).unwrap();
+    let request = |board: &mut Stepped, request| board.client().request(&request).expect("it fits");
+    request(&mut board, Request::Tare { frames: 16 });
+    let (mut contacts, mut expected) = (0, 0);
+    for step in 0..7600u64 {
+        if step == TARED {
+            setting::set_folds(board.client(), &written(&learned_once())).expect("it is a table");
+        }
+        // Five times there and back within 6.4 s, and there. The bulge lies two taxels from where it lay, and presses
+        // 1.7 times as strongly.
+        let phase = step.saturating_sub(400) as f32 / 200.0;
+        let degrees = 50.0 - 50.0 * phase.min(11.0 * std::f32::consts::PI).cos();
+        if step % 4 == 0 {
+            let joint = JointAngle { joint: 0, centidegrees: (100.0 * degrees) as i16 };
+            request(&mut board, Request::Posture(Posture { joints: [joint].into_iter().collect() }));
+        }
+        let codes: Vec<u16> = bulge(103, 1000.0, degrees).iter().map(|counts| 100 + counts).collect();
+        let mut take = |client: &Client, event: &Event| {
+            match event {
+                Event::Contacts { .. } if step > 400 => contacts += client.contacts().len(),
+                Event::Folds(report) => expected = report.total,
+                Event::Answer { refusal: Some(why), .. } => panic!("{why}"),
+                _ => {}
+            }
+            Ok(())
+        };
+        board.step(&codes, Micros(step * FRAME_PERIOD_US), &mut take).expect("the codes are of this garment");
+    }
+    assert_eq!(contacts, 0);
+    assert!((1900..2100).contains(&expected), "{expected} of 2000 counts");
 }
 
 #[test]

@@ -17,9 +17,14 @@ const PLAYS: [f32; 7] = [0.0, 2.0, 4.0, 6.0, 8.0, 11.0, 15.0];
 const PRESSED: f64 = 5e-4;
 /// Share of what a taxel feels that differs from day to day, besides what the shift explains.
 const DAY_SHARE: f32 = 0.5;
+/// Share by which a taxel may feel more, and differ more within a day, than on the one day that was learned from:
+/// divided by the number of days, which tell how they differ.
+const UNTOLD_SHARE: f32 = 0.5;
 /// Share of the most by which the garment shifts, within which a neighbour's spread counts, too. It is not all
 /// of the shift: the spread is doubt for the whole day, and would hide touches.
 const SPREAD_SHARE: f32 = 0.5;
+/// Most units of what a taxel feels, or differs by: a board's correction reaches as far, up or down.
+const MOST_UNITS: f32 = 127.0;
 /// Most knots of a joint.
 const MOST_KNOTS: usize = 64;
 
@@ -288,14 +293,14 @@ fn courses(
     // A shift brings what the neighbours feel, at an angle or beside it, and how it differs within a day.
     let beside: Vec<Vec<usize>> =
         (0..knots).map(|knot| fold.knots.beside(knot, settings.shift_deg)).collect();
-    let shift_mm = settings.shift_mm;
+    let (shift_mm, untold) = (settings.shift_mm, UNTOLD_SHARE / sweeps.len() as f32);
     let most = brought(layout, &courses, &beside, shift_mm, |course| &course.most);
     let spread = brought(layout, &courses, &beside, SPREAD_SHARE * shift_mm, |course| &course.spread);
     for (course, (most, spread)) in courses.iter_mut().zip(most.into_iter().zip(spread)) {
         for ((days, mean), most) in course.days.iter_mut().zip(&course.mean).zip(most) {
-            *days = days.max((1.0 + DAY_SHARE) * most - mean);
+            *days = days.max((1.0 + DAY_SHARE + untold) * most - mean);
         }
-        course.spread = spread;
+        course.spread = spread.into_iter().map(|spread| (1.0 + untold) * spread).collect();
     }
     courses
 }
@@ -345,13 +350,13 @@ fn write(
 ) -> Result<LearnedFolds> {
     let all = || courses.iter().flatten();
     let largest = all().flat_map(|course| course.mean.iter().chain(&course.spread).chain(&course.days));
-    let unit = (largest.fold(0.0f32, |most, next| most.max(*next)) / 255.0).ceil().max(1.0);
+    let unit = (largest.fold(0.0f32, |most, next| most.max(*next)) / MOST_UNITS).ceil().max(1.0);
     require!(
         unit as u32 <= u32::from(MOST_UNIT),
         LearnError::TooLarge,
         "a fold presses with up to {:.0} counts, a board holds {}: record with codes of 12 bits",
-        unit * 255.0,
-        255 * u32::from(MOST_UNIT)
+        unit * MOST_UNITS,
+        MOST_UNITS * f32::from(MOST_UNIT)
     );
     let mut joints: Vec<&str> = Vec::new();
     for joint in folds.iter().flat_map(|fold| &fold.knots.joints) {
