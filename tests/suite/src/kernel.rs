@@ -152,6 +152,7 @@ impl Bench {
 
     fn touch(&mut self, codes: &[Code], probe: &mut impl Probe) -> Option<u32> {
         let gestures = self.gestures.as_ref()?;
+        prepare(probe);
         let mut image = [0; PANEL];
         image.iter_mut().zip(codes).for_each(|(value, code)| *value = code.0);
         begin(probe);
@@ -181,7 +182,7 @@ impl Bench {
         probe: &mut impl Probe,
     ) -> Option<u32> {
         // To put a table in force takes longer than the work.
-        probe.begin(Stage::Scan);
+        prepare(probe);
         let mut values = codes.map(|code| code.0);
         self.folds.pose(FoldTable::view(&FOLDS.0)?, &[ELBOW]).ok()?;
         begin(probe);
@@ -203,6 +204,7 @@ fn describe(codes: &[Code]) -> u32 {
 }
 
 fn copy(codes: &[Code], probe: &mut impl Probe) -> u32 {
+    prepare(probe);
     let mut from: copies::CopySpace = [0; _];
     from.iter_mut().zip(codes).for_each(|(byte, code)| *byte = code.0 as u8);
     let mut to = from;
@@ -212,9 +214,13 @@ fn copy(codes: &[Code], probe: &mut impl Probe) -> u32 {
     fold(to.into_iter().chain(copies::all(&from)).map(u32::from))
 }
 
-/// Marks the beginning of the work; anything before it is not measured.
-fn begin(probe: &mut impl Probe) {
+/// Marks that what follows, up to [`begin`], is no part of the work.
+fn prepare(probe: &mut impl Probe) {
     probe.begin(Stage::Scan);
+}
+
+/// Marks the beginning of the work.
+fn begin(probe: &mut impl Probe) {
     probe.begin(Stage::Idle);
 }
 
