@@ -565,4 +565,48 @@ mod tests {
             assert_eq!(has_any(&words, start..end), (start..end).any(is_set), "{start}..{end}");
         }
     }
+
+    #[cfg(feature = "folds")]
+    #[test]
+    fn between_two_knots_a_fold_may_be_as_at_either() {
+        use crate::fold::{FoldCell, FoldTableParts, fold_table_length, write_fold_table};
+        use crate::garment::{Garment, Layout};
+        let layout = Layout::build(&Garment::block(), 64, u16::MAX).unwrap();
+        let joints = [0, NO_JOINT];
+        let fold = FoldRecord {
+            joints,
+            knots: [2, 1],
+            first: [0, 0],
+            step: [1000, 0],
+            play: [0, 0],
+            taxels: 4,
+            zero: 0,
+        };
+        // It appears at once, vanishes at once, grows within the doubt, and does nothing.
+        let at = |means: [u8; 4]| means.map(|mean| FoldCell { mean, spread: 20, days: 5 });
+        let knots = [at([0, 120, 40, 0]), at([120, 0, 60, 0])];
+        let cells: std::vec::Vec<FoldCell> =
+            (0..4).flat_map(|taxel| knots.map(|cells| cells[taxel])).collect();
+        let parts = FoldTableParts {
+            joints: &["elbow"],
+            folds: &[fold],
+            taxels: &[8, 9, 10, 11],
+            cells: &cells,
+            unit: 3,
+        };
+        let length = fold_table_length(&[fold]);
+        let words: &'static mut [u32] = std::vec![0; length.div_ceil(4)].leak();
+        let bytes: &'static mut [u8] = &mut bytemuck::cast_slice_mut(words)[..length];
+        write_fold_table(&parts, &layout, bytes).unwrap();
+        let table = FoldTable::check(bytes, &layout).unwrap();
+        for angle in (0..1000).step_by(10) {
+            let mut state = FoldState::new();
+            state.pose(table, &[angle]).unwrap();
+            let told = [8, 9, 10, 11].map(|taxel| state.of(taxel).unwrap());
+            for [expected, doubt] in &told[..2] {
+                assert!(expected + doubt >= 3 * 120, "at {angle}: {expected} and {doubt}");
+            }
+            assert_eq!([told[2][1], told[3][1]], [3 * 25; 2]);
+        }
+    }
 }
