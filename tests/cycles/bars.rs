@@ -107,7 +107,7 @@ impl Bending {
         let shipped = condition(Variant::Shipped)?;
         let swaying = condition(Variant::Swaying)?;
         let by_taxel =
-            |more: u64, than: u64| more.saturating_sub(than) * 20_000 / (FOLDED as u64 * PERIOD_US);
+            |more: u64, than: u64| (more.saturating_sub(than) * 20_000).div_ceil(FOLDED as u64 * PERIOD_US);
         Some(Bending {
             posture: by_taxel(swaying, shipped),
             turning: by_taxel(condition(Variant::Turning)?, shipped),
