@@ -45,8 +45,9 @@ LEFT = 0.01
 """Most of the scans with a false contact that may be left."""
 
 UNLIKE = 0.02
-"""Most that the correlation of expected and measured pressure may lack of 1 over the ten minutes of a day. In the first
-one it lacks more: creases a taxel wide lie on another taxel each day, and nobody knows which until it has been pressed."""
+"""Most that the correlation of expected and measured pressure may lack of 1 over the ten minutes of a day. In the
+first one it lacks more: creases a taxel wide lie on another taxel each day, and nobody knows which until it has been
+pressed."""
 
 MISSED, FORCE_OFF, UNCERTAIN = 0.05, 0.1, 0.05
 """Most touches inside folds that may be missed, share; error of a force that is small, share; and share of the
