@@ -363,28 +363,15 @@ mod tests {
     /// The first eight taxels fold at an elbow, and press 200 counts, 60 more or less.
     #[cfg(feature = "folds")]
     fn folding(layout: &Layout) -> crate::fold::FoldTable<'static> {
-        use crate::fold::{FoldCell, FoldRecord, FoldTable, FoldTableParts, NO_JOINT};
-        let fold = FoldRecord {
-            joints: [0, NO_JOINT],
-            knots: [1, 1],
-            first: [0, 0],
-            step: [900, 0],
-            play: [0, 0],
-            taxels: 8,
-            zero: 0,
-        };
+        use crate::fold::{FoldCell, FoldRecord, FoldTableParts};
         let parts = FoldTableParts {
             joints: &["elbow"],
-            folds: &[fold],
+            folds: &[FoldRecord::single(1, 900, 8)],
             taxels: &[0, 1, 2, 3, 4, 5, 6, 7],
             cells: &[FoldCell { mean: 50, spread: 15, days: 0 }; 8],
             unit: 4,
         };
-        let length = crate::fold::fold_table_length(&[fold]);
-        let words: &'static mut [u32] = vec![0; length.div_ceil(4)].leak();
-        let bytes: &'static mut [u8] = &mut bytemuck::cast_slice_mut(words)[..length];
-        crate::fold::write_fold_table(&parts, layout, bytes).unwrap();
-        FoldTable::check(bytes, layout).unwrap()
+        parts.stored(layout)
     }
 
     #[cfg(feature = "folds")]

@@ -2,14 +2,10 @@
 
 extern crate std;
 use super::{ConditionConfig, ConditionState, Feedback, Pressed, Sampled};
-use crate::fold::{
-    FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, Posture, fold_table_length,
-    write_fold_table,
-};
+use crate::fold::{FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, Posture};
 use crate::format::{Code, Micros, name};
 use crate::garment::{Garment, Layout, Rect};
 use std::boxed::Box;
-use std::vec;
 use std::vec::Vec;
 
 type FullState = ConditionState<2048>;
@@ -26,15 +22,7 @@ impl Drawn {
 
 /// A fold of one joint and one of two, on rows and parts of rows.
 fn table(layout: &Layout, drawn: &mut Drawn) -> FoldTable<'static> {
-    let single = FoldRecord {
-        joints: [0, NO_JOINT],
-        knots: [6, 1],
-        first: [0, 0],
-        step: [900, 0],
-        play: [100, 0],
-        taxels: 70,
-        zero: 0,
-    };
+    let single = FoldRecord { play: [100, 0], ..FoldRecord::single(6, 900, 70) };
     let pair = FoldRecord {
         joints: [1, 2],
         knots: [3, 4],
@@ -54,12 +42,7 @@ fn table(layout: &Layout, drawn: &mut Drawn) -> FoldTable<'static> {
         .collect();
     let folds = [single, pair];
     let joints = ["elbow", "roll", "pitch"];
-    let parts = FoldTableParts { joints: &joints, folds: &folds, taxels: &taxels, cells: &cells, unit: 4 };
-    // Aligned like words.
-    let words = Box::leak(vec![0u32; fold_table_length(&folds) / 4].into_boxed_slice());
-    let bytes: &'static mut [u8] = bytemuck::cast_slice_mut(words);
-    write_fold_table(&parts, layout, bytes).unwrap();
-    FoldTable::check(bytes, layout).unwrap()
+    FoldTableParts { joints: &joints, folds: &folds, taxels: &taxels, cells: &cells, unit: 4 }.stored(layout)
 }
 
 /// Turns each joint by at most so much, hundredths of a degree.

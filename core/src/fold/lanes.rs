@@ -53,8 +53,8 @@ impl LaneSums {
         LaneSums { even: limited(even), odd: limited(odd) }
     }
 
-    /// Two knots as a start, with half of a unit, so that [`LaneSums::lanes`] rounds, and the step from there to
-    /// the second one for a weight of 1: see [`LaneSums::toward`].
+    /// Two knots as a start, with half of a unit, so that [`LaneSums::lanes`] rounds, and the step from there
+    /// to the second one for a weight of 1: see [`LaneSums::toward`].
     #[inline(always)]
     pub fn ends(first: LaneSums, last: LaneSums) -> [LaneSums; 2] {
         let start = |sums: u32| sums.wrapping_mul(WHOLE.into()).wrapping_add(ONE << (SHIFT - 1));

@@ -281,8 +281,8 @@ impl FoldState {
         }
     }
 
-    /// Finds what is expected of some quads of a fold at the knots around, which are others than before if `knots`.
-    /// Returns how much the last one counts.
+    /// Finds what is expected of some quads of a fold at the knots around, which are others than before if
+    /// `knots`. Returns how much the last one counts.
     fn find_knots(
         &mut self,
         table: &FoldTable<'_>,
@@ -569,19 +569,9 @@ mod tests {
     #[cfg(feature = "folds")]
     #[test]
     fn between_two_knots_a_fold_may_be_as_at_either() {
-        use crate::fold::{FoldCell, FoldTableParts, fold_table_length, write_fold_table};
+        use crate::fold::{FoldCell, FoldTableParts};
         use crate::garment::{Garment, Layout};
         let layout = Layout::build(&Garment::block(), 64, u16::MAX).unwrap();
-        let joints = [0, NO_JOINT];
-        let fold = FoldRecord {
-            joints,
-            knots: [2, 1],
-            first: [0, 0],
-            step: [1000, 0],
-            play: [0, 0],
-            taxels: 4,
-            zero: 0,
-        };
         // It appears at once, vanishes at once, grows within the doubt, and does nothing.
         let at = |means: [u8; 4]| means.map(|mean| FoldCell { mean, spread: 20, days: 5 });
         let knots = [at([0, 120, 40, 0]), at([120, 0, 60, 0])];
@@ -589,16 +579,12 @@ mod tests {
             (0..4).flat_map(|taxel| knots.map(|cells| cells[taxel])).collect();
         let parts = FoldTableParts {
             joints: &["elbow"],
-            folds: &[fold],
+            folds: &[FoldRecord::single(2, 1000, 4)],
             taxels: &[8, 9, 10, 11],
             cells: &cells,
             unit: 3,
         };
-        let length = fold_table_length(&[fold]);
-        let words: &'static mut [u32] = std::vec![0; length.div_ceil(4)].leak();
-        let bytes: &'static mut [u8] = &mut bytemuck::cast_slice_mut(words)[..length];
-        write_fold_table(&parts, &layout, bytes).unwrap();
-        let table = FoldTable::check(bytes, &layout).unwrap();
+        let table = parts.stored(&layout);
         for angle in (0..1000).step_by(10) {
             let mut state = FoldState::new();
             state.pose(table, &[angle]).unwrap();

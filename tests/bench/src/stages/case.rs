@@ -80,7 +80,7 @@ pub enum Variant {
     Bending,
     /// With the left arm turning on and on with 1 rad/s, as far as from one knot to the next.
     Turning,
-    /// With the left arm turning to and fro between two knots: it comes to none.
+    /// With the left arm turning to and fro between two knots that it has been compared at: it comes to none.
     Swaying,
     /// With the left arm turning to and fro, at another of two such knots with each posture: all of it is
     /// compared each time.
@@ -168,9 +168,8 @@ impl Variant {
     /// knot each 9 degrees, and a play of 6: on the way back the sleeve is as much ahead of the joint as it is
     /// behind on the way there.
     fn bends(self, n: usize) -> Option<i16> {
-        // The first is at a knot, which has been compared when the second comes; the sleeve is then between it and
-        // the next one.
-        let turning = |between: [i16; 4]| [0, 1150].into_iter().chain(between).nth(n);
+        // The first two are at a knot each; the sleeve is then between them.
+        let turning = |between: [i16; 4]| [0, 1500].into_iter().chain(between).nth(n);
         match self {
             Variant::Folds => Some(120 * n as i16),
             Variant::Bending => Some(480 * n as i16),
