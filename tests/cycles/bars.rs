@@ -30,7 +30,7 @@ fn kernel(table: &Table, what: &str) -> Option<u64> {
 }
 
 /// Of what ships.
-const BARS: [Bar; 7] = [
+const BARS: [Bar; 8] = [
     Bar { scene: "empty", what: "all", most: 60_000, of: |table, scene| chain(table, scene, Row::whole) },
     Bar {
         scene: "5 contacts",
@@ -58,6 +58,12 @@ const BARS: [Bar; 7] = [
     },
     Bar { scene: INFERENCE, what: "ten concepts", most: 25_000, of: kernel },
     Bar { scene: SUBTRACTION, what: "a taxel and frame", most: 20, of: kernel },
+    Bar {
+        scene: "change of posture",
+        what: "a taxel",
+        most: 60,
+        of: |table, _| Bending::of(table).map(|bending| bending.posture),
+    },
 ];
 
 /// How far a figure may be from the one that was written, in percent, and in cycles where it is small, if

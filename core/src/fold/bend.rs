@@ -7,7 +7,7 @@ use super::record::{FoldRecord, NO_JOINT};
 const NEAR: u16 = WHOLE / 4;
 /// How much more another knot must count than the one whose doubts are in force: an arm that trembles midway
 /// between two knots then does not change them with each posture.
-const NEARER: u16 = WHOLE / 4;
+const NEARER: u16 = WHOLE / 8;
 
 /// A knot beside the present posture, and how much it counts, of [`WHOLE`].
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]

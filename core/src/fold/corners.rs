@@ -60,15 +60,6 @@ pub(super) fn find_ends(ends: &mut [[LaneSums; 2]], first: Around<'_>, last: Aro
     }
 }
 
-/// Doubts quads at least as much as the knots around differ: between them a fold that comes at once may be as
-/// at either.
-#[inline(never)] // own registers
-pub(super) fn doubt_between(doubts: &mut [u32], ends: &[[LaneSums; 2]]) {
-    for (doubt, [_, step]) in doubts.iter_mut().zip(ends) {
-        *doubt = step.bridged(*doubt);
-    }
-}
-
 /// Notes the taxels that were not compared at a knot, by the highest bits of their bytes.
 #[inline(never)] // own registers
 fn note_new(new: &mut [u32], corrections: &[u32]) {

@@ -73,28 +73,6 @@ impl LaneSums {
         LaneSums { even: sum(self.even, step.even), odd: sum(self.odd, step.odd) }
     }
 
-    /// Bytes that are at least by how much two knots differ that are this step apart, see [`LaneSums::ends`].
-    #[inline(always)]
-    pub fn bridged(&self, bytes: u32) -> u32 {
-        // The highest bit of a lane stays as long as the step is not larger, up or down.
-        let is_less = |step: u32, bytes: u32| {
-            let most = (bytes & EVEN).wrapping_add(ONE << 15);
-            most.wrapping_add(step) & most.wrapping_sub(step)
-        };
-        let all = is_less(self.even, bytes) & is_less(self.odd, bytes >> 8);
-        if all & ONE << 15 == ONE << 15 { bytes } else { self.raised(bytes) }
-    }
-
-    /// [`LaneSums::bridged`] where some byte is less.
-    #[inline(never)] // seldom
-    fn raised(&self, bytes: u32) -> u32 {
-        let lacks = |step: u32, bytes: u32| {
-            let least = (ONE << 15).wrapping_sub(bytes & EVEN);
-            limited(least.wrapping_add(step)) | limited(least.wrapping_sub(step))
-        };
-        bytes.wrapping_add(lacks(self.even, bytes) | lacks(self.odd, bytes >> 8) << 8)
-    }
-
     /// Adds `weight` of each byte.
     #[inline(always)]
     pub fn add(&mut self, bytes: u32, weight: u32) {
@@ -210,10 +188,6 @@ mod tests {
             prop_assert_eq!(sums.lanes().bytes().to_le_bytes(), want);
             let [start, step] = LaneSums::ends(first, last);
             prop_assert_eq!(start.toward(&step, weight).lanes().bytes().to_le_bytes(), want);
-            let want = core::array::from_fn(|i| {
-                (knot(a[i], b[i]).abs_diff(knot(c[i], d[i])) as u8).max(d[i])
-            });
-            prop_assert_eq!(step.bridged(wd).to_le_bytes(), want);
             let mut sums = LaneSums::NONE;
             sums.add(wa, weight);
             let want = a.map(|a| ((u32::from(a) * weight + 64) / 128) as u8);

@@ -1,7 +1,7 @@
 //! What the taxels that fold are expected to feel, and its corrections.
 
 use super::bend::{Bend, Corner, Due};
-use super::corners::{AT_ONCE, Around, add_means, doubt_between, find_doubts, find_ends};
+use super::corners::{AT_ONCE, Around, add_means, find_doubts, find_ends};
 use super::lanes::{LaneSums, LevelPairs, byte, zeros};
 use super::lesson::{Lesson, MOST_PASSES};
 use super::posture::PostureState;
@@ -331,7 +331,6 @@ impl FoldState {
             let passes = there().filter_map(|corner| self.passes.get(at.knot + usize::from(corner.knot)));
             let nearest = around(&Corner { knot: bend.doubted_at, weight: 0 });
             find_doubts(&mut found, nearest, passes.min().copied().unwrap_or(0), there().map(around));
-            doubt_between(&mut found, self.ends.get(quads.clone()).unwrap_or_default());
             &found
         } else {
             // Taxels may feel anything up to the most.
@@ -563,36 +562,6 @@ mod tests {
         let is_set = |at: usize| words.get(at / 32).is_some_and(|word| word >> (at % 32) & 1 == 1);
         for (start, end) in (0..100).flat_map(|start| (0..130).map(move |end| (start, end))) {
             assert_eq!(has_any(&words, start..end), (start..end).any(is_set), "{start}..{end}");
-        }
-    }
-
-    #[cfg(feature = "folds")]
-    #[test]
-    fn between_two_knots_a_fold_may_be_as_at_either() {
-        use crate::fold::{FoldCell, FoldTableParts};
-        use crate::garment::{Garment, Layout};
-        let layout = Layout::build(&Garment::block(), 64, u16::MAX).unwrap();
-        // It appears at once, vanishes at once, grows within the doubt, and does nothing.
-        let at = |means: [u8; 4]| means.map(|mean| FoldCell { mean, spread: 20, days: 5 });
-        let knots = [at([0, 120, 40, 0]), at([120, 0, 60, 0])];
-        let cells: std::vec::Vec<FoldCell> =
-            (0..4).flat_map(|taxel| knots.map(|cells| cells[taxel])).collect();
-        let parts = FoldTableParts {
-            joints: &["elbow"],
-            folds: &[FoldRecord::single(2, 1000, 4)],
-            taxels: &[8, 9, 10, 11],
-            cells: &cells,
-            unit: 3,
-        };
-        let table = parts.stored(&layout);
-        for angle in (0..1000).step_by(10) {
-            let mut state = FoldState::new();
-            state.pose(table, &[angle]).unwrap();
-            let told = [8, 9, 10, 11].map(|taxel| state.of(taxel).unwrap());
-            for [expected, doubt] in &told[..2] {
-                assert!(expected + doubt >= 3 * 120, "at {angle}: {expected} and {doubt}");
-            }
-            assert_eq!([told[2][1], told[3][1]], [3 * 25; 2]);
         }
     }
 }

@@ -179,22 +179,42 @@ fn total_at(seen: &Seen, at_us: u64, begin: u64) -> u32 {
     seen.contacts.iter().filter(|(time, ..)| *time == first).map(|(.., total)| total).sum()
 }
 
+/// What is learned from one sweep to 100 degrees and back, of 600 frames each.
+fn learned_once(felt: impl FnMut(f32) -> Vec<u16>, shift_mm: f32) -> LearnedFolds {
+    let (mut sweep, mut felt) = (FoldSweep::new(vec!["left_elbow".into()], 2048), felt);
+    for frame in 0..1200 {
+        let angle = 50.0 - 50.0 * (frame as f32 / 50.0).cos();
+        sweep.push(&[angle], &felt(angle)).expect("it fits");
+    }
+    let settings = FoldSettings { shift_mm, ..FoldSettings::default() };
+    learn(&layout(&bending(1)), &[sweep], &settings).expect("it folds")
+}
+
+/// A bulge that presses on a taxel of the reference garment with so many counts: it appears at 60 degrees and
+/// stays until 40, or at angles that are `later`.
+fn at_once(taxel: usize, counts: u16, later: f32) -> impl FnMut(f32) -> Vec<u16> {
+    let mut is_out = false;
+    move |degrees| {
+        is_out = degrees - later > if is_out { 40.0 } else { 60.0 };
+        let mut felt = vec![0; 2048];
+        felt[taxel] = if is_out { counts } else { 0 };
+        felt
+    }
+}
+
+/// A bulge that presses on two taxels, so many counts each at 100 degrees.
+fn growing(first: usize, counts: f32) -> impl FnMut(f32) -> Vec<u16> {
+    move |degrees| {
+        let mut felt = vec![0; 2048];
+        felt[first..first + 2].fill((counts * degrees / 100.0) as u16);
+        felt
+    }
+}
+
 #[test]
 fn a_bulge_that_appears_at_once_may_do_so_beside_where_it_did() {
-    let layout = layout(&bending(1));
     let (pressed, beside, away) = (100, 101, 102);
-    let mut sweep = FoldSweep::new(vec!["left_elbow".into()], layout.taxels());
-    let mut is_out = false;
-    for frame in 0..1200 {
-        // To 100 degrees and back; it appears at 60 and stays until 40.
-        let angle = 50.0 - 50.0 * (frame as f32 / 50.0).cos();
-        is_out = angle > if is_out { 40.0 } else { 60.0 };
-        let mut felt = vec![0; layout.taxels()];
-        felt[pressed] = if is_out { 300 } else { 0 };
-        sweep.push(&[angle], &felt).expect("it fits");
-    }
-    let settings = FoldSettings { shift_mm: 24.0, ..FoldSettings::default() };
-    let learned = learn(&layout, &[sweep], &settings).expect("it folds");
+    let learned = learned_once(at_once(pressed, 300, 0.0), 24.0);
     let table = FoldTable::view(&learned.table).expect("it is one");
     let cells = table.folds()[0].cells();
     let spread = |taxel: usize| {
@@ -207,27 +227,9 @@ fn a_bulge_that_appears_at_once_may_do_so_beside_where_it_did() {
     assert_eq!(spread(away), 0);
 }
 
-/// A bulge that presses on two taxels of the reference garment, 101 and 102 as it was learned, so many counts each
-/// at 100 degrees.
-fn bulge(at: usize, counts: f32, degrees: f32) -> Vec<u16> {
-    let mut felt = vec![0; 2048];
-    felt[at..at + 2].fill((counts * degrees / 100.0) as u16);
-    felt
-}
-
-/// What is learned from one sweep of such a bulge, of 600 counts.
-fn learned_once() -> LearnedFolds {
-    let mut sweep = FoldSweep::new(vec!["left_elbow".into()], 2048);
-    for frame in 0..1200 {
-        let angle = 50.0 - 50.0 * (frame as f32 / 50.0).cos();
-        sweep.push(&[angle], &bulge(101, 600.0, angle)).expect("it fits");
-    }
-    learn(&layout(&bending(1)), &[sweep], &FoldSettings::default()).expect("it folds")
-}
-
 #[test]
 fn one_day_leaves_room_for_another_that_is_twice_as_strong() {
-    let learned = learned_once();
+    let learned = learned_once(growing(101, 600.0), 30.0);
     let table = FoldTable::view(&learned.table).expect("it is one");
     let last = table.folds()[0].cells() - 1;
     for taxel in [99, 101, 104] {
@@ -238,30 +240,37 @@ fn one_day_leaves_room_for_another_that_is_twice_as_strong() {
     }
 }
 
-#[test]
-fn a_board_learns_all_that_another_day_brings() {
+/// Wears a garment of which that was learned on another day, on an arm that bends to `degrees` in so many frames.
+/// Returns the number of frames with a contact, and what is expected at the end, counts.
+fn worn(
+    learned: &LearnedFolds,
+    mut felt: impl FnMut(f32) -> Vec<u16>,
+    frames: u64,
+    degrees: impl Fn(u64) -> f32,
+) -> (usize, u32) {
+    /// Frames in which the board is tared and stores the table.
+    const PREPARED: u64 = 400;
     let script = scripts::load("elbow").expect("built in");
     let mut board =
         Stepped::new(scripts::garment(&script).expect("it is a preset"), Scene::shipped()).unwrap();
     let request = |board: &mut Stepped, request| board.client().request(&request).expect("it fits");
     request(&mut board, Request::Tare { frames: 16 });
     let (mut contacts, mut expected) = (0, 0);
-    for step in 0..7600u64 {
+    for step in 0..PREPARED + frames {
         if step == TARED {
-            setting::set_folds(board.client(), &written(&learned_once())).expect("it is a table");
+            setting::set_folds(board.client(), &written(learned)).expect("it is a table");
         }
-        // Five times there and back within 6.4 s, and there. The bulge lies two taxels from where it lay, and presses
-        // 1.7 times as strongly.
-        let phase = step.saturating_sub(400) as f32 / 200.0;
-        let degrees = 50.0 - 50.0 * phase.min(11.0 * std::f32::consts::PI).cos();
+        let degrees = degrees(step.saturating_sub(PREPARED));
         if step % 4 == 0 {
             let joint = JointAngle { joint: 0, centidegrees: (100.0 * degrees) as i16 };
             request(&mut board, Request::Posture(Posture { joints: [joint].into_iter().collect() }));
         }
-        let codes: Vec<u16> = bulge(103, 1000.0, degrees).iter().map(|counts| 100 + counts).collect();
+        let codes: Vec<u16> = felt(degrees).iter().map(|counts| 100 + counts).collect();
         let mut take = |client: &Client, event: &Event| {
             match event {
-                Event::Contacts { .. } if step > 400 => contacts += client.contacts().len(),
+                Event::Contacts { .. } if step > PREPARED => {
+                    contacts += usize::from(!client.contacts().is_empty());
+                }
                 Event::Folds(report) => expected = report.total,
                 Event::Answer { refusal: Some(why), .. } => panic!("{why}"),
                 _ => {}
@@ -270,8 +279,29 @@ fn a_board_learns_all_that_another_day_brings() {
         };
         board.step(&codes, Micros(step * FRAME_PERIOD_US), &mut take).expect("the codes are of this garment");
     }
+    (contacts, expected)
+}
+
+#[test]
+fn a_board_learns_all_that_another_day_brings() {
+    // The bulge lies two taxels from where it lay, and presses 1.7 times as strongly.
+    let learned = learned_once(growing(101, 600.0), 30.0);
+    // Five times there and back within 6.4 s, and there.
+    let degrees = |step| 50.0 - 50.0 * (step as f32 / 200.0).min(11.0 * std::f32::consts::PI).cos();
+    let (contacts, expected) = worn(&learned, growing(103, 1000.0), 7200, degrees);
     assert_eq!(contacts, 0);
     assert!((1900..2100).contains(&expected), "{expected} of 2000 counts");
+}
+
+#[test]
+fn a_bulge_that_appears_at_once_may_do_so_later_and_be_stronger() {
+    let learned = learned_once(at_once(100, 300, 0.0), 30.0);
+    // Thirty times there and back within 3.2 s each.
+    let degrees = |step| 50.0 - 50.0 * (step as f32 / 100.0).cos();
+    for later in [-8.0, -4.0, 2.0, 6.0, 11.0] {
+        let (contacts, _) = worn(&learned, at_once(101, 450, later), 18_800, degrees);
+        assert_eq!(contacts, 0, "{later} degrees later");
+    }
 }
 
 #[test]

@@ -17,9 +17,12 @@ const PLAYS: [f32; 7] = [0.0, 2.0, 4.0, 6.0, 8.0, 11.0, 15.0];
 const PRESSED: f64 = 5e-4;
 /// Share of what a taxel feels that differs from day to day, besides what the shift explains.
 const DAY_SHARE: f32 = 0.5;
-/// Share by which a taxel may feel more, and differ more within a day, than on the one day that was learned from.
-/// Several tell how days differ: it is divided by the square of their number.
+/// Share by which a taxel may feel more than on the one day that was learned from. Several days tell how they
+/// differ: it is divided by the square of their number.
 const UNTOLD_SHARE: f32 = 0.5;
+/// Share by which a taxel may differ more within a day than on that one, likewise: where a stronger bulge comes at
+/// once, between other knots, the expectation is further off.
+const UNTOLD_SPREAD: f32 = 1.5;
 /// Share of the most by which the garment shifts, within which a neighbour's spread counts, too. It is not all
 /// of the shift: the spread is doubt for the whole day, and would hide touches.
 const SPREAD_SHARE: f32 = 0.5;
@@ -293,14 +296,15 @@ fn courses(
     // A shift brings what the neighbours feel, at an angle or beside it, and how it differs within a day.
     let beside: Vec<Vec<usize>> =
         (0..knots).map(|knot| fold.knots.beside(knot, settings.shift_deg)).collect();
-    let (shift_mm, untold) = (settings.shift_mm, UNTOLD_SHARE / (sweeps.len() as f32).powi(2));
+    let shift_mm = settings.shift_mm;
+    let [stronger, wider] = [UNTOLD_SHARE, UNTOLD_SPREAD].map(|share| share / (sweeps.len() as f32).powi(2));
     let most = brought(layout, &courses, &beside, shift_mm, |course| &course.most);
     let spread = brought(layout, &courses, &beside, SPREAD_SHARE * shift_mm, |course| &course.spread);
     for (course, (most, spread)) in courses.iter_mut().zip(most.into_iter().zip(spread)) {
         for ((days, mean), most) in course.days.iter_mut().zip(&course.mean).zip(most) {
-            *days = days.max((1.0 + DAY_SHARE + untold) * most - mean);
+            *days = days.max((1.0 + DAY_SHARE + stronger) * most - mean);
         }
-        course.spread = spread.into_iter().map(|spread| (1.0 + untold) * spread).collect();
+        course.spread = spread.into_iter().map(|spread| (1.0 + wider) * spread).collect();
     }
     courses
 }
