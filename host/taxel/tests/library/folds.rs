@@ -190,12 +190,12 @@ fn learned_once(felt: impl FnMut(f32) -> Vec<u16>, shift_mm: f32) -> LearnedFold
     learn(&layout(&bending(1)), &[sweep], &settings).expect("it folds")
 }
 
-/// A bulge that presses on a taxel of the reference garment with so many counts: it appears at 60 degrees and
-/// stays until 40, or at angles that are `later`.
-fn at_once(taxel: usize, counts: u16, later: f32) -> impl FnMut(f32) -> Vec<u16> {
+/// A bulge that presses on a taxel of the reference garment with so many counts: it appears at one angle, degrees,
+/// and stays until another.
+fn at_once(taxel: usize, counts: u16, [from, until]: [f32; 2]) -> impl FnMut(f32) -> Vec<u16> {
     let mut is_out = false;
     move |degrees| {
-        is_out = degrees - later > if is_out { 40.0 } else { 60.0 };
+        is_out = degrees > if is_out { until } else { from };
         let mut felt = vec![0; 2048];
         felt[taxel] = if is_out { counts } else { 0 };
         felt
@@ -214,7 +214,7 @@ fn growing(first: usize, counts: f32) -> impl FnMut(f32) -> Vec<u16> {
 #[test]
 fn a_bulge_that_appears_at_once_may_do_so_beside_where_it_did() {
     let (pressed, beside, away) = (100, 101, 102);
-    let learned = learned_once(at_once(pressed, 300, 0.0), 24.0);
+    let learned = learned_once(at_once(pressed, 300, [60.0, 40.0]), 24.0);
     let table = FoldTable::view(&learned.table).expect("it is one");
     let cells = table.folds()[0].cells();
     let spread = |taxel: usize| {
@@ -295,12 +295,15 @@ fn a_board_learns_all_that_another_day_brings() {
 
 #[test]
 fn a_bulge_that_appears_at_once_may_do_so_later_and_be_stronger() {
-    let learned = learned_once(at_once(100, 300, 0.0), 30.0);
     // Thirty times there and back within 3.2 s each.
     let degrees = |step| 50.0 - 50.0 * (step as f32 / 100.0).cos();
-    for later in [-8.0, -4.0, 2.0, 6.0, 11.0] {
-        let (contacts, _) = worn(&learned, at_once(101, 450, later), 18_800, degrees);
-        assert_eq!(contacts, 0, "{later} degrees later");
+    for [from, until] in [[60.0, 40.0], [50.0, 50.0], [62.0, 60.0]] {
+        let learned = learned_once(at_once(100, 300, [from, until]), 30.0);
+        for later in [-16.0, -14.0, -8.0, -4.0, 2.0, 6.0, 11.0, 14.0, 16.0] {
+            let bulge = at_once(101, 450, [from + later, until + later]);
+            let (contacts, _) = worn(&learned, bulge, 18_800, degrees);
+            assert_eq!(contacts, 0, "{from} to {until} degrees, {later} later");
+        }
     }
 }
 

@@ -99,15 +99,13 @@ impl Knots {
         self.axes.iter().zip(degrees).fold(START, |knots, (axis, at)| axis.split(knots, *at))
     }
 
-    /// The knots within so many degrees of one, itself among them.
+    /// The knots whose folds may come to one within so many degrees, itself among them: it stands for postures
+    /// almost a step away.
     pub fn beside(&self, knot: usize, degrees: f32) -> Vec<usize> {
         let inner = self.axes.get(1).map_or(1, |axis| axis.knots);
         let is_near = |other: &usize| {
             let apart = [(other / inner).abs_diff(knot / inner), (other % inner).abs_diff(knot % inner)];
-            self.axes
-                .iter()
-                .zip(apart)
-                .all(|(axis, apart)| apart as f32 * axis.step <= degrees.max(axis.step))
+            self.axes.iter().zip(apart).all(|(axis, apart)| apart as f32 * axis.step <= degrees + axis.step)
         };
         (0..self.count()).filter(is_near).collect()
     }
