@@ -19,7 +19,7 @@
 //! beside a contact, by more than the floor. Its pressure is then what it feels less what it is expected to
 //! feel: a touch stronger than the doubt is never hidden, and is felt as a whole. The doubt is what the
 //! learner saw the taxel differ by on one day, and, until corrections are made, what it may differ by from
-//! day to day. It is at least what the two knots around differ by: a fold may appear at once between them.
+//! day to day.
 //!
 //! Corrections: whenever a joint comes to another knot, the taxels that nothing touches are compared once
 //! with what is expected there. A taxel that is held against something at one posture therefore teaches
