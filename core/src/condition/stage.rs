@@ -363,15 +363,16 @@ mod tests {
     /// The first eight taxels fold at an elbow, and press 200 counts, 60 more or less.
     #[cfg(feature = "folds")]
     fn folding(layout: &Layout) -> crate::fold::FoldTable<'static> {
-        use crate::fold::{FoldCell, FoldRecord, FoldTableParts};
+        use crate::condition::tests::{single, stored};
+        use crate::fold::{FoldCell, FoldTableParts};
         let parts = FoldTableParts {
             joints: &["elbow"],
-            folds: &[FoldRecord::single(1, 900, 8)],
+            folds: &[single(1, 8)],
             taxels: &[0, 1, 2, 3, 4, 5, 6, 7],
             cells: &[FoldCell { mean: 50, spread: 15, days: 0 }; 8],
             unit: 4,
         };
-        parts.stored(layout)
+        stored(&parts, layout)
     }
 
     #[cfg(feature = "folds")]

@@ -2,10 +2,14 @@
 
 extern crate std;
 use super::{ConditionConfig, ConditionState, Feedback, Pressed, Sampled};
-use crate::fold::{FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, Posture};
+use crate::fold::{
+    FoldCell, FoldRecord, FoldTable, FoldTableParts, JointAngle, NO_JOINT, Posture, fold_table_length,
+    write_fold_table,
+};
 use crate::format::{Code, Micros, name};
 use crate::garment::{Garment, Layout, Rect};
 use std::boxed::Box;
+use std::vec;
 use std::vec::Vec;
 
 type FullState = ConditionState<2048>;
@@ -20,9 +24,32 @@ impl Drawn {
     }
 }
 
+/// A fold of joint 0, whose knots begin at 0 and are 9 degrees apart, without play.
+pub(super) fn single(knots: u8, taxels: u16) -> FoldRecord {
+    FoldRecord {
+        joints: [0, NO_JOINT],
+        knots: [knots, 1],
+        first: [0; 2],
+        step: [900, 0],
+        play: [0; 2],
+        taxels,
+        zero: 0,
+    }
+}
+
+/// A table in memory that is never given back.
+pub(super) fn stored(parts: &FoldTableParts<'_>, layout: &Layout) -> FoldTable<'static> {
+    let length = fold_table_length(parts.folds);
+    // Words: a table is aligned like them.
+    let words: &'static mut [u32] = vec![0; length.div_ceil(4)].leak();
+    let bytes: &'static mut [u8] = &mut bytemuck::cast_slice_mut(words)[..length];
+    write_fold_table(parts, layout, bytes).unwrap();
+    FoldTable::check(bytes, layout).unwrap()
+}
+
 /// A fold of one joint and one of two, on rows and parts of rows.
 fn table(layout: &Layout, drawn: &mut Drawn) -> FoldTable<'static> {
-    let single = FoldRecord { play: [100, 0], ..FoldRecord::single(6, 900, 70) };
+    let single = FoldRecord { play: [100, 0], ..single(6, 70) };
     let pair = FoldRecord {
         joints: [1, 2],
         knots: [3, 4],
@@ -42,7 +69,8 @@ fn table(layout: &Layout, drawn: &mut Drawn) -> FoldTable<'static> {
         .collect();
     let folds = [single, pair];
     let joints = ["elbow", "roll", "pitch"];
-    FoldTableParts { joints: &joints, folds: &folds, taxels: &taxels, cells: &cells, unit: 4 }.stored(layout)
+    let parts = FoldTableParts { joints: &joints, folds: &folds, taxels: &taxels, cells: &cells, unit: 4 };
+    stored(&parts, layout)
 }
 
 /// Turns each joint by at most so much, hundredths of a degree.

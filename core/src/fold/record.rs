@@ -43,13 +43,6 @@ pub struct FoldCell {
 }
 
 impl FoldRecord {
-    /// A fold of joint 0, whose knots begin at 0 and are `step` hundredths of a degree apart, without play.
-    #[cfg(all(test, feature = "folds"))]
-    pub(crate) fn single(knots: u8, step: u16, taxels: u16) -> FoldRecord {
-        let (joints, knots, step) = ([0, NO_JOINT], [knots, 1], [step, 0]);
-        FoldRecord { joints, knots, first: [0; 2], step, play: [0; 2], taxels, zero: 0 }
-    }
-
     /// Cells of each taxel.
     pub const fn cells(&self) -> usize {
         self.knots[0] as usize * self.knots[1] as usize

@@ -257,9 +257,6 @@ impl FoldState {
             let some = quads.start..quads.end.min(quads.start + AT_ONCE);
             quads.start = some.end;
             let taxels = table.taxels().get(some.clone()).unwrap_or(&[]);
-            let is_posed = due.knots || due.doubt || due.posture;
-            let weight =
-                if is_posed { self.find_knots(table, (fold, at, bend), due.knots, &some) } else { 0 };
             if due.doubt || due.knots && !bend.is_known {
                 bend.has_certain |= self.doubt(table, (fold, at, bend), &some);
             }
@@ -269,49 +266,13 @@ impl FoldState {
                 None if due.touch => raise(own, taxels, |_| 0),
                 None => {}
             }
-            if is_posed {
-                expect(own, (self.ends.get(some).unwrap_or_default(), weight), unit, &mut levels);
-                if bend.has_certain {
-                    hold_all(own, taxels, &mut self.held);
-                }
+            if due.knots || due.doubt || due.posture {
+                self.expect(table, (fold, at, bend), due.knots, &some, &mut levels);
             } else {
                 sum_levels(own, unit, &mut levels);
             }
             set(taxels, &levels);
         }
-    }
-
-    /// Finds what is expected of some quads of a fold at the knots around, which are others than before if
-    /// `knots`. Returns how much the last one counts.
-    fn find_knots(
-        &mut self,
-        table: &FoldTable<'_>,
-        (fold, at, bend): (&FoldRecord, &FoldStart, &Bend),
-        knots: bool,
-        quads: &Range<usize>,
-    ) -> u32 {
-        let own = quads.start - at.quad..quads.end - at.quad;
-        let corrections = &self.corrections;
-        let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
-        let ends = self.ends.get_mut(quads.clone()).unwrap_or_default();
-        let [first, _, last, _] = &bend.corners;
-        if !bend.is_known {
-            // Nothing is expected: sums of 0 are below a byte.
-            ends.fill([LaneSums::ZERO; 2]);
-            return 0;
-        }
-        if fold.joints[1] != NO_JOINT {
-            ends.fill([LaneSums::NONE, LaneSums::ZERO]);
-            let there = bend.corners.iter().filter(|corner| corner.weight > 0);
-            there.for_each(|corner| add_means(ends, around(corner)));
-            return 0;
-        }
-        if knots {
-            let (first, last) = (around(first), around(last));
-            // There is no knot after the last one, which then counts nothing.
-            find_ends(ends, first, if last.cells.is_empty() { first } else { last });
-        }
-        last.weight.into()
     }
 
     /// Renews the doubts of some quads of a fold. True if some taxel is in no doubt.
@@ -338,6 +299,43 @@ impl FoldState {
         };
         let taxels = table.taxels().get(quads.clone()).unwrap_or(&[]);
         take_doubts(self.quads.get_mut(quads.clone()).unwrap_or_default(), doubts, taxels, &mut self.held)
+    }
+
+    /// Renews what is expected of some quads of a fold, and their levels; `knots`: the knots are others.
+    fn expect(
+        &mut self,
+        table: &FoldTable<'_>,
+        (fold, at, bend): (&FoldRecord, &FoldStart, &Bend),
+        knots: bool,
+        quads: &Range<usize>,
+        levels: &mut [LevelPairs],
+    ) {
+        let own = quads.start - at.quad..quads.end - at.quad;
+        let corrections = &self.corrections;
+        let around = |corner: &Corner| around((table, fold, at), corrections, &own, corner);
+        let (its, unit) = (self.quads.get_mut(quads.clone()).unwrap_or_default(), u32::from(table.unit()));
+        let ends = self.ends.get_mut(quads.clone()).unwrap_or_default();
+        let [first, _, last, _] = &bend.corners;
+        let mut weight = 0;
+        if !bend.is_known {
+            // Nothing is expected: sums of 0 are below a byte.
+            ends.fill([LaneSums::ZERO; 2]);
+        } else if fold.joints[1] != NO_JOINT {
+            ends.fill([LaneSums::NONE, LaneSums::ZERO]);
+            let there = bend.corners.iter().filter(|corner| corner.weight > 0);
+            there.for_each(|corner| add_means(ends, around(corner)));
+        } else {
+            weight = last.weight.into();
+            if knots {
+                let (first, last) = (around(first), around(last));
+                // There is no knot after the last one, which then counts nothing.
+                find_ends(ends, first, if last.cells.is_empty() { first } else { last });
+            }
+        }
+        expect(its, (ends, weight), unit, levels);
+        if bend.has_certain {
+            hold_all(its, table.taxels().get(quads.clone()).unwrap_or(&[]), &mut self.held);
+        }
     }
 
     /// Hands over each taxel of which something is expected or in doubt, with its expectation, counts.

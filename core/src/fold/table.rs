@@ -76,20 +76,6 @@ pub struct FoldTableParts<'a> {
     pub unit: u16,
 }
 
-#[cfg(all(test, feature = "folds"))]
-impl FoldTableParts<'_> {
-    /// The table, in memory that is never given back.
-    pub(crate) fn stored(&self, layout: &Layout) -> FoldTable<'static> {
-        extern crate std;
-        // Words: a table is aligned like them.
-        let words: &'static mut [u32] = std::vec![0; fold_table_length(self.folds).div_ceil(4)].leak();
-        let bytes: &'static mut [u8] = bytemuck::cast_slice_mut(words);
-        let bytes = &mut bytes[..fold_table_length(self.folds)];
-        write_fold_table(self, layout, bytes).unwrap();
-        FoldTable::check(bytes, layout).unwrap()
-    }
-}
-
 /// Refusal of a table.
 const fn refuse(must: &'static str) -> Invalid {
     Invalid { parameter: "folds", must }

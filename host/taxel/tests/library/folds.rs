@@ -190,8 +190,8 @@ fn learned_once(felt: impl FnMut(f32) -> Vec<u16>, shift_mm: f32) -> LearnedFold
     learn(&layout(&bending(1)), &[sweep], &settings).expect("it folds")
 }
 
-/// A bulge that presses on a taxel of the reference garment with so many counts: it appears at one angle, degrees,
-/// and stays until another.
+/// A bulge that presses on a taxel of the reference garment with so many counts: it appears at one angle,
+/// degrees, and stays until another.
 fn at_once(taxel: usize, counts: u16, [from, until]: [f32; 2]) -> impl FnMut(f32) -> Vec<u16> {
     let mut is_out = false;
     move |degrees| {
@@ -240,8 +240,8 @@ fn one_day_leaves_room_for_another_that_is_twice_as_strong() {
     }
 }
 
-/// Wears a garment of which that was learned on another day, on an arm that bends to `degrees` in so many frames.
-/// Returns the number of frames with a contact, and what is expected at the end, counts.
+/// Wears a garment of which that was learned on another day, on an arm that bends to `degrees` in so many
+/// frames. Returns the number of frames with a contact, and what is expected at the end, counts.
 fn worn(
     learned: &LearnedFolds,
     mut felt: impl FnMut(f32) -> Vec<u16>,

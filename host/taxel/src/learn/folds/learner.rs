@@ -20,8 +20,8 @@ const DAY_SHARE: f32 = 0.5;
 /// Share by which a taxel may feel more than on the one day that was learned from. Several days tell how they
 /// differ: it is divided by the square of their number.
 const UNTOLD_SHARE: f32 = 0.5;
-/// Share by which a taxel may differ more within a day than on that one, likewise: where a stronger bulge comes at
-/// once, between other knots, the expectation is further off.
+/// Share by which a taxel may differ more within a day than on that one, likewise: where a stronger bulge comes
+/// at once, between other knots, the expectation is further off.
 const UNTOLD_SPREAD: f32 = 1.5;
 /// Share of the most by which the garment shifts, within which a neighbour's spread counts, too. It is not all
 /// of the shift: the spread is doubt for the whole day, and would hide touches.
