@@ -18,6 +18,9 @@ use taxel_bench::stages::twin::{Told, Twin};
 /// The tables as they were last written.
 const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench");
 
+/// The variable that lists the folders of recordings.
+const DATA: &str = "TAXEL_DATA";
+
 fn main() -> ExitCode {
     match run(&std::env::args().skip(1).collect::<Vec<_>>()) {
         Ok(()) => ExitCode::SUCCESS,
@@ -29,8 +32,14 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &[String]) -> Result<(), String> {
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    if args == ["--write"] && std::env::var_os(DATA).is_none() {
+        return Err(format!(
+            "nothing is written: the table has a row of recorded frames, and {DATA} lists none"
+        ));
+    }
     let table = measure()?;
-    match args.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+    match args[..] {
         [] => print!("{table}\n{}", bars::text(&table)),
         ["--json"] => println!("{}", bars::json(&table)),
         ["--write"] => {
@@ -49,12 +58,12 @@ fn run(args: &[String]) -> Result<(), String> {
 /// Runs everything on the board and here; both must say the same.
 fn measure() -> Result<Table, String> {
     let mut cases = Case::simulated();
-    if std::env::var_os("TAXEL_DATA").is_some() {
+    if std::env::var_os(DATA).is_some() {
         let frames = data::find("pmatdata");
         let folder = frames.parent().ok_or("pmatdata lies in no folder")?;
         cases.push(Case::recorded(folder).map_err(|error| format!("{error:#}"))?);
     } else {
-        eprintln!("recorded frames are left out: TAXEL_DATA lists no folders of recordings");
+        eprintln!("recorded frames are left out: {DATA} lists no folders of recordings");
     }
     let forms = Form::all();
     let steps = cases.iter().map(Case::steps).collect::<Result<Vec<_>, _>>();
