@@ -177,7 +177,7 @@ fn clippy(log: &Path) -> End {
         .flat_map(|(_, names)| names.iter().flat_map(|name| ["--test", *name]))
         .collect();
     // Tests use all features; the program is also checked with its default features.
-    let plain = ["--workspace", "--exclude", "taxel-tests"];
+    let plain = ["--workspace", "--exclude", "taxel-tests", "--exclude", "taxel-core-featureless"];
     Ok(run(&[WHOLE, &["--all-targets"]].concat())
         .and_then(|()| run(&[WHOLE, &apart].concat()))
         .and_then(|()| run(&plain))
@@ -195,16 +195,9 @@ fn compare_locks(_: &Path) -> End {
     Ok(root.and_then(|root| paths::apart().into_iter().try_for_each(|apart| compare(&root, apart))))
 }
 
-/// All tests, then those of what a core without features refuses.
 fn test(log: &Path) -> End {
     let all = [&["test"], WHOLE, &["--no-fail-fast"]].concat();
-    // Quicker compiled than optimised.
-    let plain = "profile.dev.package.taxel-core.opt-level=0";
-    let left_out =
-        ["test", "--package", "taxel-core", "--no-default-features", "--test", "left_out", "--config", plain];
-    let all = process::run_into(&mut cargo(&all, paths::root()), log);
-    let left_out = process::run_into(&mut cargo(&left_out, paths::root()), log);
-    Ok(all.and(left_out))
+    Ok(process::run_into(&mut cargo(&all, paths::root()), log))
 }
 
 fn docs(log: &Path) -> End {

@@ -162,7 +162,7 @@ fn built(python: &Path, build: Build, log: &Path) -> Result<PathBuf, String> {
     maturin.arg(package().join("Cargo.toml"));
     match build {
         // As all tests have it, so that cargo compiles little but the package itself.
-        Build::Dev => maturin.args(["--strip", "false", "--features", "full,taxel-cli/schema"]),
+        Build::Dev => maturin.args(["--strip", "false", "--features", "full,taxel/full,taxel-cli/full"]),
         Build::Release => maturin.args(["--release", "--features", "full"]),
     };
     without_increments(&mut maturin);

@@ -1,25 +1,14 @@
-//! What a build without features refuses, and how it names it: `cargo test -p taxel-core
-//! --no-default-features --test left_out`.
-#![cfg(not(any(
-    feature = "folds",
-    feature = "gallery",
-    feature = "gesture",
-    feature = "intent",
-    feature = "raw",
-    feature = "reflex",
-    feature = "slip",
-    feature = "surface"
-)))]
+//! What a build without features refuses, and how it names it.
 
-use taxel_core::acquire::Depth;
-use taxel_core::board::{Board, BoardInfo, Input};
-use taxel_core::contact::ContactConfig;
-use taxel_core::format::{Micros, Q15};
-use taxel_core::garment::{Garment, Pins};
-use taxel_core::gesture::GestureConfig;
-use taxel_core::react::{Cause, ReactionConfig};
-use taxel_core::scene::{Scene, StreamConfig};
-use taxel_core::wire::{Receiver, Report, Request, decode, encode, frame_bound};
+use taxel_core_featureless::acquire::Depth;
+use taxel_core_featureless::board::{Board, BoardInfo, Input};
+use taxel_core_featureless::contact::ContactConfig;
+use taxel_core_featureless::format::{Micros, Q15};
+use taxel_core_featureless::garment::{Garment, Pins};
+use taxel_core_featureless::gesture::GestureConfig;
+use taxel_core_featureless::react::{Cause, ReactionConfig};
+use taxel_core_featureless::scene::{Scene, StreamConfig};
+use taxel_core_featureless::wire::{Receiver, Report, Request, decode, encode, frame_bound};
 
 type ShippedSize = Board<2048, 1024, 512>;
 
@@ -70,7 +59,7 @@ fn a_scene_is_refused_by_the_name_of_what_it_asks_for() {
     assert_eq!(interlaced, "plan.depth cannot be interlaced: it is left out of this firmware");
     let flinch = refused(|scene| {
         let row = scene.react[0].clone();
-        let cause = Cause::Leading(taxel_core::intent::Leading::Attack);
+        let cause = Cause::Leading(taxel_core_featureless::intent::Leading::Attack);
         scene.react.push(ReactionConfig { name: "flinch".try_into().unwrap(), cause, ..row }).unwrap();
     });
     assert!(flinch.starts_with("scene: react[1]."), "{flinch}");
