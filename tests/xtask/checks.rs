@@ -24,11 +24,9 @@ const CHECKS: &[(&str, Check)] = &[
     ("fmt", fmt),
     ("test", test),
     ("firmware", build_firmware),
-    ("sizes", compare_sizes),
     ("no-panic", no_panic::check),
     ("emulator-units", emulator_units),
     ("firmware-clippy", firmware_clippy),
-    ("core-thumb", core_thumb),
     ("features", features::check),
     ("cycles", targets::cycles),
     ("emulator-scan", |log| targets::on_emulator("scan", log)),
@@ -205,17 +203,13 @@ fn docs(log: &Path) -> End {
     Ok(process::run_into(command.env("RUSTDOCFLAGS", "--deny warnings"), log))
 }
 
-fn core_thumb(log: &Path) -> End {
-    Ok(process::run_into(&mut firmware::core_command(&Toolchain::find()?), log))
-}
-
+/// The image, and its sizes beside the table.
 fn build_firmware(log: &Path) -> End {
-    Ok(firmware::image(&Toolchain::find()?, log).map(|image| print!("{image}")))
-}
-
-fn compare_sizes(log: &Path) -> End {
     let image = firmware::image(&Toolchain::find()?, log);
-    Ok(image.and_then(|image| sizes::check(&image)).map(|beside| print!("{beside}")))
+    Ok(image.and_then(|image| {
+        print!("{image}");
+        sizes::check(&image).map(|beside| print!("{beside}"))
+    }))
 }
 
 fn firmware_clippy(log: &Path) -> End {

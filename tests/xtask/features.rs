@@ -86,11 +86,11 @@ fn paired() -> [Vec<&'static str>; 6] {
     })
 }
 
-/// Compiles the core with these sets of features; [`table`] builds the images, which takes minutes. The
-/// firmware only hands the features on.
+/// Compiles the core with all features and with these sets; [`table`] builds the images, which takes minutes.
+/// The firmware only hands the features on.
 pub fn check(log: &Path) -> End {
     let toolchain = Toolchain::find()?;
-    Ok(paired().iter().try_for_each(|features| {
+    Ok([ALL.to_vec()].iter().chain(&paired()).try_for_each(|features| {
         process::run_into(&mut with(firmware::core_command(&toolchain), features), log)
             .map_err(|error| format!("with the features {}: {error}", features.join(", ")))
     }))

@@ -68,7 +68,7 @@ fn table(image: &[u8], compiler: &str) -> Option<String> {
     let in_flash = |s: &Symbol| sections.get(s.section).is_some_and(|section| section.stored);
     let mut text = format!(
         "What the firmware takes of flash and RAM, in bytes. `cargo xtask firmware --write` writes this table;\n\
-         `cargo xtask test --only sizes` fails where a section differs by more than {PERCENT} % and {BYTES} bytes, if the\n\
+         `cargo xtask test --only firmware` fails where a section differs by more than {PERCENT} % and {BYTES} bytes, if the\n\
          compiler is the same; with any compiler, where the image takes more than {} KiB of flash or {} of RAM.\n\
          {COMPILER}{compiler}\n\n\
          {SECTION:<60}{:>10}\n",
