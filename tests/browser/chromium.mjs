@@ -20,8 +20,8 @@ const OPTIONS = [
   "--enable-precise-memory-info",
   "--js-flags=--expose-gc",
 ];
-/** WebGL by software. */
-const SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+/** WebGL by software, and nothing else that a graphics card would draw: that takes the processor longer. */
+const SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-rasterization", "--disable-accelerated-2d-canvas"];
 /** Neither WebGL nor any other imitation of a graphics card. */
 const PLAIN = ["--disable-gpu", "--disable-gpu-rasterization", "--disable-software-rasterizer"];
 const STARTS_MS = 30_000;

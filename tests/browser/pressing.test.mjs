@@ -11,7 +11,7 @@ import { arrows, cornerOf, OPTIONS, ROBOT } from "./robot.fixture.mjs";
 const five = page("sim:five", { options: OPTIONS });
 
 /** Pictures whose rate is printed. */
-const PICTURES = 90;
+const PICTURES = 20;
 
 /** Shows the robot with five contacts until it has been drawn so many times. */
 async function pictures(t, browser, by) {

@@ -8,7 +8,7 @@ import { Chromium } from "./chromium.mjs";
 import { box, page, screen, show } from "./page.fixture.mjs";
 
 // Seconds that are watched. The first have passed when everything that is kept for a while is full.
-const [KEPT, BEFORE, WATCHED] = process.env.TAXEL_CAMPAIGN ? [30, 35, 600] : [5, 6, 20];
+const [KEPT, BEFORE, WATCHED] = process.env.TAXEL_CAMPAIGN ? [30, 35, 600] : [5, 6, 8];
 const MB = 1 << 20;
 const both = page("sim:five", { search: `?keep=${KEPT}` });
 
@@ -84,7 +84,7 @@ async function dead({ port }) {
 }
 
 /** Pictures of the surface that are waited for: their rate is printed. */
-const PICTURES = 90;
+const PICTURES = process.env.TAXEL_CAMPAIGN ? 90 : 20;
 
 /** Shows the surface until it has been drawn so many times: what drew it, and where the panels lie. */
 async function pictures(t, browser, by) {

@@ -1,5 +1,5 @@
 //! The scan by DMA and PIO on the emulated board: every code of every frame, and how long it all takes.
-//! `cargo xtask test --only emulator-scan`.
+//! `cargo xtask test --only emulator-scan`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): 1,000 frames of the garment.
 
 use crate::board::Emulated;
 use serde_json::Value;
@@ -13,6 +13,12 @@ use taxel_core::wire::{Report, Request, decode_image};
 
 /// Frames that are shown in turn, no two of them alike.
 const FRAMES: usize = 61;
+
+/// Frames of the whole garment that are compared: each that is shown, three times at least.
+fn compared() -> u64 {
+    if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 1_000 } else { 200 }
+}
+
 /// Cycles of the processor in a second.
 const CLOCK: f64 = 125e6;
 
@@ -90,7 +96,7 @@ fn measure(board: &mut Emulated, frames: u64) -> Spent {
 #[test]
 fn the_whole_garment_at_the_limit_of_the_converter() {
     let mut board = tared(&Garment::reference(), &Scene::shipped());
-    let spent = measure(&mut board, 1000);
+    let spent = measure(&mut board, compared());
     board.end();
     assert_eq!((spent.wrong, spent.unseen), (0, 0));
     assert_eq!(spent.taxels, spent.frames * TAXELS as u64);
@@ -103,7 +109,7 @@ fn the_whole_garment_at_the_limit_of_the_converter() {
 #[test]
 fn the_whole_garment_interlaced() {
     let mut board = tared(&Garment::reference(), &Scene::shipped().interlaced(Agree::Two));
-    let spent = measure(&mut board, 1000);
+    let spent = measure(&mut board, compared());
     board.end();
     assert_eq!((spent.wrong, spent.unseen), (0, 0));
     assert_eq!(spent.taxels, spent.frames * TAXELS as u64);

@@ -1,5 +1,5 @@
-//! Panels of 32 rows x 64 columns for all peers: 8 bits, because imageproc's median has no more, and 0 where
-//! nothing touches.
+//! Panels of 32 rows x 64 columns for all peers, and for the core's own tests: 8 bits, because imageproc's median
+//! has no more, and 0 where nothing touches.
 
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -45,4 +45,20 @@ pub fn all() -> Vec<Scene> {
         scene("40 contacts", 40, 1.8, &forty),
         scene("saturated", 1, 1e3, &five[..1]),
     ]
+}
+
+/// The values of all of them, and of 60 at random.
+pub fn panels() -> Vec<Vec<u8>> {
+    let mut random = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut value = |_| {
+        let drawn = random.next_u32();
+        match drawn % 12 {
+            0..3 => 0,
+            3..7 => (drawn >> 8) as u8 % 40,
+            _ => (drawn >> 8) as u8,
+        }
+    };
+    let random = (0..60).map(|_| (0..ROWS * COLUMNS).map(&mut value).collect());
+    let named: Vec<Vec<u8>> = all().into_iter().map(|scene| scene.values).collect();
+    named.into_iter().chain(random).collect()
 }

@@ -8,7 +8,8 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use taxel_core::format::Code;
-use taxel_peers::chains::{self, Ours};
+use taxel_peers::chains;
+use taxel_peers::ours::Ours;
 use taxel_peers::scenes::{self, Scene};
 
 /// Repetitions that are timed together, and how often. All take turns within a round: what else the machine

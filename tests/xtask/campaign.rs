@@ -37,12 +37,19 @@ enum Run {
     Zenoh,
     /// Tests of files on a failing disk.
     Disk,
+    /// The core beside imageproc.
+    Peers,
     /// The image by each toolchain.
     Ways,
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 38] = [
+const RUNS: [(&str, Run, &str); 43] = [
+    (
+        "emulator-scan",
+        Run::Image("scan"),
+        "every code of 1,000 frames, as they are scanned; the time of a frame by settling and depth (emulated)",
+    ),
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -113,6 +120,21 @@ const RUNS: [(&str, Run, &str); 38] = [
         "a garment worn up to 20 mm and 5 degrees otherwise, found by 100 touches on six bodies, 40 times each (simulated)",
     ),
     ("hours", Run::Library("drift::hours"), "drift: ten hours of drift, breath and noise (simulated)"),
+    (
+        "held",
+        Run::Library("drift::held"),
+        "drift: touches held for an hour on garments that drift, 32 of each (simulated)",
+    ),
+    (
+        "limits",
+        Run::Library("drift::limits"),
+        "drift: every garment at every rate, and 40 at random (simulated)",
+    ),
+    (
+        "folds",
+        Run::Library("folds::a_bulge_that_appears"),
+        "folds: bulges that appear at once, up to 16 degrees off where they did (simulated)",
+    ),
     (
         "sessions",
         Run::Library("session::"),
@@ -192,6 +214,7 @@ const RUNS: [(&str, Run, &str); 38] = [
         Run::Beside(guests::RAY),
         "the example of many recordings: 1,000 of them in one process, and by Ray (simulated)",
     ),
+    ("peers", Run::Peers, "the core beside imageproc: the same contacts with the same sums"),
     ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
 ];
 
@@ -249,6 +272,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Physics => physics::campaign(log, &longer)?,
         Run::Zenoh => zenoh::campaign(log)?,
         Run::Disk => targets::on_failing_disk(log, &longer)?,
+        Run::Peers => targets::equal_to_peers(log),
         Run::Ways => ways::measured(log),
     };
     let lines = end.map_err(|why| format!("{why}, see {}", log.display()))?;

@@ -1,5 +1,5 @@
-//! `cargo xtask test`: all checks, three at a time: one compiles, and those that compile in the same folder
-//! wait for cargo meanwhile; one runs the emulator, on one core; one keeps the other core busy.
+//! `cargo xtask test`: all checks, three at a time: those that compile in the same folder wait for cargo, and
+//! the emulator takes one core.
 
 use crate::cargo::{WHOLE, cargo};
 use crate::counts::Counts;
@@ -19,35 +19,35 @@ use std::time::Instant;
 /// A check. It appends its output to a log.
 type Check = fn(&Path) -> End;
 
-/// Checks in starting order: long ones and those whose build products others need come first.
+/// Checks in starting order: first those that compile or install something, at last the many that only run, so
+/// that no core idles at the end.
 const CHECKS: &[(&str, Check)] = &[
     ("fmt", fmt),
     ("test", test),
     ("firmware", build_firmware),
     ("no-panic", no_panic::check),
-    ("emulator-units", emulator_units),
     ("firmware-clippy", firmware_clippy),
     ("features", features::check),
-    ("cycles", targets::cycles),
-    ("emulator-scan", |log| targets::on_emulator("scan", log)),
-    ("emulator-latency", |log| targets::on_emulator("latency", log)),
-    ("emulator-usb", |log| targets::on_emulator("usb", log)),
-    ("emulator-stack", |log| targets::on_emulator("stack", log)),
-    ("emulator-health", |log| targets::on_emulator("health", log)),
-    ("emulator", |log| targets::on_emulator("contacts", log)),
-    ("emulator-store", |log| targets::on_emulator("store", log)),
-    ("emulator-surface", |log| targets::on_emulator("surface", log)),
-    ("emulator-boots", |log| targets::on_emulator("boots", log)),
-    ("emulator-outputs", |log| targets::on_emulator("outputs", log)),
-    ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
-    ("view", browser::check),
-    ("peers", targets::equal_to_peers),
-    ("python", targets::python),
-    ("wheel", python::check),
     ("ros2", ros2::check),
-    ("disk", targets::disk),
+    ("wheel", python::check),
+    ("python", targets::python),
     ("clippy", clippy),
     ("docs", docs),
+    ("view", browser::check),
+    ("disk", targets::disk),
+    ("cycles", targets::cycles),
+    ("emulator-scan", |log| targets::on_emulator("scan", log)),
+    ("emulator-usb", |log| targets::on_emulator("usb", log)),
+    ("emulator-surface", |log| targets::on_emulator("surface", log)),
+    ("emulator-boots", |log| targets::on_emulator("boots", log)),
+    ("emulator-latency", |log| targets::on_emulator("latency", log)),
+    ("emulator-mishaps", |log| targets::on_emulator("mishaps", log)),
+    ("emulator", |log| targets::on_emulator("contacts", log)),
+    ("emulator-outputs", |log| targets::on_emulator("outputs", log)),
+    ("emulator-health", |log| targets::on_emulator("health", log)),
+    ("emulator-stack", |log| targets::on_emulator("stack", log)),
+    ("emulator-store", |log| targets::on_emulator("store", log)),
+    ("emulator-units", emulator_units),
     ("package", package::check),
     ("locks", compare_locks),
 ];
@@ -164,12 +164,10 @@ fn fmt(log: &Path) -> End {
 }
 
 fn clippy(log: &Path) -> End {
-    let within = |folder, which: &[&str]| {
+    let run = |which: &[&str]| {
         let args = [&["clippy"], which, &["--", "--deny", "warnings"]].concat();
-        // One target folder for all: what lies beside sources is not ignored.
-        process::run_into(cargo(&args, folder).env("CARGO_TARGET_DIR", paths::target()), log)
+        process::run_into(&mut cargo(&args, paths::root()), log)
     };
-    let run = |which: &[&str]| within(paths::root(), which);
     let apart: Vec<&str> = targets::APART
         .iter()
         .flat_map(|(_, names)| names.iter().flat_map(|name| ["--test", *name]))
@@ -178,8 +176,7 @@ fn clippy(log: &Path) -> End {
     let plain = ["--workspace", "--exclude", "taxel-tests", "--exclude", "taxel-core-featureless"];
     Ok(run(&[WHOLE, &["--all-targets"]].concat())
         .and_then(|()| run(&[WHOLE, &apart].concat()))
-        .and_then(|()| run(&plain))
-        .and_then(|()| within(paths::peers(), &["--all-targets"])))
+        .and_then(|()| run(&plain)))
 }
 
 fn compare_locks(_: &Path) -> End {

@@ -42,8 +42,12 @@ pub fn printed(
     variables: &[(&str, &str)],
 ) -> Result<Vec<String>, String> {
     let mut command = test_target(target);
-    command.args(["--", "--nocapture"]).args(names).envs(variables.iter().copied());
-    let end = process::run_into(&mut command, log);
+    said(command.envs(variables.iter().copied()), names, log)
+}
+
+/// What the tests of a cargo command print.
+fn said(command: &mut Command, names: &[&str], log: &Path) -> Result<Vec<String>, String> {
+    let end = process::run_into(command.args(["--", "--nocapture"]).args(names), log);
     let text = std::fs::read_to_string(log).unwrap_or_default();
     let lines = text.lines().skip_while(|line| !line.starts_with("running ")).skip(1);
     let lines = lines.take_while(|line| !line.starts_with("test result"));
@@ -153,9 +157,11 @@ pub fn peers(args: &[String]) -> Result<(), String> {
     process::run(of_peers(&["bench", "--quiet", "--bench", "times", "--"]).args(args))
 }
 
-/// Tests that the core and other libraries find the same.
-pub fn equal_to_peers(log: &Path) -> End {
-    Ok(process::run_into(&mut of_peers(&["test"]), log))
+/// Tests that the core and imageproc find the same, after clippy; what the test prints.
+pub fn equal_to_peers(log: &Path) -> Result<Vec<String>, String> {
+    let clippy = ["clippy", "--all-targets", "--", "--deny", "warnings"];
+    process::run_into(&mut of_peers(&clippy), log)?;
+    said(&mut of_peers(&["test", "--test", "equal"]), &[], log)
 }
 
 /// Cargo in the package of the peers, with the target folder of all.

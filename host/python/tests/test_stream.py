@@ -247,7 +247,7 @@ def megabytes() -> float:
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs /proc")
 def test_memory_does_not_grow() -> None:
-    count = int(os.environ.get("TAXEL_FRAMES", "100000"))
+    count = int(os.environ.get("TAXEL_FRAMES", "30000"))
     seen = touched = 0
     marks: list[float] = []
     with taxel.open("sim:five", repeat=True, frames=count) as board:

@@ -299,7 +299,9 @@ fn a_bulge_that_appears_at_once_may_do_so_later_and_be_stronger() {
     let degrees = |step| 50.0 - 50.0 * (step as f32 / 100.0).cos();
     for [from, until] in [[60.0, 40.0], [50.0, 50.0], [62.0, 60.0]] {
         let learned = learned_once(at_once(100, 300, [from, until]), 30.0);
-        for later in [-16.0, -14.0, -8.0, -4.0, 2.0, 6.0, 11.0, 14.0, 16.0] {
+        let all = [-16.0, -4.0, 6.0, 16.0, -14.0, -8.0, 2.0, 11.0, 14.0];
+        let campaign = std::env::var_os("TAXEL_CAMPAIGN").is_some();
+        for later in &all[..if campaign { all.len() } else { 4 }] {
             let bulge = at_once(101, 450, [from + later, until + later]);
             let (contacts, _) = worn(&learned, bulge, 18_800, degrees);
             assert_eq!(contacts, 0, "{from} to {until} degrees, {later} later");
