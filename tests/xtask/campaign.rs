@@ -42,7 +42,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 38] = [
+const RUNS: [(&str, Run, &str); 39] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -185,6 +185,11 @@ const RUNS: [(&str, Run, &str); 38] = [
         "boards",
         Run::Boards,
         "taxel robot record --view: 1 to 100 boards that other processes play, two moving contacts each, the release program (simulated)",
+    ),
+    (
+        "absent",
+        Run::Program("nothing_is_simulated"),
+        "every command without a board, with one that hangs, is busy or not permitted, and with two: what is told, and when",
     ),
     ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     (

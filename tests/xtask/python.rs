@@ -162,7 +162,9 @@ fn built(python: &Path, build: Build, log: &Path) -> Result<PathBuf, String> {
     maturin.arg(package().join("Cargo.toml"));
     match build {
         // As all tests have it, so that cargo compiles little but the package itself.
-        Build::Dev => maturin.args(["--strip", "false", "--features", "full,taxel-cli/schema"]),
+        Build::Dev => {
+            maturin.args(["--strip", "false", "--features", "full,taxel-cli/port-table,taxel-cli/schema"])
+        }
         Build::Release => maturin.args(["--release", "--features", "full"]),
     };
     without_increments(&mut maturin);
