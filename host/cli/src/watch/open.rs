@@ -59,7 +59,8 @@ impl BoardArgs {
         options: SourceOptions,
         or_simulated: bool,
     ) -> Result<(Source, Option<Calibration>)> {
-        let options = SourceOptions { first: self.configures().is_none() && self.calibration.is_none(), ..options };
+        let options =
+            SourceOptions { first: self.configures().is_none() && self.calibration.is_none(), ..options };
         let opened = match self.open(options.clone()) {
             Err(error) if or_simulated && self.source.is_none() && is_absent(&error) => {
                 let simulation = SourceSpec::simulation();

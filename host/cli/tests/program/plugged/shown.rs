@@ -18,11 +18,11 @@ fn at_terminal(folder: &Path, ports: &str, words: &[&str], until: &str) -> (Opti
     let (mut seen, mut buffer, began) = (Vec::new(), [0; 4096], Instant::now());
     let mut status = None;
     while !String::from_utf8_lossy(&seen).contains(until) && began.elapsed() < Duration::from_secs(60) {
-        if let Ok(count) = master.read(&mut buffer) {
-            seen.extend_from_slice(&buffer[..count]);
-        } else if let Some(ended) = child.try_wait().unwrap() {
-            status = ended.code();
-            break;
+        match master.read(&mut buffer) {
+            Ok(count) => seen.extend_from_slice(&buffer[..count]),
+            // It has ended, and all that it has written is read.
+            Err(_) if status.is_some() => break,
+            Err(_) => status = child.try_wait().unwrap().and_then(|ended| ended.code()),
         }
     }
     if status.is_none() {
