@@ -2,7 +2,7 @@
 //! anything, so that what is opened is a board that speaks.
 
 use super::heard::Heard;
-use super::ports::SerialPorts;
+use super::serial_ports::SerialPorts;
 use super::stranger::Stranger;
 use super::usb::{BAUD, PortKind, back, label, serial_of, usb_of};
 use super::{Source, SourceOptions};

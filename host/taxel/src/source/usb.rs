@@ -1,6 +1,6 @@
 //! Boards and probes among the serial ports, by their USB ids.
 
-use super::ports::SerialPorts;
+use super::serial_ports::SerialPorts;
 use crate::tell::words::printable;
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 
