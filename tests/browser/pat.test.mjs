@@ -18,6 +18,12 @@ const both = page("sim:pat");
 const figure = (panel) => `#view-panels figure:nth-child(${panel + 1}) canvas`;
 const close = (a, b, by) => a.every((part, at) => Math.abs(part - b[at]) <= by);
 
+test("the header says for as long as it lasts that the board is simulated", async () => {
+  const { browser } = both;
+  await show(browser, "panels");
+  assert.match(await browser.value("document.getElementById('source').textContent"), /^SIMULATED · sim:pat · /);
+});
+
 test("a pat appears on the back, at its place, in the colours of its pressure", async () => {
   const { browser } = both;
   await show(browser, "panels");

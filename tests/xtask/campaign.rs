@@ -44,7 +44,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 43] = [
+const RUNS: &[(&str, Run, &str)] = &[
     (
         "emulator-scan",
         Run::Image("scan"),
@@ -208,6 +208,11 @@ const RUNS: [(&str, Run, &str); 43] = [
         Run::Boards,
         "taxel robot record --view: 1 to 100 boards that other processes play, two moving contacts each, the release program (simulated)",
     ),
+    (
+        "absent",
+        Run::Program("nothing_is_simulated"),
+        "every command without a board, with one that hangs, is busy or not permitted, and with two: what is told, and when",
+    ),
     ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     (
         "fleet",
@@ -234,7 +239,8 @@ pub fn run(args: &[String]) -> Result<(), String> {
     };
     let chosen: Vec<_> = RUNS.iter().filter(|(name, ..)| only.is_none_or(|only| only == *name)).collect();
     if chosen.is_empty() {
-        return Err(format!("there is no such run; there are {}", RUNS.map(|(name, ..)| name).join(", ")));
+        let names: Vec<&str> = RUNS.iter().map(|(name, ..)| *name).collect();
+        return Err(format!("there is no such run; there are {}", names.join(", ")));
     }
     let logs = paths::target().join("xtask");
     std::fs::create_dir_all(&logs).map_err(|error| format!("{}: {error}", logs.display()))?;
@@ -286,7 +292,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
 fn note(what: &str, lines: &str) -> std::io::Result<()> {
     let before = std::fs::read_to_string(written())?;
     let mut table = TITLE.to_string();
-    for (_, _, of) in RUNS {
+    for (.., of) in RUNS.iter().copied() {
         let kept =
             before.split("\n\n").find_map(|section| section.trim_end().strip_prefix(of)?.strip_prefix('\n'));
         let lines = if of == what { Some(lines) } else { kept };

@@ -69,7 +69,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Watch a board, or a simulated one; `taxel` alone does this
+    /// Watch a board; `taxel` alone does this, and plays a simulated one if none is plugged in
     #[command(after_help = LIVE)]
     Live(LiveArgs),
     /// Watch a board or a recording in the browser: panels, surface, body, map, health
@@ -179,9 +179,10 @@ impl Cli {
         if self.verbose {
             verbose::on();
         }
+        let bare = self.command.is_none();
         let live = || Cli::parse_from(["taxel", "live"]).command;
         match self.command.or_else(live).expect("live is a command") {
-            Command::Live(args) => live::run(args),
+            Command::Live(args) => live::run(args, bare),
             Command::View(args) => view::run(args),
             #[cfg(feature = "foxglove")]
             Command::Foxglove(args) => foxglove::run(args),

@@ -213,8 +213,7 @@ impl Stream {
             raw,
             garment,
             body,
-            folds: None,
-            usb_serial: None,
+            ..SourceOptions::default()
         };
         let returns = if once { Returns::Never } else { Returns::Always };
         let opened = || {

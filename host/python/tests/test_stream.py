@@ -121,10 +121,43 @@ def test_postures_are_told_by_names() -> None:
     assert ("posture", None) in [(answer.request, answer.refusal) for answer in answers]
 
 
+BOARD = '[[port]]\nname = "/dev/ttyACM{0}"\nusb = [0x1209, 1]\nproduct = "taxel"\nserial = "N{0}"\nopens = "{1}"\n'
+
+
+@pytest.mark.parametrize(
+    ("opens", "why"),
+    [
+        ((), "no board is plugged in"),
+        (("hung",), "usb:/dev/ttyACM0 is silent"),
+        (("busy",), "/dev/ttyACM0 .* another program has it open"),
+        (("not permitted",), r"/dev/ttyACM0 .* `sudo usermod -aG dialout \$USER`"),
+        (("hung", "hung"), r"2 boards are plugged in: name one of usb:N0 \(/dev/ttyACM0\), usb:N1"),
+    ],
+)
+def test_nothing_is_simulated_in_place_of_a_board(
+    opens: tuple[str, ...], why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    table = tmp_path / "ports.toml"
+    table.write_text("".join(BOARD.format(number, kind) for number, kind in enumerate(opens)))
+    monkeypatch.setenv("TAXEL_PORTS", str(table))
+    if opens and "ttyACM0" not in program("ports"):
+        pytest.skip("this wheel is as it is given away: it has the ports of this machine alone")
+    began = time.monotonic()
+    with pytest.raises(taxel.BoardError, match=why):
+        taxel.open()
+    print(f"python: {opens}: told after {time.monotonic() - began:.1f} s")
+
+
+def test_what_is_simulated_says_so() -> None:
+    with taxel.open("sim:pat", frames=1) as board:
+        hello = next(event for event in board if isinstance(event, taxel.Hello))
+    assert hello.simulated is True
+
+
 def test_wrong_use_is_told_in_a_sentence() -> None:
     with pytest.raises(taxel.UsageError, match='no script of touches "nope"'):
         taxel.open("sim:nope")
-    with pytest.raises(taxel.UsageError, match="known are auto, usb"):
+    with pytest.raises(taxel.UsageError, match=r"known are auto, usb\[:SERIAL\]"):
         taxel.open("radio")
     with pytest.raises(taxel.BoardError):
         taxel.open("tcp:127.0.0.1:1")

@@ -39,7 +39,7 @@ pub use counts::Counts;
 pub use event::{Event, ImageNews};
 pub use known::leads;
 pub use requests::{request_name, scene_bytes};
-pub use worn::Worn;
+pub use worn::{SIMULATED, Worn, is_simulated};
 
 use crate::client::growths::Growths;
 use crate::tell::words::printable;

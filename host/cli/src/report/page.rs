@@ -130,8 +130,9 @@ fn head(seen: &Seen) -> String {
         ("", Some(counts)) => format!("none, the source knows that {counts} counts are a newton"),
         (told, _) => told.to_string(),
     };
+    let simulated = if worn.is_simulated() { "simulated board, " } else { "" };
     let text = format!(
-        "{}; garment {} of {} taxels in {} panels, scene {}; calibration: {calibration}; {:.2} s, {} frames. \
+        "{simulated}{}; garment {} of {} taxels in {} panels, scene {}; calibration: {calibration}; {:.2} s, {} frames. \
          taxel {}.",
         worn.firmware,
         worn.garment.name,

@@ -156,8 +156,9 @@ impl View {
         let bold = Style::new().add_modifier(Modifier::BOLD);
         let what = client.worn().map_or("waiting for a Hello".into(), |worn| {
             let taxels = worn.layout.taxels();
+            let simulated = if worn.is_simulated() { "SIMULATED  " } else { "" };
             format!(
-                "garment {} ({taxels} taxels)  scene {}  {}",
+                "{simulated}garment {} ({taxels} taxels)  scene {}  {}",
                 worn.garment.name, worn.scene.name, worn.firmware
             )
         });
@@ -281,6 +282,11 @@ mod tests {
     fn without_colour_pressure_is_read_by_the_weight_of_characters() {
         let mut seat = Seat::take(Paint::Glyphs);
         seat.until(100_000);
+        assert!(
+            seat.picture()[0].starts_with("taxel  sim:box  SIMULATED  garment "),
+            "{}",
+            seat.picture()[0]
+        );
         let count = |picture: &[String], glyph| picture.iter().flat_map(|row| row.matches(glyph)).count();
         let rest = seat.picture();
         assert!(!rest.iter().any(|row| row.contains('▀')), "{rest:#?}");

@@ -6,18 +6,21 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use taxel::body::posture::Motion;
-use taxel::files::calibrate::Calibration;
 use taxel::session::{POSES, POSES_HZ, Posing};
-use taxel::source::{self, Source, SourceOptions, SourceSpec};
+use taxel::source::SourceSpec;
 use taxel_core::intent::Feed;
 
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Args)]
 pub struct BoardArgs {
-    /// `auto`, `usb`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD[@FILE]`,
-    /// `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[#BOARD][@SPEED]`
-    #[arg(long, value_name = "SOURCE", default_value = "auto")]
-    pub source: SourceSpec,
+    /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
+    /// `zenoh:ROBOT/BOARD[@FILE]`, `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[#BOARD][@SPEED]`
+    /// [default: auto, the board that is plugged in]
+    #[arg(long, value_name = "SOURCE")]
+    pub source: Option<SourceSpec>,
+    /// Wait for the board if it cannot be opened yet, instead of ending with an error
+    #[arg(long)]
+    pub wait: bool,
     /// Garment to send to the board, real or simulated: a preset or a TOML file
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
@@ -93,7 +96,8 @@ impl BoardArgs {
     /// A source with all options at their defaults.
     pub fn of(source: SourceSpec) -> BoardArgs {
         BoardArgs {
-            source,
+            source: Some(source),
+            wait: false,
             garment: None,
             scene: None,
             calibration: None,
@@ -117,17 +121,22 @@ impl BoardArgs {
         }
     }
 
+    /// The source.
+    pub fn source(&self) -> SourceSpec {
+        self.source.clone().unwrap_or(SourceSpec::Auto)
+    }
+
     /// Paths of the input files, which no output may replace. A preset's name is among them like a path.
     pub fn files(&self) -> Vec<PathBuf> {
         let text = |name: &Option<String>| name.clone().map(PathBuf::from);
-        let named = [text(&self.garment), text(&self.body), text(&self.robot), self.source.file()];
+        let named = [text(&self.garment), text(&self.body), text(&self.robot), self.source().file()];
         let told =
             [&self.scene, &self.calibration, &self.shapes, &self.folds, &self.joint_states].map(Clone::clone);
         named.into_iter().chain(told).flatten().collect()
     }
 
-    /// Refuses options that configure the board if `label` names a recording.
-    pub fn check_recorded(&self, label: &str) -> Result<()> {
+    /// Option that configures the board, if there is one.
+    pub fn configures(&self) -> Option<&'static str> {
         let options = [
             ("--garment", self.garment.is_some()),
             ("--scene", self.scene.is_some()),
@@ -142,8 +151,13 @@ impl BoardArgs {
             ("--pressing", self.pressing.is_some()),
             ("--robot", self.robot.is_some()),
         ];
-        match options.into_iter().find(|(_, is_there)| *is_there) {
-            Some((option, _)) => {
+        options.into_iter().find(|(_, is_there)| *is_there).map(|(option, _)| option)
+    }
+
+    /// Refuses options that configure the board if `label` names a recording.
+    pub fn check_recorded(&self, label: &str) -> Result<()> {
+        match self.configures() {
+            Some(option) => {
                 bail!(Fault::usage(format!("{option}: {label} is a recording, whose board does not listen")))
             }
             None => Ok(()),
@@ -155,24 +169,6 @@ impl BoardArgs {
         let Some((robot, body)) = self.robot.as_ref().zip(self.body.as_ref()) else { return Ok(None) };
         let motion = self.motion.unwrap_or_default();
         Ok(Some(Posing::open(body, robot, motion, self.poses.unwrap_or(POSES_HZ))?))
-    }
-
-    /// Opens the source, and the calibration if there is one; the source then uses its counts per newton.
-    pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
-        let mut source = source::open(
-            &self.source,
-            &SourceOptions {
-                seed: self.seed,
-                garment: self.garment.clone(),
-                body: self.body.clone(),
-                folds: self.folds.clone(),
-                ..options
-            },
-        )?;
-        let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
-        let known = calibration.as_ref().and_then(Calibration::counts_per_newton);
-        source.counts_per_newton = known.or(source.counts_per_newton);
-        Ok((source, calibration))
     }
 }
 

@@ -8,6 +8,7 @@ mod follow;
 mod forms;
 mod gesture_model;
 pub mod narrate;
+mod open;
 mod overwrite;
 mod place;
 pub mod rate;

@@ -139,8 +139,9 @@ fn direction(way: BodyDirection) -> &'static str {
 
 fn hello(worn: &Worn) -> String {
     let (taxels, panels) = (worn.layout.taxels(), worn.layout.areas().len());
+    let simulated = if worn.is_simulated() { "simulated board, " } else { "" };
     format!(
-        "hello: {}, garment {} ({taxels} taxels, {panels} panels), scene {}",
+        "hello: {simulated}{}, garment {} ({taxels} taxels, {panels} panels), scene {}",
         worn.firmware, worn.garment.name, worn.scene.name
     )
 }

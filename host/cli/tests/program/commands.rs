@@ -34,7 +34,10 @@ fn pen(panel: &str, row: u16, column: u16, force_n: f64) -> String {
 fn settings_are_stored_or_it_is_said_why_not() {
     let done = run(&["save", "--source", "sim:idle", "--tare", "20"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
-    assert_eq!(text(&done.stdout), "sim:idle has saved garment, scene, gains and baseline to its flash.\n");
+    assert_eq!(
+        text(&done.stdout),
+        "sim:idle is simulated: what it has saved is gone once it ends, nothing lasts.\n"
+    );
     let touched = scene("touched.toml", &format!("duration_s = 9\n{}", pen("back", 4, 4, 9.0)));
     let other = run(&["save", "--source", &touched, "--garment", "no-such-garment"]);
     assert_eq!(other.status.code(), Some(2));
@@ -50,7 +53,7 @@ fn health_names_what_is_ill_and_where() {
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
     let told: Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!(told["self_test"], json!({ "lines": 9, "inputs": 4, "faults": [] }));
-    assert_eq!(told["ghosts"], Value::Null);
+    assert_eq!([&told["simulated"], &told["ghosts"]], [&json!(true), &Value::Null]);
     let place = |taxel: u16, health: &str, panel: &str, row: u16, column: u16, block: u8| {
         json!({ "taxel": taxel, "health": health, "panel": panel, "row": row, "column": column, "block": block,
             "wired_row": row % 4, "wired_column": column })
@@ -59,8 +62,11 @@ fn health_names_what_is_ill_and_where() {
     assert_eq!(told["taxels"], json!(expected));
     let table = run(&args[..args.len() - 1]);
     let lines: Vec<&str> = text(&table.stdout).lines().collect();
-    assert_eq!(lines[0], "reference: no faults on 9 select lines and 4 inputs.");
-    assert_eq!(lines[1], "stuck    chest, row 4, column 13 (block 1, its row 0, column 13; taxel 77)");
+    assert_eq!(
+        lines[..2],
+        ["This is a simulated board.", "reference: no faults on 9 select lines and 4 inputs."]
+    );
+    assert_eq!(lines[2], "stuck    chest, row 4, column 13 (block 1, its row 0, column 13; taxel 77)");
 }
 
 #[test]
@@ -68,6 +74,6 @@ fn a_broken_line_is_named_and_the_command_fails() {
     let broken = "duration_s = 2\n[faults]\npins = [{ pin = 8, fault = \"stuck-high\" }]";
     let done = run(&["health", "--source", &scene("broken.toml", broken)]);
     assert_eq!(done.status.code(), Some(3));
-    assert!(text(&done.stdout).starts_with("GPIO 8 ("), "{}", text(&done.stdout));
+    assert!(text(&done.stdout).contains("\nGPIO 8 ("), "{}", text(&done.stdout));
     assert!(text(&done.stderr).contains("faults of lines and inputs: 1"));
 }

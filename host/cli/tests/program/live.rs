@@ -201,7 +201,7 @@ fn plain_lines_hold_no_control_code() {
     let text = sink.text();
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text}");
     for part in [
-        "hello: taxel-sim",
+        "hello: simulated board, taxel-sim",
         "tare: done",
         "on the back begins",
         "intention: attack",
@@ -255,7 +255,7 @@ fn the_picture_shows_maps_contacts_and_intention() {
     let pictures = drawn("sim:pat", 60, &[(128, 40), (80, 40), (80, 24), (30, 8), (1, 1), (300, 100)]);
     let wide = text(&pictures[0]).join("\n");
     for part in [
-        "taxel  sim:pat  garment reference (2048 taxels)  scene shipped  taxel-sim",
+        "taxel  sim:pat  SIMULATED  garment reference (2048 taxels)  scene shipped  taxel-sim",
         "195.3 frames/s  frame 60  0.30 s  lost 0  thinned 0  refused 0",
         "chest",
         "right arm",

@@ -26,6 +26,8 @@ mod outputs;
 mod own_garment;
 #[cfg(feature = "schema")]
 mod page_types;
+#[cfg(all(unix, feature = "port-table"))]
+mod plugged;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
 mod record_view;

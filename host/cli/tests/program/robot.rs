@@ -62,7 +62,7 @@ fn the_commands_of_the_document_run() {
 #[test]
 fn the_document_names_every_key_and_state() {
     let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
-    let keys = "name urdf maps boards boards.name boards.source boards.serial boards.garment boards.scene boards.tare \
+    let keys = "name urdf maps boards boards.name boards.source boards.garment boards.scene boards.tare \
                 boards.body boards.link seams seams.a seams.b seams.length seams.reversed";
     let states = "absent met lost back other dropped over failed";
     for word in keys.split(' ').chain(states.split(' ')) {

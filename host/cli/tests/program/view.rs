@@ -81,7 +81,7 @@ fn watched(hub: &Arc<PageHub>, scene: &str, frames: u64, realtime: bool) -> Join
     let options = SourceOptions { frames: Some(frames), realtime, ..SourceOptions::default() };
     let hub = hub.clone();
     thread::spawn(move || {
-        let source = source::open(&args.board.source, &options).unwrap();
+        let source = source::open(&args.board.source(), &options).unwrap();
         let mut viewer = Viewer::new(&source, hub);
         watch(&args, source, &mut viewer).unwrap();
     })
@@ -106,7 +106,7 @@ fn images(scene: &str, frames: u64) -> BTreeMap<u64, Vec<u16>> {
     let args = LiveArgs { frames: Some(frames), ..LiveArgs::of(scene.parse().unwrap()) };
     let options = SourceOptions { frames: Some(frames), ..SourceOptions::default() };
     let mut images = Images::default();
-    watch(&args, source::open(&args.board.source, &options).unwrap(), &mut images).unwrap();
+    watch(&args, source::open(&args.board.source(), &options).unwrap(), &mut images).unwrap();
     images.0
 }
 
@@ -370,7 +370,7 @@ fn a_body_that_does_not_fit_the_garment_is_named() {
     let args = LiveArgs::of("sim:idle".parse().unwrap());
     let options =
         SourceOptions { garment: Some("mat-64x32".into()), frames: Some(9), ..SourceOptions::default() };
-    let source = source::open(&args.board.source, &options).unwrap();
+    let source = source::open(&args.board.source(), &options).unwrap();
     let mut viewer = Viewer::new(&source, hub);
     let error = watch(&args, source, &mut viewer).unwrap_err();
     let text = format!("{error:#}");

@@ -38,7 +38,12 @@ class TaxelRobot(Wrapped, Robot):  # type: ignore[misc,unused-ignore]
     """Any robot, with touch."""
 
     config_class = TaxelRobotConfig
-    name = "taxel"
+
+    @property
+    def name(self) -> str:
+        """The type of the robot, which LeRobot writes into a data set: it says whether the touch is simulated."""
+        touch = getattr(self, "touch", None)
+        return "taxel_simulated" if touch and touch.simulated else "taxel"
 
     def __init__(self, config: TaxelRobotConfig) -> None:
         Robot.__init__(self, config)

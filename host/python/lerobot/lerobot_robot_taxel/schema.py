@@ -56,11 +56,17 @@ def observation(seen: Seen) -> dict[str, Any]:
     return numbers | {name.removeprefix("observation."): value for name, value in dataset_frame(seen).items()}
 
 
-def dataset_features(rows: int, taxels: int, links: int = 0) -> dict[str, dict[str, Any]]:
-    """The features of a window and of the forces on so many links, to be added to those of a data set."""
+def dataset_features(rows: int, taxels: int, links: int = 0, *, simulated: bool) -> dict[str, dict[str, Any]]:
+    """The features of a window and of the forces on so many links, to be added to those of a data set. Whether the
+    touch is ``simulated``, as ``Touch.simulated`` knows, is told with the images."""
     on_links = {"dtype": "float32", "shape": (links, len(PARTS)), "names": ["link", "part"]}
     return ({LINKS: on_links} if links else {}) | {
-        VALUES: {"dtype": "float32", "shape": (rows, taxels), "names": ["sample", "taxel"]},
+        VALUES: {
+            "dtype": "float32",
+            "shape": (rows, taxels),
+            "names": ["sample", "taxel"],
+            "info": {"simulated": simulated},
+        },
         COUNT: {"dtype": "int64", "shape": (1,), "names": None},
         FRAMES: {"dtype": "int64", "shape": (rows,), "names": None},
         TIMES: {"dtype": "int64", "shape": (rows,), "names": None},

@@ -58,6 +58,8 @@ class Touch:
         self._news = threading.Condition()
         self._frame: taxel.Frame | None = None
         self._panels: dict[str, tuple[int, int]] = {}
+        #: True of a simulated garment, once it has told its panels.
+        self.simulated = False
         self._felt = dict.fromkeys(INTENTIONS, 0.0)
         self._error: BaseException | None = None
         self._stream: Stream | None = None
@@ -101,6 +103,7 @@ class Touch:
     def _take(self, event: taxel.Event) -> None:
         if isinstance(event, taxel.Hello):
             self._panels = {one["name"]: (one["rows"], one["columns"]) for one in event.panels}
+            self.simulated = event.simulated
         if isinstance(event, taxel.Pressing):
             with self._news:
                 self._presses = {one["link"]: one for one in event.links}

@@ -110,7 +110,8 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict]
     taxels = sum(rows * columns for rows, columns in robot.touch.panels.values())
     features = hw_to_dataset_features(robot.action_features, "action")
     features |= hw_to_dataset_features(robot.observation_features, "observation")
-    features |= schema.dataset_features(ROWS, taxels)
+    touch = schema.dataset_features(ROWS, taxels, simulated=robot.touch.simulated)
+    features |= touch
     dataset = LeRobotDataset.create(
         "taxel/touch", FPS, features, root=root, robot_type=robot.name, image_writer_threads=2
     )
@@ -122,7 +123,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict]
     state = features["observation.state"]["names"]
     for _ in range(FPS * (SECONDS + MORE)):
         seen = robot.get_observation()
-        row = {name: seen[name.removeprefix("observation.")] for name in schema.dataset_features(ROWS, taxels)}
+        row = {name: seen[name.removeprefix("observation.")] for name in touch}
         row["observation.state"] = np.array([seen[name] for name in state], np.float32)
         row["action"] = np.array([0.5], np.float32)
         rows.append(row)
@@ -136,6 +137,8 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict]
 def test_every_scan_is_in_the_data_set_once(recorded: tuple[Path, list[dict]]) -> None:
     root, rows = recorded
     loaded = LeRobotDataset("taxel/touch", root=root)
+    assert loaded.meta.robot_type == "taxel_simulated"
+    assert loaded.features[schema.VALUES]["info"]["simulated"] is True
     assert len(loaded) == len(rows) == FPS * (SECONDS + MORE)
     frames, times, counts, images = [], [], [], {}
     for index, row in enumerate(rows):

@@ -99,7 +99,9 @@ def test_rows_of_a_data_set_have_its_features() -> None:
     with Touch(lambda: taxel.open("sim:pat", realtime=True)) as touch:
         time.sleep(0.1)
         row = schema.dataset_frame(touch.observe())
-    features = schema.dataset_features(ROWS, 2048)
+        assert touch.simulated
+    features = schema.dataset_features(ROWS, 2048, simulated=touch.simulated)
+    assert features[schema.VALUES]["info"] == {"simulated": True}
     assert {name: (str(value.dtype), value.shape) for name, value in row.items()} == {
         name: (one["dtype"], one["shape"]) for name, one in features.items()
     }
@@ -126,8 +128,19 @@ def test_forces_by_link_have_a_fixed_shape() -> None:
             assert seen["touch.torso.fx"] > 0 and seen["touch.torso.px"] < 0
     robot.disconnect()
     assert pressed > 1000
-    assert schema.dataset_features(ROWS, 2048, 2)[schema.LINKS]["shape"] == (2, 9)
-    assert schema.LINKS not in schema.dataset_features(ROWS, 2048)
+    assert schema.dataset_features(ROWS, 2048, 2, simulated=True)[schema.LINKS]["shape"] == (2, 9)
+    assert schema.LINKS not in schema.dataset_features(ROWS, 2048, simulated=True)
+
+
+def test_nothing_is_simulated_in_place_of_a_board(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # A machine without ports; a wheel as it is given away has those of this machine.
+    (tmp_path / "ports.toml").write_text("")
+    monkeypatch.setenv("TAXEL_PORTS", str(tmp_path / "ports.toml"))
+    touch = Touch(lambda: taxel.open("auto", realtime=True, repeat=True))
+    with pytest.raises(taxel.BoardError, match="no board is plugged in"):
+        touch.connect()
+    with pytest.raises(taxel.BoardError, match="no board is plugged in"):
+        _ = touch.panels
 
 
 def test_errors_of_the_stream_are_raised() -> None:

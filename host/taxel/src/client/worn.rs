@@ -8,6 +8,14 @@ use taxel_core::pipeline::Pipeline;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Hello, MAGIC, PROTOCOL, decode};
 
+/// Name of the firmware of simulated boards.
+pub const SIMULATED: &str = concat!("taxel-sim ", env!("CARGO_PKG_VERSION"));
+
+/// True if this firmware is that of a simulated board, of any version.
+pub fn is_simulated(firmware: &str) -> bool {
+    firmware.split(' ').next() == SIMULATED.split(' ').next()
+}
+
 /// Garment, scene and firmware of a board.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worn {
@@ -26,6 +34,11 @@ pub struct Worn {
 }
 
 impl Worn {
+    /// True if the board is simulated, by the name of its firmware: also over a network, and in a recording.
+    pub fn is_simulated(&self) -> bool {
+        is_simulated(&self.firmware)
+    }
+
     /// Names of the concepts of the scene's map.
     pub fn concepts(&self) -> &[Name] {
         self.scene.intent.as_ref().map_or(&[], |intent| intent.map.concepts.as_slice())

@@ -11,7 +11,7 @@
 //! | [`SettingError`] | garments, scenes, scripts, calibrations, gestures | which parameter is invalid |
 //! | [`RobotError`] | robots' descriptions, positions of joints | not a URDF, invalid link or joint, unknown link or joint, out of range |
 //! | [`MapFileError`] | cognitive maps | unknown version, invalid value and its key, unknown concept |
-//! | [`SourceError`] | sources and sessions | no board, silent, gone for good, refuses (and why) |
+//! | [`SourceError`] | sources and sessions | no board, busy, not permitted, several, silent, no board's wire, gone for good, refuses (and why) |
 //! | [`LearnError`] | training and what it has trained | unfit data, not a base, unknown version, invalid model |
 //! | [`UsageError`] | arguments of the caller | a name that does not exist, an argument out of range |
 //!

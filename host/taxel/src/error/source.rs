@@ -7,12 +7,25 @@ use taxel_core::wire::WireError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// No board is there: nothing is plugged in, the port is missing or in use, nobody listens.
+    /// No board is there: nothing is plugged in, the port is missing, nobody listens.
     #[error("{0}")]
     NoBoard(String),
+    /// Another program has the port open.
+    #[error("{0}")]
+    Busy(String),
+    /// The system does not let this user open the port.
+    #[error("{0}")]
+    NotPermitted(String),
+    /// Several boards are plugged in, and none was named.
+    #[error("{0}")]
+    SeveralBoards(String),
     /// The board is connected, and sends, reads or answers nothing.
     #[error("{0}")]
     Silent(String),
+    /// What is connected sends something else than this program understands: it is no board, or one of another
+    /// version.
+    #[error("{0}")]
+    Foreign(String),
     /// The board is gone, and is not waited for any longer. The [cause](super::Error::cause) says why it was
     /// lost.
     #[error("{label} is gone{}", waited(*patience))]
@@ -43,8 +56,7 @@ pub enum SourceError {
 impl SourceError {
     /// True if the board, or the link to it, is at fault.
     pub fn blames_board(&self) -> bool {
-        use SourceError::{Gone, NoBoard, Refused, Silent};
-        matches!(self, NoBoard(_) | Silent(_) | Gone { .. } | Refused { .. })
+        !matches!(self, SourceError::Request(_) | SourceError::Unstarted(_))
     }
 }
 

@@ -143,6 +143,7 @@ fn hello(client: &Client) -> Option<HelloLine<'_>> {
     Some(HelloLine {
         time_us: worn.clock.0,
         firmware: &worn.firmware,
+        simulated: worn.is_simulated(),
         garment: worn.garment.name.as_str(),
         scene: worn.scene.name.as_str(),
         calibration: &worn.calibration,

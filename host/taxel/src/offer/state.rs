@@ -17,6 +17,8 @@ pub struct OfferState {
     pub live: bool,
     /// Name of the firmware.
     pub firmware: String,
+    /// True of a simulated board.
+    pub simulated: bool,
     /// Name of the garment that it wears.
     pub garment: String,
     /// Number of taxels of the garment.
@@ -37,6 +39,7 @@ impl OfferState {
             publisher: format!("{publisher:016x}"),
             live: false,
             firmware: empty(),
+            simulated: false,
             garment: empty(),
             taxels: 0,
             scene: empty(),
@@ -48,6 +51,7 @@ impl OfferState {
     pub fn meet(&mut self, worn: &Worn) {
         self.live = true;
         self.firmware.clone_from(&worn.firmware);
+        self.simulated = worn.is_simulated();
         self.garment = worn.garment.name.to_string();
         self.taxels = worn.layout.taxels();
         self.scene = worn.scene.name.to_string();

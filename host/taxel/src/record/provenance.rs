@@ -47,6 +47,7 @@ pub fn attach<S: Store>(
     let words = [
         ("program", concat!("taxel ", env!("CARGO_PKG_VERSION")).to_string()),
         ("firmware", worn.firmware.clone()),
+        ("simulated", worn.is_simulated().to_string()),
         ("protocol", PROTOCOL.to_string()),
         ("source", origin.label.clone()),
         ("host", host()),

@@ -20,8 +20,6 @@ pub struct RobotBoard {
     pub name: String,
     /// Where it is found.
     pub source: SourceSpec,
-    /// Its serial number on USB; none if any will do.
-    pub usb_serial: Option<String>,
     /// The garment that it wears; none if any will do.
     pub garment: Option<BoardGarment>,
     /// Scene to send to it.
@@ -51,7 +49,7 @@ impl RobotBoard {
     /// True if its source is a board that may be plugged in later.
     pub fn is_real(&self) -> bool {
         use SourceSpec::{Auto, Serial, Tcp, Usb, Zenoh};
-        matches!(self.source, Auto | Usb | Serial { .. } | Tcp(_) | Zenoh { .. })
+        matches!(self.source, Auto | Usb(_) | Serial { .. } | Tcp(_) | Zenoh { .. })
     }
 
     /// True unless its source is a recording, whose board takes no requests.
@@ -74,7 +72,11 @@ impl RobotBoard {
 
     /// What it is recognised by.
     pub fn identity(&self) -> Identity {
-        Identity::new(self.usb_serial.clone(), self.garment.as_ref().map(|worn| worn.garment.clone()))
+        let usb_serial = match &self.source {
+            SourceSpec::Usb(number) => number.clone(),
+            _ => None,
+        };
+        Identity::new(usb_serial, self.garment.as_ref().map(|worn| worn.garment.clone()))
     }
 
     /// Options with which its source is opened.
@@ -82,7 +84,6 @@ impl RobotBoard {
         SourceOptions {
             garment: self.garment.as_ref().map(|worn| worn.name.clone()),
             body: self.body.clone(),
-            usb_serial: self.usb_serial.clone(),
             ..options.clone()
         }
     }

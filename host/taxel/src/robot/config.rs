@@ -29,8 +29,6 @@ pub struct BoardConfig {
     pub name: String,
     /// Where it is found, as for `--source`.
     pub source: String,
-    /// Serial number on USB, for the sources `auto` and `usb`.
-    pub serial: Option<String>,
     /// The garment that it wears: a preset or a TOML file. A board that wears another one is not this board.
     /// A simulated board is given this one.
     pub garment: Option<String>,

@@ -156,7 +156,6 @@ impl BoardReader<'_> {
         Ok(RobotBoard {
             name: name.into(),
             source,
-            usb_serial: board.serial.clone(),
             garment,
             scene,
             calibration,
@@ -172,14 +171,9 @@ impl BoardReader<'_> {
             .source
             .parse()
             .map_err(|why| wrong("source", format!("there is no source \"{}\": {why}", board.source)))?;
-        let on_usb = matches!(source, SourceSpec::Auto | SourceSpec::Usb);
-        if board.serial.is_some() && !on_usb {
-            let why =
-                format!("only auto and usb look for a serial number, and its source is {}", board.source);
-            return Err(wrong("serial", why).into());
-        }
-        if on_usb && board.serial.is_none() && self.config.boards.len() > 1 {
-            let why = format!("{} finds any board: give its `serial` number", board.source);
+        let finds_any = matches!(source, SourceSpec::Auto | SourceSpec::Usb(None));
+        if finds_any && self.config.boards.len() > 1 {
+            let why = format!("{} finds any board: name its serial number, usb:SERIAL", board.source);
             return Err(wrong("source", why).into());
         }
         let is_recorded = matches!(source, SourceSpec::File(_) | SourceSpec::Replay { .. });
@@ -247,20 +241,9 @@ impl BoardReader<'_> {
         if earlier.iter().any(|other| other.name == board.name) {
             return Err(wrong("name", "another board has this name".into()).into());
         }
-        let place = |board: &RobotBoard| match &board.source {
-            SourceSpec::Serial { path, .. } => Some(path.clone()),
-            SourceSpec::Tcp(address) => Some(address.clone()),
-            SourceSpec::Zenoh { place, .. } => Some(place.to_string()),
-            _ => board.usb_serial.clone(),
-        };
-        let same = earlier
-            .iter()
-            .find(|other| board.is_real() && place(other).is_some() && place(other) == place(board));
-        match same {
-            Some(other) => {
-                let key = if board.usb_serial.is_some() { "serial" } else { "source" };
-                Err(wrong(key, format!("board {} is there, too", other.name)).into())
-            }
+        let place = board.source.place();
+        match earlier.iter().find(|other| place.is_some() && other.source.place() == place) {
+            Some(other) => Err(wrong("source", format!("board {} is there, too", other.name)).into()),
             None => Ok(()),
         }
     }

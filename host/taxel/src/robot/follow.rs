@@ -228,7 +228,7 @@ impl<T> Follower<T> {
         if let Event::Unusable(why) = event {
             self.is_known = false;
             let why = format!("{}: {why}", session.source().label);
-            return session.reject(SourceError::NoBoard(why).into());
+            return session.reject(SourceError::Foreign(why).into());
         }
         if !self.is_known {
             return Ok(());

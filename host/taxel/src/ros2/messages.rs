@@ -3,6 +3,7 @@
 use super::cdr::Cdr;
 use super::names::frame;
 use crate::body::{DVec3, Pose, Surface};
+use crate::client::is_simulated;
 use std::collections::BTreeMap;
 use taxel_core::garment::{Area, Layout};
 use taxel_core::wire::Health;
@@ -119,7 +120,7 @@ pub enum BoardState<'a> {
     Lost(&'a str),
 }
 
-/// `diagnostic_msgs/msg/DiagnosticArray` of a board with this firmware.
+/// `diagnostic_msgs/msg/DiagnosticArray` of a board with this firmware; a simulated one says that it is.
 pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: BoardState<'_>) -> Vec<u8> {
     let mut values = Vec::new();
     let (level, said) = match state {
@@ -141,8 +142,10 @@ pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: BoardState<
         }
         BoardState::Lost(why) => (2, why),
     };
+    let simulated = if is_simulated(firmware) { "simulated: " } else { "" };
     let name = format!("taxel: {}", if board.is_empty() { "board" } else { board });
-    let status = head(host_us, "").u32(1).u8(level).text(&name).text(said).text(firmware);
+    let status =
+        head(host_us, "").u32(1).u8(level).text(&name).text(&format!("{simulated}{said}")).text(firmware);
     status.list(&values, |cdr, (key, value)| cdr.text(key).text(&value.to_string())).finish()
 }
 

@@ -48,7 +48,7 @@ pub use show::Show;
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Restored, request_name};
 use crate::error::{Error, Result, SourceError, UsageError};
-use crate::source::{self, Source, SourceOptions, SourceSpec};
+use crate::source::{self, Source, SourceOptions, SourceSpec, Stranger};
 use absence::Absence;
 use gather::Gather;
 use outgoing::Outgoing;
@@ -65,6 +65,8 @@ const SILENCE: Duration = Duration::from_secs(5);
 const ANSWER: Duration = Duration::from_secs(3);
 /// Time between two requests for a `Hello`.
 const GREETING: Duration = Duration::from_secs(1);
+/// Time after which what sends, and no message of a board, is something else.
+const FOREIGN: Duration = Duration::from_millis(2500);
 /// Bytes read at a time.
 const PIECE: usize = 16 << 10;
 
@@ -88,6 +90,8 @@ pub struct Session {
     notes: VecDeque<Event>,
     posing: Option<Posing>,
     gather: Gather,
+    /// What was received before the first message of a board.
+    stranger: Stranger,
 }
 
 /// What to do about a lost source.
@@ -157,6 +161,7 @@ impl Session {
             notes: VecDeque::new(),
             posing: None,
             gather: Gather::default(),
+            stranger: Stranger::default(),
         }
     }
 
@@ -266,6 +271,7 @@ impl Session {
         if self.absence.is_some() {
             return Ok(self.come_back()?);
         }
+        self.check_stranger()?;
         self.restored()?;
         self.ask_again();
         self.tell_time();
@@ -349,6 +355,9 @@ impl Session {
         let Some(count) = read? else { return Ok(false) };
         self.gather.read(count, PIECE);
         let now = Instant::now();
+        if self.client.counts().messages == 0 {
+            self.stranger.take(&self.buffer);
+        }
         if count > 0 {
             self.heard = now;
         } else if self.source.real_time && self.client.worn().is_some() && now - self.heard > SILENCE {
@@ -358,6 +367,15 @@ impl Session {
             fail!(SourceError::Silent, "it has sent no Hello for {} s", SILENCE.as_secs());
         }
         Ok(true)
+    }
+
+    /// Error if what sends is no board.
+    fn check_stranger(&self) -> Result<()> {
+        let is_foreign = self.source.real_time && self.client.counts().messages == 0;
+        match is_foreign && self.stranger.lasts() > FOREIGN {
+            true => Err(SourceError::Foreign(self.stranger.describe(&self.source.label)).into()),
+            false => Ok(()),
+        }
     }
 
     /// Repeats requests to a board that has sent no `Hello`, or has not received them.

@@ -4,23 +4,34 @@
 mod auto;
 mod emulator;
 mod file;
+mod heard;
 mod pipe;
+#[cfg(feature = "port-table")]
+mod port_table;
+mod ports;
 mod replay;
 mod scene;
 mod script_posture;
 mod serial;
+mod serial_ports;
 pub mod shared;
 mod sim;
 mod spec;
+mod stranger;
 mod tcp;
+mod usb;
 #[cfg(feature = "zenoh")]
 mod zenoh;
 
-pub use auto::{PortKind, listed as ports};
+pub(crate) use heard::Heard;
+pub use ports::Ports;
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
+pub use serial_ports::SerialPorts;
 pub(crate) use sim::{info as simulated_info, lasting};
 pub use spec::SourceSpec;
+pub(crate) use stranger::Stranger;
+pub use usb::{PortKind, listed as ports};
 
 use crate::error::Result;
 #[cfg(not(feature = "zenoh"))]
@@ -60,7 +71,7 @@ pub trait Port: Send {
 }
 
 /// Options of a source.
-#[derive(Debug, Default, Clone, PartialEq)]
+#[derive(Debug, Default, Clone)]
 pub struct SourceOptions {
     /// Seed of a simulation, instead of its script's.
     pub seed: Option<u64>,
@@ -80,9 +91,10 @@ pub struct SourceOptions {
     pub body: Option<String>,
     /// Table of folds that a simulated board has in its flash from the start.
     pub folds: Option<PathBuf>,
-    /// Serial number on USB of the only board that `auto` and `usb` may open: its own or, for `auto`, that of
-    /// the probe that forwards its UART.
-    pub usb_serial: Option<String>,
+    /// Of several boards that are plugged in, opens the first that speaks, instead of refusing.
+    pub first: bool,
+    /// Serial ports; those of this machine by default.
+    pub ports: SerialPorts,
 }
 
 /// Opens a lost source again.
@@ -108,6 +120,8 @@ pub struct Source {
     pub has_folds: bool,
     /// Serial number on USB of its board, or of the probe before it; none if its link has none.
     pub usb_serial: Option<String>,
+    /// Names of other boards that are plugged in, and were not chosen.
+    pub others: Vec<String>,
     /// It has a board that receives requests; false for recordings.
     pub listens: bool,
     /// Opens it again when it is lost; none if it ends for good.
@@ -127,6 +141,7 @@ impl Source {
             has_body: false,
             has_folds: false,
             usb_serial: None,
+            others: Vec::new(),
             listens: true,
             returns: None,
         }
@@ -164,20 +179,12 @@ pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
 }
 
 fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
-    match (spec, &options.usb_serial) {
-        (SourceSpec::Auto | SourceSpec::Usb, Some(number)) => {
-            auto::numbered(number, *spec == SourceSpec::Auto)
-        }
-        (spec, _) => of_kind(spec, options),
-    }
-}
-
-fn of_kind(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
     match spec {
-        SourceSpec::Auto => auto::open(options),
-        SourceSpec::Usb => auto::usb(),
+        SourceSpec::Auto => auto::plugged(true, options),
+        SourceSpec::Usb(None) => auto::plugged(false, options),
+        SourceSpec::Usb(Some(number)) => auto::numbered(number, options),
         SourceSpec::Sim(scene) => sim::open(scene, options),
-        SourceSpec::Serial { path, baud } => auto::port(path, *baud),
+        SourceSpec::Serial { path, baud } => auto::port(path, *baud, options),
         SourceSpec::Tcp(address) => tcp(address, tcp::CONNECT),
         #[cfg(feature = "zenoh")]
         SourceSpec::Zenoh { place, config } => zenoh::open(place, config.as_deref()),

@@ -1,7 +1,7 @@
 //! A serial port.
 
 use super::Port;
-use crate::error::{Result, SourceError};
+use crate::error::SourceError;
 use serialport::SerialPort;
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
@@ -13,53 +13,73 @@ const PATIENCE: Duration = Duration::from_millis(10);
 const KEEPS: Duration = Duration::from_millis(10);
 
 /// An open serial port.
-pub struct Serial {
-    port: Box<dyn SerialPort>,
-    /// Bytes read while listening.
-    heard: Vec<u8>,
-}
+pub struct Serial(Box<dyn SerialPort>);
 
 impl Serial {
     /// Opens a port, 8N1.
-    pub fn open(path: &str, baud: u32) -> Result<Serial> {
+    pub fn open(path: &str, baud: u32) -> Result<Serial, SourceError> {
         // DTR: a board on USB sends only while the port is open, which it detects by this line.
-        let port =
-            serialport::new(path, baud).timeout(PATIENCE).dtr_on_open(true).open().map_err(|error| {
-                let why = why(&error);
-                SourceError::NoBoard(format!("serial port {path} at {baud} Bd cannot be opened: {why}"))
-            })?;
-        Ok(Serial { port, heard: Vec::new() })
-    }
-
-    /// Returns bytes, to be read again.
-    pub fn unread(&mut self, bytes: Vec<u8>) {
-        self.heard.splice(0..0, bytes);
+        let port = serialport::new(path, baud).timeout(PATIENCE).dtr_on_open(true).open();
+        port.map(Serial).map_err(|error| fault(path, baud, &error))
     }
 }
 
 /// Why a port cannot be opened, in plain words.
-fn why(error: &serialport::Error) -> String {
+fn fault(path: &str, baud: u32, error: &serialport::Error) -> SourceError {
+    use serialport::ErrorKind::{Io, NoDevice};
+    let no_board = |why: &str| SourceError::NoBoard(cannot(path, baud, why));
     match (error.kind(), error.description.as_str()) {
-        (serialport::ErrorKind::NoDevice, _) => "another program has it open".into(),
-        (serialport::ErrorKind::Io(ErrorKind::NotFound), _) => {
-            "there is no such port; `taxel ports` lists the ports".into()
-        }
+        (NoDevice, _) => busy(path, baud),
+        (Io(ErrorKind::PermissionDenied), _) => not_permitted(path, baud),
+        (Io(ErrorKind::NotFound), _) => no_board("there is no such port; `taxel ports` lists the ports"),
         // The system's message about a file that is not a terminal.
-        (_, "Not a typewriter" | "Inappropriate ioctl for device") => "it is not a serial port".into(),
-        (_, told) => told.to_lowercase(),
+        (_, "Not a typewriter" | "Inappropriate ioctl for device") => no_board("it is not a serial port"),
+        (_, told) => no_board(&told.to_lowercase()),
     }
+}
+
+fn cannot(path: &str, baud: u32, why: &str) -> String {
+    format!("serial port {path} at {baud} Bd cannot be opened: {why}")
+}
+
+/// The error of a port that another program has open.
+pub fn busy(path: &str, baud: u32) -> SourceError {
+    SourceError::Busy(cannot(path, baud, "another program has it open"))
+}
+
+/// The error of a port that this user may not open, with the command that permits it.
+pub fn not_permitted(path: &str, baud: u32) -> SourceError {
+    let why = match cfg!(target_os = "linux") {
+        true => format!(
+            "this user may not: `sudo usermod -aG {} $USER` permits it, then log in again",
+            group(path).as_deref().unwrap_or("dialout")
+        ),
+        false => "this user may not".into(),
+    };
+    SourceError::NotPermitted(cannot(path, baud, &why))
+}
+
+/// Name of the group of a device, whose members may open it; none if that is root's, or there is no such file.
+#[cfg(unix)]
+fn group(path: &str) -> Option<String> {
+    use std::os::unix::fs::MetadataExt;
+    let number = std::fs::metadata(path).ok()?.gid().to_string();
+    let groups = std::fs::read_to_string("/etc/group").ok()?;
+    let mut known = groups.lines().map(|line| line.split(':'));
+    known.find_map(|mut words| {
+        let name = words.next()?;
+        (words.nth(1)? == number && number != "0").then(|| name.into())
+    })
+}
+
+#[cfg(not(unix))]
+fn group(_: &str) -> Option<String> {
+    None
 }
 
 impl Port for Serial {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
-        if !self.heard.is_empty() {
-            let count = self.heard.len().min(buffer.len());
-            for (slot, byte) in buffer.iter_mut().zip(self.heard.drain(..count)) {
-                *slot = byte;
-            }
-            return Ok(Some(count));
-        }
-        match self.port.read(buffer) {
+        match self.0.read(buffer) {
             // End of file: the other end has hung up.
             Ok(0) => Ok(None),
             Ok(count) => Ok(Some(count)),
@@ -69,7 +89,7 @@ impl Port for Serial {
     }
 
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.port.write(bytes) {
+        match self.0.write(bytes) {
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(0),
             written => written,
         }

@@ -4,6 +4,7 @@ use super::pipe::{BoardEnd, pipe};
 use super::script_posture::{ScriptPosture, TellingEnd};
 use super::{Source, SourceOptions, scene_of};
 use crate::body;
+use crate::client::SIMULATED;
 use crate::error::{Context, Error, Result, SourceError};
 use crate::files::{self, garments, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
@@ -171,7 +172,7 @@ pub fn info(garment: &Garment) -> BoardInfo {
     let inputs =
         garment.blocks.iter().fold(0, |mask, b| mask | 1u64.checked_shl(b.input.into()).unwrap_or(0));
     BoardInfo {
-        firmware: concat!("taxel-sim ", env!("CARGO_PKG_VERSION")),
+        firmware: SIMULATED,
         pins: Pins { outputs: !inputs, inputs, ..Pins::ANY },
         full_scale: FULL_SCALE,
         link_bytes_per_s: LINK,

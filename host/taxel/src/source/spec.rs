@@ -4,7 +4,7 @@ use super::replay::Speed;
 use crate::network::BoardPlace;
 use crate::recording::BoardRecording;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// Default speed of a serial port, Bd.
@@ -15,10 +15,10 @@ const SCENE: &str = "pat";
 /// A source of a stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SourceSpec {
-    /// A board on a port with a known USB id, else a simulation.
+    /// The board that is plugged in: on USB, else behind a probe.
     Auto,
-    /// A board on USB.
-    Usb,
+    /// The board on USB; with a serial number the board, or the probe before it, of this number.
+    Usb(Option<String>),
     /// A simulated board that plays this script of touches.
     Sim(String),
     /// A serial port.
@@ -56,6 +56,23 @@ impl SourceSpec {
         SourceSpec::Sim(SCENE.into())
     }
 
+    /// Where its board is, the same for all names of a place: a port's number or path, an address; none if any board
+    /// may be there, or a simulated one.
+    pub fn place(&self) -> Option<String> {
+        match self {
+            SourceSpec::Usb(number) => number.clone(),
+            SourceSpec::Serial { path, .. } => {
+                let resolved = std::fs::canonicalize(path);
+                // A port that is not there has at least no doubled slashes.
+                let path = resolved.unwrap_or_else(|_| Path::new(path).components().collect());
+                Some(path.display().to_string())
+            }
+            SourceSpec::Tcp(address) => Some(address.clone()),
+            SourceSpec::Zenoh { place, .. } => Some(place.to_string()),
+            _ => None,
+        }
+    }
+
     /// Path of its file, if it has one, which no output may replace.
     pub fn file(&self) -> Option<PathBuf> {
         match self {
@@ -76,7 +93,8 @@ impl FromStr for SourceSpec {
         let (kind, rest) = text.split_once(':').map_or((text, None), |(kind, rest)| (kind, Some(rest)));
         match (kind, rest) {
             ("auto", None) => Ok(SourceSpec::Auto),
-            ("usb", None) => Ok(SourceSpec::Usb),
+            ("usb", None) => Ok(SourceSpec::Usb(None)),
+            ("usb", Some(number)) if !number.is_empty() => Ok(SourceSpec::Usb(Some(number.into()))),
             ("sim", None) => Ok(SourceSpec::simulation()),
             ("sim", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Sim(scene.into())),
             ("emulator", None) => Ok(SourceSpec::Emulator(SCENE.into())),
@@ -87,7 +105,7 @@ impl FromStr for SourceSpec {
             ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
             ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
             _ => Err(
-                "known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], \
+                "known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], \
                       emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]"
                     .into(),
             ),
@@ -135,7 +153,8 @@ impl fmt::Display for SourceSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SourceSpec::Auto => f.write_str("auto"),
-            SourceSpec::Usb => f.write_str("usb"),
+            SourceSpec::Usb(None) => f.write_str("usb"),
+            SourceSpec::Usb(Some(number)) => write!(f, "usb:{number}"),
             SourceSpec::Sim(scene) => write!(f, "sim:{scene}"),
             SourceSpec::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
             SourceSpec::Tcp(address) => write!(f, "tcp:{address}"),
@@ -155,10 +174,32 @@ mod tests {
     use super::*;
 
     #[test]
+    #[cfg(unix)]
+    fn a_port_is_one_place_whatever_it_is_called() {
+        let link = std::env::temp_dir().join(format!("taxel-null-{}", std::process::id()));
+        std::os::unix::fs::symlink("/dev/null", &link).unwrap();
+        let place = |text: &str| text.parse::<SourceSpec>().unwrap().place();
+        let known = place("serial:/dev/null");
+        assert_eq!(known.as_deref(), Some("/dev/null"));
+        let others = ["serial:/dev/null@115200", "serial:/dev//null@115200", "serial:/dev/./null"].map(place);
+        assert!(
+            others
+                .into_iter()
+                .chain([place(&format!("serial:{}", link.display()))])
+                .all(|other| other == known)
+        );
+        std::fs::remove_file(&link).unwrap();
+        assert_eq!(place("serial:/dev//none@9600"), place("serial:/dev/none"));
+        assert_ne!(place("serial:/dev/none"), known);
+        assert_eq!([place("usb:A1"), place("usb"), place("sim:pat")], [Some("A1".into()), None, None]);
+    }
+
+    #[test]
     fn words_are_read_and_written() {
         for text in [
             "auto",
             "usb",
+            "usb:E6616407E3:1",
             "sim:pat",
             "serial:/dev/ttyACM0@115200",
             "tcp:[::1]:80",

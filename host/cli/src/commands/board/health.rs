@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Worn};
 use taxel::files::garments;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
@@ -23,7 +23,7 @@ use taxel_core::wire::Request;
 /// Arguments of `taxel health`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HealthArgs {
-    /// `auto`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `file:FILE` or
+    /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `file:FILE` or
     /// `replay:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
@@ -50,7 +50,7 @@ pub struct HealthArgs {
 /// Health of a board, in both forms that the command prints.
 #[derive(Debug)]
 pub struct HealthText {
-    /// `{"self_test", "taxels", "ghosts"}`; ghosts are null unless the blocks are passive matrices.
+    /// `{"simulated", "self_test", "taxels", "ghosts"}`; ghosts are null unless the blocks are passive matrices.
     pub json: Value,
     /// A line for each finding.
     pub text: String,
@@ -87,11 +87,17 @@ pub fn look(args: &HealthArgs) -> Result<HealthText> {
     let passive = found.is_passive();
     let garment = found.garment.context("the board has not sent its garment").board()?;
     let places = places(&garment, &found.ill)?;
-    let pins = found.pins.as_ref();
+    let (pins, simulated) = (found.pins.as_ref(), found.simulated);
+    let simulation = if simulated { "This is a simulated board.\n" } else { "" };
     let ghosts = passive.then(|| found.ghosts.report(&garment));
     Ok(HealthText {
-        json: json!({ "self_test": pins::report(&garment, pins), "taxels": report(&places), "ghosts": ghosts }),
-        text: pins::table(&garment, pins) + &table(&garment, &places) + &found.ghosts.table(&garment),
+        json: json!({
+            "simulated": simulated, "self_test": pins::report(&garment, pins), "taxels": report(&places), "ghosts": ghosts,
+        }),
+        text: simulation.to_string()
+            + &pins::table(&garment, pins)
+            + &table(&garment, &places)
+            + &found.ghosts.table(&garment),
         faults: pins.map_or(0, |findings| findings.faults.len()),
         taxels: places.len(),
     })
@@ -101,6 +107,7 @@ pub fn look(args: &HealthArgs) -> Result<HealthText> {
 #[derive(Default)]
 struct Known {
     garment: Option<Garment>,
+    simulated: bool,
     ill: BTreeMap<u16, TaxelHealth>,
     pins: Option<Findings>,
     /// A self-test is still to be requested.
@@ -120,7 +127,10 @@ impl Known {
 impl Show<anyhow::Error> for Known {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
-            Event::Hello => self.garment = client.worn().map(|worn| worn.garment.clone()),
+            Event::Hello => {
+                self.garment = client.worn().map(|worn| worn.garment.clone());
+                self.simulated = client.worn().is_some_and(Worn::is_simulated);
+            }
             Event::HealthMap { .. } => self.ill = client.ill().clone(),
             Event::Contacts { .. } if self.is_passive() => {
                 if let Some(garment) = &self.garment {

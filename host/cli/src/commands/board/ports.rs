@@ -40,7 +40,7 @@ pub fn run(args: &PortsArgs) -> Result<()> {
 fn advice(kinds: impl Iterator<Item = PortKind> + Clone, drives: usize) -> &'static str {
     let any = |kind| kinds.clone().any(|k| k == kind);
     match (any(PortKind::Board), any(PortKind::Probe), drives) {
-        (true, ..) => "A board is there: `taxel live --source usb`.",
+        (true, ..) => "A board is there: `taxel live`.",
         (_, true, _) => {
             "A probe is there, which may pass on a board's UART: `taxel live --source serial:PORT`."
         }
@@ -61,7 +61,7 @@ mod tests {
     #[test]
     fn the_advice_fits_what_is_there() {
         let of = |kinds: &[PortKind], drives| advice(kinds.iter().copied(), drives);
-        assert!(of(&[PortKind::Other, PortKind::Board], 1).contains("--source usb"));
+        assert!(of(&[PortKind::Other, PortKind::Board], 1).contains("`taxel live`"));
         assert!(of(&[PortKind::Probe], 0).contains("serial:PORT"));
         assert!(of(&[PortKind::Other], 1).contains("taxel flash"));
         assert!(of(&[PortKind::Other], 0).starts_with("None"));

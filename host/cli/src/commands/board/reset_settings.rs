@@ -13,7 +13,7 @@ use taxel_core::wire::Request;
 /// Arguments of `taxel reset-settings`.
 #[derive(Debug, Clone, Args)]
 pub struct ResetSettingsArgs {
-    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
+    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Use the settings that were kept aside

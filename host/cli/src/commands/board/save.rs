@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Worn};
 use taxel::session::Show;
 use taxel::source::SourceOptions;
 use taxel_core::wire::Request;
@@ -25,12 +25,16 @@ pub fn run(args: SaveArgs) -> Result<()> {
     let (source, _) = args.board.open(SourceOptions::default())?;
     let label = source.label.clone();
     let tare = args.board.tare.unwrap_or(source.tare);
-    let mut saving = Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false };
+    let mut saving =
+        Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false, simulated: false };
     watch::watch(&LiveArgs::on(args.board), source, &mut saving)?;
     if !saving.done {
         bail!(Fault::board(format!("{label} ended before the board had saved its settings")));
     }
-    println!("{label} has saved garment, scene, gains and baseline to its flash.");
+    match saving.simulated {
+        true => println!("{label} is simulated: what it has saved is gone once it ends, nothing lasts."),
+        false => println!("{label} has saved garment, scene, gains and baseline to its flash."),
+    }
     Ok(())
 }
 
@@ -41,10 +45,12 @@ struct Saving {
     begun: Instant,
     asked: Option<Instant>,
     done: bool,
+    simulated: bool,
 }
 
 impl Show<anyhow::Error> for Saving {
-    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        self.simulated = client.worn().is_some_and(Worn::is_simulated);
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         if let Some(why) = refusal {
             bail!(Fault::board(format!("the board refuses: {why}")));

@@ -31,7 +31,7 @@ pub struct FitArgs {
     /// Pick N marks on each panel, where the body says that its taxels are
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..=100))]
     pick: Option<u16>,
-    /// The board that feels the touches of the marks: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
+    /// The board that feels the touches of the marks: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
     /// `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto", conflicts_with = "touches")]
     source: SourceSpec,

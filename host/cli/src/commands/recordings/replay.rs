@@ -32,11 +32,12 @@ pub struct ReplayArgs {
 pub fn run(args: ReplayArgs) -> Result<()> {
     let speed = args.speed.unwrap_or_default();
     let source = SourceSpec::Replay { recording: args.file, speed };
-    live::run(LiveArgs {
+    let watched = LiveArgs {
         frames: args.frames,
         json: args.json,
         pixels: args.pixels,
         realtime: stdout().is_terminal(),
         ..LiveArgs::of(source)
-    })
+    };
+    live::run(watched, false)
 }

@@ -46,11 +46,10 @@ fn table(robot: &ReadRobot) -> String {
 }
 
 fn row(board: &RobotBoard) -> [String; 8] {
-    let RobotBoard { name, source, usb_serial, garment, scene, calibration, tare, body, link } = board;
-    let number = usb_serial.as_ref().map_or(String::new(), |number| format!(" {number}"));
+    let RobotBoard { name, source, garment, scene, calibration, tare, body, link } = board;
     [
         name.clone(),
-        format!("{source}{number}"),
+        source.to_string(),
         garment.as_ref().map_or("any".into(), |worn| worn.garment.name.to_string()),
         garment.as_ref().map_or("-".into(), |worn| worn.layout.taxels().to_string()),
         match (body, link) {
@@ -91,7 +90,6 @@ fn report(robot: &ReadRobot) -> Value {
         json!({
             "name": board.name,
             "source": board.source.to_string(),
-            "serial": board.usb_serial,
             "garment": worn.map(|worn| worn.garment.name.as_str()),
             "taxels": worn.map(|worn| worn.layout.taxels()),
             "panels": panels,

@@ -119,7 +119,7 @@ fn held(args: &ShapesLearnArgs, base: &Base) -> Result<(Vec<Point>, ImagesFile)>
         eprintln!("{label} ended after {} of {wanted} touches", points.len());
     }
     ensure!(!points.is_empty(), "{label} ended before anything was held against it for half a second");
-    let fingerprint = match &args.board.source {
+    let fingerprint = match &args.board.source() {
         SourceSpec::File(path) | SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => {
             Fingerprint::of(path)?.to_string()
         }

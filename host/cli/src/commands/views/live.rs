@@ -9,9 +9,10 @@ use taxel::json::MessagePrinter;
 use taxel::session::Show;
 use taxel::source::SourceOptions;
 
-/// Runs the command.
-pub fn run(args: LiveArgs) -> Result<()> {
-    let terminal = stdout().is_terminal() && !args.json && args.taxel.is_none() && args.svg.is_none();
+/// Runs the command; `bare` if the program was called without one.
+pub fn run(args: LiveArgs, bare: bool) -> Result<()> {
+    let is_seen = stdout().is_terminal();
+    let terminal = is_seen && !args.json && args.taxel.is_none() && args.svg.is_none();
     let bounded = args.frames.is_some() || args.seconds.is_some();
     let options = SourceOptions {
         realtime: args.realtime || terminal,
@@ -21,7 +22,7 @@ pub fn run(args: LiveArgs) -> Result<()> {
         raw: args.taxel.is_some(),
         ..SourceOptions::default()
     };
-    let (source, calibration) = args.board.open(options)?;
+    let (source, calibration) = args.board.open_to_show(options, bare || is_seen)?;
     let out = std::io::BufWriter::new(stdout());
     let mut show: Box<dyn Show<anyhow::Error>> = if let Some(file) = &args.svg {
         let inputs = args.board.files().into_iter().chain(args.save.clone());

@@ -6,6 +6,7 @@ use crate::on_robot::Wearer;
 use crate::view::{PageHub, PageHubs, Player, Tape, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, ensure};
+use std::io::{IsTerminal, stdout};
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::thread;
@@ -42,15 +43,15 @@ pub struct ViewArgs {
 impl ViewArgs {
     /// Recording to show, and its speed; none for a board.
     fn recording(&self) -> Option<(BoardRecording, f64)> {
-        match (&self.file, &self.board.source) {
+        match (&self.file, self.board.source()) {
             (Some(file), _) => Some((file.clone(), 1.0)),
             (None, SourceSpec::Replay { recording, speed }) => {
                 let times = match speed {
                     Speed::AsAsked => 1.0,
-                    Speed::Times(times) => *times,
+                    Speed::Times(times) => times,
                     Speed::Max => f64::INFINITY,
                 };
-                Some((recording.clone(), times))
+                Some((recording, times))
             }
             _ => None,
         }
@@ -76,7 +77,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let wearer = args.wearer()?;
     let listener = bind(args.port)?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
-    let (source, calibration) = args.board.open(options)?;
+    let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));

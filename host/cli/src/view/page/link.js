@@ -78,7 +78,7 @@ export class Link {
     const { link, end } = states;
     const about =
       garment &&
-      `${garment.label} · ${garment.garment}, ${garment.taxels} taxels · scene ${garment.scene} · ${garment.firmware}`;
+      `${garment.simulated ? "SIMULATED · " : ""}${garment.label} · ${garment.garment}, ${garment.taxels} taxels · scene ${garment.scene} · ${garment.firmware}`;
     say(this.source, (end ? `${end.text} · ` : "") + (about ?? "waiting for a board …"));
     this.source.title = about ?? "";
     if (garment) say(this.note, provenance(garment));

@@ -11,6 +11,8 @@ export type PageHello = {
   time_us: number;
   /** Name and version of the firmware. */
   firmware: string;
+  /** True of a simulated board. */
+  simulated: boolean;
   /** Name of the garment. */
   garment: string;
   /** Name of the scene. */

@@ -37,6 +37,7 @@ fn it_says_what_is_in_it() {
     assert_eq!((info["total_frames"].as_u64(), info["total_episodes"].as_u64()), (Some(rows), Some(2)));
     let back = &info["features"]["observation.tactile.back"];
     assert_eq!((back["shape"].to_string(), &back["info"]["unit"]), ("[32,16]".into(), &"kPa".into()));
+    assert_eq!(back["info"]["simulated"], true);
     assert!(info["features"]["observation.tactile.left_arm"].is_object());
     assert_eq!(info["features"]["observation.tactile.intent"]["names"].as_array().unwrap().len(), 20);
     let stats = read(folder.join("meta/stats.json"));

@@ -17,6 +17,8 @@ pub struct HelloLine<'a> {
     pub time_us: u64,
     /// Name and version of the firmware.
     pub firmware: &'a str,
+    /// True of a simulated board.
+    pub simulated: bool,
     /// Name of the garment.
     pub garment: &'a str,
     /// Name of the scene.

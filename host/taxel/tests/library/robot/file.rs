@@ -80,7 +80,7 @@ const MISTAKES: [(&str, &str, &str); 31] = [
     (
         "tare = 32",
         "tares = 32",
-        "robot.toml, line 15: `tares` is not a known key, did you mean `tare`? Known are `name`, `source`, `serial`, `garment`, `scene`, `calibration`, `tare`, `body`, `link` (board arm)",
+        "robot.toml, line 15: `tares` is not a known key, did you mean `tare`? Known are `name`, `source`, `garment`, `scene`, `calibration`, `tare`, `body`, `link` (board arm)",
     ),
     ("source = \"sim:pat\"\n", "", "robot.toml, line 4, `boards`: `source` is missing (board torso)"),
     (
@@ -96,12 +96,12 @@ const MISTAKES: [(&str, &str, &str); 31] = [
     (
         "sim:pat",
         "sum:pat",
-        "robot.toml, line 6, `boards[0].source`: board torso: there is no source \"sum:pat\": known are auto, usb, sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]",
+        "robot.toml, line 6, `boards[0].source`: board torso: there is no source \"sum:pat\": known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]",
     ),
     (
         "sim:pat",
         "usb",
-        "robot.toml, line 6, `boards[0].source`: board torso: usb finds any board: give its `serial` number",
+        "robot.toml, line 6, `boards[0].source`: board torso: usb finds any board: name its serial number, usb:SERIAL",
     ),
     (
         "sim:pat",
@@ -110,8 +110,8 @@ const MISTAKES: [(&str, &str, &str); 31] = [
     ),
     (
         "source = \"sim:pat\"",
-        "source = \"sim:pat\"\nserial = \"A1\"",
-        "robot.toml, line 7, `boards[0].serial`: board torso: only auto and usb look for a serial number, and its source is sim:pat",
+        "source = \"auto\"",
+        "robot.toml, line 6, `boards[0].source`: board torso: auto finds any board: name its serial number, usb:SERIAL",
     ),
     (
         "source = \"sim:pat\"",

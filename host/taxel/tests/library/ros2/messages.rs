@@ -4,7 +4,7 @@ use super::definitions::Definitions;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use taxel::body::{self, DVec3, Pose};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, SIMULATED};
 use taxel::json::message;
 use taxel::ros2::messages::{self, BoardState};
 use taxel::ros2::{own, schemas};
@@ -12,7 +12,7 @@ use taxel::session::Session;
 use taxel_core::format::name;
 use taxel_core::garment::{Area, Garment, Layout};
 use taxel_core::react::Reaction;
-use taxel_core::wire::ReactionReport;
+use taxel_core::wire::{Health, ReactionReport};
 
 /// Time of the messages, us.
 const US: u64 = 1_700_000_000_000_123;
@@ -260,5 +260,12 @@ fn small_messages_are_as_their_definitions() {
     assert_eq!(
         [&read["status"][0]["level"], &read["status"][0]["message"]],
         [&json!(2), &json!("usb is gone")]
+    );
+    let health = Health::default();
+    let simulated = messages::diagnostics("", US, SIMULATED, BoardState::Reports(&health, 0));
+    let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &simulated);
+    assert_eq!(
+        [&read["status"][0]["message"], &read["status"][0]["hardware_id"]],
+        [&json!("simulated: all is well"), &json!(SIMULATED)]
     );
 }

@@ -3,6 +3,7 @@
 
 mod links;
 mod lost;
+mod plugged;
 mod posing;
 mod restored;
 pub mod rig;

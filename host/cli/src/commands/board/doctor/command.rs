@@ -9,13 +9,14 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
 use taxel::client::Buses;
+use taxel::error::{ErrorKind, SourceError};
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
 use taxel::tell::date;
 
 /// Arguments of `taxel doctor`.
 #[derive(Debug, Clone, Args)]
 pub struct DoctorArgs {
-    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`,
+    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`,
     /// `file:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
@@ -67,11 +68,25 @@ pub struct Examined {
 
 /// Watches a board for some seconds; it may share one of these controllers with others.
 pub fn examine(spec: &SourceSpec, source: Source, seconds: f64, buses: Buses) -> Examined {
-    let mut facts = Facts::of(&source.label, buses);
+    let mut facts = Facts::new(buses);
     let live = LiveArgs { seconds: Some(seconds), ..LiveArgs::of(spec.clone()) };
     let heard = watch::watch(&live, source, &mut facts);
-    let found = judge(&facts, env!("CARGO_PKG_VERSION"), &date::today());
+    let found = match heard.as_ref().err().and_then(foreign) {
+        Some(what) => vec![Finding::bad("link", what, ELSEWHERE)],
+        None => judge(&facts, env!("CARGO_PKG_VERSION"), &date::today()),
+    };
     Examined { found, heard, bus: facts.bus }
+}
+
+/// Remedy for a port on which something else speaks.
+const ELSEWHERE: &str = "name the port of the board and its speed: `taxel ports` lists what is plugged in";
+
+/// What speaks in place of a board, if that has ended the watch.
+fn foreign(error: &anyhow::Error) -> Option<String> {
+    match error.downcast_ref::<taxel::Error>()?.kind() {
+        ErrorKind::Source(SourceError::Foreign(what)) => Some(what.clone()),
+        _ => None,
+    }
 }
 
 /// The worst of the findings.

@@ -1,7 +1,7 @@
 //! Observations of a board over some seconds.
 
 use anyhow::Result;
-use taxel::client::{Buses, Client, Event};
+use taxel::client::{Buses, Client, Event, Worn};
 use taxel::session::Show;
 use taxel_core::boot::Boot;
 use taxel_core::garment::Garment;
@@ -51,16 +51,19 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// No observations yet, of the source with this label, which may share one of these controllers.
-    pub fn of(label: &str, buses: Buses) -> Facts {
-        Facts { simulated: label.starts_with("sim:"), buses, ..Facts::default() }
+    /// No observations yet, of a board that may share one of these controllers.
+    pub fn new(buses: Buses) -> Facts {
+        Facts { buses, ..Facts::default() }
     }
 }
 
 impl Show<anyhow::Error> for Facts {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
-            Event::Hello => self.firmware = client.worn().map(|worn| worn.firmware.clone()),
+            Event::Hello => {
+                self.firmware = client.worn().map(|worn| worn.firmware.clone());
+                self.simulated = client.worn().is_some_and(Worn::is_simulated);
+            }
             Event::Boot(boot) => self.boot = Some(*boot),
             Event::Unusable(why) => self.unusable = Some(why.clone()),
             Event::Frame { frame, time, .. } => {

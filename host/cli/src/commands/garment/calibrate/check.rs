@@ -20,7 +20,7 @@ pub struct CalibrationCheckArgs {
     /// Calibration file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The board: `auto`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
+    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Also ask for a known weight on a plate that covers the first panel, N

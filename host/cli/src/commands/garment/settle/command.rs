@@ -23,7 +23,7 @@ const OLD: u32 = 2;
 /// Arguments of `taxel settle`.
 #[derive(Debug, Clone, Args)]
 pub struct SettleArgs {
-    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
+    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// The garment, a preset or a TOML file [default: the board's]

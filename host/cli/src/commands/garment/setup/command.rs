@@ -25,7 +25,7 @@ const OLD: u32 = 2;
 /// Arguments of `taxel setup`.
 #[derive(Debug, Clone, Args)]
 pub struct SetupArgs {
-    /// The board: `auto`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
+    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// The intended garment, a preset or a TOML file: its panels, blocks and pins are used [default: the

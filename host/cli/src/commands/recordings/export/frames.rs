@@ -33,6 +33,8 @@ pub struct RecordedGarment {
     pub units: Units,
     /// Concepts of the scene's map.
     pub concepts: Vec<Name>,
+    /// True of a simulated board.
+    pub simulated: bool,
     /// Calibration, as described by the board.
     calibration: String,
 }
@@ -137,7 +139,8 @@ impl<'a> Frames<'a> {
                 let units = scale.unwrap_or_else(|| Ok(Units::counts(&now.layout)))?;
                 let concepts = client.concepts().to_vec();
                 let (layout, calibration) = (now.layout.clone(), now.calibration.clone());
-                Ok(Some(Rc::new(RecordedGarment { layout, units, concepts, calibration })))
+                let simulated = now.is_simulated();
+                Ok(Some(Rc::new(RecordedGarment { layout, units, concepts, simulated, calibration })))
             }
         }
     }

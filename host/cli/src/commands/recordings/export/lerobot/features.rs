@@ -21,6 +21,7 @@ pub struct Features {
     areas: Vec<Area>,
     units: Vec<&'static str>,
     concepts: Vec<String>,
+    simulated: bool,
 }
 
 impl Features {
@@ -29,7 +30,7 @@ impl Features {
         let areas = worn.layout.areas().to_vec();
         let units = (0..areas.len()).map(|panel| worn.units.name(panel)).collect();
         let concepts = worn.concepts.iter().map(ToString::to_string).collect();
-        let features = Features { areas, units, concepts };
+        let features = Features { areas, units, concepts, simulated: worn.simulated };
         let mut names: Vec<_> = features.shapes().into_iter().map(|(name, _)| name).collect();
         names.sort();
         ensure!(names.is_sorted_by(|a, b| a != b), "two panels have names that LeRobot cannot tell apart");
@@ -82,7 +83,9 @@ impl Features {
             if let (Some(area), Some(unit)) = (self.areas.get(index), self.units.get(index)) {
                 let pitch = area.pitch_um.map(|um| f64::from(um) / 1000.0);
                 feature["names"] = json!(["row", "column"]);
-                feature["info"] = json!({ "unit": unit, "link": area.link, "pitch_mm": pitch });
+                feature["info"] = json!({
+                    "unit": unit, "link": area.link, "pitch_mm": pitch, "simulated": self.simulated,
+                });
             }
             all.insert(name, feature);
         }

@@ -1,0 +1,83 @@
+//! Opens the source of a command: at once, or once its board is there.
+
+use super::{BoardArgs, stop};
+use crate::fault;
+use anyhow::Result;
+use std::thread;
+use std::time::Duration;
+use taxel::error::{ErrorKind, SourceError};
+use taxel::files::calibrate::Calibration;
+use taxel::source::{self, Source, SourceOptions, SourceSpec};
+use taxel::tell::words;
+
+/// Time between two attempts to open a board that is waited for.
+const TRY: Duration = Duration::from_secs(1);
+/// Exit status of an error of the board.
+const BOARD: u8 = 3;
+
+impl BoardArgs {
+    /// Opens the source, and the calibration if there is one; the source then uses its counts per newton.
+    pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
+        let options = SourceOptions {
+            seed: self.seed,
+            garment: self.garment.clone(),
+            body: self.body.clone(),
+            folds: self.folds.clone(),
+            ..options
+        };
+        let mut source = self.opened(&options)?;
+        let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
+        let known = calibration.as_ref().and_then(Calibration::counts_per_newton);
+        source.counts_per_newton = known.or(source.counts_per_newton);
+        Ok((source, calibration))
+    }
+
+    fn opened(&self, options: &SourceOptions) -> Result<Source> {
+        let (spec, mut told) = (self.source(), false);
+        loop {
+            let error = match source::open(&spec, options) {
+                Ok(source) => return Ok(source),
+                Err(error) => anyhow::Error::from(error),
+            };
+            if !self.wait || fault::status(&error) != BOARD {
+                return Err(error);
+            }
+            if !std::mem::replace(&mut told, true) {
+                eprintln!("{}; waiting for it (Ctrl-C ends)", words::sentence(error.as_ref()));
+            }
+            stop::check()?;
+            thread::sleep(TRY);
+        }
+    }
+
+    /// Opens the source for a command that only shows it: of several boards the first, told with the others, unless
+    /// options configure the board.
+    /// With `or_simulated`, a simulated board is played, and told as that, if no source was named and no board is
+    /// plugged in; a board that is there and cannot be used is an error.
+    pub fn open_to_show(
+        &self,
+        options: SourceOptions,
+        or_simulated: bool,
+    ) -> Result<(Source, Option<Calibration>)> {
+        let options =
+            SourceOptions { first: self.configures().is_none() && self.calibration.is_none(), ..options };
+        let opened = match self.open(options.clone()) {
+            Err(error) if or_simulated && self.source.is_none() && is_absent(&error) => {
+                let simulation = SourceSpec::simulation();
+                eprintln!("playing {simulation}, a simulated board: {}", words::sentence(error.as_ref()));
+                BoardArgs { source: Some(simulation), ..self.clone() }.open(options)
+            }
+            opened => opened,
+        }?;
+        if let (source, [_, ..]) = (&opened.0, opened.0.others.as_slice()) {
+            eprintln!("{} is shown; other boards are plugged in: {}", source.label, source.others.join(", "));
+        }
+        Ok(opened)
+    }
+}
+
+/// True if no board is plugged in.
+fn is_absent(error: &anyhow::Error) -> bool {
+    let kind = error.downcast_ref::<taxel::Error>().map(taxel::Error::kind);
+    matches!(kind, Some(ErrorKind::Source(SourceError::NoBoard(_))))
+}

@@ -1,0 +1,51 @@
+//! Something on a port that is no board.
+
+use super::stage::{command, ended, folder, stranger};
+use std::thread;
+
+/// Lines of 252 numbers.
+fn rows() -> Vec<u8> {
+    let row = (0..252).map(|number| (number * 7 % 100).to_string()).collect::<Vec<_>>().join(",");
+    format!("{row}\r\n").into_bytes()
+}
+
+#[test]
+fn a_port_that_speaks_otherwise_is_told_as_that() {
+    let lines = [
+        "live",
+        "live --json --frames 5",
+        "view --port 0",
+        "record -o a.mcap",
+        "save",
+        "health",
+        "doctor",
+        "setup",
+    ];
+    let cells = lines.map(|line| {
+        thread::spawn(move || {
+            let here = folder(&format!("stranger-{}", line.split(' ').collect::<Vec<_>>().join("-")));
+            let source = format!("serial:{}@115200", stranger(rows()));
+            let words: Vec<&str> = line.split(' ').chain(["--source", &source]).collect();
+            let end = ended(command(&here, "", &words));
+            let (error, output) = (&end.error, &end.output);
+            assert_eq!(end.status, Some(3), "{line}: {output}{error}");
+            assert!(
+                error.contains(" bytes of text lines of 252 numbers: no taxel board"),
+                "{line}: {output}{error}"
+            );
+            assert!(!error.contains("flash") && !output.contains("flash"), "{line}: {output}{error}");
+            assert!(end.seconds < 20.0, "{line}: {:.1} s", end.seconds);
+        })
+    });
+    cells.into_iter().for_each(|cell| cell.join().unwrap());
+}
+
+#[test]
+fn bytes_at_another_speed_are_told_as_that() {
+    let here = folder("speed");
+    let noise = (0..3000u32).map(|number| (number.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    let source = format!("serial:{}@9600", stranger(noise));
+    let end = ended(command(&here, "", &["live", "--source", &source]));
+    assert_eq!(end.status, Some(3), "{}", end.error);
+    assert!(end.error.contains(" bytes of unknown form: no taxel board, or another speed"), "{}", end.error);
+}
