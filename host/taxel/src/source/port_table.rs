@@ -26,14 +26,14 @@ pub struct PortTable(PathBuf);
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Table {
+struct ListedPorts {
     #[serde(default)]
-    port: Vec<Row>,
+    port: Vec<ListedPort>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Row {
+struct ListedPort {
     name: String,
     usb: Option<[u16; 2]>,
     product: Option<String>,
@@ -48,9 +48,10 @@ impl PortTable {
     }
 
     /// Ends the program if the file is wrong: a test that goes on would test nothing.
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<ListedPort> {
         let text = std::fs::read_to_string(&self.0).map_err(|error| error.to_string());
-        let table = text.and_then(|text| toml::from_str::<Table>(&text).map_err(|error| error.to_string()));
+        let table =
+            text.and_then(|text| toml::from_str::<ListedPorts>(&text).map_err(|error| error.to_string()));
         table.map(|table| table.port).unwrap_or_else(|why| {
             eprintln!("TAXEL_PORTS: {}: {why}", self.0.display());
             std::process::exit(70)
@@ -60,7 +61,7 @@ impl PortTable {
 
 impl Ports for PortTable {
     fn list(&self) -> Vec<SerialPortInfo> {
-        let port = |row: Row| {
+        let port = |row: ListedPort| {
             let usb = |[vid, pid]: [u16; 2]| UsbPortInfo {
                 vid,
                 pid,

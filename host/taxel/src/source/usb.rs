@@ -50,7 +50,7 @@ impl PortKind {
     }
 }
 
-/// Serial ports of this machine: name, kind, and USB description with the serial number.
+/// Serial ports: name, kind, and USB description with the serial number.
 pub fn listed() -> Vec<(String, PortKind, String)> {
     let describe = |port: SerialPortInfo| {
         let (kind, told) = (PortKind::of(&port), usb_of(&port).map_or(String::new(), described));
