@@ -97,7 +97,7 @@ impl ContactQueue {
         } else {
             self.clear();
         }
-        (self.frame, self.time) = (frame, time);
+        (self.frame, self.time, self.dropped) = (frame, time, 0);
         if self.ended.is_empty() && released.is_empty() {
             self.listed = present.len() as u16;
         } else {

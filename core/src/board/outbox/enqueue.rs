@@ -194,7 +194,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
         if before.intent != now.intent && (before.intent || meaning.leading != Leading::None) {
             let meaning = if now.intent { meaning } else { &Meaning::NONE };
-            self.changes.clear();
             self.intent = Some(intent_report(at, meaning));
         }
     }
