@@ -71,6 +71,11 @@ impl Ledger {
         self.frames = 0;
     }
 
+    /// Number and start of the last scan.
+    pub fn last(&self) -> (u32, Micros) {
+        (self.frame.number, self.frame.time)
+    }
+
     /// End of the last scan.
     pub fn scanned(&self) -> Micros {
         Micros(self.frame.time.0.saturating_add(self.frame.scan.into()))

@@ -252,13 +252,15 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.senses.blind();
         self.rewired = true;
         self.outbox.renew();
+        let (at, state) = (self.ledger.last(), &self.state);
+        self.outbox.end_contacts(at, state.released(), state.symbols(), &mut self.health);
         if core::mem::take(&mut self.taring) {
             self.outbox.answer(TARE, Some(Refusal::of("the garment was changed")));
         }
         self.tared = false;
         (self.examined, self.retest) = (None, Retest::new());
         self.certificate = None;
-        self.surface.refit(&self.setup.layout);
+        self.surface.refit(&self.setup.layout, at);
         self.scene_changed();
     }
 
@@ -269,8 +271,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.refit_folds();
         self.monitor.again();
         self.scans = Pace::new(self.setup.scan_rate());
+        self.outbox.end_intention(self.ledger.last());
         self.outbox.pace(&self.setup.scene.stream);
-        self.outbox.forget_meaning();
         self.outputs.follow(Outputs::at_rest(self.setup.pipeline.reactions()));
         self.show_frames();
     }

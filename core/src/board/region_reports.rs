@@ -26,10 +26,11 @@ impl RegionReports {
         RegionReports { states: RegionStates::new(), due: None, names: false, beat: Pace::NEVER }
     }
 
-    /// Another table is in force.
-    pub fn reset(&mut self, table: Option<&Table<'_>>) {
+    /// Another table is in force, or none: the states of the one before are replaced, as of frame `at`.
+    pub fn reset(&mut self, table: Option<&Table<'_>>, at: (u32, Micros)) {
+        self.due = (!self.is_empty()).then_some(at);
         self.states.reset(table);
-        (self.due, self.names, self.beat) = (None, true, Pace::new(1));
+        (self.names, self.beat) = (table.is_some(), Pace::new(1));
     }
 
     /// Names the regions again before their next states.
@@ -64,15 +65,10 @@ impl RegionReports {
         self.due.is_some()
     }
 
-    /// Forgets what is due.
-    pub fn skip(&mut self) {
-        self.due = None;
-    }
-
     /// Encodes what is due: the names, else the states; none if nothing is. `false` if it does not fit.
-    pub fn put(&mut self, tx_frame: &mut TxFrame, table: &Table<'_>) -> Option<bool> {
+    pub fn put(&mut self, tx_frame: &mut TxFrame, table: Option<&Table<'_>>) -> Option<bool> {
         let (frame, time) = self.due?;
-        if core::mem::take(&mut self.names) {
+        if let Some(table) = table.filter(|_| core::mem::take(&mut self.names)) {
             let names = (0..table.regions() as u8).map(|region| table.region(region).unwrap_or_default());
             return Some(tx_frame.put(Report::REGION_NAMES, &Each(names)));
         }

@@ -1,5 +1,6 @@
 //! Requests of the host.
 
+use super::outbox::Streamed;
 use super::outputs::Outputs;
 use super::rebuilds::Rebuilds;
 use super::refusal::Refusal;
@@ -9,7 +10,7 @@ use super::{Board, reading};
 use crate::condition::Certificate;
 use crate::contact::Forms;
 use crate::format::{Invalid, LEFT_OUT, Micros, Q15};
-use crate::garment::Garment;
+use crate::garment::{Garment, PANELS};
 use crate::gesture::{Certainty, GestureConfig, Gestures};
 use crate::intent::{Feed, Intent};
 use crate::pipeline::CONTACTS;
@@ -72,7 +73,9 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 Ok(())
             }
             Request::Stop => {
+                let before = self.outbox.streamed();
                 self.outbox.stop();
+                self.tell_present(before);
                 Ok(())
             }
             Request::Sync { token } => return self.outbox.sync(token, now),
@@ -144,6 +147,15 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         if self.state.unsure().ids().next().is_some() {
             self.outbox.tell_unsure();
         }
+        self.tell_present(Streamed::default());
+    }
+
+    /// Reports what is present, as far as it is streamed and was not before, or the other way round.
+    fn tell_present(&mut self, before: Streamed) {
+        let Board { outbox, state, ledger, health, .. } = self;
+        let regions = state.symbols().regions(PANELS);
+        let present = (state.present(), regions, state.intent().meaning());
+        outbox.tell_present(before, ledger.last(), present, health);
     }
 
     fn set_concept(&mut self, slot: u8, value: Q15) -> Result<(), Refusal> {
@@ -185,9 +197,11 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     pub(super) fn take_scene(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
         let mut scene = Scene::empty();
         reading::scene(bytes, &mut scene)?;
+        let streamed = self.outbox.streamed();
         if let Some(done) = self.setup.change_stream(&self.info, &mut scene) {
             done.map_err(Refusal::of)?;
             self.outbox.pace(&self.setup.scene.stream);
+            self.tell_present(streamed);
             return Ok(());
         }
         let lasting = self.lasting();
@@ -198,6 +212,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         self.scene_changed();
         // `scene` now holds the previous scene.
         self.carry(&lasting, &scene.react, now);
+        self.tell_present(streamed);
         Ok(())
     }
 

@@ -55,13 +55,15 @@ impl Surface {
         cfg!(feature = "surface") && self.fits
     }
 
-    /// Puts a table in force if it fits the garment; forgets poses, which are of the links of another.
-    pub fn wear(&mut self, table: Option<&'static [u8]>, layout: &Layout) {
+    /// Puts a table in force if it fits the garment; forgets poses, which are of the links of another. What
+    /// was told by the table before is told anew, as of frame `at`.
+    pub fn wear(&mut self, table: Option<&'static [u8]>, layout: &Layout, at: (u32, Micros)) {
         self.table = table;
         self.fits = table.is_some_and(|table| Table::check(table, layout).is_ok());
         self.poses = SurfaceState::new();
         let table = self.table();
-        self.regions.iter_mut().for_each(|regions| regions.reset(table.as_ref()));
+        self.regions.iter_mut().for_each(|regions| regions.reset(table.as_ref(), at));
+        (self.due, self.bounded) = (self.told.then_some(at), false);
     }
 
     /// Names the regions again before their next states.
@@ -92,9 +94,9 @@ impl Surface {
     }
 
     /// Another garment is worn.
-    pub fn refit(&mut self, layout: &Layout) {
+    pub fn refit(&mut self, layout: &Layout, at: (u32, Micros)) {
         if cfg!(feature = "surface") {
-            self.wear(self.table, layout);
+            self.wear(self.table, layout, at);
         }
     }
 
@@ -120,15 +122,17 @@ impl Surface {
         doubt: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
         sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
     ) -> bool {
-        let Some(table) = self.table() else {
-            self.regions.iter_mut().for_each(RegionReports::skip);
-            self.due = None;
-            return true;
-        };
-        if let Some(fits) = self.regions.iter_mut().find_map(|regions| regions.put(tx_frame, &table)) {
+        let table = self.table();
+        if let Some(fits) = self.regions.iter_mut().find_map(|regions| regions.put(tx_frame, table.as_ref()))
+        {
             return fits;
         }
         let Some((frame, time)) = self.due.take() else { return true };
+        let Some(table) = table else {
+            self.told = false;
+            let nothing: &[()] = &[];
+            return tx_frame.put(Report::PRESSING, &(frame, time, None::<Micros>, nothing, nothing));
+        };
         let mut pressing = Pressing::new();
         let frames = self.poses.at(time);
         if !self.bounded {

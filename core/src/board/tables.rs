@@ -20,7 +20,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     /// Puts a table in force, if it fits the present garment.
     fn wear(&mut self, kind: TableKind, table: Option<&'static [u8]>) {
         match kind {
-            TableKind::Surface => self.surface.wear(table, &self.setup.layout),
+            TableKind::Surface => self.surface.wear(table, &self.setup.layout, self.ledger.last()),
             #[cfg(feature = "folds")]
             TableKind::Folds => self.wear_folds(table),
             #[cfg(not(feature = "folds"))]

@@ -125,7 +125,7 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         }
     }
 
-    /// Drops all contacts without a release, for example for another garment; ids go on.
+    /// Releases all contacts, for example for another garment; ids go on.
     pub fn reset(&mut self) {
         self.labeller.clear();
         self.tracks.clear();

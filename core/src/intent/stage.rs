@@ -38,6 +38,17 @@ pub struct Meaning<const N: usize = CONCEPTS> {
     pub outcome: Outcome,
 }
 
+impl<const N: usize> Meaning<N> {
+    /// No intention, before the first inference.
+    pub const NONE: Self = Meaning {
+        leading: Leading::None,
+        changed: false,
+        activations: Vec::new(),
+        steps: 0,
+        outcome: Outcome::Fixed,
+    };
+}
+
 /// State of the stage between frames.
 #[derive(Debug, Clone)]
 pub struct IntentState<const N: usize = CONCEPTS> {
@@ -69,13 +80,7 @@ impl<const N: usize> Default for IntentState<N> {
             candidate: Leading::None,
             since: Micros(0),
             leading: Leading::None,
-            meaning: Meaning {
-                leading: Leading::None,
-                changed: false,
-                activations: Vec::new(),
-                steps: 0,
-                outcome: Outcome::Fixed,
-            },
+            meaning: Meaning::NONE,
         }
     }
 }
@@ -84,6 +89,11 @@ impl<const N: usize> IntentState<N> {
     /// The announced intention.
     pub fn leading(&self) -> Leading {
         self.leading
+    }
+
+    /// The last result.
+    pub(crate) fn meaning(&self) -> &Meaning<N> {
+        &self.meaning
     }
 }
 

@@ -67,12 +67,14 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     pub fn reset(&mut self, layout: &Layout, falling: bool, full_scale: u16) {
         self.condition.reset(layout, Code(if falling { full_scale } else { 0 }));
         self.contact.reset();
+        self.unsure = const { UnsureState::new() };
+        self.symbol.reset();
         self.forget();
     }
 
-    /// Forgets results that belong to a scene; the baseline stays.
+    /// Forgets results that belong to a scene; the baseline and the contacts stay.
     pub fn forget(&mut self) {
-        self.symbol = SymbolState::default();
+        self.symbol.forget_classes();
         self.recognise_anew();
         self.intent = IntentState::default();
         self.react = ReactState::default();
@@ -110,8 +112,18 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
     }
 
     /// Present contacts of the last frame.
-    pub(crate) fn present(&self) -> &[Placed] {
+    pub fn present(&self) -> &[Placed] {
         self.contact.present()
+    }
+
+    /// Contacts that ended with the last frame or, after it, with its garment.
+    pub(crate) fn released(&self) -> &[Placed] {
+        self.contact.released()
+    }
+
+    /// Words of those contacts, and the regions.
+    pub(crate) fn symbols(&self) -> &SymbolState<CONTACTS> {
+        &self.symbol
     }
 
     /// Age of their forms, frames.

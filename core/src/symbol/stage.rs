@@ -98,6 +98,18 @@ impl<const CONTACTS: usize> SymbolState<CONTACTS> {
         news.chain(ends.map(|(placed, words)| symbol(placed, Phase::Released, *words)))
     }
 
+    /// Forgets all contacts: their words become the last ones, of contacts that were released.
+    pub(crate) fn reset(&mut self) {
+        self.last_words.clear();
+        for said in &self.said {
+            // Always room: as many places as contacts.
+            let _ = self.last_words.push(said.words);
+        }
+        self.said.clear();
+        (self.onsets, self.changes) = (0, 0);
+        self.regions = [RegionState::default(); PANELS];
+    }
+
     /// Resets the classes of all contacts, because another base of shapes is in force that does not have
     /// their names.
     pub(crate) fn forget_classes(&mut self) {

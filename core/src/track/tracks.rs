@@ -47,11 +47,16 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         }
     }
 
+    /// Releases all contacts.
     pub fn clear(&mut self) {
+        for slot in &mut self.contacts {
+            let contact = slot.contact_mut();
+            (contact.phase, contact.total) = (Phase::Released, 0);
+        }
+        core::mem::swap(&mut self.contacts, &mut self.released);
         self.contacts.clear();
         self.trails.clear();
         self.album.clear();
-        self.released.clear();
         self.ages.clear();
         self.quartics.clear();
     }

@@ -2,6 +2,8 @@
 //! while its cause holds, and every begin and end is told. The judge is a board of its own: it knows what was
 //! done, when, and what was told.
 
+mod present;
+
 use crate::board::{BoardAndHost, FINGER};
 use std::collections::BTreeMap;
 use taxel_core::acquire::ScanError;

@@ -5,6 +5,7 @@
 
 use super::touch::Touch;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 use taxel_core::selftest::PinFault;
 
 /// A script of touches: place, time and force of touches on a simulated garment.
@@ -22,6 +23,9 @@ pub struct Script {
     pub description: String,
     /// Length, s. Afterwards the garment stays at rest.
     pub duration_s: f64,
+    /// Folder of its file, to which paths in it are relative.
+    #[serde(skip)]
+    pub folder: PathBuf,
     /// Preset, or TOML file of a garment.
     #[serde(default = "reference")]
     pub garment: String,

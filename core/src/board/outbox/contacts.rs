@@ -4,7 +4,7 @@
 use crate::body::Placed;
 use crate::contact::{Contact, Phase};
 use crate::format::Micros;
-use crate::pipeline::{CONTACTS, Percept};
+use crate::pipeline::CONTACTS;
 use crate::wire::{Health, LISTED};
 use heapless::Vec;
 use serde::ser::{Serialize, SerializeSeq, SerializeStruct, Serializer};
@@ -17,7 +17,8 @@ pub(super) struct ContactQueue {
     pub frame: u32,
     /// Its time.
     pub time: Micros,
-    dropped: u16,
+    /// Number of contacts that had no room in that frame.
+    pub dropped: u16,
     /// Number of present contacts that have a place in the list: the first ones.
     listed: u16,
     /// Present contacts whose onset was not told yet.
@@ -82,12 +83,12 @@ impl ContactQueue {
         self.ended.iter_mut().for_each(|ended| ended.placed.shape.forget_class());
     }
 
-    /// Takes the newest frame; `due` if the rate of the stream allows a list of it. Onsets and ends are
-    /// always sent.
+    /// Takes the contacts of the newest frame that are present, and those that ended; `due` if the rate of
+    /// the stream allows a list of it. Onsets and ends are always sent.
     pub fn take(
         &mut self,
         (frame, time): (u32, Micros),
-        percept: &Percept<'_>,
+        [present, released]: [&[Placed]; 2],
         due: bool,
         health: &mut Health,
     ) {
@@ -96,42 +97,42 @@ impl ContactQueue {
         } else {
             self.clear();
         }
-        (self.frame, self.time, self.dropped) = (frame, time, percept.dropped);
-        if self.ended.is_empty() && percept.released.is_empty() {
-            self.listed = percept.present.len() as u16;
+        (self.frame, self.time, self.dropped) = (frame, time, 0);
+        if self.ended.is_empty() && released.is_empty() {
+            self.listed = present.len() as u16;
         } else {
-            self.end(percept, health);
+            self.end(present, released, health);
         }
         self.begun.retain_mut(|begun| {
-            let present = percept.present.iter().find(|placed| placed.contact.id == begun.id);
-            present.is_some_and(|placed| {
+            let placed = present.iter().find(|placed| placed.contact.id == begun.id);
+            placed.is_some_and(|placed| {
                 *begun = Begun::of(placed);
                 true
             })
         });
         let mut news = false;
         let is_onset = |placed: &Placed| placed.contact.phase == Phase::Onset;
-        for (index, placed) in percept.present.iter().enumerate().filter(|(_, placed)| is_onset(placed)) {
+        for (index, placed) in present.iter().enumerate().filter(|(_, placed)| is_onset(placed)) {
             news = true;
-            if index < self.listed.into() {
+            if index < self.listed.into() && self.begun_of(placed).is_none() {
                 // Always room: as many places as contacts.
                 let _ = self.begun.push(Begun::of(placed));
             }
         }
-        self.waits |= due || news || !percept.released.is_empty();
+        self.waits |= due || news || !released.is_empty();
     }
 
     /// Keeps the contacts that ended with the frame, and counts those that have no place in the list: the
     /// present ones come first.
     #[inline(never)] // M0+: out of line
-    fn end(&mut self, percept: &Percept<'_>, health: &mut Health) {
-        let onsets = percept.released.iter().filter(|placed| self.begun_of(placed).is_some()).count();
+    fn end(&mut self, present: &[Placed], released: &[Placed], health: &mut Health) {
+        let onsets = released.iter().filter(|placed| self.begun_of(placed).is_some()).count();
         let entries = self.ended.iter().map(Ended::entries).sum::<usize>();
         let room = LISTED.saturating_sub(entries + onsets);
-        let listed = percept.present.len().min(room);
-        health.lost += (percept.present.len() - listed) as u32;
+        let listed = present.len().min(room);
+        health.lost += (present.len() - listed) as u32;
         self.listed = listed as u16;
-        for (index, placed) in percept.released.iter().enumerate() {
+        for (index, placed) in released.iter().enumerate() {
             let begun = self.begun_of(placed);
             let ended = Ended { placed: placed.clone(), frame: self.frame, begun };
             let fits = index < room - listed && self.ended.push(ended).is_ok();
@@ -242,10 +243,6 @@ impl Serialize for Entries<'_> {
 mod tests {
     extern crate std;
     use super::*;
-    use crate::condition::Tare;
-    use crate::react::ReactState;
-    use crate::symbol::SymbolState;
-    use crate::unsure::UnsureState;
     use crate::wire::ContactList;
 
     fn placed(id: u32, phase: Phase, total: u32) -> Placed {
@@ -276,8 +273,6 @@ mod tests {
     #[test]
     fn the_list_is_that_of_a_copy_however_long_it_waits() {
         let mut rng = fastrand::Rng::with_seed(7);
-        let (unsure, symbols, reactions) =
-            (UnsureState::new(), SymbolState::default(), ReactState::default());
         let mut queue = ContactQueue::new();
         let (mut list, mut present, mut id) = (std::vec::Vec::new(), std::vec::Vec::<Placed>::new(), 0);
         let mut waited = 0;
@@ -298,26 +293,12 @@ mod tests {
                 id += 1;
                 present.push(placed(id, Phase::Onset, rng.u32(100..9000)));
             }
-            let percept = Percept {
-                image: &[],
-                withheld: false,
-                present: &present,
-                form_ages: &[],
-                released: &released,
-                dropped: 0,
-                unsure: &unsure,
-                symbols: &symbols,
-                meaning: None,
-                gesture: None,
-                reactions: &reactions,
-                tare: Tare::Idle,
-            };
             if !queue.waits {
                 list.clear();
             }
             copied(&mut list, &present, &released);
             let mut health = Health::default();
-            queue.take((frame, Micros(frame.into())), &percept, rng.bool(), &mut health);
+            queue.take((frame, Micros(frame.into())), [&present, &released], rng.bool(), &mut health);
             assert_eq!(health.lost, 0);
             let copy = ContactList {
                 frame,

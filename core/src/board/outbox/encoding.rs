@@ -29,11 +29,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         health: &mut Health,
     ) {
         let tx_frame = &mut self.tx_frame;
+        self.parting &= self.contacts.waits || self.symbols_wait;
+        let parting = self.parting;
         let fits = if let Some((token, received)) = self.synced.pop_front() {
             tx_frame.put(Report::SYNC, &SyncReport { token, received, sent: now })
         } else if let Some(start) = self.start_of_frame.take() {
             tx_frame.put(Report::START_OF_FRAME, &start)
-        } else if self.hello.is_some_and(|due| due <= now) {
+        } else if !parting && self.hello.is_some_and(|due| due <= now) {
             self.hello = None;
             self.greeted = true;
             put_hello(tx_frame, now, about.info, about.setup, about.certificate)
@@ -41,7 +43,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             tx_frame.put(Report::BOOT, &boot)
         } else if let Some(report) = about.examined.filter(|_| core::mem::take(&mut self.examined)) {
             tx_frame.put(Report::SELF_TEST, report)
-        } else if let Some((request, refusal)) = self.answers.pop_front() {
+        } else if let Some((request, refusal)) = (!parting).then(|| self.answers.pop_front()).flatten() {
             let refusal = refusal.as_ref().map(|why| why.0.as_str());
             tx_frame.put(Report::ANSWER, &Answer { request, refusal })
         } else if let Some(report) = self.reflexes.pop_front() {

@@ -1,11 +1,14 @@
 //! Selects what of a frame is sent.
 
-use super::Outbox;
+use super::{Outbox, Streamed};
+use crate::body::Placed;
 use crate::format::Micros;
 use crate::garment::PANELS;
 use crate::gesture::Gesture;
-use crate::pipeline::Percept;
+use crate::intent::{Leading, Meaning};
+use crate::pipeline::{CONTACTS, Percept};
 use crate::react::Reaction;
+use crate::symbol::{RegionState, SymbolState};
 use crate::wire::*;
 
 impl<const TAXELS: usize> Outbox<TAXELS> {
@@ -25,15 +28,8 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         for reaction in percept.reactions.changes() {
             self.reaction(ReactionReport { frame, time, reaction: reaction.clone() }, health);
         }
-        if let Some(meaning) = percept.meaning.as_ref().filter(|_| self.rates.intent) {
-            let report = IntentReport {
-                frame,
-                time,
-                leading: meaning.leading,
-                outcome: meaning.outcome,
-                steps: meaning.steps,
-                concepts: meaning.activations.clone(),
-            };
+        if let Some(meaning) = percept.meaning.filter(|_| self.rates.intent) {
+            let report = intent_report((frame, time), meaning);
             if meaning.changed {
                 health.lost += u32::from(self.changes.push_back(report).is_err());
                 self.intent = None;
@@ -109,29 +105,101 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     /// Queues the newest state of each contact; onsets and ends stay until they are sent.
     fn enqueue_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let due = self.rates.contacts.due(time);
-        self.contacts.take((frame, time), percept, due && !percept.present.is_empty(), health);
+        let Percept { present, released, dropped, .. } = *percept;
+        self.contacts.take((frame, time), [present, released], due && !present.is_empty(), health);
+        self.contacts.dropped = dropped;
         self.withheld_waits = percept.withheld && (due || self.contacts.waits);
         let aged = percept.form_ages.iter().any(|age| *age > 0);
         self.ages_wait = self.tell_ages && self.contacts.waits && aged;
     }
 
     fn enqueue_symbols(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
-        if !self.rates.symbols || !(percept.symbols.has_events() || self.symbols_wait) {
-            return;
+        if self.rates.symbols && (percept.symbols.has_events() || self.symbols_wait) {
+            let Percept { symbols, present, released, .. } = *percept;
+            self.list_regions((frame, time), symbols.regions(PANELS));
+            self.list_events(symbols, [present, released], health);
         }
+    }
+
+    /// Queues the touched ones of these regions.
+    fn list_regions(&mut self, (frame, time): (u32, Micros), regions: &[RegionState]) {
         let list = &mut self.symbols;
-        if !self.symbols_wait {
+        if !core::mem::replace(&mut self.symbols_wait, true) {
             list.events.clear();
         }
-        for event in percept.events() {
-            health.lost += u32::from(list.events.push(event).is_err());
-        }
         list.regions.clear();
-        for region in percept.symbols.regions(PANELS).iter().filter(|region| region.contacts > 0) {
+        for region in regions.iter().filter(|region| region.contacts > 0) {
             // There are as many places as regions.
             let _ = list.regions.push(*region);
         }
         (list.frame, list.time) = (frame, time);
-        self.symbols_wait = true;
     }
+
+    /// Adds the events of contacts that are present, and of those that ended.
+    fn list_events(
+        &mut self,
+        symbols: &SymbolState<CONTACTS>,
+        [present, released]: [&[Placed]; 2],
+        health: &mut Health,
+    ) {
+        for event in symbols.events(present, released) {
+            health.lost += u32::from(self.symbols.events.push(event).is_err());
+        }
+    }
+
+    /// Queues the ends of contacts whose garment is no longer worn. They precede the `Hello` of the next one,
+    /// whose panels and regions have other names.
+    pub fn end_contacts(
+        &mut self,
+        at: (u32, Micros),
+        released: &[Placed],
+        symbols: &SymbolState<CONTACTS>,
+        health: &mut Health,
+    ) {
+        let Streamed { contacts, symbols: has_symbols, .. } = self.streamed();
+        if contacts {
+            self.contacts.take(at, [&[], released], false, health);
+            (self.contacts.waits, self.parting) = (true, true);
+        }
+        if has_symbols {
+            self.list_regions(at, &[]);
+            self.list_events(symbols, [&[], released], health);
+        }
+    }
+
+    /// Queues that there is no intention: garment or scene have changed, and with them the map's inputs.
+    pub fn end_intention(&mut self, at: (u32, Micros)) {
+        self.changes.clear();
+        self.intent = self.streamed().intent.then(|| intent_report(at, &Meaning::NONE));
+    }
+
+    /// Queues what is present of all that is streamed now and was not `before`, and that nothing is present
+    /// of what no longer is streamed.
+    #[inline(never)] // M0+: out of line
+    pub fn tell_present(
+        &mut self,
+        before: Streamed,
+        at: (u32, Micros),
+        (present, regions, meaning): (&[Placed], &[RegionState], &Meaning),
+        health: &mut Health,
+    ) {
+        let now = self.streamed();
+        if before.contacts != now.contacts && (before.contacts || !present.is_empty()) {
+            let present = if now.contacts { present } else { &[] };
+            self.contacts.take(at, [present, &[]], false, health);
+            self.contacts.waits = true;
+        }
+        if before.symbols != now.symbols && (before.symbols || !present.is_empty()) {
+            self.list_regions(at, if now.symbols { regions } else { &[] });
+        }
+        if before.intent != now.intent && (before.intent || meaning.leading != Leading::None) {
+            let meaning = if now.intent { meaning } else { &Meaning::NONE };
+            self.intent = Some(intent_report(at, meaning));
+        }
+    }
+}
+
+fn intent_report((frame, time): (u32, Micros), meaning: &Meaning) -> IntentReport {
+    let Meaning { leading, outcome, steps, ref activations, .. } = *meaning;
+    IntentReport { frame, time, leading, outcome, steps, concepts: activations.clone() }
 }

@@ -79,6 +79,8 @@ pub(super) struct Outbox<const TAXELS: usize> {
     symbols: SymbolList,
     symbols_wait: bool,
     contacts: ContactQueue,
+    /// True if the lists of contacts and symbols that wait are those of the previous garment.
+    parting: bool,
     /// True if what the filter withholds is to be sent.
     withheld_waits: bool,
     /// True if ages are requested and one of them is above 0.
@@ -113,6 +115,14 @@ struct Waiting<const TAXELS: usize> {
     last: ImageReference<TAXELS>,
 }
 
+/// Parts of the present state: each is streamed or not.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Streamed {
+    contacts: bool,
+    symbols: bool,
+    intent: bool,
+}
+
 /// Reports that are made when they are sent, of much that is summed up then: what presses, what folds.
 type Slow<P, F> = (Option<P>, Option<F>);
 
@@ -138,6 +148,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             symbols: SymbolList { frame: 0, time: Micros(0), events: Vec::new(), regions: Vec::new() },
             symbols_wait: false,
             contacts: ContactQueue::new(),
+            parting: false,
             withheld_waits: false,
             ages_wait: false,
             tell_ages: false,
@@ -214,7 +225,14 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.map = Some(0);
     }
 
-    /// On `Stop`: drops all queued data of frames; a message in transmission is completed.
+    /// Parts of the present state that are streamed.
+    pub fn streamed(&self) -> Streamed {
+        let contacts = self.streaming;
+        Streamed { contacts, symbols: contacts && self.rates.symbols, intent: contacts && self.rates.intent }
+    }
+
+    /// On `Stop`: drops all queued data of frames but the ends of contacts; a message in transmission is
+    /// completed.
     pub fn stop(&mut self) {
         self.streaming = false;
         self.hello = None;
@@ -231,22 +249,13 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.drop_waiting();
     }
 
-    /// Drops what was perceived. Reactions stay, because nothing else would report their end.
+    /// Drops what was perceived. Ends of contacts and reactions stay, because nothing else would report them.
     fn drop_waiting(&mut self) {
         self.reflexes.clear();
         self.gestures.clear();
-        self.forget_meaning();
         (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
-        self.contacts.clear();
-        (self.withheld_waits, self.ages_wait) = (false, false);
-        (self.symbols_wait, self.unsure) = (false, false);
-    }
-
-    /// Drops intentions: those of a previous map would be read as concepts of the present one.
-    pub fn forget_meaning(&mut self) {
-        self.changes.clear();
-        self.intent = None;
+        (self.withheld_waits, self.ages_wait, self.unsure) = (false, false, false);
     }
 
     /// Makes the next image a key frame.

@@ -8,6 +8,8 @@ mod surface;
 mod tables;
 mod withheld;
 
+pub use surface::flat;
+
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Job};
 use taxel_core::format::{Code, Micros};

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, ImageNews, request_name};
 use taxel::files::calibrate::Calibration;
-use taxel::files::output::Output;
+use taxel::files::output::{Begun, Output};
 use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::teach::teach;
 use taxel::session::{JointStates, PATIENCE, Returns, Session, Show, TimeLimit, Turn, setting};
@@ -205,18 +205,20 @@ impl Limits {
 /// Saves the received bytes.
 struct Saver {
     file: File,
+    begun: Begun,
     path: PathBuf,
 }
 
 impl Saver {
     fn open(path: &Path, args: &LiveArgs) -> Result<Saver> {
-        let (file, begun) = Output::file(path, args.force, args.board.files())?.begin()?;
-        begun.name()?;
-        Ok(Saver { file, path: path.into() })
+        let (file, mut begun) = Output::file(path, args.force, args.board.files())?.begin()?;
+        begun.open()?;
+        Ok(Saver { file, begun, path: path.into() })
     }
 
     fn write(&mut self, bytes: &[u8]) -> Result<()> {
-        self.file.write_all(bytes).with_context(|| format!("{} cannot be written", self.path.display()))
+        self.file.write_all(bytes).with_context(|| format!("{} cannot be written", self.path.display()))?;
+        if bytes.is_empty() { Ok(()) } else { Ok(self.begun.name()?) }
     }
 }
 

@@ -104,6 +104,9 @@ impl Judge<'_> {
                     false
                 } else {
                     let kept = messages(&path, done.succeeded())?;
+                    if kept == 0 && !old.is_empty() {
+                        return Err("the old one is gone, and nothing is in the new one".into());
+                    }
                     let held = if was_begun { messages(&held, false)? } else { 0 };
                     if kept < held {
                         return Err(format!("{kept} messages, {held} before the fault"));

@@ -17,6 +17,7 @@ mod hostile;
 mod imageless;
 #[cfg(feature = "index")]
 mod index;
+mod inputs;
 mod joints;
 mod live;
 mod maps;

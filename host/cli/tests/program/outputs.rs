@@ -1,8 +1,10 @@
 //! Every command writes through `output`: no input and no other file is lost by a name.
 
 use std::fs;
+use std::io::Read;
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// Modules that write to a disk without it, and why.
 const ALLOWED: [(&str, &str); 3] = [
@@ -25,7 +27,8 @@ const WRITES: [&str; 11] = [
     "fs::set_permissions",
 ];
 
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+/// Source files below a folder.
+pub fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
@@ -64,10 +67,10 @@ fn no_other_module_writes_files() {
 }
 
 /// A test's folder with a recording, deleted at its end.
-struct Folder(PathBuf);
+pub struct Folder(pub PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Folder {
+    pub fn new(name: &str) -> Folder {
         let path = std::env::temp_dir().join(format!("taxel-outputs-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         let folder = Folder(path);
@@ -125,7 +128,7 @@ fn no_command_replaces_a_file_that_it_was_not_told_to_replace() {
         if !command.contains(&"png") {
             folder.refused(&[command, &["no-such-folder/new"]].concat(), "folder");
         }
-        assert_eq!(folder.bytes("old"), b"precious", "{command:?}");
+        assert!(folder.bytes("old") == b"precious", "{command:?}");
     }
 }
 
@@ -203,6 +206,32 @@ fn a_full_disk_is_named_and_a_calibration_is_printed_then() {
     let done = folder.run(&["setup", "--simulate", "7", "-o", "/dev/full"]);
     assert!(!done.status.success());
     assert!(String::from_utf8(done.stdout).unwrap().contains("[[panel"), "the garment is printed");
+}
+
+/// A board that says nothing is recorded over a file, and the program is killed.
+#[test]
+fn a_recording_that_is_killed_before_a_frame_replaces_nothing() {
+    let folder = Folder::new("killed");
+    let board = TcpListener::bind("127.0.0.1:0").unwrap();
+    let source = format!("tcp:{}", board.local_addr().unwrap());
+    let robot = format!("name = \"one\"\n[[boards]]\nname = \"left\"\nsource = \"{source}\"\n");
+    fs::write(folder.0.join("robot.toml"), robot).unwrap();
+    let commands: [&[&str]; 3] = [
+        &["record", "--source", &source, "--force", "-o", "old"],
+        &["robot", "record", "robot.toml", "--force", "-o", "old"],
+        &["live", "--source", &source, "--force", "--save", "old"],
+    ];
+    for command in commands {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_taxel"));
+        program.args(command).current_dir(&folder.0).stdin(Stdio::null());
+        let mut program = program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // Its first request is written once its output is begun.
+        board.accept().unwrap().0.read_exact(&mut [0]).unwrap();
+        assert!(folder.bytes("old") == b"precious", "{command:?}");
+        program.kill().unwrap();
+        program.wait().unwrap();
+        assert!(folder.bytes("old") == b"precious", "{command:?}");
+    }
 }
 
 /// Runs a command whose standard output or error is on a full disk.

@@ -7,8 +7,9 @@ use super::listed::{Listed, listed};
 use super::on_robot::RobotSurface;
 use super::robot::Robot;
 use super::surface::Surface;
-use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
-use crate::tell::{toml_key, verbose, words};
+use crate::error::{Context, Error, Result, SettingError, UsageError};
+use crate::files::input;
+use crate::tell::{toml_key, words};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
@@ -81,10 +82,7 @@ impl ReadBody {
 /// which lie beside it.
 pub fn read(name_or_path: &str) -> Result<ReadBody> {
     let load = |path: &Path| -> Result<String> {
-        verbose::reads(path);
-        std::fs::read_to_string(path)
-            .map_err(|error| FileError::read(path, error))
-            .with_context(|| format!("cannot read {}", path.display()))
+        input::text(path).with_context(|| format!("cannot read {}", path.display()))
     };
     let (name, path) = (name_or_path.to_string(), Path::new(name_or_path));
     let text = match PRESETS.iter().find(|(preset, _)| *preset == name) {

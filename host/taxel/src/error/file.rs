@@ -23,11 +23,13 @@ pub enum FileError {
         /// The system's words.
         why: io::Error,
     },
-    /// It is a folder.
-    #[error("{} is a folder", path.display())]
-    Folder {
-        /// The folder.
+    /// It is no file.
+    #[error("it is {what}")]
+    NoFile {
+        /// Its path.
         path: PathBuf,
+        /// What it is: a folder, a device, a FIFO, a socket.
+        what: &'static str,
     },
     /// The output exists already, and may not be replaced.
     #[error("{} already exists: give another name, or --force to replace it", path.display())]
@@ -59,7 +61,7 @@ impl FileError {
             FileError::Missing { why, .. } | FileError::Unreadable { why, .. } | FileError::Io(why) => {
                 Some(why)
             }
-            FileError::Folder { .. } | FileError::Exists { .. } | FileError::Output(_) => None,
+            FileError::NoFile { .. } | FileError::Exists { .. } | FileError::Output(_) => None,
         }
     }
 }

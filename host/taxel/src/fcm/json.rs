@@ -2,17 +2,15 @@
 
 use super::decimal::Decimal;
 use super::engine::Problem;
-use crate::error::{Context, Error, FileError, MapFileError, Result};
+use crate::error::{Context, Error, MapFileError, Result};
+use crate::files::input;
 use serde_json::Value;
 use std::path::Path;
 
 /// Reads a JSON map. Errors are sentences with file, field and value.
 pub fn read(path: &Path) -> Result<Problem> {
     let file = path.display();
-    crate::tell::verbose::reads(path);
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| FileError::read(path, error))
-        .with_context(|| format!("{file}: cannot be read"))?;
+    let text = input::text(path).with_context(|| format!("{file}: cannot be read"))?;
     parse(&text).map_err(|error| error.context(file))
 }
 

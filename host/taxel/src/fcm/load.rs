@@ -4,6 +4,7 @@ use super::decimal::Decimal;
 use super::map::MapFile;
 use super::wrong;
 use crate::error::{Context, FileError, MapFileError, Result, UsageError};
+use crate::files::input;
 use crate::files::output::Output;
 use crate::tell::words;
 use std::borrow::Cow;
@@ -33,10 +34,7 @@ pub fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
         let known = words::unknown("map", name_or_path, names);
         fail!(UsageError::Unknown, "{known}, or give a .toml file");
     }
-    crate::tell::verbose::reads(name_or_path);
-    let read = std::fs::read_to_string(name_or_path).map(Cow::Owned);
-    let read = read.map_err(|error| FileError::read(Path::new(name_or_path), error));
-    read.with_context(|| {
+    input::text(name_or_path).map(Cow::Owned).with_context(|| {
         format!("{name_or_path}: cannot be read, and the shipped maps are {}", names.join(", "))
     })
 }

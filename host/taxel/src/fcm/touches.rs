@@ -3,7 +3,8 @@
 use super::board::{BoardMap, MapState};
 use super::decimal::Decimal;
 use super::map::MapFile;
-use crate::error::{Context, Error, FileError, MapFileError, Result};
+use crate::error::{Context, Error, MapFileError, Result};
+use crate::files::input;
 use crate::files::rows::{CsvRow, rows};
 use std::path::Path;
 
@@ -33,10 +34,7 @@ pub struct Touches {
 /// Reads a file for a map.
 pub fn read(path: &Path, file: &MapFile, map: &BoardMap) -> Result<Touches> {
     let place = path.display();
-    crate::tell::verbose::reads(path);
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| FileError::read(path, error))
-        .with_context(|| format!("{place}: cannot be read"))?;
+    let text = input::text(path).with_context(|| format!("{place}: cannot be read"))?;
     parse(&text, file, map).with_context(|| place.to_string())
 }
 

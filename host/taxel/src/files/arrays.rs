@@ -15,10 +15,11 @@ mod npy;
 mod npz;
 mod room;
 
+use super::input;
 use crate::error::{ArrayError, Context, Error, FileError, Result, UsageError};
 use room::Room;
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 /// Frames of one array, all of the same size.
@@ -116,14 +117,12 @@ impl OpenFile {
 
 /// Opens a file. Its kind is detected by its first bytes; by its name if they are not conclusive.
 fn open(path: &Path) -> Result<OpenFile> {
-    crate::tell::verbose::reads(path);
-    let unread = |error| FileError::read(path, error);
-    let file = File::open(path).map_err(unread).context("cannot be read")?;
+    let mut file = input::open(path).context("cannot be read")?;
     let mut start = Vec::new();
+    let unread = |error| FileError::read(path, error);
     (&file).take(8).read_to_end(&mut start).map_err(unread).context("cannot be read")?;
     let size = file.metadata().context("cannot be read")?.len();
-    // Read from the start; the handle above is at byte 8.
-    let file = File::open(path).map_err(unread).context("cannot be read")?;
+    file.rewind().context("cannot be read")?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
         _ if start.starts_with(header::MAGIC) => Ok(OpenFile::Array(file, size)),

@@ -1,17 +1,14 @@
 //! Files of tables of folds, as `taxel body learn` writes them.
 
-use crate::error::{Context, FileError, Result, SettingError};
-use crate::tell::verbose;
+use super::input;
+use crate::error::{Context, Result, SettingError};
 use std::path::Path;
 use taxel_core::fold::FoldTable;
 use taxel_core::garment::Layout;
 
 /// Reads a table, which the board checks.
 pub fn read(file: &Path) -> Result<Vec<u8>> {
-    verbose::reads(file);
-    std::fs::read(file)
-        .map_err(|error| FileError::read(file, error))
-        .with_context(|| format!("{} cannot be read", file.display()))
+    input::bytes(file).with_context(|| format!("{} cannot be read", file.display()))
 }
 
 /// Checks the table of a file for a garment of this layout. The error names the file.

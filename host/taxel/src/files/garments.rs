@@ -2,8 +2,9 @@
 
 mod key;
 
-use crate::error::{Context, Error, FileError, Result, SettingError, UsageError};
-use crate::tell::{toml_key, verbose, words};
+use super::input;
+use crate::error::{Context, Error, Result, SettingError, UsageError};
+use crate::tell::{toml_key, words};
 use std::fmt::Display;
 use std::path::Path;
 use taxel_core::garment::{Garment, GarmentError};
@@ -49,10 +50,7 @@ pub fn read(name_or_path: &str) -> Result<Read> {
         let unknown = words::unknown("garment", &name, known);
         fail!(UsageError::Unknown, "{unknown}, or give a .toml file");
     }
-    verbose::reads(Path::new(&name));
-    let text = std::fs::read_to_string(&name)
-        .map_err(|error| FileError::read(Path::new(&name), error))
-        .with_context(|| format!("cannot read {name}"))?;
+    let text = input::text(&name).with_context(|| format!("cannot read {name}"))?;
     let garment =
         toml::from_str(&text).map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
     Ok(Read { name, text, garment })

@@ -4,6 +4,7 @@ pub mod arrays;
 pub mod calibrate;
 pub mod folds;
 pub mod garments;
+pub mod input;
 pub mod output;
 pub mod rows;
 pub mod schemas;

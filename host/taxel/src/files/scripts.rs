@@ -1,15 +1,16 @@
 //! Scripts of touches: shipped, or read from TOML files. Errors are one sentence that names the file and the
 //! key.
 
-use super::garments;
-use crate::error::{Context, FileError, Result, SettingError, UsageError};
-use crate::tell::{verbose, words};
+use super::{garments, input};
+use crate::error::{Context, Result, SettingError, UsageError};
+use crate::tell::words;
 use std::path::Path;
 use taxel_core::garment::Garment;
 
 use crate::sim::{self, Script};
 
-/// Reads a script; `file` names it in errors, and its stem the script if the text does not.
+/// Reads a script; `file` names it in errors, and its stem the script if the text does not. Paths in it are
+/// relative to the file's folder.
 pub fn parse(text: &str, file: &str) -> Result<Script> {
     let mut script: Script =
         toml::from_str(text).map_err(|error| SettingError::Malformed(words::toml(&error, text, file)))?;
@@ -17,6 +18,7 @@ pub fn parse(text: &str, file: &str) -> Result<Script> {
         let stem = Path::new(file).file_stem().and_then(|s| s.to_str());
         script.name = stem.unwrap_or(file).into();
     }
+    script.folder = Path::new(file).parent().unwrap_or(Path::new("")).into();
     script.check().map_err(|error| error.inside(format_args!("in {file}")))?;
     Ok(script)
 }
@@ -30,15 +32,14 @@ pub fn load(name_or_path: &str) -> Result<Script> {
         let known = words::unknown("script of touches", name_or_path, sim::names());
         fail!(UsageError::Unknown, "{known}, or give a .toml file");
     }
-    verbose::reads(name_or_path);
-    let text = std::fs::read_to_string(name_or_path)
-        .map_err(|error| FileError::read(Path::new(name_or_path), error));
+    let text = input::text(name_or_path);
     parse(&text.with_context(|| format!("{name_or_path} cannot be read"))?, name_or_path)
 }
 
 /// Loads the garment that a script names.
 pub fn garment(script: &Script) -> Result<Garment> {
-    garments::load(&script.garment).with_context(|| format!("in script {}: `garment`", script.name))
+    garments::load(&input::beside(&script.folder, &script.garment))
+        .with_context(|| format!("in script {}: `garment`", script.name))
 }
 
 #[cfg(test)]
@@ -58,6 +59,22 @@ mod tests {
         assert_eq!(parse(TOUCH, "some/where.toml").unwrap().name, "where");
         let wrong = error(&format!("{TOUCH}hold_s = -1\n"));
         assert_eq!(wrong, "in x.toml: touch 1: `hold_s` is -1, it must be 0 to 86400");
+    }
+
+    #[test]
+    fn paths_in_a_script_are_relative_to_its_folder() {
+        let folder = std::env::temp_dir().join(format!("taxel-scripts-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("worn")).unwrap();
+        let mine = Garment { name: taxel_core::format::name("mine"), ..Garment::block() };
+        std::fs::write(folder.join("worn/mine.toml"), garments::text(&mine, "").unwrap()).unwrap();
+        let path = folder.join("touch.toml");
+        std::fs::write(&path, "duration_s = 1\ngarment = \"worn/mine.toml\"\n").unwrap();
+        let script = load(path.to_str().unwrap()).unwrap();
+        assert_eq!(garment(&script).unwrap(), mine);
+        let absolute = Script { garment: folder.join("worn/mine.toml").display().to_string(), ..script };
+        assert_eq!(garment(&absolute).unwrap(), mine);
+        std::fs::remove_dir_all(folder).unwrap();
+        assert_eq!(garment(&load("pat").unwrap()).unwrap(), Garment::reference());
     }
 
     #[test]

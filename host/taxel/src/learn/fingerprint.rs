@@ -1,6 +1,7 @@
 //! Identifies files by size and hash.
 
-use crate::error::{Context, FileError, Result};
+use crate::error::{Context, Result};
+use crate::files::input;
 use std::path::Path;
 
 /// Fingerprint of a file; it does not protect against intent.
@@ -15,9 +16,7 @@ pub struct Fingerprint {
 impl Fingerprint {
     /// Reads a file and hashes it.
     pub fn of(path: &Path) -> Result<Fingerprint> {
-        let bytes = std::fs::read(path)
-            .map_err(|error| FileError::read(path, error))
-            .with_context(|| format!("{}: cannot be read", path.display()))?;
+        let bytes = input::bytes(path).with_context(|| format!("{}: cannot be read", path.display()))?;
         Ok(Fingerprint { bytes: bytes.len(), fnv1a: format!("{:016x}", fnv1a(&bytes)) })
     }
 }

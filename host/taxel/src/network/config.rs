@@ -5,8 +5,8 @@
 //! to, and no message above 16 MiB is taken. Without a file the network is this machine: whoever offers a board first routes for all others, by
 //! the port that Zenoh's own router would take.
 
-use crate::error::{Context, FileError, Result, SourceError, UsageError};
-use crate::tell::verbose;
+use crate::error::{Context, Result, SourceError, UsageError};
+use crate::files::input;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use zenoh::{Config, Session, Wait};
@@ -32,7 +32,6 @@ pub enum NetworkEnd {
 pub fn open(end: NetworkEnd, file: Option<&Path>) -> Result<Session> {
     let named = std::env::var_os(VARIABLE).filter(|name| !name.is_empty()).map(PathBuf::from);
     let Some(file) = file.map(PathBuf::from).or(named) else { return alone(end) };
-    verbose::reads(&file);
     let settings = read(&file)?;
     let shown = file.display();
     zenoh::open(checked(&file, &settings)?)
@@ -76,9 +75,7 @@ fn bounded() -> Value {
 
 /// Reads a file, and adds what it leaves to us.
 fn read(file: &Path) -> Result<Map<String, Value>> {
-    let text = std::fs::read_to_string(file)
-        .map_err(|error| FileError::read(file, error))
-        .with_context(|| format!("{} cannot be read", file.display()))?;
+    let text = input::text(file).with_context(|| format!("{} cannot be read", file.display()))?;
     let settings: Value = json5::from_str(&text)
         .map_err(|why| error!(UsageError::Argument, "{}: it is not JSON5: {why}", file.display()))?;
     let Value::Object(mut settings) = settings else {

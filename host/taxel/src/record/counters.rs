@@ -40,6 +40,11 @@ impl Counters {
         self.ended(bytes);
     }
 
+    /// Frames of the current file.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
     /// Board time recorded so far, us.
     pub fn board_us(&self) -> u64 {
         self.earlier_us.saturating_add(self.passed_us)

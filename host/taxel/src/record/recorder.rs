@@ -60,6 +60,8 @@ pub struct Plan {
 pub struct Recorder {
     plan: Plan,
     file: Option<RecordingFile<File>>,
+    /// Names of the file and of the one beside it; those that replace others wait for frames.
+    begun: Vec<Begun>,
     path: PathBuf,
     number: u32,
     stamps: Stamps,
@@ -86,8 +88,10 @@ impl Recorder {
         if plan.rotate.is_some() && !plan.force {
             names::are_free(&plan.path)?;
         }
+        let (file, begun) = begin(&plan, &plan.path)?;
         Ok(Recorder {
-            file: Some(begin(&plan, &plan.path)?),
+            file: Some(file),
+            begun,
             path: plan.path.clone(),
             number: 1,
             stamps: Stamps::start(),
@@ -122,8 +126,15 @@ impl Recorder {
         self.shown.clear();
         let [now, before] = self.tally;
         let counted = file.writer.metadata(COUNTS, now.words(before));
+        let frames = self.counters.frames();
         let ended = file.finish().map(|bytes| self.counters.ended(bytes));
+        self.name(frames)?;
         ended.and(counted).with_context(|| self.incomplete())
+    }
+
+    /// Gives the files their names. Error if they have no frames and would replace others.
+    fn name(&mut self, frames: u64) -> Result<()> {
+        self.begun.iter_mut().try_for_each(|begun| begun.end(frames == 0))
     }
 
     fn incomplete(&self) -> String {
@@ -137,10 +148,17 @@ impl Recorder {
         if let Some(file) = self.file.take() {
             // The last messages are lost in any case; the file itself shows whether it is complete.
             let _ = file.finish();
-            let scan = crate::recording::scan(&self.path).ok().filter(|scan| scan.whole);
-            let bytes = std::fs::metadata(&self.path).map_or(0, |known| known.len());
-            self.counters.cut(bytes, scan.as_ref().map_or(0, |scan| scan.contents.messages(FRAMES)));
-            kept = if scan.is_some() { kept } else { self.incomplete() };
+            let path = self.begun.first().map_or(&*self.path, Begun::path);
+            let scan = crate::recording::scan(path).ok();
+            let bytes = std::fs::metadata(path).map_or(0, |known| known.len());
+            let frames = scan.as_ref().map_or(0, |scan| scan.contents.messages(FRAMES));
+            let is_whole = scan.is_some_and(|scan| scan.whole);
+            self.counters.cut(bytes, if is_whole { frames } else { 0 });
+            kept = match self.name(frames) {
+                Err(why) => why.to_string(),
+                Ok(()) if is_whole => kept,
+                Ok(()) => self.incomplete(),
+            };
         }
         Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
     }
@@ -189,7 +207,9 @@ impl Recorder {
         self.number += 1;
         self.path = numbered(&self.plan.path, self.number);
         (self.passed, self.key_us) = (Passed::default(), 0);
-        let file = self.file.insert(begin(&self.plan, &self.path)?);
+        let (file, begun) = begin(&self.plan, &self.path)?;
+        self.begun = begun;
+        let file = self.file.insert(file);
         if let Some(worn) = &self.worn {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
         }
@@ -223,6 +243,9 @@ impl Recorder {
         if let Some(file) = &mut self.file {
             file.flush()?;
         }
+        if self.counters.frames() > 0 {
+            self.name(self.counters.frames())?;
+        }
         self.kept = Instant::now();
         let line = || self.counters.line(&self.path, self.file.as_ref().map_or(0, |file| file.bytes()));
         self.shown.told(self.counters.board_us(), line);
@@ -231,22 +254,20 @@ impl Recorder {
 }
 
 /// Creates a file, and the one beside it. They get their names once they are readable: a crash leaves what
-/// was written, and a failed start leaves no file of that name.
-fn begin(plan: &Plan, path: &Path) -> Result<RecordingFile<File>> {
+/// was written, and a failed start leaves no file of that name. Those that replace others get them later.
+fn begin(plan: &Plan, path: &Path) -> Result<(RecordingFile<File>, Vec<Begun>)> {
     let output = |path: &Path| Output::file(path, Force { force: plan.force }, &plan.inputs);
     let main = output(path)?;
-    let (ros2, ros2_begun) = match plan.ros2 {
-        true => output(&beside(path))?.begin().map(|(file, begun)| (Some(file), Some(begun)))?,
-        false => (None, None),
-    };
-    let (main, main_begun) = main.begin()?;
+    let ros2 = plan.ros2.then(|| output(&beside(path))?.begin()).transpose()?;
+    let (ros2, ros2_begun) = ros2.unzip();
+    let (main, begun) = main.begin()?;
     let ros2 = ros2.map(|file| Ros2::create(file, plan.body.clone())).transpose();
     let file = ros2
         .and_then(|ros2| RecordingFile::create(main, ros2))
         .with_context(|| format!("{} cannot be written", path.display()))?;
-    main_begun.name()?;
-    match ros2_begun.map_or(Ok(()), Begun::name) {
-        Ok(()) => Ok(file),
+    let mut begun: Vec<Begun> = [begun].into_iter().chain(ros2_begun).collect();
+    match begun.iter_mut().try_for_each(Begun::open) {
+        Ok(()) => Ok((file, begun)),
         Err(error) => {
             // The file that already has its name becomes an empty recording instead of half of one. The first
             // of two errors is reported.

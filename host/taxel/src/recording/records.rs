@@ -1,7 +1,8 @@
 //! Iterates over the records of a recording up to the last intact one. One buffer serves them all.
 
 use super::append::HEAD;
-use crate::error::{Context, FileError, RecordingError, Result};
+use crate::error::{Context, RecordingError, Result};
+use crate::files::input;
 use mcap::MAGIC;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -67,11 +68,7 @@ impl Records {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<Records> {
         let place = || format!("{} cannot be read", path.display());
-        crate::tell::verbose::reads(path);
-        let file = File::open(path).map_err(|error| FileError::read(path, error)).with_context(place)?;
-        if path.is_dir() {
-            return Err(FileError::Folder { path: path.into() }.into());
-        }
+        let file = input::open(path).with_context(place)?;
         let length = file.metadata().with_context(place)?.len();
         let mut input = BufReader::new(file);
         let mut magic = [0; MAGIC.len()];

@@ -1,7 +1,8 @@
 //! Reads bytes of a file at any offset.
 
 use super::append::HEAD;
-use crate::error::{Context, FileError, Result};
+use crate::error::{Context, Result};
+use crate::files::input;
 use mcap::MAGIC;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -31,13 +32,9 @@ impl RandomAccess {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<RandomAccess> {
         let place = || format!("{} cannot be read", path.display());
-        crate::tell::verbose::reads(path);
-        let file = File::open(path).map_err(|error| FileError::read(path, error)).with_context(place)?;
-        let known = file.metadata().with_context(place)?;
-        if known.is_dir() {
-            return Err(FileError::Folder { path: path.into() }.into());
-        }
-        Ok(RandomAccess { input: BufReader::with_capacity(1 << 16, file), at: 0, length: known.len() })
+        let file = input::open(path).with_context(place)?;
+        let length = file.metadata().with_context(place)?.len();
+        Ok(RandomAccess { input: BufReader::with_capacity(1 << 16, file), at: 0, length })
     }
 
     /// Size of the file.

@@ -8,15 +8,15 @@ use crate::body::{
     self,
     robot::{self, Robot},
 };
-use crate::error::{Context, FileError, MapFileError, Result};
+use crate::error::{Context, MapFileError, Result};
 use crate::fcm::load;
 use crate::fcm::map::MapFile;
 use crate::fcm::unite::{EdgeConflict, United, unite};
 use crate::files::calibrate::{Calibration, Forces};
+use crate::files::input;
 use crate::files::{garments, scripts};
 use crate::recording::{BoardRecording, is_board};
 use crate::source::{SceneFile, SourceSpec};
-use crate::tell::verbose;
 use std::path::Path;
 use std::sync::Arc;
 use taxel_core::garment::{Circuit, Layout, Pins};
@@ -58,10 +58,7 @@ impl ReadRobot {
     /// Reads a robot's file and the files that it names. Errors name file, line, board and key.
     pub fn read(path: &Path) -> Result<ReadRobot> {
         let file = path.display().to_string();
-        verbose::reads(path);
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| FileError::read(path, error))
-            .with_context(|| format!("{file} cannot be read"))?;
+        let text = input::text(path).with_context(|| format!("{file} cannot be read"))?;
         ReadRobot::parse(file, text, path.parent().unwrap_or(Path::new("")))
     }
 
@@ -77,7 +74,7 @@ impl ReadRobot {
         }
         let mut inputs = vec![file.clone()];
         let mut beside = |named: &str| {
-            let path = beside(folder, named);
+            let path = input::beside(folder, named);
             inputs.push(path.clone());
             path
         };
@@ -111,14 +108,6 @@ fn united(maps: Vec<MapFile>) -> Result<MapFile> {
     let United { map, conflicts, .. } = unite(&maps, "robot", EdgeConflict::Agree)?;
     require!(conflicts.is_empty(), MapFileError::Unanswerable, "{}", conflicts.join("; "));
     Ok(map)
-}
-
-/// A path of the file: what has an extension is a path, everything else a name.
-fn beside(folder: &Path, named: &str) -> String {
-    match Path::new(named).extension() {
-        Some(_) => folder.join(named).display().to_string(),
-        None => named.to_string(),
-    }
 }
 
 /// Reads one board.

@@ -16,9 +16,9 @@ use super::record_teller::{BoardRecord, RecordTeller};
 use super::recorded_board::SharedBoard;
 use crate::client::clock::SteadyTime;
 use crate::error::{Context, RecordingError, Result};
-use crate::files::output::{Force, Output};
+use crate::files::output::{Begun, Force, Output};
 use crate::record::{COUNTS, NS, Tally};
-use crate::recording::{Format, Writer, attachment_of};
+use crate::recording::{Format, Writer, attachment_of, scan};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -31,6 +31,7 @@ const CHUNK: Duration = Duration::from_millis(500);
 #[derive(Debug)]
 pub struct RobotRecorder {
     path: PathBuf,
+    begun: Begun,
     writer: Option<Writer<File>>,
     boards: Vec<NamedBoard>,
     robot: ReadRobot,
@@ -65,10 +66,11 @@ struct NamedBoard {
 }
 
 impl RobotRecorder {
-    /// Creates the file. It gets its name once it is readable.
+    /// Creates the file. It gets its name once it is readable or, if it replaces another, once frames are in
+    /// it.
     pub fn create(robot: &ReadRobot, path: &Path, force: Force) -> Result<RobotRecorder> {
         let inputs = robot.inputs.iter().map(PathBuf::from);
-        let (file, begun) = Output::file(path, force, inputs)?.begin()?;
+        let (file, mut begun) = Output::file(path, force, inputs)?.begin()?;
         let what = || format!("{} cannot be written", path.display());
         let mut writer = Writer::create(file, "").with_context(what)?;
         let mut boards = Vec::new();
@@ -85,9 +87,10 @@ impl RobotRecorder {
         writer.metadata("robot", words).with_context(what)?;
         let now = SteadyTime::start().now_us().saturating_mul(NS);
         writer.attach("robot.toml", "application/toml", robot.text.as_bytes(), now).with_context(what)?;
-        begun.name()?;
+        begun.open()?;
         Ok(RobotRecorder {
             path: path.into(),
+            begun,
             writer: Some(writer),
             boards,
             robot: robot.clone(),
@@ -141,8 +144,14 @@ impl RobotRecorder {
             return Ok(());
         }
         self.kept = Instant::now();
-        let done = self.write_all().and_then(|()| self.writer.as_mut().map_or(Ok(()), Writer::flush));
+        let written = self.write_all().and_then(|()| self.writer.as_mut().map_or(Ok(()), Writer::flush));
+        let done = written.and_then(|()| if self.frames() > 0 { self.begun.name() } else { Ok(()) });
         self.guard(done)
+    }
+
+    /// Frames of all boards.
+    fn frames(&self) -> u64 {
+        self.boards.iter().map(|of| of.board.lock().tally.frames).sum()
     }
 
     /// Writes the end of the file, unless written already.
@@ -157,6 +166,7 @@ impl RobotRecorder {
             counted = counted.and(writer.metadata(&attachment_of(Some(name), COUNTS), words));
         }
         let ended = writer.finish().map(|bytes| self.bytes = bytes);
+        self.begun.end(self.frames() == 0)?;
         written.and(ended).and(counted).with_context(incomplete)
     }
 
@@ -226,6 +236,13 @@ impl RobotRecorder {
             }
             _ => "its end is missing: `taxel info --repair` completes it",
         };
+        let found = scan(self.begun.path());
+        let has_frames = |of: &NamedBoard| {
+            let topic = format!("/taxel/{}/frames", of.name);
+            found.as_ref().is_ok_and(|scan| scan.contents.messages(&topic) > 0)
+        };
+        let named = self.begun.end(!self.boards.iter().any(has_frames));
+        let kept = named.map_or_else(|why| why.to_string(), |()| kept.into());
         Err(error).with_context(|| format!("{} cannot be written, {kept}", self.path.display()))
     }
 }

@@ -3,8 +3,8 @@
 use super::joint_time::JointTime;
 use super::posing::Posing;
 use crate::client::Client;
-use crate::error::{Context, FileError, Result, UsageError};
-use crate::tell::verbose;
+use crate::error::{Context, Result, UsageError};
+use crate::files::input;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -75,10 +75,7 @@ impl JointStates {
         let (name, lines) = if path == Path::new("-") {
             ("standard input".to_string(), Lines::Input(input()?))
         } else {
-            verbose::reads(path);
-            let file = File::open(path)
-                .map_err(|error| FileError::read(path, error))
-                .with_context(|| format!("cannot read {}", path.display()))?;
+            let file = input::open(path).with_context(|| format!("cannot read {}", path.display()))?;
             (path.display().to_string(), Lines::File(BufReader::new(file)))
         };
         Ok(JointStates { name, lines, number: 0, next: None, until_us: 0 })

@@ -1,7 +1,8 @@
 //! Bytes that were saved with `--save`.
 
 use super::Port;
-use crate::error::{Context, FileError, Result};
+use crate::error::{Context, Result};
+use crate::files::input;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -12,10 +13,7 @@ pub struct Saved(File);
 impl Saved {
     /// Opens a file.
     pub fn open(path: &Path) -> Result<Saved> {
-        let folder = || io::Error::other("it is a folder");
-        let opened = if path.is_dir() { Err(folder()) } else { File::open(path) };
-        let opened = opened.map_err(|error| FileError::read(path, error));
-        opened.map(Saved).with_context(|| format!("file {} cannot be read", path.display()))
+        input::open(path).map(Saved).with_context(|| format!("file {} cannot be read", path.display()))
     }
 }
 

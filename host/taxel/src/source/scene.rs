@@ -1,7 +1,8 @@
 //! Scene files: the shipped scene, with the values of a script or a file.
 
-use crate::error::{Context, Error, FileError, Result, SettingError};
+use crate::error::{Context, Error, Result, SettingError};
 use crate::fcm;
+use crate::files::input;
 use crate::sim::Script;
 use crate::tell::{toml_key, words};
 use serde_json::Value;
@@ -12,7 +13,7 @@ use taxel_core::scene::Scene;
 /// The shipped scene with the values of a script's `[scene]`.
 pub fn scene_of(script: &Script) -> Result<Scene> {
     let said = serde_json::to_value(&script.scene)?;
-    filled(said, Path::new(".")).map_err(|SceneFault { key, why }| {
+    filled(said, &script.folder).map_err(|SceneFault { key, why }| {
         let key = format!("scene.{key}");
         let text = format!("script {}: `{key}`: {why}", script.name);
         SettingError::Key { key, text }.into()
@@ -32,10 +33,7 @@ impl SceneFile {
     /// Reads a scene's file, whose map may be [named](crate::fcm::scene). Errors name file, line and key.
     pub fn read(path: &Path) -> Result<SceneFile> {
         let name = path.display().to_string();
-        crate::tell::verbose::reads(path);
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| FileError::read(path, error))
-            .with_context(|| format!("{name} cannot be read"))?;
+        let text = input::text(path).with_context(|| format!("{name} cannot be read"))?;
         SceneFile::parse(text, name, path.parent().unwrap_or(Path::new(".")))
     }
 
@@ -179,5 +177,12 @@ mod tests {
         assert!(error.starts_with("script a: `scene.contact.lo`: `lo` is not a known key"), "{error}");
         let error = of("speed = 3").unwrap_err().to_string();
         assert!(error.starts_with("script a: `scene.speed`: `speed` is not a known key"), "{error}");
+    }
+
+    #[test]
+    fn a_map_that_a_script_names_lies_beside_it() {
+        let text = "duration_s = 1\nscene = { intent = { map = \"mine.toml\" } }";
+        let error = scene_of(&scripts::parse(text, "some/where/a.toml").unwrap()).unwrap_err().to_string();
+        assert!(error.contains("some/where/mine.toml: cannot be read"), "{error}");
     }
 }

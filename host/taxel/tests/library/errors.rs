@@ -110,7 +110,7 @@ fn garbage_a_foreign_recording_and_a_damaged_one_are_told_apart() {
         }
     }
     let error = failed(Overview::of(&folder.0));
-    assert!(matches!(error.kind(), ErrorKind::File(FileError::Folder { .. })), "{error:?}");
+    assert!(matches!(error.kind(), ErrorKind::File(FileError::NoFile { .. })), "{error:?}");
     let whole = recording(&folder);
     let error = failed(taxel::open(&format!("replay:{}", whole.display())));
     assert!(matches!(error.kind(), ErrorKind::Recording(RecordingError::NotTaxel { .. })), "{error:?}");

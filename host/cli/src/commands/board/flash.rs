@@ -7,6 +7,7 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use taxel::files::input;
 
 /// Bytes of a UF2 block.
 const BLOCK: usize = 512;
@@ -37,8 +38,7 @@ pub struct FlashArgs {
 /// Runs the command.
 pub fn run(args: &FlashArgs) -> Result<()> {
     let name = args.file.display();
-    taxel::tell::verbose::reads(&args.file);
-    let image = fs::read(&args.file).with_context(|| format!("{name} cannot be read"))?;
+    let image = input::bytes(&args.file).with_context(|| format!("{name} cannot be read"))?;
     if image.starts_with(b"\x7fELF") {
         return probe(&args.file);
     }

@@ -11,9 +11,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use taxel::body::fit::{KnownTouch, Mark, known_touches, marks, picked};
 use taxel::body::{self, Fit, Form, ReadBody, Surface};
+use taxel::files::input;
 use taxel::files::output::Output;
 use taxel::source::{SourceOptions, SourceSpec};
-use taxel::tell::verbose;
 use taxel_core::garment::Layout;
 
 /// A body, its garment, and touches.
@@ -92,8 +92,7 @@ fn beside(args: &FitArgs, read: &ReadBody) -> Result<()> {
 }
 
 fn text(file: &Path) -> Result<String> {
-    verbose::reads(file);
-    std::fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))
+    input::text(file).with_context(|| format!("cannot read {}", file.display()))
 }
 
 /// The marks to be touched, each on a link that wears a panel.

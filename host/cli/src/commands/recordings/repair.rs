@@ -3,10 +3,11 @@
 use crate::watch::Overwrite;
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use std::fs::{self, File};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
+use taxel::files::input;
 use taxel::files::output::Output;
 use taxel::recording::{self, Scan};
 
@@ -46,7 +47,7 @@ impl RepairArgs {
         };
         let mut draft = output.draft()?;
         if scan.whole {
-            let mut whole = File::open(file).with_context(|| format!("{shown} cannot be read"))?;
+            let mut whole = input::open(file).with_context(|| format!("{shown} cannot be read"))?;
             io::copy(&mut whole, &mut draft)?;
         } else {
             recording::repair(file, &scan, &mut draft)?;

@@ -1,11 +1,11 @@
 //! What boards are asked while they are followed, as lines of a file or of the standard input.
 
 use anyhow::{Context, Result, bail, ensure};
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read, stdin};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
+use taxel::files::input;
 use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
 use taxel::robot::{BoardOrder, RobotSession};
 use taxel::source::SceneFile;
@@ -33,7 +33,7 @@ impl RequestLines {
             true => ("standard input".into(), Box::new(stdin())),
             false => {
                 let name = path.display().to_string();
-                let file = File::open(path).with_context(|| format!("{name} cannot be read"))?;
+                let file = input::open(path).with_context(|| format!("{name} cannot be read"))?;
                 (name, Box::new(file))
             }
         };

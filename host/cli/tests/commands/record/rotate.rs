@@ -39,3 +39,18 @@ fn a_file_that_is_there_is_not_written_over() {
     );
     assert_eq!(std::fs::read(file("there.mcap")).unwrap(), b"precious");
 }
+
+#[test]
+fn a_file_is_replaced_once_frames_are_in_the_new_one() {
+    let names = ["replaced.mcap", "replaced.ros2.mcap"];
+    let kept = || names.map(|name| std::fs::read(file(name)).unwrap() == b"precious");
+    names.iter().for_each(|name| std::fs::write(file(name), "precious").unwrap());
+    let begin = || taxel::record::Recorder::create(plan("replaced.mcap", "sim", None, true)).unwrap();
+    drop(begin());
+    assert_eq!(kept(), [true; 2], "given up before a frame came");
+    let error = begin().finish().unwrap_err().to_string();
+    assert!(error.ends_with("replaced.mcap stays as it was: no frames came"), "{error}");
+    assert_eq!(kept(), [true; 2]);
+    record("sim:press", plan("replaced.mcap", "sim", None, true));
+    assert_eq!(kept(), [false; 2]);
+}

@@ -3,8 +3,8 @@
 use super::model::Mesh;
 use super::obj::obj;
 use super::stl::stl;
-use crate::error::{Context, FileError, Result, RobotError};
-use crate::tell::verbose;
+use crate::error::{Context, Result, RobotError};
+use crate::files::input;
 use std::path::Path;
 
 /// Reads a mesh from the bytes of an STL (binary or text) or an OBJ file, as the end of its name says. Its unit is
@@ -24,9 +24,6 @@ pub fn parse(file: &str, bytes: &[u8]) -> Result<Mesh, RobotError> {
 
 /// Reads the mesh of a file, see [`parse`].
 pub fn read(path: &Path) -> Result<Mesh> {
-    verbose::reads(path);
-    let bytes = std::fs::read(path)
-        .map_err(|error| FileError::read(path, error))
-        .with_context(|| format!("cannot read {}", path.display()))?;
+    let bytes = input::bytes(path).with_context(|| format!("cannot read {}", path.display()))?;
     Ok(parse(&path.display().to_string(), &bytes)?)
 }

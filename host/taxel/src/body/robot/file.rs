@@ -3,8 +3,9 @@
 use super::model::Robot;
 use super::tree::tree;
 use super::urdf::{document, parts};
-use crate::error::{Context, FileError, Result, RobotError, UsageError};
-use crate::tell::{verbose, words};
+use crate::error::{Context, Result, RobotError, UsageError};
+use crate::files::input;
+use crate::tell::words;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -36,9 +37,6 @@ pub(in crate::body) fn text(name_or_path: &str) -> Result<Cow<'static, str>> {
         let unknown = words::unknown("robot", name_or_path, PRESETS.map(|(preset, _)| preset));
         fail!(UsageError::Unknown, "{unknown}, or give a .urdf file");
     }
-    verbose::reads(path);
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| FileError::read(path, error))
-        .with_context(|| format!("cannot read {}", path.display()))?;
+    let text = input::text(path).with_context(|| format!("cannot read {}", path.display()))?;
     Ok(Cow::Owned(text))
 }

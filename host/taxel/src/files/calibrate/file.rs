@@ -4,7 +4,8 @@ use super::curve::Curve;
 use super::fit::Fitted;
 use super::reading::Rest;
 use super::residuals::{OfWeight, Residuals};
-use crate::error::{Context, FileError, Result, SettingError};
+use crate::error::{Context, Result, SettingError};
+use crate::files::input;
 use crate::files::output::Output;
 use crate::tell::date;
 use serde::{Deserialize, Serialize};
@@ -97,10 +98,7 @@ impl Calibration {
     /// Reads and checks a file. Errors name the file, and line and key if known.
     pub fn read(file: &Path) -> Result<Calibration> {
         let name = file.display().to_string();
-        crate::tell::verbose::reads(file);
-        let text = std::fs::read_to_string(file)
-            .map_err(|error| FileError::read(file, error))
-            .with_context(|| format!("{name} cannot be read"))?;
+        let text = input::text(file).with_context(|| format!("{name} cannot be read"))?;
         Calibration::parse(&text, &name)
     }
 

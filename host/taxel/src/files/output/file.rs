@@ -74,8 +74,9 @@ impl Output {
     }
 
     /// Begins a file that gets its name before it is complete: a recording, of which a crash must leave what
-    /// was written. [`Begun::name`] gives it the name once its beginning is written. A replaced file is then
-    /// gone; programs that have it open can go on reading it.
+    /// was written. [`Begun::open`] gives it the name once its beginning is written, unless it replaces another
+    /// file; then [`Begun::name`] does, once there is something in it. The replaced file is then gone; programs
+    /// that have it open can go on reading it.
     pub fn begin(self) -> Result<(File, Begun)> {
         let place = || format!("{} cannot be written", self.0.name.display());
         let (file, part) = match &self.0.place {
@@ -93,19 +94,42 @@ impl Output {
     }
 }
 
-/// A file being written, without a name yet. Dropping it deletes it.
+/// A file being written, at first without its name; if dropped then, it is deleted.
 #[derive(Debug)]
 pub struct Begun {
     output: Named,
+    /// None once it has its name.
     part: Option<Part>,
 }
 
 impl Begun {
-    /// Gives it the output's name; the bytes written so far are on the disk when this returns.
-    pub fn name(self) -> Result<()> {
+    /// Path at which it is now.
+    pub fn path(&self) -> &Path {
+        self.part.as_ref().map_or(&self.output.name, |Part(path)| path)
+    }
+
+    /// Gives it the output's name, unless another file has it.
+    pub fn open(&mut self) -> Result<()> {
+        if matches!(self.output.place, Place::File(_, true)) { Ok(()) } else { self.name() }
+    }
+
+    /// Gives it the output's name, unless it has it; the bytes written so far are on the disk when this
+    /// returns.
+    pub fn name(&mut self) -> Result<()> {
         let Some(Part(part)) = &self.part else { return Ok(()) };
         let place = || format!("{} cannot be written", self.output.name.display());
         File::open(part).and_then(|file| file.sync_all()).with_context(place)?;
-        self.output.take_name(part)
+        self.output.take_name(part)?;
+        self.part = None;
+        Ok(())
+    }
+
+    /// Gives it the output's name at its end. Error if it is empty and would replace another file, which
+    /// stays.
+    pub fn end(&mut self, is_empty: bool) -> Result<()> {
+        if is_empty && self.part.is_some() {
+            fail!(FileError::Output, "{} stays as it was: no frames came", self.output.name.display());
+        }
+        self.name()
     }
 }

@@ -11,7 +11,7 @@
 //! | `force.rs` | the option `--force` |
 //! | `same.rs` | whether two names lead to one file |
 //! | `place.rs` | what a name leads to: a file, a device, the standard output |
-//! | `file.rs` | [`Output`]: an output file; [`Begun`]: a recording, named once its beginning is written |
+//! | `file.rs` | [`Output`]: an output file; [`Begun`]: a recording, named once there is something in it |
 //! | `named.rs` | its name, and how a temporary file gets it |
 //! | `draft.rs` | [`Draft`]: its content, before it has the name |
 //! | `folder.rs` | [`Folder`]: an output folder |

@@ -129,7 +129,7 @@ fn a_file_that_appears_meanwhile_is_not_replaced() {
     let mut draft = output.draft().unwrap();
     fs::write(scratch.at("new.csv"), "another's").unwrap();
     draft.write_all(b"ours").unwrap();
-    let begun = begun.begin().unwrap().1;
+    let mut begun = begun.begin().unwrap().1;
     for error in [draft.keep().unwrap_err(), begun.name().unwrap_err()] {
         assert!(error.to_string().contains("already exists"), "{error}");
     }
@@ -162,13 +162,20 @@ fn a_link_that_changes_meanwhile_does_not_lead_to_an_input() {
 fn a_recording_has_its_name_once_it_is_begun() {
     let scratch = TestFolder::new();
     let begin = |name: &str, force: bool| scratch.output(name, force).unwrap().begin().unwrap();
-    let ((mut new, new_begun), (mut file, begun)) = (begin("new.mcap", false), begin("old.csv", true));
+    let ((mut new, mut new_begun), (mut file, mut begun)) =
+        (begin("new.mcap", false), begin("old.csv", true));
     new.write_all(b"ha").unwrap();
     file.write_all(b"who").unwrap();
     assert_eq!(scratch.read("old.csv"), "old");
     assert!(!scratch.at("new.mcap").exists());
-    new_begun.name().unwrap();
+    new_begun.open().unwrap();
+    begun.open().unwrap();
+    assert_eq!((scratch.read("new.mcap"), scratch.read("old.csv")), ("ha".into(), "old".into()));
+    let (_, mut empty) = begin("old.csv", true);
+    assert!(empty.end(true).unwrap_err().to_string().ends_with("old.csv stays as it was: no frames came"));
+    drop(empty);
     begun.name().unwrap();
+    [new_begun, begun].iter_mut().for_each(|begun| begun.end(true).unwrap());
     new.write_all(b"lf").unwrap();
     file.write_all(b"le").unwrap();
     assert_eq!((scratch.read("new.mcap"), scratch.read("old.csv")), ("half".into(), "whole".into()));

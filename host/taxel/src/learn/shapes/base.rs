@@ -3,6 +3,7 @@
 use super::train::Known;
 use super::view::View;
 use crate::error::{Context, FileError, LearnError, Result, UsageError};
+use crate::files::input;
 use crate::files::output::Output;
 use crate::tell::words;
 use serde::{Deserialize, Serialize};
@@ -112,7 +113,6 @@ impl Base {
         if let Some(shipped) = SHIPPED.iter().find(|shipped| Path::new(shipped.name) == name) {
             return Base::parse(shipped.text).with_context(|| format!("base {}", shipped.name));
         }
-        crate::tell::verbose::reads(name);
         let unread = |error| FileError::read(name, error);
         let read = || {
             let size = std::fs::metadata(name).map_err(unread).context("cannot be read")?.len();
@@ -121,7 +121,7 @@ impl Base {
                 LearnError::Base,
                 "is not a base of shapes: it has {size} bytes, expected at most {LONGEST}"
             );
-            Base::parse(&std::fs::read_to_string(name).map_err(unread).context("cannot be read")?)
+            Base::parse(&input::text(name).context("cannot be read")?)
         };
         // A text that cannot be a path is a name.
         let said = name.to_str().filter(|said| !name.exists() && !said.contains(['.', '/', '\\']));

@@ -1,16 +1,14 @@
 //! CSV file of labels for a file of images.
 
-use crate::error::{Context, FileError, LearnError, Result};
+use crate::error::{Context, LearnError, Result};
+use crate::files::input;
 use crate::files::rows::{CsvRow, rows};
 use std::path::Path;
 
 /// Class of each of `count` images: a column `index` (from 0), and the last other column for the name.
 pub fn read(path: &Path, count: usize) -> Result<Vec<String>> {
     let parse = || {
-        crate::tell::verbose::reads(path);
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| FileError::read(path, error))
-            .context("cannot be read")?;
+        let text = input::text(path).context("cannot be read")?;
         let lacks = |why: &str| LearnError::Data(why.into());
         let rows = rows(&text);
         let (CsvRow { cells: head, .. }, rows) = rows.split_first().ok_or_else(|| lacks("is empty"))?;

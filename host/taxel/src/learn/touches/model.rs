@@ -4,7 +4,8 @@ use super::data::{Data, TouchesFile};
 use super::experts::{TouchExample, train_experts};
 use super::export::{ModelHead, export};
 use super::settings::TrainSettings;
-use crate::error::{Context, FileError, LearnError, Result};
+use crate::error::{Context, LearnError, Result};
+use crate::files::input;
 use crate::tell::date::today;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -52,10 +53,7 @@ pub fn train(data: &Data, examples: &[TouchExample<'_>], settings: &TrainSetting
 
 /// Reads the bytes of a model. Errors name the file.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
-    crate::tell::verbose::reads(path);
-    let bytes = std::fs::read(path)
-        .map_err(|error| FileError::read(path, error))
-        .with_context(|| format!("{}: cannot be read", path.display()))?;
+    let bytes = input::bytes(path).with_context(|| format!("{}: cannot be read", path.display()))?;
     Model::read(&bytes).with_context(|| path.display().to_string())?;
     Ok(bytes)
 }

@@ -1,6 +1,7 @@
 //! CSV files with named columns.
 
-use crate::error::{Context, FileError, LearnError, Result};
+use crate::error::{Context, LearnError, Result};
+use crate::files::input;
 use crate::files::rows::{CsvRow, rows};
 use csv::StringRecord;
 use std::path::Path;
@@ -15,10 +16,7 @@ pub struct Table {
 impl Table {
     /// Reads a file. Errors name it.
     pub fn read(path: &Path) -> Result<Table> {
-        crate::tell::verbose::reads(path);
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| FileError::read(path, error))
-            .context("cannot be read");
+        let text = input::text(path).context("cannot be read");
         text.and_then(|text| Table::parse(&text)).with_context(|| path.display().to_string())
     }
 

@@ -8,10 +8,9 @@ pub use check::check;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
-use std::fs;
 use std::path::{Path, PathBuf};
 use taxel::files::output::{Force, Output};
-use taxel::files::{garments, schemas};
+use taxel::files::{garments, input, schemas};
 
 /// Kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -136,7 +135,7 @@ fn next(file: &Path, more: &str) -> String {
 fn begin(output: Output, force: Force, kind: FileKind, text: &str) -> Result<()> {
     let file = output.name().to_path_buf();
     let schema = file.with_file_name(kind.schema_file());
-    let is_known = fs::read(&schema).is_ok_and(|known| known == kind.schema().as_bytes());
+    let is_known = input::bytes(&schema).is_ok_and(|known| known == kind.schema().as_bytes());
     let beside = (!is_known).then(|| Output::file(&schema, force, [&file])).transpose()?;
     // First the schema: if the file cannot be written, the command can be repeated unchanged.
     beside.map_or(Ok(()), |beside| beside.write(kind.schema().as_bytes()))?;
