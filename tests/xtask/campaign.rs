@@ -42,7 +42,7 @@ enum Run {
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
-const RUNS: [(&str, Run, &str); 38] = [
+const RUNS: [(&str, Run, &str); 37] = [
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -165,7 +165,6 @@ const RUNS: [(&str, Run, &str); 38] = [
         Run::Library("one_time"),
         "boards of a robot on one time: skew by round trips, two hours of six clocks and links (simulated)",
     ),
-    ("seams", Run::Library("crossing"), "touches over a seam between two boards: 1,000 passes (simulated)"),
     (
         "losses",
         Run::Library("robot::losses"),
