@@ -300,7 +300,6 @@ mod tests {
             }
             let percept = Percept {
                 image: &[],
-                withheld: false,
                 present: &present,
                 form_ages: &[],
                 released: &released,

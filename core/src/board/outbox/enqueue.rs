@@ -110,7 +110,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
     fn enqueue_contacts(&mut self, frame: u32, time: Micros, percept: &Percept<'_>, health: &mut Health) {
         let due = self.rates.contacts.due(time);
         self.contacts.take((frame, time), percept, due && !percept.present.is_empty(), health);
-        self.withheld_waits = percept.withheld && (due || self.contacts.waits);
         let aged = percept.form_ages.iter().any(|age| *age > 0);
         self.ages_wait = self.tell_ages && self.contacts.waits && aged;
     }

@@ -6,7 +6,6 @@ mod settings;
 mod stream;
 mod surface;
 mod tables;
-mod withheld;
 
 use taxel_core::acquire::{Scan, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Job};
