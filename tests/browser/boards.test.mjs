@@ -26,8 +26,6 @@ before(async () => {
     board("torso", "sim:five", "reference"),
     board("hand", "sim:press", "block-4x16"),
     board("foot", `tcp:127.0.0.1:${nobody.address().port}`, "block-4x16"),
-    '[[seams]]\na = { board = "torso", panel = "left arm", side = "bottom" }\n',
-    'b = { board = "hand", panel = "mat", side = "top" }\nlength = 16\n',
   ].join("");
   file = join(await mkdtemp(join(tmpdir(), "taxel-boards-")), "robot.toml");
   await writeFile(file, robot);
@@ -59,12 +57,6 @@ test("each board has a link, and one that is not there is grey and says why", as
   assert.match(torso.title, /^\d+ contacts?$/);
   assert.match(foot.title, /^absent: /);
   assert.equal(foot.text, "footabsent");
-});
-
-test("contacts of the robot are on every page", async () => {
-  const rows = '[...document.querySelectorAll("#robot-contacts tbody tr")].map((row) => row.textContent)';
-  await browser.until(`${rows}.some((text) => text.includes("torso: left arm"))`);
-  await browser.until(`${rows}.some((text) => text.includes("hand: mat"))`);
 });
 
 const SAID = 'document.getElementById("mind-said").textContent';

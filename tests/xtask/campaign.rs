@@ -187,7 +187,6 @@ const RUNS: &[(&str, Run, &str)] = &[
         Run::Library("one_time"),
         "boards of a robot on one time: skew by round trips, two hours of six clocks and links (simulated)",
     ),
-    ("seams", Run::Library("crossing"), "touches over a seam between two boards: 1,000 passes (simulated)"),
     (
         "losses",
         Run::Library("robot::losses"),

@@ -432,7 +432,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             monitor,
             examined: examined.as_ref(),
             certificate: certificate.as_ref(),
-            withheld: state.condition.withheld(),
             present: state.present(),
             form_ages: state.form_ages(),
             took_picture: state.took_picture(),

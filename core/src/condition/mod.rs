@@ -23,8 +23,7 @@
 //!
 //! The shipped filter ([`Filter::Persistent`]) removes impulses of one frame on one taxel, and keeps pressure
 //! that lasts. It stores no previous image, only the first [`POINTS`] taxels of a frame that exceed their
-//! neighbours by more than noise. What it withholds at the edges of panels is told ([`WithheldTaxel`]):
-//! beyond, on another board's panel, more may press.
+//! neighbours by more than noise.
 //!
 //! Each row follows drift once in 0.7 s, twice while its garment drifts fast, at any frame rate. Under a
 //! contact the baseline moves with the drift on which the panel's witnesses agree, so that a held contact
@@ -42,9 +41,7 @@ pub use crate::calibrate::certificate::Certificate;
 pub use crate::calibrate::sampled::Sampled;
 pub use crate::calibrate::scale::UNITY;
 pub use crate::filter::kinds::Filter;
-pub use crate::filter::points::{MARGIN, POINTS, stands_out};
-pub(crate) use crate::filter::withheld::Withheld;
-pub use crate::filter::withheld::WithheldTaxel;
+pub use crate::filter::points::{MARGIN, POINTS};
 pub use crate::image::rows::Rows;
 pub use crate::image::view::Image;
 pub use config::ConditionConfig;

@@ -4,7 +4,6 @@ use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::filter::points::Points;
-use crate::filter::withheld::Withheld;
 #[cfg(feature = "folds")]
 use crate::fold::FoldTable;
 use crate::fold::{FoldState, PostureState};
@@ -30,11 +29,6 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     /// The last image before the filter.
     pub(crate) fn calibrated(&self) -> &[u16] {
         &self.images.calibrated
-    }
-
-    /// What the persistent filter withholds of the last frame.
-    pub(crate) fn withheld(&self) -> Withheld<'_> {
-        Withheld { points: &self.points, filtered: &self.images.filtered }
     }
 
     /// State without a garment: every gain is 0. Call [`ConditionState::reset`] next.

@@ -1,8 +1,7 @@
 //! The 3x3 filters.
 //!
 //! [`kinds`] names them and applies one: [`conservative`] (by [`clamp`] and [`clamp_row16`]; its persistent
-//! form stores [`points`]), [`median`] and [`square`]. [`row`] walks a row run by run; [`withheld`] says what
-//! the persistent form takes at the edges of panels.
+//! form stores [`points`]), [`median`] and [`square`]. [`row`] walks a row run by run.
 
 pub(crate) mod clamp;
 pub(crate) mod clamp_row16;
@@ -14,4 +13,3 @@ pub(crate) mod median_simd;
 pub(crate) mod points;
 pub(crate) mod row;
 pub(crate) mod square;
-pub(crate) mod withheld;

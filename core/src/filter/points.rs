@@ -77,13 +77,6 @@ impl Points {
         }
     }
 
-    /// The points of this frame: numbers of their taxels, ascending, and their unfiltered values.
-    pub fn now(&self) -> impl Iterator<Item = (usize, u16)> {
-        let [first, second] = &self.lists;
-        let now = if self.second { second } else { first };
-        now.iter().map(|point| (point.taxel.into(), point.value))
-    }
-
     /// True if no further point can be stored or restored.
     fn is_done(&self) -> bool {
         let [first, second] = &self.lists;

@@ -15,8 +15,6 @@ use crate::unsure::UnsureState;
 pub struct Percept<'a> {
     /// Conditioned image by taxel number, background zero.
     pub image: &'a [u16],
-    /// True if the filter withholds something of the image at the edge of a panel.
-    pub withheld: bool,
     /// Present contacts.
     pub present: &'a [Placed],
     /// Age of the form of each present contact, frames; saturates at 255.

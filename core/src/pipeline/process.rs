@@ -66,7 +66,6 @@ impl Pipeline {
         probe.begin(Stage::Idle);
         Percept {
             image: image.values,
-            withheld: condition.withheld().taxels(layout).next().is_some(),
             present,
             form_ages: contact.form_ages(),
             released,

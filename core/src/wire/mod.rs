@@ -39,7 +39,6 @@
 //! | 25 | [`RegionsReport`] | when a region of the surface changes, and each second |
 //! | 26 | [`RegionNames`] | before the first `Regions` after a `Start` or of another surface |
 //! | 27 | [`StartOfFrame`] | after each answer to `Sync`, from a board on USB |
-//! | 28 | [`WithheldReport`] | before a `Contacts` if the filter withholds something at a panel's edge |
 //!
 //! A link carries nothing but these bytes. A board with several links uses one at a time, by whole messages:
 //! USB while a program there has opened its port, else the UART.

@@ -2,7 +2,6 @@
 
 use crate::body::Placed;
 use crate::boot::Boot;
-use crate::condition::{POINTS, WithheldTaxel};
 use crate::fold::Doubt;
 use crate::format::{Celsius, Micros, Name, Q15};
 use crate::garment::PANELS;
@@ -87,8 +86,6 @@ pub enum Report<'a> {
     RegionNames(RegionNames),
     /// When a frame of the USB began.
     StartOfFrame(StartOfFrame),
-    /// What the filter withholds at the edges of panels.
-    Withheld(WithheldReport),
 }
 
 /// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
@@ -150,8 +147,6 @@ impl Report<'_> {
     pub const REGION_NAMES: u32 = 26;
     /// Number of `StartOfFrame`.
     pub const START_OF_FRAME: u32 = 27;
-    /// Number of `Withheld`.
-    pub const WITHHELD: u32 = 28;
 }
 
 /// Identity and settings of the board. This layout is frozen.
@@ -396,18 +391,6 @@ pub struct UnsureReport {
     pub time: Micros,
     /// Ids of the contacts that are unsure now; any other is sure, or has ended.
     pub contacts: Vec<u32, CONTACTS>,
-}
-
-/// What the filter withholds of a frame at the edges of panels, where the host may know of more that presses
-/// beyond. Sent before the [`ContactList`] of that frame, at the rate of contacts, if there is something.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct WithheldReport {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan.
-    pub time: Micros,
-    /// The taxels, ascending by their numbers.
-    pub taxels: Vec<WithheldTaxel, POINTS>,
 }
 
 /// Ages of the forms of contacts, if [`Request::SetForms`](super::Request::SetForms) asked for them. Sent

@@ -7,7 +7,7 @@ use heapless::Vec;
 use std::fmt::Write;
 use taxel_core::body::Placed;
 use taxel_core::boot::{Aside, Boot, BootCause};
-use taxel_core::condition::{Certificate, WithheldTaxel};
+use taxel_core::condition::Certificate;
 use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{Doubt, JointAngle, Posture};
 use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
@@ -179,7 +179,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 29] {
+fn reports() -> [(&'static str, Report<'static>); 28] {
     let (frame, time) = (FRAME, TIME);
     let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
     let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
@@ -262,14 +262,6 @@ fn reports() -> [(&'static str, Report<'static>); 29] {
             }),
         ),
         ("StartOfFrame", Report::StartOfFrame(StartOfFrame { number: 2047, noticed: time, late_us: 20 })),
-        (
-            "Withheld",
-            Report::Withheld(WithheldReport {
-                frame,
-                time,
-                taxels: one(WithheldTaxel { taxel: 300, value: 2_000, filtered: 150 }),
-            }),
-        ),
     ]
 }
 

@@ -7,12 +7,12 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::time::Duration;
 use taxel::record::Stamp;
-use taxel::robot::{BoardMoment, BoardTouch, RobotMoments};
+use taxel::robot::{BoardContact, BoardMoment, RobotMoments};
 
 /// Images and contacts of all boards, as long as they are kept.
 pub struct KeptMoments {
     frames: RobotMoments<Fact>,
-    contacts: RobotMoments<Vec<BoardTouch>>,
+    contacts: RobotMoments<Vec<BoardContact>>,
     /// Of each board: the panels of its garment, and whether its stream has ended.
     boards: Vec<(Panels, bool)>,
 }
@@ -28,7 +28,7 @@ impl KeptMoments {
     }
 
     /// Takes what a board has said.
-    pub fn take(&mut self, board: usize, stamp: Stamp, fact: &Fact, contacts: Option<&Vec<BoardTouch>>) {
+    pub fn take(&mut self, board: usize, stamp: Stamp, fact: &Fact, contacts: Option<&[BoardContact]>) {
         if let Some((panels, _)) = self.boards.get_mut(board) {
             *panels = fact.panels.clone();
         }
@@ -36,7 +36,7 @@ impl KeptMoments {
             self.frames.take(board, stamp, fact.clone());
         }
         if let Some(contacts) = contacts {
-            self.contacts.take(board, stamp, contacts.clone());
+            self.contacts.take(board, stamp, contacts.to_vec());
         }
     }
 
@@ -73,7 +73,7 @@ impl KeptMoments {
         let found = |board: usize| {
             let BoardMoment { stamp, what } = self.contacts.contacts(board, at_us?)?;
             let panels = &self.boards[board].0;
-            Some(MomentFact { stamp, contacts: what.iter().map(|touch| line(touch, panels)).collect() })
+            Some(MomentFact { stamp, contacts: what.iter().map(|contact| line(contact, panels)).collect() })
         };
         (0..self.boards.len()).map(found).collect()
     }
@@ -86,14 +86,14 @@ pub struct MomentFact {
 }
 
 /// A contact as JSON, with the keys of a board's contacts.
-fn line(touch: &BoardTouch, panels: &Panels) -> Value {
-    let [[x, y], [vx, vy]] = [touch.centroid, touch.velocity];
-    let bounds = touch.bounds;
+fn line(contact: &BoardContact, panels: &Panels) -> Value {
+    let [[x, y], [vx, vy]] = [contact.centroid, contact.velocity];
+    let bounds = contact.bounds;
     json!({
-        "id": touch.contact, "panel": touch.panel,
-        "panel_name": panels.get(usize::from(touch.panel)).map(|panel| panel.name.as_str()),
-        "total": touch.total, "force_n": touch.newtons_per_count.map(|newtons| newtons * f64::from(touch.total)),
-        "peak": touch.peak, "area": touch.area, "x": x, "y": y, "vx": vx, "vy": vy,
+        "id": contact.id, "panel": contact.panel,
+        "panel_name": panels.get(usize::from(contact.panel)).map(|panel| panel.name.as_str()),
+        "total": contact.total, "force_n": contact.newtons_per_count.map(|newtons| newtons * f64::from(contact.total)),
+        "peak": contact.peak, "area": contact.area, "x": x, "y": y, "vx": vx, "vy": vy,
         "top": bounds.top, "bottom": bounds.bottom, "left": bounds.left, "right": bounds.right,
     })
 }

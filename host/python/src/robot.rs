@@ -11,10 +11,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel::client::{Client, Event};
-use taxel::mind::{BoardHeard, HeardReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
+use taxel::mind::{BoardSense, MindReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
 use taxel::record::Stamp;
 use taxel::robot::{
-    BoardEvent, BoardLine, BoardOrder, ReadRobot, RobotContacts, RobotContactsLine, RobotEvent, RobotSession,
+    BoardContact, BoardEvent, BoardLine, BoardOrder, ContactReader, ReadRobot, RobotEvent, RobotSession,
     Teller as BoardTeller, WhenFull,
 };
 use taxel::source::{SceneFile, SourceOptions};
@@ -34,8 +34,6 @@ pub struct Robot {
 struct OpenRobot {
     robot: ReadRobot,
     session: RobotSession<BoardFact>,
-    /// None if no boards are sewn together.
-    contacts: Option<RobotContacts>,
     /// None unless all boards are at one time.
     mind: Option<RobotMind>,
     /// None if nothing is kept.
@@ -49,14 +47,19 @@ struct OpenRobot {
 /// What is made of a board's event, in the board's thread.
 struct BoardFact {
     fact: Fact,
-    heard: BoardHeard,
+    /// None unless it is a list of contacts, and those are kept.
+    contacts: Option<Vec<BoardContact>>,
+    sense: Option<BoardSense>,
 }
 
 /// Makes facts of a board's events.
 struct FactTeller {
     board: String,
     teller: Teller,
-    reader: HeardReader,
+    /// None if nothing is kept.
+    contacts: Option<ContactReader>,
+    /// None unless all boards are at one time.
+    mind: Option<MindReader>,
 }
 
 impl FactTeller {
@@ -71,13 +74,14 @@ impl FactTeller {
 impl BoardTeller<BoardFact> for FactTeller {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
         let fact = self.teller.fact(client, event, stamp.host_ns());
-        let heard = self.reader.read(client, event);
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), heard }))
+        let contacts = self.contacts.as_ref().and_then(|reader| reader.contacts(client, event));
+        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event));
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), contacts, sense }))
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
         let fact = self.teller.note(client, note, stamp.host_ns());
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), heard: BoardHeard::default() }))
+        Ok(Some(BoardFact { fact: self.named(fact, stamp), contacts: None, sense: None }))
     }
 }
 
@@ -87,19 +91,21 @@ impl OpenRobot {
         let robot = ReadRobot::read(&path)?;
         let is_minded = robot.is_at_one_time(options.realtime);
         let mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
+        let is_kept = !keep.is_zero();
         let teller = |number: usize| -> Box<dyn BoardTeller<BoardFact>> {
+            let board = &robot.boards[number];
             Box::new(FactTeller {
-                board: robot.boards[number].name.clone(),
+                board: board.name.clone(),
                 teller: Teller::default(),
-                reader: HeardReader::new(&robot, number, is_minded),
+                contacts: is_kept.then(|| ContactReader::new(board)),
+                mind: is_minded.then(|| MindReader::new(&robot, number)),
             })
         };
         let limit = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let session = RobotSession::start(robot.plans(options, limit, teller), WhenFull::DropImages)?;
-        let contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
         let begun_us = session.now_us();
-        let kept = (!keep.is_zero()).then(|| KeptMoments::new(robot.boards.len(), keep));
-        Ok(OpenRobot { robot, session, contacts, mind, kept, begun_us, waiting: VecDeque::new() })
+        let kept = is_kept.then(|| KeptMoments::new(robot.boards.len(), keep));
+        Ok(OpenRobot { robot, session, mind, kept, begun_us, waiting: VecDeque::new() })
     }
 
     /// Looks for what is told next; none if nothing has come for a while.
@@ -149,20 +155,10 @@ impl OpenRobot {
         if let Some(line) = BoardLine::of(&self.robot.boards[board].name, host_us, &what) {
             self.waiting.push_back(Fact::alone(serde_json::to_value(line)?, stamp.host_ns()));
         }
-        let joined = self.contacts.as_mut().map_or(Vec::new(), |contacts| match &what {
-            BoardEvent::News(BoardFact { heard: BoardHeard { scan: Some(scan), .. }, .. }) => {
-                contacts.scan(board, scan, host_us)
-            }
-            BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
-                contacts.forget(board, host_us)
-            }
-            _ => Vec::new(),
-        });
         if let Some(kept) = &mut self.kept {
             match &what {
-                BoardEvent::News(BoardFact { fact, heard }) => {
-                    let contacts = heard.scan.as_ref().and_then(|scan| scan.contacts.as_ref());
-                    kept.take(board, stamp, fact, contacts);
+                BoardEvent::News(BoardFact { fact, contacts, .. }) => {
+                    kept.take(board, stamp, fact, contacts.as_deref());
                 }
                 BoardEvent::Lost { .. } | BoardEvent::Failed(_) => kept.forget(board),
                 BoardEvent::Over => kept.end(board),
@@ -173,11 +169,7 @@ impl OpenRobot {
         let mut sense = None;
         if let BoardEvent::News(news) = what {
             self.waiting.push_back(news.fact);
-            sense = news.heard.sense;
-        }
-        if !joined.is_empty() {
-            let line = serde_json::to_value(RobotContactsLine::of(&self.robot, host_us, &joined))?;
-            self.waiting.push_back(Fact::alone(line, stamp.host_ns()));
+            sense = news.sense;
         }
         self.mean(|mind, _| match &sense {
             Some(sense) => mind.board(board, sense, host_us).is_some(),

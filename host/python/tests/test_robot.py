@@ -21,10 +21,6 @@ name = "hand"
 source = "sim:press"
 garment = "block-4x16"
 tare = 32
-[[seams]]
-a = { board = "torso", panel = "left arm", side = "bottom" }
-b = { board = "hand", panel = "mat", side = "top" }
-length = 16
 """
 
 
@@ -44,7 +40,7 @@ def untimed(line: dict[str, Any]) -> dict[str, Any]:
 
 def test_events_of_each_board_are_the_lines_of_the_program(file: Path) -> None:
     lines = program("robot", "live", str(file), "--seconds", "1", "--json").splitlines()
-    told = [line for line in map(json.loads, lines) if line["type"] not in ("board", "robot_contacts")]
+    told = [line for line in map(json.loads, lines) if line["type"] != "board"]
     with taxel.open_robot(file, seconds=1) as robot:
         assert robot.boards == ["torso", "hand"]
         events = list(robot)
@@ -57,17 +53,6 @@ def test_events_of_each_board_are_the_lines_of_the_program(file: Path) -> None:
         assert states == ["met", "over"]
         images = [event.image for event in own if isinstance(event, taxel.Frame)]
         assert len(images) > 50 and all(image is not None for image in images)
-
-
-def test_contacts_are_those_of_the_robot(file: Path) -> None:
-    with taxel.open_robot(file, seconds=2) as robot:
-        touches = [event for event in robot if isinstance(event, taxel.RobotTouch)]
-    contacts = [contact for touch in touches for contact in touch.contacts]
-    assert {contact["board"] for contact in contacts} == {"torso", "hand"}
-    assert {part["board"] for contact in contacts for part in contact["parts"]} == {"torso", "hand"}
-    phases = [contact["phase"] for contact in contacts if contact["id"] == contacts[0]["id"]]
-    assert phases[0] == "onset" and phases.count("onset") == 1
-    assert all(touch.board is None and touch.host_ns == touch.host_time_us * 1000 for touch in touches)
 
 
 def test_a_board_is_asked_by_its_name(file: Path) -> None:

@@ -10,7 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
-from taxel_msgs.msg import Contacts, RobotContacts, RobotIntent, RobotTouch
+from taxel_msgs.msg import Contacts, RobotIntent, RobotTouch
 
 ROBOT = """name = "three"
 [[boards]]
@@ -25,10 +25,6 @@ garment = "block-4x16"
 name = "foot"
 source = "tcp:127.0.0.1:1"
 garment = "block-4x16"
-[[seams]]
-a = { board = "torso", panel = "left arm", side = "bottom" }
-b = { board = "left-hand", panel = "mat", side = "top" }
-length = 16
 """
 
 
@@ -80,24 +76,13 @@ def compared(told, contacts):
 REFUSED = "the board refuses: something touches the garment"
 
 
-def test_the_robot_says_what_touches_it_and_who_is_missing(listener, robot):
-    contacts = listener.hear(RobotContacts, "/robot_contacts")
+def test_the_robot_says_who_is_missing(listener, robot):
     diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
     statuses = lambda: {one.name: one for message in diagnostics.messages for one in message.status}
     with taxel(robot, command=("robot", "ros2")):
         listener.spin(lambda: {"taxel: torso", "taxel: left-hand", "taxel: foot"} <= {*statuses()}, 20)
-        listener.spin(lambda: {part.board for one in touches(contacts) for part in one.parts} == BOARDS, 20)
-        listener.spin(lambda: len(contacts.messages) > 500, 20)
     assert statuses()["taxel: foot"].level == b"\2" and "cannot be reached" in statuses()["taxel: foot"].message
     assert statuses()["taxel: torso"].level == b"\0"
-    for one in touches(contacts):
-        assert one.board in BOARDS and one.panel_name in {"chest", "back", "left arm", "right arm", "mat"}
-        assert math.isnan(one.force) and one.age >= 0 and one.duration >= 0
-        assert all(part.is_contact or part.contact == 0 for part in one.parts)
-        if one.phase != one.RELEASED and len(one.parts) == 1:
-            assert one.parts[0].board == one.board and one.total == one.parts[0].total
-    begun = [one.id for one in touches(contacts) if one.phase == one.ONSET]
-    assert len(begun) == len(set(begun)) > 1
 
 
 def test_the_robot_says_what_touches_mean_and_hears_what_is_told(listener, robot):
@@ -143,7 +128,3 @@ def test_joint_states_say_how_the_robot_moves(listener, robot):
 
 
 BOARDS = {"torso", "left-hand"}
-
-
-def touches(contacts):
-    return [one for message in contacts.messages for one in message.contacts]

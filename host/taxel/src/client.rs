@@ -55,8 +55,8 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
     Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap,
-    Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError,
-    WithheldReport, decode, decode_image,
+    Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode,
+    decode_image,
 };
 use wanted::Sets;
 
@@ -105,8 +105,6 @@ pub struct Client {
     ages_asked: bool,
     /// Last report of the ages.
     forms: Option<FormsReport>,
-    /// What the filter withheld last at the edges of panels.
-    withheld: Option<WithheldReport>,
     /// Frame of the latest list of contacts.
     contacts_of: u32,
     health: Option<Health>,
@@ -159,7 +157,6 @@ impl Client {
             unsure: Vec::new(),
             ages_asked: false,
             forms: None,
-            withheld: None,
             contacts_of: 0,
             health: None,
             budget: None,
@@ -274,7 +271,7 @@ impl Client {
         (self.intention, self.led) = (None, None);
         self.confidence = None;
         self.unsure.clear();
-        (self.forms, self.withheld, self.boot) = (None, None, None);
+        (self.forms, self.boot) = (None, None);
     }
 
     /// No event, if the report belongs to the next one.
@@ -307,10 +304,6 @@ impl Client {
             Report::Pressing(mut report) => {
                 report.links.iter_mut().for_each(|wrench| cleaned::name(&mut wrench.name));
                 Event::Pressing(Box::new(report))
-            }
-            Report::Withheld(report) => {
-                self.withheld = Some(report);
-                return None;
             }
             Report::Bounds(bounds) => {
                 self.bounds = Some(bounds);

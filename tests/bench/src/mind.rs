@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use taxel::body::DVec3;
 use taxel::body::robot::RobotJoint;
 use taxel::mind::{BoardSense, MindReader, RobotMind, ToldLine};
-use taxel::robot::{ReadRobot, ScanReader};
+use taxel::robot::ReadRobot;
 use taxel::stepped::Stepped;
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
@@ -109,14 +109,13 @@ fn senses() -> Result<(Vec<Vec<BoardSense>>, f64)> {
     let robot = robot(1)?;
     let mut board = Stepped::new(Garment::reference(), Scene::shipped())?;
     board.client().request(&Request::Tare { frames: TARE })?;
-    let (scans, mut reader) = (ScanReader::new(&robot, 0), MindReader::new(&robot, 0));
+    let mut reader = MindReader::new(&robot, 0);
     let (mut all, mut took) = (Vec::new(), Duration::ZERO);
     for scan in 0..SCANS {
         let mut senses = Vec::new();
         board.step(&codes(board.taxels(), scan), Micros(scan * PERIOD_US), &mut |client, event| {
-            let scan = scans.scan(client, event);
             let begun = Instant::now();
-            senses.extend(reader.sense(client, event, scan.as_ref()));
+            senses.extend(reader.sense(client, event));
             took += begun.elapsed();
             Ok(())
         })?;

@@ -5,7 +5,7 @@ use super::super::{BoardInfo, Setup};
 use super::contacts::{ContactQueue, List};
 use super::{About, GestureQueue, Outbox, Slow, Waiting};
 use crate::body::Placed;
-use crate::condition::{Certificate, Image, Withheld};
+use crate::condition::{Certificate, Image};
 use crate::format::{Micros, Name};
 use crate::garment::Layout;
 use crate::health::Monitor;
@@ -55,8 +55,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             put_shapes(tx_frame, about.taught)
         } else if core::mem::take(&mut self.ages_wait) {
             put_forms(tx_frame, &self.contacts, about.present, about.form_ages)
-        } else if core::mem::take(&mut self.withheld_waits) {
-            put_withheld(tx_frame, &self.contacts, about.withheld, &about.setup.layout)
         } else if core::mem::take(&mut self.contacts.waits) {
             tx_frame.put(Report::CONTACTS, &List { queue: &self.contacts, present: about.present })
         } else if core::mem::take(&mut self.unsure) {
@@ -196,20 +194,6 @@ fn put_forms(tx_frame: &mut TxFrame, list: &ContactQueue, present: &[Placed], ag
         let _ = report.ages.push((placed.contact.id, *age));
     }
     tx_frame.put(Report::FORMS, &report)
-}
-
-fn put_withheld(
-    tx_frame: &mut TxFrame,
-    list: &ContactQueue,
-    withheld: Withheld<'_>,
-    layout: &Layout,
-) -> bool {
-    let mut report = WithheldReport { frame: list.frame, time: list.time, taxels: Vec::new() };
-    for taxel in withheld.taxels(layout) {
-        // There are as many places as points.
-        let _ = report.taxels.push(taxel);
-    }
-    tx_frame.put(Report::WITHHELD, &report)
 }
 
 fn put_unsure(tx_frame: &mut TxFrame, frame: u32, time: Micros, unsure: &UnsureState<CONTACTS>) -> bool {

@@ -108,7 +108,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         let Percept { present, released, dropped, .. } = *percept;
         self.contacts.take((frame, time), [present, released], due && !present.is_empty(), health);
         self.contacts.dropped = dropped;
-        self.withheld_waits = percept.withheld && (due || self.contacts.waits);
         let aged = percept.form_ages.iter().any(|age| *age > 0);
         self.ages_wait = self.tell_ages && self.contacts.waits && aged;
     }

@@ -10,7 +10,7 @@ use super::tx_frame::TxFrame;
 use super::{BoardInfo, Setup};
 use crate::body::Placed;
 use crate::boot::Boot;
-use crate::condition::{Certificate, Image, Withheld};
+use crate::condition::{Certificate, Image};
 use crate::format::{Celsius, Code, Micros, Q15};
 use crate::health::Monitor;
 use crate::pipeline::{CONTACTS, Probe, Stage};
@@ -35,8 +35,6 @@ pub(super) struct About<'a> {
     pub examined: Option<&'a SelfTestReport>,
     /// The calibration in force.
     pub certificate: Option<&'a Certificate>,
-    /// What the filter withholds of the last frame.
-    pub withheld: Withheld<'a>,
     /// Present contacts of the last frame.
     pub present: &'a [Placed],
     /// Age of their forms, frames, in the same order.
@@ -81,8 +79,6 @@ pub(super) struct Outbox<const TAXELS: usize> {
     contacts: ContactQueue,
     /// True if the lists of contacts and symbols that wait are those of the previous garment.
     parting: bool,
-    /// True if what the filter withholds is to be sent.
-    withheld_waits: bool,
     /// True if ages are requested and one of them is above 0.
     ages_wait: bool,
     tell_ages: bool,
@@ -149,7 +145,6 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
             symbols_wait: false,
             contacts: ContactQueue::new(),
             parting: false,
-            withheld_waits: false,
             ages_wait: false,
             tell_ages: false,
             unsure: false,
@@ -255,7 +250,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         self.gestures.clear();
         (self.image.due, self.raw) = (None, None);
         (self.budget, self.temperature) = (None, None);
-        (self.withheld_waits, self.ages_wait, self.unsure) = (false, false, false);
+        (self.ages_wait, self.unsure) = (false, false);
     }
 
     /// Makes the next image a key frame.

@@ -6,7 +6,6 @@ mod settings;
 mod stream;
 mod surface;
 mod tables;
-mod withheld;
 
 pub use surface::flat;
 

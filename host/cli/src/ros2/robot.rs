@@ -1,14 +1,14 @@
-//! The node of a robot: what touches all of its boards, what that means, and which of them are not there.
+//! The node of a robot: what touches on all of its boards mean, and which of them are not there.
 
 use super::node::RosNode;
 use super::told::RobotTold;
 use anyhow::Result;
 use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
-use taxel::mind::{BoardHeard, RobotMeaning, RobotMeaningLine, RobotMind, robot_intent_message};
-use taxel::robot::{BoardEvent, ReadRobot, RobotContacts, RobotEvent, RobotSession, robot_contacts_message};
+use taxel::mind::{BoardSense, RobotMeaning, RobotMeaningLine, RobotMind, robot_intent_message};
+use taxel::robot::{BoardEvent, ReadRobot, RobotEvent, RobotSession};
 use taxel::ros2::messages::{self, BoardState};
-use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_CONTACTS, ROBOT_INTENT};
+use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_INTENT};
 use taxel::tell::words;
 
 /// Time between two diagnostics of a board that is not there.
@@ -18,8 +18,6 @@ const PERIOD: Duration = Duration::from_secs(1);
 pub struct RobotNode<'a> {
     node: RosNode,
     robot: &'a ReadRobot,
-    /// None if no boards are sewn together.
-    contacts: Option<RobotContacts>,
     mind: RobotMind,
     taken: RobotTold,
     /// Why a board is not there; none if it is.
@@ -31,15 +29,11 @@ impl<'a> RobotNode<'a> {
     /// Offers everything. Error as of [`RobotMind::new`], or if the network refuses a topic.
     pub fn open(mut node: RosNode, robot: &'a ReadRobot) -> Result<RobotNode<'a>> {
         node.offer(&DIAGNOSTICS, "")?;
-        let contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(robot));
-        if contacts.is_some() {
-            node.offer(&ROBOT_CONTACTS, "")?;
-        }
         node.offer(&ROBOT_INTENT, "")?;
         let mind = RobotMind::new(robot)?;
         let taken = RobotTold::open(&mut node, robot, &mind)?;
         let gone = vec![None; robot.boards.len()];
-        Ok(RobotNode { node, robot, contacts, mind, taken, gone, told: Instant::now() })
+        Ok(RobotNode { node, robot, mind, taken, gone, told: Instant::now() })
     }
 
     /// The mind of the robot, to be told what others know; what it says then is for [`RobotNode::mean`].
@@ -54,7 +48,7 @@ impl<'a> RobotNode<'a> {
     }
 
     /// Handles an event of a board.
-    pub fn event(&mut self, event: &RobotEvent<BoardHeard>) -> Result<()> {
+    pub fn event(&mut self, event: &RobotEvent<BoardSense>) -> Result<()> {
         let gone = match &event.what {
             BoardEvent::News(_) | BoardEvent::Dropped { .. } => None,
             BoardEvent::Met | BoardEvent::Back { .. } => Some(None),
@@ -71,32 +65,15 @@ impl<'a> RobotNode<'a> {
             }
             self.gone[event.board] = gone;
         }
-        self.join(event)?;
-        match self.mind.event(event, |heard| heard.sense.as_ref()).cloned() {
+        match self.mind.event(event, |sense| Some(sense)).cloned() {
             Some(meaning) => self.mean(&meaning),
             None => Ok(()),
         }
     }
 
-    /// Publishes the robot's contacts, if the event has changed them.
-    fn join(&mut self, event: &RobotEvent<BoardHeard>) -> Result<()> {
-        let (Some(contacts), host_us) = (&mut self.contacts, event.stamp.host_us) else { return Ok(()) };
-        let joined = match &event.what {
-            BoardEvent::News(BoardHeard { scan: Some(scan), .. }) => {
-                contacts.scan(event.board, scan, host_us)
-            }
-            _ if self.gone[event.board].is_some() => contacts.forget(event.board, host_us),
-            _ => Vec::new(),
-        };
-        if joined.is_empty() {
-            return Ok(());
-        }
-        self.node.publish(&ROBOT_CONTACTS, "", robot_contacts_message(self.robot, host_us, &joined))
-    }
-
     /// Tells mind and boards what has come, and the mind that time passes, if no board says anything. Publishes
     /// what touches mean then if that is news, and the diagnostics of boards that are not there, if they are due.
-    pub fn turn(&mut self, session: &RobotSession<BoardHeard>, is_quiet: bool) -> Result<()> {
+    pub fn turn(&mut self, session: &RobotSession<BoardSense>, is_quiet: bool) -> Result<()> {
         let now_us = session.now_us();
         let mut news = self.taken.turn(&self.node, self.robot, &mut self.mind, session);
         if is_quiet {

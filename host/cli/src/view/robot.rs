@@ -1,4 +1,4 @@
-//! Tells the pages of a robot's boards how all boards are, what touches the robot, and what that means.
+//! Tells the pages of a robot's boards how all boards are, and what touches mean to the robot.
 
 use super::hub::PageHub;
 use super::hubs::PageHubs;
@@ -8,12 +8,9 @@ use super::shot::text;
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use taxel::mind::{ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
-use taxel::robot::{
-    BoardEvent, BoardScan, ROBOT_CONTACTS, ReadRobot, RobotContact, RobotContactsLine, RobotEvent,
-};
+use taxel::mind::{BoardSense, ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
+use taxel::robot::{BoardEvent, ReadRobot, RobotEvent};
 use taxel::tell::words;
-use taxel_core::contact::Phase;
 
 /// Shortest time between two messages of a kind.
 const PERIOD: Duration = Duration::from_millis(100);
@@ -29,8 +26,6 @@ pub struct RobotPages<'a> {
     /// The boards were told otherwise, and when.
     is_new: bool,
     told_boards: Instant,
-    /// The robot's contacts at a host time, us, if they were told otherwise.
-    contacts: Option<(u64, Vec<RobotContact>)>,
     /// What touches mean as it was told last, without its time.
     meant: Option<RobotMeaningLine>,
     told: Instant,
@@ -54,7 +49,6 @@ impl<'a> RobotPages<'a> {
             boards: boards.collect(),
             is_new: false,
             told_boards: Instant::now(),
-            contacts: None,
             meant: None,
             told: Instant::now(),
         };
@@ -73,14 +67,14 @@ impl<'a> RobotPages<'a> {
         PageHubs::Boards(names.zip(self.hubs.iter().cloned()).collect())
     }
 
-    /// Handles an event of a board; `scan` is what its news say of a scan.
-    pub fn event<T>(&mut self, event: &RobotEvent<T>, scan: impl Fn(&T) -> Option<&BoardScan>) {
+    /// Handles an event of a board; `sense` is what its news say of touches.
+    pub fn event<T>(&mut self, event: &RobotEvent<T>, sense: impl Fn(&T) -> Option<&BoardSense>) {
         let host_us = event.stamp.host_us;
         let board = &mut self.boards[event.board];
         let before = board.clone();
         match &event.what {
             BoardEvent::News(news) => {
-                if let Some(contacts) = scan(news).and_then(|scan| scan.contacts.as_ref()) {
+                if let Some(BoardSense::Contacts(contacts)) = sense(news) {
                     board.contacts = contacts.len();
                 }
             }
@@ -99,14 +93,6 @@ impl<'a> RobotPages<'a> {
             BoardEvent::Dropped { .. } => {}
         }
         self.is_new |= *board != before;
-    }
-
-    /// These are the robot's contacts, at a time of the host, us; nothing happens if there are none: boards have
-    /// then told nothing new of them.
-    pub fn joined(&mut self, host_us: u64, contacts: Vec<RobotContact>) {
-        if !contacts.is_empty() {
-            self.contacts = Some((host_us, contacts));
-        }
     }
 
     /// The mind was told this: pages show the robot in its posture.
@@ -130,10 +116,6 @@ impl<'a> RobotPages<'a> {
         self.told = Instant::now();
         if self.is_new || self.told_boards.elapsed() >= ALIVE {
             self.tell_boards();
-        }
-        if let Some((host_us, mut contacts)) = self.contacts.take() {
-            contacts.retain(|contact| contact.phase != Phase::Released);
-            self.tell(ROBOT_CONTACTS, &RobotContactsLine::of(self.robot, host_us, &contacts));
         }
         if let Some(mind) = mind {
             self.tell_mind(mind);

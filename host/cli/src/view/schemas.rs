@@ -10,7 +10,6 @@ use crate::on_robot::{BodyLine, PosesLine};
 use serde_json::Value;
 use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine};
 use taxel::json::schema::of;
-use taxel::robot::RobotContactsLine;
 
 /// The schema of each message, and of what a page asks, by the name of its struct.
 pub fn derived() -> Vec<(&'static str, Value)> {
@@ -34,7 +33,6 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("OverviewLine", of::<OverviewLine<'static>>()),
         ("RobotLine", of::<RobotLine<'static>>()),
         ("RobotIntentLine", of::<RobotIntentLine>()),
-        ("RobotContactsLine", of::<RobotContactsLine<'static>>()),
         ("PageWish", of::<PageWish>()),
     ]
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use taxel_cli::view::schemas::derived;
 
 const HEAD: &str = "// Messages between the program and the page, by the names of their structs in \
-    host/cli/src/view/lines.rs,\n// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines,\n// host/taxel/src/robot/contacts_line.rs and host/taxel/src/mind/line.rs. Made from these by \
+    host/cli/src/view/lines.rs,\n// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines\n// and host/taxel/src/mind/line.rs. Made from these by \
     host/cli/tests/program/page_types.rs:\n// TAXEL_BLESS=1 updates it.\n";
 
 /// Longest array that is written as a tuple.

@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use taxel::mind::{ROBOT_INTENT, ROBOT_INTENT_SCHEMA, ROBOT_TOLD, ROBOT_TOLD_SCHEMA};
 use taxel::recording::Messages;
-use taxel::robot::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA};
 
 fn run(folder: &Path, args: &[&str]) -> Output {
     Command::new(taxel()).current_dir(folder).args(args).stdin(Stdio::null()).output().unwrap()
@@ -63,7 +62,7 @@ fn the_commands_of_the_document_run() {
 fn the_document_names_every_key_and_state() {
     let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
     let keys = "name urdf maps boards boards.name boards.source boards.garment boards.scene boards.tare \
-                boards.body boards.link seams seams.a seams.b seams.length seams.reversed";
+                boards.body boards.link";
     let states = "absent met lost back other dropped over failed";
     for word in keys.split(' ').chain(states.split(' ')) {
         assert!(
@@ -74,23 +73,19 @@ fn the_document_names_every_key_and_state() {
 }
 
 #[test]
-fn check_lists_boards_and_seams_or_says_what_is_wrong() {
+fn check_lists_boards_or_says_what_is_wrong() {
     let good = folder("good", &two());
     let done = run(&good, &["robot", "check", "robot.toml"]);
     let table = "\
-robot two: 2 boards, 1 seam between them; reference: 12 links, base base_link
+robot two: 2 boards; reference: 12 links, base base_link
 board  source     garment     taxels  lies on         scene  calibration  tare
 torso  sim:five   reference   2048    body reference  -      -            -
 hand   sim:press  block-4x16  64      left_hand       -      -            32
-seam: torso left arm, bottom from 0 - hand mat, top from 0, 16 taxels
 ";
     assert_eq!(text(&done.stdout), table, "{}", text(&done.stderr));
     let told = run(&good, &["robot", "check", "robot.toml", "--json"]);
     let told: Value = serde_json::from_slice(&told.stdout).unwrap();
-    assert_eq!(
-        (&told["boards"][1]["panels"], &told["seams"][0]["a"]["board"]),
-        (&json!(["mat"]), &json!("torso"))
-    );
+    assert_eq!(told["boards"][1]["panels"], json!(["mat"]));
     let bad = folder("bad", &two().replace("block-4x16", "block-4x61"));
     let done = run(&bad, &["robot", "check", "robot.toml"]);
     assert_eq!(done.status.code(), Some(2), "{}", text(&done.stderr));
@@ -104,14 +99,11 @@ seam: torso left arm, bottom from 0 - hand mat, top from 0, 16 taxels
     assert!(text(&unknown.stderr).contains("--tare: there is no board \"hnad\": did you mean \"hand\"?"));
 }
 
-/// JSON lines by board, in order, without the board's name and the messages about boards and of the robot.
+/// JSON lines by board, in order, without the board's name and the messages about boards.
 fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
     let mut boards: BTreeMap<String, Vec<Value>> = BTreeMap::new();
     for line in text(output).lines() {
         let mut line: Value = serde_json::from_str(line).unwrap();
-        if line["type"] == ROBOT_CONTACTS {
-            continue;
-        }
         let fields = line.as_object_mut().unwrap();
         let board = fields.remove("board").unwrap();
         assert!(fields.remove("host_time_us").unwrap().as_u64().unwrap() > 1_700_000_000_000_000);
@@ -143,15 +135,6 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
             together[name].len(),
             alone.len()
         );
-    }
-    let schema: Value = serde_json::from_str(ROBOT_CONTACTS_SCHEMA).unwrap();
-    let lines = text(&done.stdout).lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
-    let of_robot: Vec<Value> = lines.filter(|line| line["type"] == ROBOT_CONTACTS).collect();
-    assert!(of_robot.iter().all(|line| wrong(line, &schema).is_none()));
-    for name in ["torso", "hand"] {
-        let has_part = |contact: &Value| contact["parts"][0]["board"] == name;
-        let of_board = |line: &&Value| line["contacts"].as_array().unwrap().iter().any(has_part);
-        assert!(of_robot.iter().filter(of_board).count() > 10, "{name}");
     }
     let lines = run(&folder, &["robot", "live", "robot.toml", "--seconds", "1", "--tare", "hand=16"]);
     let lines = text(&lines.stdout);
@@ -229,13 +212,6 @@ fn record_and_doctor_tell_of_all_boards() {
     let info = run(&folder, &["info", "touch.mcap", "--json"]);
     let told: Value = serde_json::from_slice(&info.stdout).unwrap();
     assert_eq!(told["whole"], true);
-    let topic = format!("/taxel/{ROBOT_CONTACTS}");
-    let mut joined = Messages::of_topic(&folder.join("touch.mcap"), &topic).unwrap();
-    let mut count = 0;
-    while joined.next_message().unwrap().is_some() {
-        count += 1;
-    }
-    assert!(count > 100, "{count}");
     let table = text(&run(&folder, &["info", "touch.mcap"]).stdout).to_string();
     for board in ["torso", "hand"] {
         let counts = &told["boards"][board];

@@ -17,13 +17,11 @@ use tungstenite::{Message, WebSocket};
 /// Longest wait for a message.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A robot whose hand can be unplugged; what touches the torso's left arm and the hand is sewn together.
+/// A robot whose hand can be unplugged.
 fn robot(hand: &Socket) -> String {
     format!(
         "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim:five\"\ngarment = \"reference\"\n\
-         body = \"reference\"\n[[boards]]\nname = \"hand\"\nsource = \"tcp:{}\"\ngarment = \"block-4x16\"\n\
-         [[seams]]\na = {{ board = \"torso\", panel = \"left arm\", side = \"bottom\" }}\n\
-         b = {{ board = \"hand\", panel = \"mat\", side = \"top\" }}\nlength = 16\n",
+         body = \"reference\"\n[[boards]]\nname = \"hand\"\nsource = \"tcp:{}\"\ngarment = \"block-4x16\"\n",
         hand.address
     )
 }
@@ -108,25 +106,17 @@ fn each_board_has_its_page_and_each_page_tells_of_all_boards() {
     assert_eq!((&live["name"], &live["board"]), (&json!("two"), &json!("torso")));
     assert_eq!((&live["boards"][0]["name"], &live["boards"][1]["name"]), (&json!("torso"), &json!("hand")));
     line(&mut torso, "robot", |line| line["boards"][0]["contacts"] == 5);
-    // The robot's contacts are on the page of either board.
-    let is_on = |line: &Value, board: &str| {
-        line["contacts"].as_array().unwrap().iter().any(|contact| contact["board"] == board)
-    };
-    line(&mut other, "robot_contacts", |line| is_on(line, "torso"));
-    line(&mut torso, "robot_contacts", |line| is_on(line, "hand"));
     line(&mut viewed.page("/boards/torso/socket"), "body", |_| true);
-    // So is what their touches mean together.
+    // What their touches mean together is on the page of either board.
+    let touched = |meant: &Value| -> BTreeSet<u64> {
+        let touches = meant["touches"].as_array().unwrap().iter();
+        touches.map(|touch| touch["board"].as_u64().unwrap()).collect()
+    };
     for page in [&mut torso, &mut other] {
         let meant =
             line(page, "robot_intent", |line| line["touches"].as_array().is_some_and(|all| all.len() > 5));
         assert!(meant["text"].as_str().unwrap().starts_with(meant["leading"].as_str().unwrap()), "{meant}");
-        let boards: BTreeSet<u64> = meant["touches"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|touch| touch["board"].as_u64().unwrap())
-            .collect();
-        assert_eq!(boards, [0, 1].into());
+        assert_eq!(touched(&meant), [0, 1].into());
     }
     hand.plug(None);
     let lost = line(&mut torso, "robot", |line| state(line, 1, "lost"));
@@ -134,7 +124,7 @@ fn each_board_has_its_page_and_each_page_tells_of_all_boards() {
         state(&lost, 0, "live") && lost["boards"][1]["since_us"].as_u64().unwrap() > 1_700_000_000_000_000
     );
     assert!(lost["boards"][1]["why"].is_string() && lost["boards"][1]["contacts"] == 0, "{lost}");
-    line(&mut torso, "robot_contacts", |line| !is_on(line, "hand"));
+    line(&mut torso, "robot_intent", |line| touched(line) == [0].into());
     // A board that is another one is never live, and the hand's page goes on to tell of the torso.
     hand.plug(Some("mat-64x32"));
     line(&mut other, "robot", |line| state(line, 1, "other") && line["board"] == "hand");
@@ -176,11 +166,9 @@ fn with_a_time_it_ends_and_a_board_that_never_comes_is_an_error() {
     assert!(error.starts_with("error: board hand: serial port nowhere"), "{error}");
 }
 
-/// Two simulated boards that are sewn together.
-const SEWN: &str = "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim:five\"\ngarment = \"reference\"\n\
-    body = \"reference\"\n[[boards]]\nname = \"hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n\
-    [[seams]]\na = { board = \"torso\", panel = \"left arm\", side = \"bottom\" }\n\
-    b = { board = \"hand\", panel = \"mat\", side = \"top\" }\nlength = 16\n";
+/// Two simulated boards.
+const TWO: &str = "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim:five\"\ngarment = \"reference\"\n\
+    body = \"reference\"\n[[boards]]\nname = \"hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n";
 
 /// What a recording holds below these topics, by topic: the bytes of the wire, and the JSON without the host's times.
 pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
@@ -209,7 +197,7 @@ pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
 
 #[test]
 fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
-    let folder = folder("record-view", SEWN);
+    let folder = folder("record-view", TWO);
     let record = |file: &'static str| {
         ["robot", "record", "robot.toml", "--realtime", "--seconds", "3", "--force", "-o", file]
     };
@@ -222,7 +210,6 @@ fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
     line(&mut torso, "robot", |line| {
         line["boards"][0]["contacts"] == 5 && line["boards"][1]["state"] == "live"
     });
-    line(&mut hand, "robot_contacts", |line| line["contacts"].as_array().unwrap().len() > 4);
     line(&mut hand, "robot_intent", |line| line["touches"].as_array().is_some_and(|all| all.len() > 4));
     while !torso.read().unwrap().is_binary() {}
     // The other page has not read a byte.
@@ -241,7 +228,7 @@ fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
 
 #[test]
 fn what_is_said_of_a_page_needs_one() {
-    let folder = folder("record-unseen", SEWN);
+    let folder = folder("record-unseen", TWO);
     let args = ["robot", "record", "robot.toml", "-o", "out.mcap", "--port", "0"];
     let done = Command::new(taxel()).current_dir(&folder).args(args).output().unwrap();
     assert_eq!(done.status.code(), Some(2));

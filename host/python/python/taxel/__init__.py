@@ -56,7 +56,6 @@ from ._taxel import (
     Regions,
     Refused,
     RobotIntent,
-    RobotTouch,
     SelfTest,
     Shapes,
     StartOfFrame,
@@ -106,7 +105,6 @@ __all__ = [
     "Requests",
     "Robot",
     "RobotIntent",
-    "RobotTouch",
     "SelfTest",
     "Shapes",
     "StartOfFrame",
@@ -330,8 +328,8 @@ def open_robot(
     - ``seconds``: end after so much of each board's time
     - ``keep``: seconds for which ``Robot.frames`` and ``Robot.contacts`` know what the boards have said
 
-    A board that is lost does not hold up the others: ``BoardState`` events say how each board is, and ``RobotTouch``
-    events what touches the robot, over the seams between boards. Of a program that is too slow for real boards,
-    images are dropped and counted.
+    A board that is lost does not hold up the others: ``BoardState`` events say how each board is, and
+    ``RobotIntent`` events what the touches of all boards mean together. Of a program that is too slow for real
+    boards, images are dropped and counted.
     """
     return Robot(path, realtime=realtime, seconds=seconds, keep=keep)

@@ -396,15 +396,6 @@ class BoardState(Event):
     def host_time_us(self) -> int: ...
 
 @final
-class RobotTouch(Event):
-    """What touches a robot; what lies over a seam between boards is one contact with one id."""
-
-    @property
-    def host_time_us(self) -> int: ...
-    @property
-    def contacts(self) -> list[dict[str, Any]]: ...
-
-@final
 class RobotIntent(Event):
     """What touches on all boards of a robot together mean to it."""
 

@@ -66,7 +66,6 @@ classes! {
     "answer" => Answer, "Answer to a request: `refusal` is None if it was carried out.";
     "board" => BoardState, "How a board of a robot is: `state`, and why.";
     "robot_intent" => RobotIntent, "What touches on all boards together mean to the robot.";
-    "robot_contacts" => RobotTouch, "What touches a robot; what lies over a seam between boards is one contact.";
     "refused" => Refused, "Bytes that are not a message.";
 }
 

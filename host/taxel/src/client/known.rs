@@ -4,7 +4,6 @@ use super::{Client, Counts, Worn};
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
-use taxel_core::condition::WithheldTaxel;
 use taxel_core::format::{Celsius, Name, Q15};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
@@ -74,12 +73,6 @@ impl Client {
         let told = self.forms.as_ref().filter(|report| report.frame == self.contacts_of);
         let age = told.and_then(|report| report.ages.iter().find(|(id, _)| *id == contact));
         self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
-    }
-
-    /// What the board's filter withheld of a frame at the edges of panels.
-    pub fn withheld(&self, frame: u32) -> &[WithheldTaxel] {
-        let told = self.withheld.as_ref().filter(|report| report.frame == frame);
-        told.map_or(&[], |report| &report.taxels)
     }
 
     /// What is unknown of what presses in a frame; none if nothing is.

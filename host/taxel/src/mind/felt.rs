@@ -4,7 +4,7 @@ use super::mover::SurfaceSpot;
 use super::place::{BoardPlaces, BodyPlace};
 use crate::client::{Client, Event};
 use crate::fcm::map::MapFile;
-use crate::robot::{BoardScan, BoardTouch, ReadRobot, RobotBoard};
+use crate::robot::{BoardContact, ContactReader, ReadRobot, RobotBoard};
 use std::sync::Arc;
 use taxel_core::garment::cell_mm2;
 use taxel_core::wire::IntentReport;
@@ -56,27 +56,29 @@ pub enum BoardSense {
 #[derive(Debug, Clone)]
 pub struct MindReader {
     board: RobotBoard,
+    contacts: ContactReader,
     places: BoardPlaces,
 }
 
 impl MindReader {
     /// Of a board of a robot.
     pub fn new(robot: &ReadRobot, board: usize) -> MindReader {
-        MindReader { board: robot.boards[board].clone(), places: BoardPlaces::default() }
+        let board = robot.boards[board].clone();
+        let contacts = ContactReader::new(&board);
+        MindReader { board, contacts, places: BoardPlaces::default() }
     }
 
-    /// What an event says, which the client already includes, with the [scan](crate::robot::ScanReader) that
-    /// it is about; none if it says nothing of touches.
-    pub fn sense(&mut self, client: &Client, event: &Event, scan: Option<&BoardScan>) -> Option<BoardSense> {
+    /// What an event says, which the client already includes; none if it says nothing of touches.
+    pub fn sense(&mut self, client: &Client, event: &Event) -> Option<BoardSense> {
         match event {
             Event::Hello => Some(BoardSense::Begins(self.begin(client)?)),
             Event::Intent(report) => Some(BoardSense::Intent(report.clone())),
-            _ => Some(match scan?.contacts.as_ref() {
-                Some(contacts) => {
-                    BoardSense::Contacts(contacts.iter().filter_map(|felt| self.felt(client, felt)).collect())
-                }
-                None => BoardSense::Alive,
-            }),
+            Event::Frame { .. } => Some(BoardSense::Alive),
+            _ => {
+                let contacts = self.contacts.contacts(client, event)?;
+                let felt = contacts.iter().filter_map(|contact| self.felt(client, contact));
+                Some(BoardSense::Contacts(felt.collect()))
+            }
         }
     }
 
@@ -87,25 +89,25 @@ impl MindReader {
         Some(WornMind { places: self.places.all(), map })
     }
 
-    fn felt(&self, client: &Client, touch: &BoardTouch) -> Option<FeltContact> {
+    fn felt(&self, client: &Client, contact: &BoardContact) -> Option<FeltContact> {
         let worn = client.worn()?;
-        let pitch_um = worn.layout.areas().get(usize::from(touch.panel))?.pitch_um;
+        let pitch_um = worn.layout.areas().get(usize::from(contact.panel))?.pitch_um;
         // A pitch that is not known is taken as 10 mm.
         let [x_mm, y_mm] = pitch_um.map(|um| if um == 0 { 10.0 } else { f64::from(um) * 1e-3 });
-        let scaled = |counts: u32| match touch.newtons_per_count {
+        let scaled = |counts: u32| match contact.newtons_per_count {
             Some(newtons) => (newtons * f64::from(counts) * 1e3).round() as u32,
             None => counts,
         };
-        let (place, spot) = self.places.at(worn, touch.panel, touch.centroid)?;
+        let (place, spot) = self.places.at(worn, contact.panel, contact.centroid)?;
         Some(FeltContact {
-            contact: touch.contact?,
+            contact: contact.id,
             place,
             spot,
-            load: scaled(touch.total),
-            cover_mm2: u32::from(touch.area).saturating_mul(cell_mm2(pitch_um)),
-            peak: scaled(touch.peak.into()),
-            panel: touch.panel,
-            at_mm: [touch.centroid[0] * x_mm, touch.centroid[1] * y_mm],
+            load: scaled(contact.total),
+            cover_mm2: u32::from(contact.area).saturating_mul(cell_mm2(pitch_um)),
+            peak: scaled(contact.peak.into()),
+            panel: contact.panel,
+            at_mm: [contact.centroid[0] * x_mm, contact.centroid[1] * y_mm],
         })
     }
 }

@@ -12,7 +12,6 @@
 //! | `sensed_board.rs` | [`SensedTouch`]: what one board has said, and whose motion has caused it |
 //! | `senses.rs` | [`Senses`]: the newest of all of these, each with its age |
 //! | `robot_mind.rs` | [`RobotMind`]: the map of the robot over its senses |
-//! | `heard.rs` | [`BoardHeard`]: what a board's event says to the robot's contacts and to its mind |
 //! | `recorded.rs` | [`RecordedMind`]: the mind of a robot whose boards are recorded |
 //! | `line.rs` | what it means, as JSON and in words |
 //! | `intent_ros2.rs` | the same as a message of ROS 2 |
@@ -25,7 +24,6 @@
 
 mod body_part;
 mod felt;
-mod heard;
 mod intent_ros2;
 mod line;
 mod mover;
@@ -41,7 +39,6 @@ mod stepped_robot;
 mod told;
 
 pub use felt::{BoardSense, FeltContact, MindReader, WornMind};
-pub use heard::{BoardHeard, HeardReader};
 pub use intent_ros2::robot_intent_message;
 #[cfg(feature = "schema")]
 pub use line::robot_intent_schema;

@@ -23,14 +23,13 @@ pub struct MindRecord {
 #[derive(Debug)]
 pub struct MindRecordTeller {
     records: RecordTeller,
-    mind: Option<MindReader>,
+    mind: MindReader,
 }
 
 impl MindRecordTeller {
-    /// Of a board of a robot, recorded by `records`; not for its mind if that is not recorded.
-    pub fn new(robot: &ReadRobot, board: usize, records: RecordTeller, is_minded: bool) -> MindRecordTeller {
-        let mind = is_minded.then(|| MindReader::new(robot, board));
-        MindRecordTeller { records, mind }
+    /// Of a board of a robot, recorded by `records`.
+    pub fn new(robot: &ReadRobot, board: usize, records: RecordTeller) -> MindRecordTeller {
+        MindRecordTeller { records, mind: MindReader::new(robot, board) }
     }
 }
 
@@ -41,8 +40,7 @@ impl Teller<MindRecord> for MindRecordTeller {
 
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<MindRecord>> {
         let record = self.records.event(client, event, stamp)?;
-        let scan = record.as_ref().and_then(|record| record.scan.as_ref());
-        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event, scan));
+        let sense = self.mind.sense(client, event);
         let is_news = record.is_some() || sense.is_some();
         Ok(is_news.then(|| MindRecord { record: record.unwrap_or_default(), sense }))
     }

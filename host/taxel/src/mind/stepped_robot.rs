@@ -4,7 +4,7 @@
 use super::felt::MindReader;
 use super::robot_mind::{RobotMeaning, RobotMind};
 use crate::error::{Context, Result, UsageError};
-use crate::robot::{ReadRobot, ScanReader};
+use crate::robot::ReadRobot;
 use crate::stepped::Stepped;
 use taxel_core::format::Micros;
 use taxel_core::scene::Scene;
@@ -19,7 +19,6 @@ pub struct SteppedRobot {
 struct SteppedRobotBoard {
     name: String,
     stepped: Stepped,
-    scans: ScanReader,
     reader: MindReader,
 }
 
@@ -39,8 +38,8 @@ impl SteppedRobot {
             if let Some(frames) = board.tare.filter(|frames| *frames > 0) {
                 stepped.client().request(&Request::Tare { frames })?;
             }
-            let (scans, reader) = (ScanReader::new(robot, number), MindReader::new(robot, number));
-            boards.push(SteppedRobotBoard { name: name.clone(), stepped, scans, reader });
+            let reader = MindReader::new(robot, number);
+            boards.push(SteppedRobotBoard { name: name.clone(), stepped, reader });
         }
         Ok(SteppedRobot { boards, mind: RobotMind::new(robot)? })
     }
@@ -63,13 +62,12 @@ impl SteppedRobot {
     /// taxels, or the time is before that of its last step.
     pub fn step(&mut self, board: usize, codes: &[u16], time_us: u64) -> Result<Option<RobotMeaning>> {
         self.taxels(board)?;
-        let SteppedRobotBoard { name, stepped, scans, reader } = &mut self.boards[board];
+        let SteppedRobotBoard { name, stepped, reader } = &mut self.boards[board];
         let mind = &mut self.mind;
         let mut news = None;
         stepped
             .step(codes, Micros(time_us), &mut |client, event| {
-                let scan = scans.scan(client, event);
-                if let Some(sense) = reader.sense(client, event, scan.as_ref())
+                if let Some(sense) = reader.sense(client, event)
                     && let Some(meaning) = mind.board(board, &sense, time_us)
                 {
                     news = Some(meaning.clone());

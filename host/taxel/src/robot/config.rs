@@ -1,7 +1,6 @@
 //! A robot's file as its author writes it.
 
 use serde::Deserialize;
-use taxel_core::garment::Side;
 
 /// A robot of several boards: `robot.toml`. Paths are relative to the folder of the file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -16,9 +15,6 @@ pub struct RobotConfig {
     pub maps: Option<Vec<String>>,
     /// Its boards.
     pub boards: Vec<BoardConfig>,
-    /// Edges of panels of different boards that are sewn together.
-    #[serde(default)]
-    pub seams: Vec<BoardSeam>,
 }
 
 /// A board of a robot.
@@ -43,35 +39,4 @@ pub struct BoardConfig {
     pub body: Option<String>,
     /// Link of the robot that wears the whole garment, if there is no body.
     pub link: Option<String>,
-}
-
-/// Two edges of the same length, of panels of two boards, that are sewn together: taxel `i` of `a` adjoins
-/// taxel `i` of `b`, or `length - 1 - i` if `reversed`.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BoardSeam {
-    /// First edge.
-    pub a: BoardEdge,
-    /// Second edge.
-    pub b: BoardEdge,
-    /// Taxels along the seam.
-    pub length: u16,
-    /// True if the two run in opposite directions.
-    #[serde(default)]
-    pub reversed: bool,
-}
-
-/// Part of a side of a panel, from taxel `start`.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BoardEdge {
-    /// Name of the board.
-    pub board: String,
-    /// Name of the panel.
-    pub panel: String,
-    /// Side of the panel.
-    pub side: Side,
-    /// First taxel along that side.
-    #[serde(default)]
-    pub start: u16,
 }

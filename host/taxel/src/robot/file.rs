@@ -3,7 +3,6 @@
 use super::board::{BoardGarment, RobotBoard};
 use super::config::{BoardConfig, RobotConfig};
 use super::place::RobotText;
-use super::seam::{self, RobotSeam};
 use crate::body::{
     self,
     robot::{self, Robot},
@@ -43,8 +42,6 @@ pub struct ReadRobot {
     pub map: MapFile,
     /// Its boards, in the order of the file; at least one.
     pub boards: Vec<RobotBoard>,
-    /// Its seams between boards.
-    pub seams: Vec<RobotSeam>,
     /// Every file that was read, which no output may replace.
     pub inputs: Vec<String>,
 }
@@ -93,8 +90,7 @@ impl ReadRobot {
             reader.is_alone(&read, &boards)?;
             boards.push(read);
         }
-        let seams = seam::check(&config.seams, &boards, place)?;
-        Ok(ReadRobot { name: config.name, robot: described, map, boards, seams, inputs, text, file })
+        Ok(ReadRobot { name: config.name, robot: described, map, boards, inputs, text, file })
     }
 
     /// Number of the board of this name.

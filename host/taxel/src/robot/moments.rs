@@ -1,6 +1,6 @@
 //! What boards have said lately, aligned by the time that they share.
 
-use super::touched::BoardTouch;
+use super::contact::BoardContact;
 use crate::record::Stamp;
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -72,11 +72,11 @@ impl<T> RobotMoments<T> {
     }
 }
 
-impl RobotMoments<Vec<BoardTouch>> {
+impl RobotMoments<Vec<BoardContact>> {
     /// Contacts of a board at a time of the host, us, interpolated between two lists. What has ended or begun
     /// between them fades out or in where it is. After the newest list it is that one, with its own stamp. None
     /// as of [`RobotMoments::latest`].
-    pub fn contacts(&self, board: usize, host_us: u64) -> Option<BoardMoment<Vec<BoardTouch>>> {
+    pub fn contacts(&self, board: usize, host_us: u64) -> Option<BoardMoment<Vec<BoardContact>>> {
         let (before, after) = self.around(board, host_us)?;
         let Some(after) = after else { return Some(before.clone()) };
         let [a, b] = [before.stamp, after.stamp];
@@ -84,40 +84,38 @@ impl RobotMoments<Vec<BoardTouch>> {
         let board_us = between(a.board_us as f64, b.board_us as f64, part) as u64;
         let uncertainty_us = a.uncertainty_us.zip(b.uncertainty_us).map(|(a, b)| a.max(b));
         let stamp = Stamp { board_us, host_us, uncertainty_us };
-        let same = |touch: &BoardTouch, list: &[BoardTouch]| {
-            list.iter().find(|other| other.contact == touch.contact).cloned()
-        };
+        let same =
+            |of: &BoardContact, list: &[BoardContact]| list.iter().find(|other| other.id == of.id).cloned();
         let mut contacts = Vec::new();
-        for touch in &before.what {
-            contacts.push(match same(touch, &after.what) {
-                Some(later) => touch_between(touch, &later, part),
-                None => BoardTouch { total: scaled(touch.total, 1.0 - part), ..touch.clone() },
+        for contact in &before.what {
+            contacts.push(match same(contact, &after.what) {
+                Some(later) => contact_between(contact, &later, part),
+                None => BoardContact { total: scaled(contact.total, 1.0 - part), ..contact.clone() },
             });
         }
-        for touch in after.what.iter().filter(|touch| same(touch, &before.what).is_none()) {
-            contacts.push(BoardTouch { total: scaled(touch.total, part), ..touch.clone() });
+        for contact in after.what.iter().filter(|contact| same(contact, &before.what).is_none()) {
+            contacts.push(BoardContact { total: scaled(contact.total, part), ..contact.clone() });
         }
         Some(BoardMoment { stamp, what: contacts })
     }
 }
 
 /// A contact between two scans; what has no values between is that of the nearer one.
-fn touch_between(a: &BoardTouch, b: &BoardTouch, part: f64) -> BoardTouch {
+fn contact_between(a: &BoardContact, b: &BoardContact, part: f64) -> BoardContact {
     let nearer = if part < 0.5 { a } else { b };
-    let both = |value: fn(&BoardTouch) -> f64| between(value(a), value(b), part);
-    let mut touch = BoardTouch {
-        begins: false,
-        total: both(|touch| f64::from(touch.total)).round() as u32,
-        peak: both(|touch| f64::from(touch.peak)).round() as u16,
-        area: both(|touch| f64::from(touch.area)).round() as u16,
+    let both = |value: fn(&BoardContact) -> f64| between(value(a), value(b), part);
+    let mut contact = BoardContact {
+        total: both(|contact| f64::from(contact.total)).round() as u32,
+        peak: both(|contact| f64::from(contact.peak)).round() as u16,
+        area: both(|contact| f64::from(contact.area)).round() as u16,
         ..nearer.clone()
     };
     // On another panel the axes are others.
     if a.panel == b.panel {
-        touch.centroid = [0, 1].map(|axis| between(a.centroid[axis], b.centroid[axis], part));
-        touch.velocity = [0, 1].map(|axis| between(a.velocity[axis], b.velocity[axis], part));
+        contact.centroid = [0, 1].map(|axis| between(a.centroid[axis], b.centroid[axis], part));
+        contact.velocity = [0, 1].map(|axis| between(a.velocity[axis], b.velocity[axis], part));
     }
-    touch
+    contact
 }
 
 fn between(a: f64, b: f64, part: f64) -> f64 {
@@ -137,10 +135,9 @@ mod tests {
         Stamp { board_us: host_us - 1000, host_us, uncertainty_us: Some(uncertainty_us) }
     }
 
-    fn touch(id: u32, panel: u8, total: u32, x: f64) -> BoardTouch {
-        BoardTouch {
-            contact: Some(id),
-            begins: true,
+    fn contact(id: u32, panel: u8, total: u32, x: f64) -> BoardContact {
+        BoardContact {
+            id,
             panel,
             total,
             peak: 10,
@@ -183,20 +180,19 @@ mod tests {
         moments.take(
             0,
             stamp(2_000, 5),
-            vec![touch(1, 0, 100, 2.0), touch(2, 0, 40, 7.0), touch(4, 0, 10, 1.0)],
+            vec![contact(1, 0, 100, 2.0), contact(2, 0, 40, 7.0), contact(4, 0, 10, 1.0)],
         );
         moments.take(
             0,
             stamp(6_000, 9),
-            vec![touch(1, 0, 200, 4.0), touch(3, 0, 80, 5.0), touch(4, 1, 10, 9.0)],
+            vec![contact(1, 0, 200, 4.0), contact(3, 0, 80, 5.0), contact(4, 1, 10, 9.0)],
         );
         let at = moments.contacts(0, 3_000).unwrap();
         assert_eq!((at.stamp.host_us, at.stamp.board_us, at.stamp.uncertainty_us), (3_000, 2_000, Some(9)));
-        let told: Vec<_> =
-            at.what.iter().map(|t| (t.contact.unwrap(), t.panel, t.total, t.centroid[0])).collect();
+        let told: Vec<_> = at.what.iter().map(|t| (t.id, t.panel, t.total, t.centroid[0])).collect();
         assert_eq!(told, [(1, 0, 125, 2.5), (2, 0, 30, 7.0), (4, 0, 10, 1.0), (3, 0, 20, 5.0)]);
         let later = moments.contacts(0, 5_000).unwrap();
-        assert_eq!(later.what.iter().find(|t| t.contact == Some(4)).unwrap().panel, 1);
+        assert_eq!(later.what.iter().find(|t| t.id == 4).unwrap().panel, 1);
         let last = moments.contacts(0, 90_000).unwrap();
         assert_eq!((last.stamp.host_us, last.what.len()), (6_000, 3));
         assert!(moments.contacts(0, 1_999).is_none());

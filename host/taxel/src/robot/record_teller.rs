@@ -1,11 +1,10 @@
 //! Records a board of a robot, in the board's own thread.
 
 use super::event::Teller;
-use super::file::ReadRobot;
 use super::recorded_board::{Described, SharedBoard};
-use super::scan::{BoardScan, ScanReader};
 use crate::client::{Client, Event, Worn, request_name};
 use crate::error::Result;
+use crate::files::calibrate::Calibration;
 use crate::record::{BoardMessages, Origin, Stamp};
 use crate::source::Source;
 
@@ -14,8 +13,6 @@ use crate::source::Source;
 pub struct BoardRecord {
     /// Anything of the board is ready to be written.
     pub(super) is_ready: bool,
-    /// The scan that it is about.
-    pub scan: Option<BoardScan>,
     /// Why the board refuses a request.
     pub refusal: Option<String>,
 }
@@ -26,15 +23,13 @@ pub struct RecordTeller {
     board: SharedBoard,
     origin: Origin,
     worn: Option<Worn>,
-    reader: ScanReader,
 }
 
 impl RecordTeller {
-    /// Of this board of a robot.
-    pub(super) fn new(robot: &ReadRobot, number: usize, board: SharedBoard) -> RecordTeller {
-        let calibration = robot.boards.get(number).and_then(|board| board.calibration.clone());
+    /// Of a board that has this calibration.
+    pub(super) fn new(board: SharedBoard, calibration: Option<Calibration>) -> RecordTeller {
         let origin = Origin { calibration, ..Origin::default() };
-        RecordTeller { board, origin, worn: None, reader: ScanReader::new(robot, number) }
+        RecordTeller { board, origin, worn: None }
     }
 
     /// Adds the board's description, if it is new.
@@ -90,8 +85,7 @@ impl Teller<BoardRecord> for RecordTeller {
             }
             _ => None,
         };
-        let scan = self.reader.scan(client, event);
-        Ok(BoardRecord { is_ready, scan, refusal }.news())
+        Ok(BoardRecord { is_ready, refusal }.news())
     }
 
     fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {

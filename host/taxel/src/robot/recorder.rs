@@ -3,19 +3,16 @@
 //! An MCAP file like that of one board, with the topics of each board below its name: `/taxel/BOARD/wire`,
 //! `/taxel/BOARD/frames` and so on, and attachments and metadata such as `BOARD/garment.toml`, `BOARD/taxel`,
 //! `BOARD/counts`. `robot.toml` is attached; metadata `robot` has the robot's name and those of its boards.
-//! If boards are sewn together, `/taxel/robot_contacts` has the robot's contacts;
-//! [others](RobotRecorder::topic) may add topics about the robot. Log time is the host's time, which all boards
+//! [Topics](RobotRecorder::topic) about the robot may be added. Log time is the host's time, which all boards
 //! share. Each board's messages are in chunks of their own: its thread fills them, and whoever reads one board by the
 //! file's index need not unpack the others'.
 
-use super::contact::RobotContact;
-use super::contacts::RobotContacts;
-use super::contacts_line::{ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA, RobotContactsLine};
 use super::file::ReadRobot;
 use super::record_teller::{BoardRecord, RecordTeller};
 use super::recorded_board::SharedBoard;
 use crate::client::clock::SteadyTime;
 use crate::error::{Context, RecordingError, Result};
+use crate::files::calibrate::Calibration;
 use crate::files::output::{Begun, Force, Output};
 use crate::record::{COUNTS, NS, Tally};
 use crate::recording::{Format, Writer, attachment_of, scan};
@@ -27,6 +24,7 @@ use std::time::{Duration, Instant};
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
+
 /// A recording of a robot in progress.
 #[derive(Debug)]
 pub struct RobotRecorder {
@@ -34,10 +32,6 @@ pub struct RobotRecorder {
     begun: Begun,
     writer: Option<Writer<File>>,
     boards: Vec<NamedBoard>,
-    robot: ReadRobot,
-    contacts: RobotContacts,
-    /// Topic of the robot's contacts; none if no boards are sewn together.
-    joined: Option<RobotTopic>,
     kept: Instant,
     /// Bytes of the file.
     bytes: u64,
@@ -61,6 +55,7 @@ impl RobotTopic {
 struct NamedBoard {
     name: String,
     board: SharedBoard,
+    calibration: Option<Calibration>,
     /// Its first description is attached.
     says_what: bool,
 }
@@ -76,11 +71,9 @@ impl RobotRecorder {
         let mut boards = Vec::new();
         for board in &robot.boards {
             let shared = SharedBoard::open(&mut writer, &board.name).with_context(what)?;
-            boards.push(NamedBoard { name: board.name.clone(), board: shared, says_what: false });
+            let (name, calibration) = (board.name.clone(), board.calibration.clone());
+            boards.push(NamedBoard { name, board: shared, calibration, says_what: false });
         }
-        let sewn = (!robot.seams.is_empty())
-            .then(|| RobotTopic::open(&mut writer, ROBOT_CONTACTS, ROBOT_CONTACTS_SCHEMA));
-        let joined = sewn.transpose().with_context(what)?;
         let names: Vec<&str> = robot.boards.iter().map(|board| board.name.as_str()).collect();
         let words = [("name", robot.name.clone()), ("boards", names.join(","))];
         let words: BTreeMap<_, _> = words.map(|(name, value)| (name.to_string(), value)).into();
@@ -93,9 +86,6 @@ impl RobotRecorder {
             begun,
             writer: Some(writer),
             boards,
-            robot: robot.clone(),
-            contacts: RobotContacts::new(robot),
-            joined,
             kept: Instant::now(),
             bytes: 0,
         })
@@ -104,22 +94,15 @@ impl RobotRecorder {
     /// Records the events of a board of the robot, in the board's thread. Panics if the robot has no board of this
     /// number.
     pub fn teller(&self, board: usize) -> RecordTeller {
-        RecordTeller::new(&self.robot, board, self.boards[board].board.clone())
+        let NamedBoard { board, calibration, .. } = &self.boards[board];
+        RecordTeller::new(board.clone(), calibration.clone())
     }
 
-    /// Writes what the record of an event of a board makes ready, and the robot's contacts at its time of the host,
-    /// us. Returns these contacts, if boards are sewn together and it tells anything new of them. On error the
-    /// recording ends: what was recorded before stays, and the file is completed.
-    pub fn take(&mut self, board: usize, host_us: u64, record: &BoardRecord) -> Result<Vec<RobotContact>> {
-        let done = self.write(board, host_us, record);
+    /// Writes what the record of an event of a board makes ready. On error the recording ends: what was recorded
+    /// before stays, and the file is completed.
+    pub fn take(&mut self, board: usize, record: &BoardRecord) -> Result<()> {
+        let done = if record.is_ready { self.write_filled(board) } else { Ok(()) };
         self.guard(done)
-    }
-
-    /// A board is lost: its part in the robot's contacts is over. Result as of [`RobotRecorder::take`].
-    pub fn lost(&mut self, board: usize, host_us: u64) -> Result<Vec<RobotContact>> {
-        let contacts = self.contacts.forget(board, host_us);
-        let done = self.write_contacts(host_us, &contacts);
-        self.guard(done).map(|()| contacts)
     }
 
     /// Adds a topic about the robot as a whole, `/taxel/NAME`, whose messages are JSON of this schema. Error as
@@ -189,12 +172,6 @@ impl RobotRecorder {
         text + &format!("{}: {:.2} MB\n", self.path.display(), bytes as f64 / 1e6)
     }
 
-    /// Writes the robot's contacts, if there are any.
-    fn write_contacts(&mut self, host_us: u64, contacts: &[RobotContact]) -> Result<()> {
-        let Some(topic) = self.joined.filter(|_| !contacts.is_empty()) else { return Ok(()) };
-        write_line(&mut self.writer, topic, host_us, &RobotContactsLine::of(&self.robot, host_us, contacts))
-    }
-
     /// Ends the chunks of all boards, and writes them.
     fn write_all(&mut self) -> Result<()> {
         (0..self.boards.len()).try_for_each(|board| {
@@ -205,21 +182,12 @@ impl RobotRecorder {
 
     /// Writes what is ready of a board.
     fn write_filled(&mut self, board: usize) -> Result<()> {
-        let Some(NamedBoard { name, board, says_what }) = self.boards.get_mut(board) else { return Ok(()) };
+        let Some(NamedBoard { name, board, says_what, .. }) = self.boards.get_mut(board) else {
+            return Ok(());
+        };
         // The board's thread does not wait for the disk.
         let filled = board.lock().take();
         self.writer.as_mut().map_or(Ok(()), |writer| filled.write(writer, name, says_what))
-    }
-
-    fn write(&mut self, board: usize, host_us: u64, record: &BoardRecord) -> Result<Vec<RobotContact>> {
-        if record.is_ready {
-            self.write_filled(board)?;
-        }
-        let Some(scan) = record.scan.as_ref().filter(|_| self.joined.is_some()) else {
-            return Ok(Vec::new());
-        };
-        let contacts = self.contacts.scan(board, scan, host_us);
-        self.write_contacts(host_us, &contacts).map(|()| contacts)
     }
 
     /// Ends the recording on a write error.

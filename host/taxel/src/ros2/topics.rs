@@ -72,14 +72,11 @@ pub const DIAGNOSTICS: RosTopic = topic("/diagnostics", "diagnostic_msgs", "Diag
 /// The board's time, with `--clock`.
 pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
 
-/// Contacts of a robot of several boards, by the node of the robot.
-pub const ROBOT_CONTACTS: RosTopic = topic("robot_contacts", "taxel_msgs", "RobotContacts", EVERY);
-
 /// What touches mean to a robot of several boards, by the node of the robot.
 pub const ROBOT_INTENT: RosTopic = topic("robot_intent", "taxel_msgs", "RobotIntent", EVERY);
 
 /// What the nodes publish.
-pub const PUBLISHED: [RosTopic; 19] = [
+pub const PUBLISHED: [RosTopic; 18] = [
     CONTACTS,
     SYMBOLS,
     REACTIONS,
@@ -97,7 +94,6 @@ pub const PUBLISHED: [RosTopic; 19] = [
     FRAMES,
     DIAGNOSTICS,
     CLOCK,
-    ROBOT_CONTACTS,
     ROBOT_INTENT,
 ];
 

@@ -1,12 +1,11 @@
-//! `taxel robot check`: a robot's boards and seams.
+//! `taxel robot check`: a robot's boards.
 
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
 use taxel::mind::RobotMind;
-use taxel::robot::{ReadRobot, RobotBoard, RobotEdge, RobotSeam};
-use taxel_core::garment::Side;
+use taxel::robot::{ReadRobot, RobotBoard};
 
 /// Runs the command.
 pub fn run(file: &Path, is_json: bool) -> Result<()> {
@@ -19,11 +18,10 @@ pub fn run(file: &Path, is_json: bool) -> Result<()> {
     Ok(())
 }
 
-/// A line for the robot, for each board and for each seam.
+/// A line for the robot, and one for each board.
 fn table(robot: &ReadRobot) -> String {
-    let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-    let (boards, seams) = (count(robot.boards.len(), "board"), count(robot.seams.len(), "seam"));
-    let mut text = format!("robot {}: {boards}, {seams} between them", robot.name);
+    let boards = robot.boards.len();
+    let mut text = format!("robot {}: {boards} board{}", robot.name, if boards == 1 { "" } else { "s" });
     if let Some(described) = &robot.robot {
         let base = described.links().first().map_or("", |base| base.name.as_str());
         let _ = write!(text, "; {}: {} links, base {base}", described.file(), described.links().len());
@@ -37,10 +35,6 @@ fn table(robot: &ReadRobot) -> String {
     for row in &rows {
         let cells: String = row.iter().zip(&wide).map(|(cell, wide)| format!("{cell:wide$}  ")).collect();
         let _ = writeln!(text, "{}", cells.trim_end());
-    }
-    for RobotSeam { a, b, length, reversed } in &robot.seams {
-        let way = if *reversed { ", in opposite directions" } else { "" };
-        let _ = writeln!(text, "seam: {} - {}, {length} taxels{way}", edge(robot, a), edge(robot, b));
     }
     text
 }
@@ -63,25 +57,6 @@ fn row(board: &RobotBoard) -> [String; 8] {
     ]
 }
 
-fn edge(robot: &ReadRobot, edge: &RobotEdge) -> String {
-    let board = &robot.boards[edge.board];
-    format!("{} {}, {} from {}", board.name, panel(board, edge), side(edge.side), edge.start)
-}
-
-fn panel<'a>(board: &'a RobotBoard, edge: &RobotEdge) -> &'a str {
-    let areas = board.garment.as_ref().map_or(&[][..], |worn| worn.layout.areas());
-    areas.get(usize::from(edge.panel)).map_or("?", |area| area.name.as_str())
-}
-
-fn side(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-        Side::Top => "top",
-        Side::Bottom => "bottom",
-    }
-}
-
 fn report(robot: &ReadRobot) -> Value {
     let board = |board: &RobotBoard| {
         let worn = board.garment.as_ref();
@@ -100,15 +75,9 @@ fn report(robot: &ReadRobot) -> Value {
             "link": board.link,
         })
     };
-    let end = |edge: &RobotEdge| {
-        let board = &robot.boards[edge.board];
-        json!({ "board": board.name, "panel": panel(board, edge), "side": side(edge.side), "start": edge.start })
-    };
-    let seam = |seam: &RobotSeam| json!({ "a": end(&seam.a), "b": end(&seam.b), "length": seam.length, "reversed": seam.reversed });
     json!({
         "robot": robot.name,
         "urdf": robot.robot.as_ref().map(|described| described.file()),
         "boards": robot.boards.iter().map(board).collect::<Vec<_>>(),
-        "seams": robot.seams.iter().map(seam).collect::<Vec<_>>(),
     })
 }

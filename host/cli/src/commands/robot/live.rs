@@ -8,10 +8,7 @@ use clap::Args;
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
 use taxel::mind::{RobotMeaning, RobotMeaningLine, RobotMind};
-use taxel::robot::{
-    BoardEvent, BoardLine, BoardScan, RobotContact, RobotContacts, RobotContactsLine, RobotEvent,
-    RobotSession, Teller, WhenFull,
-};
+use taxel::robot::{BoardEvent, BoardLine, RobotSession, Teller, WhenFull};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 
@@ -62,7 +59,6 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
     let plans = robot.plans(&options, limit(args.seconds), teller);
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
     let mut out = BufWriter::new(stdout());
-    let mut contacts = (args.json && !robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, mind.as_mut()));
@@ -82,39 +78,13 @@ pub fn run(args: &RobotLiveArgs) -> Result<()> {
             (Some(line), _) if args.json => writeln!(out, "{}", serde_json::to_string(&line)?)?,
             (_, what) => said(what).map_or(Ok(()), |said| writeln!(out, "{name:wide$} {said}"))?,
         }
-        let joined =
-            contacts.as_mut().map(|contacts| join(contacts, &event, |news| news.heard.scan.as_ref()));
-        if let Some(joined) = joined.filter(|joined| !joined.is_empty()) {
-            let line = RobotContactsLine::of(&robot, event.stamp.host_us, &joined);
-            writeln!(out, "{}", serde_json::to_string(&line)?)?;
-        }
         if let Some(mind) = &mut mind {
-            meant(args.json, wide, mind, &mut out, |mind| {
-                mind.event(&event, |news| news.heard.sense.as_ref())
-            })?;
+            meant(args.json, wide, mind, &mut out, |mind| mind.event(&event, |news| news.sense.as_ref()))?;
         }
         ended = ended.and(failed(name, event.what));
     }
     out.flush()?;
     ended
-}
-
-/// The robot's contacts, if an event has changed them; `scan` is what the news of a board say of a scan.
-pub fn join<T>(
-    contacts: &mut RobotContacts,
-    event: &RobotEvent<T>,
-    scan: impl Fn(&T) -> Option<&BoardScan>,
-) -> Vec<RobotContact> {
-    let RobotEvent { board, stamp, what } = event;
-    match what {
-        BoardEvent::News(news) => {
-            scan(news).map_or_else(Vec::new, |scan| contacts.scan(*board, scan, stamp.host_us))
-        }
-        BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
-            contacts.forget(*board, stamp.host_us)
-        }
-        _ => Vec::new(),
-    }
 }
 
 /// Writes what touches mean now if that is news.

@@ -45,7 +45,7 @@ pub struct RobotArgs {
 
 #[derive(Debug, Clone, Subcommand)]
 enum RobotTask {
-    /// Check a robot's file, and list its boards and seams; errors name line, board and key
+    /// Check a robot's file, and list its boards; errors name line, board and key
     #[command(after_help = "Example:\n  taxel robot check robot.toml")]
     Check {
         /// The robot's file: robot.toml

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 use taxel::mind::{MindRecord, MindRecordTeller, RecordedMind, RobotMind};
-use taxel::robot::{BoardEvent, RobotContact, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
+use taxel::robot::{BoardEvent, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
 use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
@@ -81,7 +81,7 @@ pub fn run(args: &RobotRecordArgs) -> Result<()> {
         SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
     let mut plans = robot.plans(&options, limit(args.seconds), |number| -> Box<dyn Teller<MindRecord>> {
         let records = recording.recorder.teller(number);
-        let records = MindRecordTeller::new(&robot, number, records, is_minded);
+        let records = MindRecordTeller::new(&robot, number, records);
         match &recording.pages {
             Some(pages) => Box::new(ViewedTeller::new(&robot, number, records, pages.hub(number))),
             None => Box::new(records),
@@ -121,27 +121,19 @@ impl Recording<'_> {
         now_us: u64,
     ) -> taxel::Result<()> {
         self.recorder.keep()?;
-        let contacts = event.map_or(Ok(Vec::new()), |event| write(&mut self.recorder, event))?;
+        if let Some(RobotEvent { board, what: BoardEvent::News(news), .. }) = event {
+            self.recorder.take(*board, &news.record)?;
+        }
         if let Some(mind) = &mut self.mind {
             write_mind(&mut self.recorder, mind, told, event, now_us)?;
         }
         let Some(pages) = &mut self.pages else { return Ok(()) };
         told.iter().for_each(|told| pages.told(&told.line));
         if let Some(event) = event {
-            pages.event(event, |news| news.record.scan.as_ref());
-            pages.joined(event.stamp.host_us, contacts);
+            pages.event(event, |news| news.sense.as_ref());
         }
         pages.turn(self.mind.as_mut().map(|mind| &*mind.mind()));
         Ok(())
-    }
-}
-
-/// Writes an event of a board. Returns the robot's contacts, if it tells anything new of them.
-fn write(recorder: &mut RobotRecorder, event: &RobotEvent<MindRecord>) -> taxel::Result<Vec<RobotContact>> {
-    match &event.what {
-        BoardEvent::News(news) => recorder.take(event.board, event.stamp.host_us, &news.record),
-        BoardEvent::Lost { .. } => recorder.lost(event.board, event.stamp.host_us),
-        _ => Ok(Vec::new()),
     }
 }
 

@@ -11,7 +11,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::time::Duration;
 use taxel::body;
-use taxel::mind::BoardHeard;
+use taxel::mind::BoardSense;
 use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
 use taxel::ros2::topic_part;
 use taxel::source::{Source, SourceOptions};
@@ -51,7 +51,7 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     let boards = robot.boards.iter();
     let nodes = boards.map(|board| open(place.of_board(&board.name), board.source.to_string()));
     let mut nodes = nodes.map(|node| node.map(Some)).collect::<Result<Vec<_>>>()?;
-    let teller = |number: usize| -> Box<dyn Teller<BoardHeard>> {
+    let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let (mut node, body) = (nodes[number].take(), robot.boards[number].body.clone());
         let open = move |source: &Source| shown(node.take(), source, body.as_deref());
         Box::new(ShownTeller::new(&robot, number, open))

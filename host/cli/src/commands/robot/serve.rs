@@ -9,7 +9,7 @@ use crate::watch::{seconds, stop};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::time::Duration;
-use taxel::mind::BoardHeard;
+use taxel::mind::BoardSense;
 use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
 use taxel::robot::{RobotSession, Teller, WhenFull};
@@ -46,7 +46,7 @@ pub fn run(args: &RobotServeArgs) -> Result<()> {
     let mut offers = offers?;
     let options =
         SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
-    let teller = |number: usize| -> Box<dyn Teller<BoardHeard>> {
+    let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let mut offer = offers[number].take();
         let open = move |_: &Source| offer.take().context("the board is offered already");
         Box::new(ShownTeller::new(&robot, number, open))

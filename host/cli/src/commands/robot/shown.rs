@@ -1,7 +1,7 @@
 //! Hands a board of a robot to what shows a board that is watched alone.
 
 use taxel::client::{Client, Event};
-use taxel::mind::{BoardHeard, HeardReader};
+use taxel::mind::{BoardSense, MindReader};
 use taxel::record::Stamp;
 use taxel::robot::{ReadRobot, Teller};
 use taxel::session::Show;
@@ -16,7 +16,7 @@ pub struct ShownTeller<S> {
     open: Opener<S>,
     /// None before the source is open.
     shown: Option<Result<S>>,
-    reader: HeardReader,
+    mind: MindReader,
 }
 
 impl<S> ShownTeller<S> {
@@ -26,7 +26,7 @@ impl<S> ShownTeller<S> {
         number: usize,
         open: impl FnMut(&Source) -> anyhow::Result<S> + Send + 'static,
     ) -> ShownTeller<S> {
-        ShownTeller { open: Box::new(open), shown: None, reader: HeardReader::new(robot, number, true) }
+        ShownTeller { open: Box::new(open), shown: None, mind: MindReader::new(robot, number) }
     }
 
     /// The receiver, if it is open. Error if it could not be opened.
@@ -41,26 +41,25 @@ impl<S> ShownTeller<S> {
     }
 }
 
-impl<S: Show<anyhow::Error> + Send> Teller<BoardHeard> for ShownTeller<S> {
+impl<S: Show<anyhow::Error> + Send> Teller<BoardSense> for ShownTeller<S> {
     fn opened(&mut self, source: &Source) {
         self.shown = Some((self.open)(source).map_err(Error::other));
     }
 
-    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardHeard>> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardSense>> {
         if let Some(show) = self.show()? {
             client.lines().for_each(|line| show.bytes(line));
             show.event(client, event).map_err(Error::other)?;
         }
-        let heard = self.reader.read(client, event);
-        Ok((heard.scan.is_some() || heard.sense.is_some()).then_some(heard))
+        Ok(self.mind.sense(client, event))
     }
 
-    fn note(&mut self, client: &Client, note: &Event, _: Stamp) -> Result<Option<BoardHeard>> {
+    fn note(&mut self, client: &Client, note: &Event, _: Stamp) -> Result<Option<BoardSense>> {
         self.show()?.map_or(Ok(()), |show| show.gap(client, note)).map_err(Error::other)?;
         Ok(None)
     }
 
-    fn asked(&mut self, client: &Client, bytes: &[u8], _: Stamp) -> Result<Option<BoardHeard>> {
+    fn asked(&mut self, client: &Client, bytes: &[u8], _: Stamp) -> Result<Option<BoardSense>> {
         self.show()?.map_or(Ok(()), |show| show.asked(client, bytes)).map_err(Error::other)?;
         Ok(None)
     }
@@ -70,7 +69,7 @@ impl<S: Show<anyhow::Error> + Send> Teller<BoardHeard> for ShownTeller<S> {
         self.show()?.map_or(Ok(true), |show| show.idle(client)).map(drop).map_err(Error::other)
     }
 
-    fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<BoardHeard>> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<BoardSense>> {
         self.show()?.map_or(Ok(()), |show| show.end(client)).map_err(Error::other)?;
         Ok(None)
     }

@@ -3,7 +3,7 @@
 use crate::terminal::Lines;
 use taxel::client::{Client, Event};
 use taxel::json::MessagePrinter;
-use taxel::mind::{BoardHeard, HeardReader};
+use taxel::mind::{BoardSense, MindReader};
 use taxel::record::Stamp;
 use taxel::robot::{ReadRobot, Teller};
 use taxel::session::Show;
@@ -15,24 +15,25 @@ pub struct BoardNews {
     /// Lines, each with its end.
     pub lines: String,
     /// What it says of touches.
-    pub heard: BoardHeard,
+    pub sense: Option<BoardSense>,
 }
 
 /// Makes JSON of a board's events.
 pub struct JsonTeller {
     board: String,
     printer: MessagePrinter<std::io::Empty>,
-    reader: HeardReader,
+    mind: Option<MindReader>,
 }
 
 impl JsonTeller {
-    /// Of a board of a robot, with or without the pressure of every taxel, and what it says of touches.
+    /// Of a board of a robot, with or without the pressure of every taxel; with what it says of touches if
+    /// `is_minded`.
     pub fn new(robot: &ReadRobot, number: usize, pixels: bool, is_minded: bool) -> JsonTeller {
         let board = &robot.boards[number];
         JsonTeller {
             board: board.name.clone(),
             printer: MessagePrinter::new(pixels, std::io::empty()).calibrated(board.calibration.clone()),
-            reader: HeardReader::new(robot, number, is_minded),
+            mind: is_minded.then(|| MindReader::new(robot, number)),
         }
     }
 }
@@ -42,7 +43,8 @@ impl Teller<BoardNews> for JsonTeller {
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
         stamp.mark(&mut line);
-        Ok(Some(BoardNews { lines: format!("{line}\n"), heard: self.reader.read(client, event) }))
+        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event));
+        Ok(Some(BoardNews { lines: format!("{line}\n"), sense }))
     }
 }
 
@@ -52,13 +54,13 @@ pub struct TextTeller {
     head: String,
     /// None before the source is open.
     lines: Option<Lines<Vec<u8>>>,
-    reader: HeardReader,
+    mind: Option<MindReader>,
 }
 
 impl TextTeller {
-    /// Of a board of a robot, whose lines begin with this, and what it says of touches.
+    /// Of a board of a robot, whose lines begin with this; with what it says of touches if `is_minded`.
     pub fn new(robot: &ReadRobot, number: usize, head: String, is_minded: bool) -> TextTeller {
-        TextTeller { head, lines: None, reader: HeardReader::new(robot, number, is_minded) }
+        TextTeller { head, lines: None, mind: is_minded.then(|| MindReader::new(robot, number)) }
     }
 
     /// What has been written since, with the board before each line.
@@ -77,14 +79,15 @@ impl Teller<BoardNews> for TextTeller {
 
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.event(client, event)).map_err(other)?;
-        let news = BoardNews { lines: self.told(), heard: self.reader.read(client, event) };
-        Ok((!news.lines.is_empty() || news.heard.sense.is_some()).then_some(news))
+        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event));
+        let lines = self.told();
+        Ok((!lines.is_empty() || sense.is_some()).then_some(BoardNews { lines, sense }))
     }
 
     fn ended(&mut self, client: &Client, _: Stamp) -> Result<Option<BoardNews>> {
         self.lines.as_mut().map_or(Ok(()), |lines| lines.end(client)).map_err(other)?;
         let lines = self.told();
-        Ok((!lines.is_empty()).then_some(BoardNews { lines, heard: BoardHeard::default() }))
+        Ok((!lines.is_empty()).then_some(BoardNews { lines, sense: None }))
     }
 }
 

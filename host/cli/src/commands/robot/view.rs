@@ -1,7 +1,7 @@
 //! `taxel robot view`: all boards in the browser.
 
 use super::args::RobotFileArgs;
-use super::live::{failed, join, limit};
+use super::live::{failed, limit};
 use super::shown::ShownTeller;
 use crate::commands::views::view::{announce, bind};
 use crate::on_robot::Wearer;
@@ -13,9 +13,9 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 use taxel::files::calibrate::Calibration;
-use taxel::mind::{BoardHeard, RobotMind};
+use taxel::mind::{BoardSense, RobotMind};
 use taxel::record::Origin;
-use taxel::robot::{ReadRobot, RobotContacts, RobotSession, Teller, WhenFull};
+use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
 use taxel::source::{Source, SourceOptions};
 
 /// Longest wait before pages are told what is new.
@@ -43,12 +43,11 @@ pub fn run(args: &RobotViewArgs) -> Result<()> {
     let robot = args.robot.read()?;
     let mut requests = args.robot.requests()?;
     let mut mind = RobotMind::new(&robot)?;
-    let mut contacts = (!robot.seams.is_empty()).then(|| RobotContacts::new(&robot));
     let mut pages = pages(&robot)?;
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
     let options =
         SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
-    let teller = |number: usize| -> Box<dyn Teller<BoardHeard>> {
+    let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
         let open = move |source: &Source| Ok(viewer(source, &hub, calibration.clone()));
         Box::new(ShownTeller::new(&robot, number, open))
@@ -61,12 +60,8 @@ pub fn run(args: &RobotViewArgs) -> Result<()> {
         told.iter().for_each(|told| pages.told(&told.line));
         match session.wait(LOOK) {
             Some(event) => {
-                mind.event(&event, |heard| heard.sense.as_ref());
-                pages.event(&event, |heard| heard.scan.as_ref());
-                if let Some(contacts) = &mut contacts {
-                    let joined = join(contacts, &event, |heard| heard.scan.as_ref());
-                    pages.joined(event.stamp.host_us, joined);
-                }
+                mind.event(&event, |sense| Some(sense));
+                pages.event(&event, |sense| Some(sense));
                 let name = &robot.boards[event.board].name;
                 ended = ended.and(failed(name, event.what));
             }

@@ -90,7 +90,7 @@ mod tests {
         let robot = ReadRobot::parse("one.toml".into(), text.into(), Path::new(".")).unwrap();
         let path = std::env::temp_dir().join(format!("taxel-{name}-{}.mcap", std::process::id()));
         let mut recorder = RobotRecorder::create(&robot, &path, Force { force: true }).unwrap();
-        let records = MindRecordTeller::new(&robot, 0, recorder.teller(0), true);
+        let records = MindRecordTeller::new(&robot, 0, recorder.teller(0));
         let mut teller: Box<dyn Teller<MindRecord>> = match hub {
             Some(hub) => Box::new(ViewedTeller::new(&robot, 0, records, hub.clone())),
             None => Box::new(records),
@@ -108,7 +108,7 @@ mod tests {
             let stamp = Stamp { board_us: number, host_us: number, uncertainty_us: None };
             let news = teller.event(session.client(), &event, stamp).unwrap();
             if let Some(news) = news {
-                recorder.take(0, number, &news.record).unwrap();
+                recorder.take(0, &news.record).unwrap();
                 told.push(format!("{news:?}"));
             }
             teller.idle(session.parts().0).unwrap();

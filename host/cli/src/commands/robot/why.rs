@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::time::Duration;
 use taxel::client::{Client, Event};
-use taxel::mind::{BoardHeard, HeardReader, RobotMeaning, RobotMind, RobotReasons};
+use taxel::mind::{BoardSense, MindReader, RobotMeaning, RobotMind, RobotReasons};
 use taxel::record::Stamp;
 use taxel::robot::{ReadRobot, RobotSession, WhenFull};
 use taxel::source::SourceOptions;
@@ -55,13 +55,10 @@ fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result
     let mut requests = args.robot.requests()?;
     let options = SourceOptions { realtime: true, ..SourceOptions::default() };
     let plans = robot.plans(&options, None, |number| {
-        let mut reader = HeardReader::new(robot, number, true);
-        Box::new(move |client: &Client, event: &Event, _: Stamp| {
-            let heard = reader.read(client, event);
-            heard.sense.is_some().then_some(heard)
-        })
+        let mut reader = MindReader::new(robot, number);
+        Box::new(move |client: &Client, event: &Event, _: Stamp| reader.sense(client, event))
     });
-    let mut session: RobotSession<BoardHeard> = RobotSession::start(plans, WhenFull::DropImages)?;
+    let mut session: RobotSession<BoardSense> = RobotSession::start(plans, WhenFull::DropImages)?;
     let begun_us = session.now_us();
     let since = |now_us: u64| now_us.saturating_sub(begun_us) as f64 / 1e6;
     let is_found = |meaning: &RobotMeaning| args.at.is_none() && meaning.leading != Leading::None;
@@ -75,7 +72,7 @@ fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result
             return Ok((mind, since(now_us)));
         }
         let Some(event) = session.wait(LOOK) else { continue };
-        if mind.event(&event, |heard| heard.sense.as_ref()).is_some_and(is_found) {
+        if mind.event(&event, |sense| Some(sense)).is_some_and(is_found) {
             return Ok((mind, since(now_us)));
         }
         failed(&robot.boards[event.board].name, event.what)?;

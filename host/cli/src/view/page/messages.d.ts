@@ -1,6 +1,6 @@
 // Messages between the program and the page, by the names of their structs in host/cli/src/view/lines.rs,
-// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines,
-// host/taxel/src/robot/contacts_line.rs and host/taxel/src/mind/line.rs. Made from these by host/cli/tests/program/page_types.rs:
+// host/cli/src/folding.rs, host/cli/src/on_robot/lines.rs, host/taxel/src/json/lines
+// and host/taxel/src/mind/line.rs. Made from these by host/cli/tests/program/page_types.rs:
 // TAXEL_BLESS=1 updates it.
 
 /** Garment, scene and firmware of the board, and how the page shows them. */
@@ -612,56 +612,6 @@ export type RobotIntentLine = {
   }[];
   /** The announced intention and what holds, in words. */
   text: string;
-};
-
-/** Contacts of all boards of a robot; what touches both sides of a seam between boards is one contact. */
-export type RobotContactsLine = {
-  /** Type of the message. */
-  type: "robot_contacts";
-  /** Host time of the board's scan that is told, us since 1970. */
-  host_time_us: number;
-  /** Present contacts and those just released, by their ids. */
-  contacts: {
-    /** Number of the contact, from 1 upwards; constant from onset to release, on whatever boards it is. */
-    id: number;
-    /** `onset`, `held` or `released`. */
-    phase: string;
-    /** Name of the board on which most of it is. */
-    board: string;
-    /** Name of the panel there. */
-    panel_name: string;
-    /** Centroid along the columns of that panel, taxels from the first; goes on beyond a seam. */
-    x: number;
-    /** Centroid along the rows, taxels from the first. */
-    y: number;
-    /** Centroid along the columns, mm from the first. */
-    x_mm: number;
-    /** Centroid along the rows, mm from the first. */
-    y_mm: number;
-    /** Sum of the pressure of its taxels on all boards, counts. */
-    total: number;
-    /** Force by the calibrations in force, N; absent unless all of its boards have one. */
-    force_n?: number | null;
-    /** Greatest pressure of a taxel, counts. */
-    peak: number;
-    /** Number of taxels. */
-    area: number;
-    /** Time since the onset, s. */
-    duration: number;
-    /** Age of pressure and place, us: the mean age of the scans from which they are told. */
-    age_us: number;
-    /** What it consists of, board by board. */
-    parts: {
-      /** Name of the board. */
-      board: string;
-      /** Id of the board's contact; null if it is too faint to be one there. */
-      contact: number | null;
-      /** Its pressure, counts. */
-      total: number;
-      /** Age of what the board has told last, us; below 0 if it is newer. */
-      age_us: number;
-    }[];
-  }[];
 };
 
 /** A request of a page. */

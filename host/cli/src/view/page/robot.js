@@ -1,6 +1,6 @@
-// The boards of a robot: which there are, how they are, and what touches all of them.
+// The boards of a robot: which there are, and how they are.
 
-import { $, make, one, say } from "./dom.js";
+import { $, make, say } from "./dom.js";
 import { agoText } from "./presence.js";
 
 /** @typedef {import("./messages.d.ts").RobotLine["boards"][number]} Board */
@@ -16,17 +16,7 @@ export function condition({ state, since_us: since, why, contacts }, now) {
   return `${state}${ago}${why ? `: ${why}` : ""}`;
 }
 
-/**
- * The cells of a contact of the robot.
- * @param {import("./messages.d.ts").RobotContactsLine["contacts"][number]} contact
- */
-export function cells({ id, board, panel_name: panel, parts, total, force_n: newtons, area, duration }) {
-  const force = typeof newtons === "number" ? `${newtons.toFixed(1)} N` : String(total);
-  const on = parts.map((part) => part.board).join(", ");
-  return [String(id), `${board}: ${panel}`, on, force, String(area), duration.toFixed(1)];
-}
-
-/** Links to the pages of the boards, and the table of the robot's contacts. */
+/** Links to the pages of the boards. */
 export class Robot {
   constructor() {
     this.key = "";
@@ -35,11 +25,9 @@ export class Robot {
   }
 
   /** @param {import("./store.js").Store} store */
-  draw({ states: { robot, robot_contacts: touches } }) {
+  draw({ states: { robot } }) {
     $("boards").hidden = !robot;
-    $("robot").hidden = !touches;
     if (robot) this.boards(robot);
-    if (touches) this.contacts(touches);
   }
 
   /** @param {import("./messages.d.ts").RobotLine} robot */
@@ -60,18 +48,6 @@ export class Robot {
       const shown = board.name === robot.board;
       if (shown) link.setAttribute("aria-current", "page");
       if (shown) document.body.classList.toggle("lost", board.state !== "live");
-    });
-  }
-
-  /** @param {import("./messages.d.ts").RobotContactsLine} told */
-  contacts({ contacts }) {
-    say($("robot-count"), contacts.length ? String(contacts.length) : "none");
-    const table = one(HTMLTableElement, "robot-contacts");
-    const body = table.tBodies[0] ?? table.createTBody();
-    while (body.rows.length > contacts.length) body.deleteRow(-1);
-    contacts.forEach((contact, at) => {
-      const row = body.rows[at] ?? body.insertRow();
-      cells(contact).forEach((text, column) => say(row.cells[column] ?? row.insertCell(), text));
     });
   }
 }

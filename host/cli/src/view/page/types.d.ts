@@ -17,7 +17,6 @@ import type {
   PinsLine,
   PlayerLine,
   PosesLine,
-  RobotContactsLine,
   RobotIntentLine,
   RobotLine,
   SayLine,
@@ -128,7 +127,6 @@ export interface States {
   glow?: GlowLine & { values?: Uint16Array };
   overview?: Overview;
   robot?: RobotLine;
-  robot_contacts?: RobotContactsLine;
   robot_intent?: RobotIntentLine;
 }
 

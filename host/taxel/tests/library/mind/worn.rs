@@ -5,7 +5,7 @@ use crate::meaning::family::Told;
 use fastrand::Rng;
 use std::path::Path;
 use taxel::mind::{BoardSense, MindReader, RobotMind, RobotReasons, ToldLine};
-use taxel::robot::{ReadRobot, ScanReader};
+use taxel::robot::ReadRobot;
 use taxel::stepped::Stepped;
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
@@ -71,31 +71,30 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
     let flipped = |is_right: bool| if is_right { friendly } else { -friendly };
     let vision = flipped(rng.u32(..4) > 0);
     let voice = rng.bool().then(|| flipped(rng.u32(..8) > 0));
-    let mut boards: Vec<(Stepped, ScanReader, MindReader, u64)> = Vec::new();
+    let mut boards: Vec<(Stepped, MindReader, u64)> = Vec::new();
     for (number, part) in touch.parts.iter().enumerate() {
         let mut board = Stepped::new(part.garment.clone(), Scene::shipped()).unwrap();
         board.client().request(&Request::Tare { frames: (TARE_US / part.period_us) as u16 }).unwrap();
-        let readers = (ScanReader::new(&robot, number), MindReader::new(&robot, number));
-        boards.push((board, readers.0, readers.1, rng.u64(..part.period_us)));
+        boards.push((board, MindReader::new(&robot, number), rng.u64(..part.period_us)));
     }
     let mut minds = Heard::ALL.map(|heard| (heard, RobotMind::new(&robot).unwrap()));
     let mut told: [Told; 6] = Default::default();
     let mut leading = [Leading::None; 6];
     let (mut next_us, end_us) = (touch.span.0, touch.span.1 + AFTER_US);
     loop {
-        let board = usize::from(boards[0].3 > boards[1].3);
-        let now = boards[board].3;
+        let board = usize::from(boards[0].2 > boards[1].2);
+        let now = boards[board].2;
         if now >= end_us {
             return told;
         }
-        let (stepped, scans, reader, due) = &mut boards[board];
+        let (stepped, reader, due) = &mut boards[board];
         let part = &mut touch.parts[board];
         *due += (part.period_us as f64 * (1.0 + 0.05 * (rng.f64() - 0.5))) as u64;
         let mut codes = vec![0; stepped.taxels()];
         (part.codes)(now, &mut codes);
         let mut senses = Vec::new();
         let mut sink = |client: &taxel::client::Client, event: &taxel::client::Event| {
-            senses.extend(reader.sense(client, event, scans.scan(client, event).as_ref()));
+            senses.extend(reader.sense(client, event));
             Ok(())
         };
         stepped.step(&codes, Micros(now), &mut sink).unwrap();
@@ -141,19 +140,19 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
 pub fn explained(robot: &ReadRobot, mut touch: SpreadTouch, concept: &str) -> RobotReasons {
     let mut mind = RobotMind::new(robot).unwrap();
     let at = mind.map().find(concept).unwrap();
-    let mut boards: Vec<(Stepped, ScanReader, MindReader)> = Vec::new();
+    let mut boards: Vec<(Stepped, MindReader)> = Vec::new();
     for (number, part) in touch.parts.iter().enumerate() {
         let mut board = Stepped::new(part.garment.clone(), Scene::shipped()).unwrap();
         board.client().request(&Request::Tare { frames: 20 }).unwrap();
-        boards.push((board, ScanReader::new(robot, number), MindReader::new(robot, number)));
+        boards.push((board, MindReader::new(robot, number)));
     }
     for now in (0..touch.span.1).step_by(5_000) {
-        for (number, (stepped, scans, reader)) in boards.iter_mut().enumerate() {
+        for (number, (stepped, reader)) in boards.iter_mut().enumerate() {
             let mut codes = vec![0; stepped.taxels()];
             (touch.parts[number].codes)(now, &mut codes);
             let mut senses = Vec::new();
             let mut sink = |client: &taxel::client::Client, event: &taxel::client::Event| {
-                senses.extend(reader.sense(client, event, scans.scan(client, event).as_ref()));
+                senses.extend(reader.sense(client, event));
                 Ok(())
             };
             stepped.step(&codes, Micros(now), &mut sink).unwrap();

@@ -1,10 +1,8 @@
 //! Mistakes in a robot's file: each is one sentence with file, line, key and board.
 
 use std::path::Path;
-use taxel::error::ErrorKind;
-use taxel::robot::{ReadRobot, RobotEdge};
+use taxel::robot::ReadRobot;
 use taxel::source::SourceSpec;
-use taxel_core::garment::Side;
 
 const GOOD: &str = r#"name = "two"
 urdf = "reference"
@@ -21,11 +19,6 @@ source = "tcp:localhost:4000"
 garment = "block-4x16"
 link = "left_forearm"
 tare = 32
-
-[[seams]]
-a = { board = "torso", panel = "left arm", side = "bottom" }
-b = { board = "arm", panel = "mat", side = "top" }
-length = 16
 "#;
 
 fn read(text: &str) -> taxel::Result<ReadRobot> {
@@ -41,10 +34,6 @@ fn a_file_is_read_with_what_it_names() {
     assert_eq!((arm.tare, arm.is_real(), arm.link.as_deref()), (Some(32), true, Some("left_forearm")));
     let worn = |number: usize| robot.boards[number].garment.as_ref().unwrap().layout.taxels();
     assert_eq!([worn(0), worn(1)], [2048, 64]);
-    let [seam] = robot.seams[..] else { panic!() };
-    let edge = |board, panel, side| RobotEdge { board, panel, side, start: 0 };
-    assert_eq!([seam.a, seam.b], [edge(0, 2, Side::Bottom), edge(1, 0, Side::Top)]);
-    assert_eq!((seam.length, seam.reversed), (16, false));
 }
 
 #[test]
@@ -64,7 +53,7 @@ fn paths_are_beside_the_file() {
 }
 
 /// What is changed in the good file, and the sentence.
-const MISTAKES: [(&str, &str, &str); 31] = [
+const MISTAKES: [(&str, &str, &str); 25] = [
     ("name = \"two\"\n", "", "robot.toml, line 1: `name` is missing"),
     ("name = \"two\"", "name = \"\"", "robot.toml, line 1, `name`: the robot has no name"),
     (
@@ -174,36 +163,10 @@ const MISTAKES: [(&str, &str, &str); 31] = [
         "robot.toml, line 14, `boards[1].link`: board arm: reference: there is no link \"left_forarm\": did you mean \"left_forearm\"? Known are base_link, torso, left_shoulder_pitch_link, left_shoulder_roll_link, left_upper_arm, left_forearm, left_hand, right_shoulder_pitch_link, right_shoulder_roll_link, right_upper_arm, right_forearm, right_hand",
     ),
     (
-        "board = \"arm\"",
-        "board = \"amr\"",
-        "robot.toml, line 19, `seams[0].b.board`: there is no board \"amr\": did you mean \"arm\"? Known are torso, arm",
+        "tare = 32\n",
+        "tare = 32\n\n[[seams]]\nlength = 16\n",
+        "robot.toml, line 17: `seams` is not a known key: `name`, `urdf`, `maps`, `boards`",
     ),
-    (
-        "board = \"arm\"",
-        "board = \"torso\"",
-        "robot.toml, line 19, `seams[0].b.panel`: board torso: there is no panel \"mat\"; known are chest, back, left arm, right arm",
-    ),
-    (
-        "panel = \"mat\"",
-        "panel = \"mta\"",
-        "robot.toml, line 19, `seams[0].b.panel`: board arm: there is no panel \"mta\": did you mean \"mat\"? Known are mat",
-    ),
-    (
-        "garment = \"block-4x16\"\n",
-        "",
-        "robot.toml, line 18, `seams[0].b.board`: board arm: its `garment` must be known for a seam",
-    ),
-    (
-        "side = \"top\"",
-        "side = \"up\"",
-        "robot.toml, line 19, `side`: `up` is not a known name: `left`, `right`, `top`, `bottom`",
-    ),
-    (
-        "length = 16",
-        "length = 17",
-        "robot.toml, line 18, `seams[0].a.start`: board torso: the seam ends at taxel 17, and the panel has 16 columns",
-    ),
-    ("length = 16", "length = 0", "robot.toml, line 20, `seams[0].length`: a seam has at least one taxel"),
 ];
 
 #[test]
@@ -222,15 +185,4 @@ fn a_script_that_does_not_exist_is_told_before_anything_is_opened() {
     let why = "robot.toml, line 6, `boards[0].source`: board torso: there is no script of touches \"pta\": did you \
                mean \"pat\"?";
     assert!(format!("{error:#}").starts_with(why), "{error:#}");
-}
-
-#[test]
-fn two_seams_have_no_taxel_in_common() {
-    let more = "\n[[seams]]\na = { board = \"torso\", panel = \"left arm\", side = \"bottom\", start = 15 }\n\
-                b = { board = \"arm\", panel = \"mat\", side = \"left\" }\nlength = 1\n";
-    let error = read(&format!("{GOOD}{more}")).unwrap_err();
-    let why = "robot.toml, line 23, `seams[1].a.start`: board torso: seams[0] has taxels of this edge, too";
-    assert_eq!(error.to_string(), why);
-    let ErrorKind::Setting(setting) = error.kind() else { panic!("{error:?}") };
-    assert_eq!(setting.parameter().as_deref(), Some("seams[1].a.start"));
 }

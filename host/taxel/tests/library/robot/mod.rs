@@ -1,9 +1,6 @@
 //! A robot of several boards: its file, boards that are lost and come back, and other boards in their place.
 
 mod boards;
-mod chain;
-mod contacts_schema;
-mod crossing;
 mod file;
 mod losses;
 mod newtons;
@@ -12,5 +9,3 @@ mod one_time;
 mod orders;
 mod posture;
 mod recorded;
-mod scanning;
-mod withheld;

@@ -6,7 +6,7 @@ use crate::delays::{Delays, Link};
 use crate::timed_line::{DriftingClock, EPOCH, TimedLine};
 use std::time::Duration;
 use taxel::record::Stamp;
-use taxel::robot::{BoardTouch, RobotMoments};
+use taxel::robot::{BoardContact, RobotMoments};
 use taxel_core::garment::Rect;
 
 const SECOND: f64 = 1e6;
@@ -44,10 +44,9 @@ fn place(now: f64) -> f64 {
     1.0 + if way < 30.0 { way } else { 60.0 - way }
 }
 
-fn contact(now: f64) -> BoardTouch {
-    BoardTouch {
-        contact: Some(1),
-        begins: false,
+fn contact(now: f64) -> BoardContact {
+    BoardContact {
+        id: 1,
         panel: 0,
         total: 1000,
         peak: 100,

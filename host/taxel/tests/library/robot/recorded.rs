@@ -22,7 +22,7 @@ fn record(name: &str) -> PathBuf {
         RobotSession::open(&read, WhenFull::Wait, |number| Box::new(recorder.teller(number))).unwrap();
     while let Some(event) = session.wait(Duration::from_secs(30)) {
         if let BoardEvent::News(record) = event.what {
-            recorder.take(event.board, event.stamp.host_us, &record).unwrap();
+            recorder.take(event.board, &record).unwrap();
         }
         recorder.keep().unwrap();
     }
