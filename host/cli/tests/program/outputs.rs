@@ -162,7 +162,10 @@ fn the_standard_output_takes_what_is_a_stream() {
     assert!(page.stdout.trim_ascii_start().starts_with(b"<!"), "nothing but the page");
     let map = folder.run(&["fcm", "combine", "tactile", "tactile", "-o", "-"]);
     assert!(toml::from_str::<toml::Table>(std::str::from_utf8(&map.stdout).unwrap()).is_ok());
-    for command in [&["export", "in.mcap", "--to", "npz", "-o", "-"][..], &["record", "-o", "-"]] {
+    for command in [
+        &["export", "in.mcap", "--to", "npz", "-o", "-"][..],
+        &["record", "--source", "sim:press", "-o", "-"],
+    ] {
         folder.refused(command, "standard output");
     }
     folder.refused(&["export", "in.mcap", "--to", "png", "-o", "-"], "standard output");

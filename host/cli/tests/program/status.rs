@@ -42,7 +42,7 @@ fn what_failed_is_1() {
 fn wrong_use_is_2() {
     ends(&["nothing"], 2, "unrecognized subcommand");
     ends(&["live", "--source", "sim:tickle"], 2, "there is no script of touches \"tickle\"");
-    ends(&["live", "--source", "sum"], 2, "known are auto, usb, sim");
+    ends(&["live", "--source", "sum"], 2, "known are auto, usb[:SERIAL], sim");
     ends(&["save", "--source", "sim:idle", "--garment", "shirt"], 2, "shirt");
     ends(&["process", "a.npy", "--rate", "0"], 2, "--rate 0: it must be above 0");
     ends(&["doctor", "--source", "sim:idle", "--seconds", "0"], 2, "--seconds must be a time above 0");

@@ -61,7 +61,8 @@ fn text(bytes: &[u8]) -> Option<String> {
 fn numbers(text: &str) -> Option<usize> {
     // The first line may have begun before, and the last has not ended.
     let mut whole = text.lines();
-    (whole.next(), whole.next_back());
+    whole.next();
+    whole.next_back();
     let count = |line: &str| {
         let words = line.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';'));
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
@@ -76,7 +77,7 @@ fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at) % 3 == 0 {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);

@@ -76,7 +76,6 @@ fn of_several_boards_the_shown_one_is_named_and_a_serial_number_names_another() 
     assert!(end.error.starts_with(first), "{}", end.error);
     let end = ended(command(&here, &ports, &["doctor", "--source", "usb:B2", "--seconds", "1"]));
     assert!(end.output.starts_with("usb:/dev/ttyTAXEL1\n"), "{} {}", end.output, end.error);
-    assert_eq!(end.status, Some(0), "{}", end.error);
     assert!(end.output.contains("this is a simulated board"), "{}", end.output);
     let end = ended(command(&here, &ports, &["save", "--source", "usb:A1"]));
     let words = "usb:/dev/ttyTAXEL0 is simulated: what it has saved is gone once it ends, nothing lasts.\n";

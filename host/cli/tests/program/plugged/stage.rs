@@ -13,6 +13,9 @@ use taxel::source::{self, SourceOptions};
 /// Longest time that a command may take before it is ended: it goes on, where it should not.
 const LONGEST: Duration = Duration::from_secs(60);
 
+/// Time after which bytes that nobody reads are dropped.
+const UNREAD: Duration = Duration::from_millis(300);
+
 /// A folder of this test's own, new.
 pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugged").join(name);
@@ -109,10 +112,18 @@ pub fn board() -> String {
                 board.port.write(&buffer[..count]).unwrap();
             }
             let Ok(Some(count)) = board.port.read(&mut buffer) else { return };
-            let _ = master.write_all(&buffer[..count]);
+            pass(&mut master, &buffer[..count]);
         }
     });
     name
+}
+
+/// Passes bytes to whoever has the terminal open; drops them if nobody reads for long.
+fn pass(master: &mut TTYPort, mut bytes: &[u8]) {
+    let began = Instant::now();
+    while !bytes.is_empty() && began.elapsed() < UNREAD {
+        bytes = &bytes[master.write(bytes).unwrap_or(0)..];
+    }
 }
 
 /// Plugs in something that says these bytes again and again; returns its port.

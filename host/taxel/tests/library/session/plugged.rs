@@ -21,12 +21,15 @@ enum Behind {
     Fault(fn(String) -> SourceError),
 }
 
-/// Ports: USB id, serial number, and what is behind.
-struct Bench(Vec<((u16, u16), Option<&'static str>, Behind)>);
+/// A port: USB id, serial number, and what is behind.
+type BenchPort = ((u16, u16), Option<&'static str>, Behind);
+
+/// Ports of a machine.
+struct Bench(Vec<BenchPort>);
 
 impl Ports for Bench {
     fn list(&self) -> Vec<SerialPortInfo> {
-        let port = |(at, ((vid, pid), serial, _)): (usize, &((u16, u16), Option<&str>, Behind))| {
+        let port = |(at, ((vid, pid), serial, _)): (usize, &BenchPort)| {
             let (vid, pid, serial_number) = (*vid, *pid, serial.map(String::from));
             let usb = UsbPortInfo { vid, pid, serial_number, manufacturer: None, product: None };
             SerialPortInfo { port_name: format!("port{at}"), port_type: SerialPortType::UsbPort(usb) }
@@ -71,17 +74,13 @@ fn board() -> Behind {
     Behind::Board(rig)
 }
 
-fn open(
-    spec: &str,
-    first: bool,
-    ports: Vec<((u16, u16), Option<&'static str>, Behind)>,
-) -> taxel::Result<Source> {
+fn open(spec: &str, first: bool, ports: Vec<BenchPort>) -> taxel::Result<Source> {
     let options = SourceOptions { first, ports: SerialPorts::new(Bench(ports)), ..SourceOptions::default() };
     source::open(&spec.parse().unwrap(), &options)
 }
 
 /// Kind and sentence of the error, which comes within 3 s.
-fn fault(spec: &str, ports: Vec<((u16, u16), Option<&'static str>, Behind)>) -> (&'static str, String) {
+fn fault(spec: &str, ports: Vec<BenchPort>) -> (&'static str, String) {
     let began = Instant::now();
     let Err(error) = open(spec, false, ports) else { panic!("{spec}: it is open") };
     assert!(began.elapsed() < Duration::from_secs(3), "{error}: {:?}", began.elapsed());
