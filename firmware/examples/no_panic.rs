@@ -2,7 +2,7 @@
 //! function. Never run.
 //!
 //! All arguments of the calls come from outside, so the compiler knows nothing about them: any state, any
-//! bytes, any codes. With `--cfg control` one panic is reachable, and it must not link.
+//! bytes, any codes. In `control.rs` one panic is reachable, and it must not link.
 //! `cargo xtask test --only no-panic` builds both, as the firmware is built. To find a panic, define the
 //! function by
 //! `-Clink-arg=--defsym=a_panic_is_reachable=0` and look in the disassembly for calls of `core::panicking`.
@@ -11,8 +11,9 @@
 #![no_std]
 #![no_main]
 
+mod handler;
+
 use core::hint::black_box;
-use core::panic::PanicInfo;
 use taxel_core::acquire::{Fields, Reflex, Scan, ScanError, ScanReport};
 use taxel_core::board::{BoardInfo, Input, Part, Saved, Setup, Shipped};
 use taxel_core::boot::{Boots, Remains, Reset, panicked};
@@ -23,17 +24,6 @@ use taxel_core::gesture::{Model, TouchClassifier, TouchState};
 use taxel_core::reflex::Early;
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
-
-unsafe extern "C" {
-    /// The linker reports this name if a panic is reachable.
-    fn a_panic_is_reachable() -> !;
-}
-
-#[panic_handler]
-fn panic(_: &PanicInfo) -> ! {
-    // SAFETY: no image that links calls it.
-    unsafe { a_panic_is_reachable() }
-}
 
 /// State that a reset leaves.
 #[derive(Clone, Copy)]
@@ -132,8 +122,6 @@ pub extern "C" fn _start(given: &mut Given) {
         }
         25 => keep(board.takes_message(*now)),
         26 => step(Input::SettingsReset(given.saved)),
-        #[cfg(control)]
-        27 => keep(codes[given.count]),
         _ => {}
     }
 }

@@ -1,5 +1,5 @@
 //! The firmware image on the emulated board: five moving contacts at full speed.
-//! `cargo xtask test --only emulator`.
+//! `cargo xtask test --only emulator`; TAXEL_CAMPAIGN=1 (`cargo xtask campaign`): for 4.1 s.
 
 use crate::board::Emulated;
 use crate::images::{Images, TAXELS};
@@ -12,8 +12,6 @@ use taxel_core::wire::{Report, Request};
 
 /// Time from scan to scan, us.
 const SCAN_US: u64 = 5_120;
-/// Scans that are looked at: 4.1 s.
-const SCANS: usize = 800;
 /// The scene lasts 2.5 s: played at this rate, all five contacts move during all of them.
 const RATE: f64 = 0.42;
 /// Scans of the scene before the first touch at 0.2 s, and how often they are shown: the emulator waits for
@@ -23,10 +21,15 @@ const IDLE_ROUNDS: usize = 6;
 /// Scans from the first touch to the end of the rise.
 const RISE: usize = 35;
 
+/// Scans that are looked at: 4.1 s, else 1.3.
+fn scans() -> usize {
+    if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 800 } else { 250 }
+}
+
 /// Idle frames over and over, then the scene.
 fn codes(garment: &Garment) -> Vec<u16> {
     let script = scale_rate(&load("five").unwrap(), RATE);
-    let frames = frame_codes(&script, garment, SCAN_US, IDLE + RISE + SCANS + 50).unwrap();
+    let frames = frame_codes(&script, garment, SCAN_US, IDLE + RISE + scans() + 50).unwrap();
     let (idle, scene) = frames.split_at(IDLE * TAXELS);
     [idle.repeat(IDLE_ROUNDS), scene.to_vec()].concat()
 }
@@ -48,7 +51,7 @@ fn five_moving_contacts() {
     };
     let marks = board.look("stats");
     let (mut last, mut shown, mut contacts, mut bytes) = (first, 0, Vec::new(), BTreeMap::new());
-    while last.1 < first.1 + SCANS as u64 * SCAN_US {
+    while last.1 < first.1 + scans() as u64 * SCAN_US {
         let message = board.receive();
         if let Some(seen) = images.take(&message) {
             (last, shown) = (seen, shown + 1);

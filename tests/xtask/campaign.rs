@@ -50,6 +50,7 @@ const RUNS: &[(&str, Run, &str)] = &[
         Run::Image("scan"),
         "every code of 1,000 frames, as they are scanned; the time of a frame by settling and depth (emulated)",
     ),
+    ("emulator", Run::Image("contacts"), "five moving contacts at full speed for 4.1 s (emulated)"),
     (
         "emulator-usb",
         Run::Image("usb"),
@@ -118,6 +119,11 @@ const RUNS: &[(&str, Run, &str)] = &[
         "fit",
         Run::Library("body::fit::simulated"),
         "a garment worn up to 20 mm and 5 degrees otherwise, found by 100 touches on six bodies, 40 times each (simulated)",
+    ),
+    (
+        "meaning",
+        Run::Library("meaning::a_"),
+        "intentions: 500 variants of the pat and of the lash (simulated)",
     ),
     ("hours", Run::Library("drift::hours"), "drift: ten hours of drift, breath and noise (simulated)"),
     (

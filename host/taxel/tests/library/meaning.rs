@@ -22,9 +22,8 @@ use taxel_core::intent::{
 use taxel_core::pipeline::{Pipeline, PipelineState};
 use taxel_core::scene::Scene;
 
-const VARIANTS: u64 = 500;
-/// Least number of right answers.
-const RIGHT: usize = 490;
+/// Least share of right answers, per cent.
+const RIGHT: usize = 98;
 
 /// Reaction to a script: every intention that led, in order, and the map's reason for the last one.
 struct Course {
@@ -63,13 +62,14 @@ fn perceive(script: &Script) -> Course {
     course
 }
 
-/// Number of variants in which `wanted` leads, and nothing else.
-fn right(scene: &str, wanted: Leading) -> usize {
+/// Asserts that `wanted` leads in nearly all variants, and nothing else. `TAXEL_CAMPAIGN=1`: of 500 instead of 150.
+fn assert_right(scene: &str, wanted: Leading) {
+    let variants = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 500 } else { 150 };
     let script = scripts::load(scene).expect("built in");
     let garment = scripts::garment(&script).expect("a built-in scene has a garment");
     let layout = Layout::build(&garment, 2048, 4095).expect("it ships");
     let mut wrong = Vec::new();
-    for seed in 0..VARIANTS {
+    for seed in 0..variants {
         let course = perceive(&sim::vary(&script, Some(&layout), seed));
         let led: BTreeSet<_> = course.led.iter().map(|leading| leading.as_str()).collect();
         let fine = led.contains(wanted.as_str()) && led.iter().all(|l| *l == "none" || *l == wanted.as_str());
@@ -77,19 +77,20 @@ fn right(scene: &str, wanted: Leading) -> usize {
             wrong.push(format!("  seed {seed}: {led:?}; {}", course.reason));
         }
     }
-    println!("{scene}: {} of {VARIANTS} lead to {}", VARIANTS as usize - wrong.len(), wanted.as_str());
+    let right = variants as usize - wrong.len();
+    println!("{scene}: {right} of {variants} lead to {}", wanted.as_str());
     wrong.iter().take(12).for_each(|line| println!("{line}"));
-    VARIANTS as usize - wrong.len()
+    assert!(right * 100 >= variants as usize * RIGHT);
 }
 
 #[test]
 fn a_pat_is_kindness() {
-    assert!(right("pat", Leading::Kindness) >= RIGHT);
+    assert_right("pat", Leading::Kindness);
 }
 
 #[test]
 fn a_lash_is_an_attack() {
-    assert!(right("lash", Leading::Attack) >= RIGHT);
+    assert_right("lash", Leading::Attack);
 }
 
 #[test]
