@@ -133,6 +133,9 @@ test("who is not there is said to be away, and since when", () => {
   const gone = absence({ connected: false, heard: 1_000, lost: 1_200 }, 9_000);
   assert.deepEqual([gone.text, gone.since, gone.again], ["Disconnected", 1_200, true]);
   assert.equal(absence({ connected: false, heard: null, lost: null }, 9_000).since, null);
+  const board = { since: 700, text: "usb is gone: broken pipe; waiting for it" };
+  assert.deepEqual(absence({ ...here, board }, 2_000), { ...board, again: true });
+  assert.equal(absence({ ...here, board }, 5_000).text, "No messages from the program");
   assert.deepEqual([5_900, 130_000, 8_000_000].map(agoText), ["5 s", "2 min", "2 h"]);
 });
 

@@ -19,8 +19,10 @@ def main(source: str) -> None:
             elif isinstance(event, taxel.Intent) and event.intent["leading"] != leading:
                 leading = event.intent["leading"]
                 print(f"{event.time_us / 1e6:.3f} s: {leading}")
-            elif isinstance(event, (taxel.Lost, taxel.Back)):
-                print(event.text, file=sys.stderr)
+            elif isinstance(event, taxel.Lost):
+                print(event.why, file=sys.stderr)
+            elif isinstance(event, taxel.Back):
+                print(event.how, file=sys.stderr)
 
 
 if __name__ == "__main__":

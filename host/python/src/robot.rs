@@ -73,15 +73,14 @@ impl FactTeller {
 
 impl BoardTeller<BoardFact> for FactTeller {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
+        // How the board is, the robot says.
+        if let Event::Lost { .. } | Event::Back { .. } = event {
+            return Ok(None);
+        }
         let fact = self.teller.fact(client, event, stamp.host_ns());
         let contacts = self.contacts.as_ref().and_then(|reader| reader.contacts(client, event));
         let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event));
         Ok(Some(BoardFact { fact: self.named(fact, stamp), contacts, sense }))
-    }
-
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
-        let fact = self.teller.note(client, note, stamp.host_ns());
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), contacts: None, sense: None }))
     }
 }
 

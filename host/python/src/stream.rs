@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use taxel::body::posture::Motion;
 use taxel::client::clock::SteadyTime;
 use taxel::client::{Event, ImageNews};
+use taxel::error::SourceError;
 use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn, setting};
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::format::Micros;
@@ -44,14 +45,15 @@ enum Look {
 impl Open {
     fn look(&mut self) -> anyhow::Result<Look> {
         let now_ns = self.clock.now_us().saturating_mul(1000);
-        if !self.over
-            && let Some(event) = self.session.next_event()
-        {
+        let event = if self.over { self.session.note() } else { self.session.next_event() };
+        if let Some(Event::Other { why }) = event {
+            // Who gathers images never gathers those of two boards.
+            self.over = true;
+            return Err(taxel::Error::from(SourceError::Other(why)).into());
+        }
+        if let Some(event) = event {
             self.count(&event);
             return Ok(Look::Found(Box::new(self.teller.fact(self.session.client(), &event, now_ns))));
-        }
-        if let Some(note) = self.session.note() {
-            return Ok(Look::Found(Box::new(self.teller.note(self.session.client(), &note, now_ns))));
         }
         if self.over {
             return Ok(Look::End);

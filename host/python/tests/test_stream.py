@@ -9,6 +9,7 @@ import signal
 import socket
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -258,7 +259,7 @@ def test_a_lost_board_is_an_event_and_comes_back(recording: os.PathLike[str]) ->
     server, source = silent_board()
     thread = threading.Thread(target=relay, args=(server, parts, 2), daemon=True)
     thread.start()
-    notes: list[taxel.Log] = []
+    notes: list[taxel.Lost | taxel.Back] = []
     with server, taxel.open(source) as board:
         end = threading.Timer(20, board.close)
         end.start()
@@ -268,8 +269,55 @@ def test_a_lost_board_is_an_event_and_comes_back(recording: os.PathLike[str]) ->
             if isinstance(event, taxel.Back):
                 break
         end.cancel()
-    assert [type(note) for note in notes] == [taxel.Lost, taxel.Back]
-    assert "is gone" in notes[0].text and "is back after" in notes[1].text and notes[0].type == "log"
+    lost, back = notes
+    assert isinstance(lost, taxel.Lost) and isinstance(back, taxel.Back)
+    assert "is gone" in lost.why and "is back after" in back.how and back.after_s > 0
+    assert abs(lost.since_us / 1e6 - time.time()) < 30
+
+
+def touched(recording: os.PathLike[str]) -> tuple[list[bytes], int]:
+    """The frames of a recording's wire, and the number of those until something touches."""
+    read = taxel.read(recording)
+    wire = list(read.messages("/taxel/wire"))
+    touch = next(event for event in read if isinstance(event, taxel.Contacts) and len(event.contacts))
+    assert touch.time_us is not None
+    return [one.data for one in wire], sum(one.publish_time <= touch.time_us * 1000 for one in wire)
+
+
+def test_what_touches_a_lost_board_ends(recording: os.PathLike[str]) -> None:
+    frames, count = touched(recording)
+    server, source = silent_board()
+    thread = threading.Thread(target=relay, args=(server, (b"".join(frames[:count]), b""), 1), daemon=True)
+    thread.start()
+    present, ended = set[int](), set[int]()
+    with server, taxel.open(source) as board:
+        for event in board:
+            if isinstance(event, taxel.Contacts):
+                present = set(event.contacts["id"].tolist()) or present
+                ended |= set(event.released["id"].tolist())
+                last = event.contacts
+            if isinstance(event, taxel.Lost):
+                break
+    assert present and present <= ended and len(last) == 0
+
+
+def test_another_board_is_an_error(recording: os.PathLike[str], tmp_path: Path) -> None:
+    other = tmp_path / "other.mcap"
+    program("record", "--source", "sim:press", "--garment", "block-4x16", "--seconds", "1", "-o", str(other))
+    server, source = silent_board()
+
+    def boards() -> None:
+        for file in (recording, other):
+            wire = [one.data for one in taxel.read(file).messages("/taxel/wire")]
+            relay(server, (b"".join(wire), b""), 1)
+
+    threading.Thread(target=boards, daemon=True).start()
+    sizes: set[int] = set()
+    with server, taxel.open(source) as board, pytest.raises(taxel.BoardError, match="another board") as error:
+        for event in board:
+            if isinstance(event, taxel.Frame) and event.image is not None:
+                sizes.add(event.image.size)
+    assert str(error.value).endswith("it wears the garment block-4x16, not reference") and sizes == {2048}
 
 
 def megabytes() -> float:

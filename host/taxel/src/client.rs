@@ -22,8 +22,10 @@ pub mod clock;
 mod counts;
 mod event;
 pub mod growths;
+mod identity;
 mod known;
 mod life;
+mod ongoing;
 pub mod passed;
 mod picture;
 mod requests;
@@ -37,6 +39,7 @@ pub use again::Restored;
 pub use buses::Buses;
 pub use counts::Counts;
 pub use event::{Event, ImageNews};
+pub use identity::Identity;
 pub use known::leads;
 pub use requests::{request_name, scene_bytes};
 pub use worn::{SIMULATED, Worn, is_simulated};
@@ -44,6 +47,7 @@ pub use worn::{SIMULATED, Worn, is_simulated};
 use crate::client::growths::Growths;
 use crate::tell::words::printable;
 use life::Life;
+use ongoing::Ongoing;
 use picture::Picture;
 use std::collections::{BTreeMap, VecDeque};
 use syncs::Syncs;
@@ -66,6 +70,8 @@ const LONGEST_REPORT: usize = 8192;
 const SET_SURFACE: u8 = Request::SetSurface(&[]).number();
 /// Most ids of released contacts kept: those of 16 full lists.
 const RELEASED: usize = 1024;
+/// Most events of the host's own that wait.
+const OWN: usize = 64;
 
 /// State of one board, built from its messages.
 #[derive(Debug, Clone)]
@@ -78,6 +84,11 @@ pub struct Client {
     unheard: Vec<u8>,
     /// The last message has brought an event.
     is_heard: bool,
+    /// Events of the host's own, and one of the board that comes after them.
+    own: VecDeque<Event>,
+    next: Option<Event>,
+    /// The last event was the host's own.
+    is_own: bool,
     requests: Vec<u8>,
     /// Requests held back until the board has answered others.
     held: VecDeque<(Vec<u8>, Option<Sets>)>,
@@ -85,11 +96,17 @@ pub struct Client {
     syncs: Syncs,
     streaming: bool,
     life: Life,
+    identity: Identity,
+    /// Any other board is refused.
+    is_only: bool,
+    /// Short name of the source, and the serial number on USB that its link has now.
+    link: (String, Option<String>),
     worn: Option<Worn>,
     picture: Picture,
     raw: Vec<u16>,
     contacts: Vec<Placed>,
     growths: Growths,
+    ongoing: Ongoing,
     released: Vec<u32>,
     /// The releases belong to a frame that was reported.
     told: bool,
@@ -136,6 +153,9 @@ impl Client {
             line: Vec::new(),
             unheard: Vec::new(),
             is_heard: false,
+            own: VecDeque::new(),
+            next: None,
+            is_own: false,
             // Terminates a partial frame that the board may have received before.
             requests: vec![0],
             held: VecDeque::new(),
@@ -143,11 +163,15 @@ impl Client {
             syncs: Syncs::default(),
             streaming: false,
             life: Life::default(),
+            identity: Identity::default(),
+            is_only: false,
+            link: Default::default(),
             worn: None,
             picture: Picture::default(),
             raw: Vec::new(),
             contacts: Vec::new(),
             growths: Growths::default(),
+            ongoing: Ongoing::default(),
             released: Vec::new(),
             told: false,
             regions: Vec::new(),
@@ -197,6 +221,23 @@ impl Client {
         (handled, None)
     }
 
+    /// Handles bytes as [`Client::push_all`] does. Returns what the host itself has to say before the event that follows
+    /// it: the end of what was present, after a restart and when the link is lost.
+    pub fn next_event(&mut self, bytes: &[u8]) -> (usize, Option<Event>) {
+        let mut count = 0;
+        if self.own.is_empty() && self.next.is_none() {
+            (count, self.next) = self.push_all(bytes);
+        }
+        self.is_own = !self.own.is_empty();
+        (count, self.own.pop_front().or_else(|| self.next.take()))
+    }
+
+    /// Adds an event of the host's own; of many that nobody takes the oldest are dropped.
+    pub(crate) fn say(&mut self, event: Event) {
+        self.own.push_back(event);
+        self.own.drain(..self.own.len().saturating_sub(OWN));
+    }
+
     /// Handles the end of a message. No event, if it belongs to the next one.
     fn end(&mut self, message: Result<(), WireError>) -> Option<Event> {
         let bytes = std::mem::take(&mut self.message);
@@ -238,9 +279,14 @@ impl Client {
     fn read(&mut self, message: &[u8]) -> Result<Option<Event>, WireError> {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
         if self.counts.sequence(seq) {
-            self.begun_anew();
+            self.stepped_back();
         }
         let (number, _) = postcard::take_from_bytes::<u32>(rest).map_err(|_| WireError::Message)?;
+        if self.life.reopened && number != Report::HELLO {
+            // Another board may be at the link now: what it says belongs to nothing.
+            self.line.clear();
+            return Ok(None);
+        }
         // A report is moved with the room of the longest one, 8 KiB. Images, the most frequent, are read without.
         if number == Report::FRAME {
             let (_, frame) = decode::<(u32, Frame<'_>)>(rest)?;
@@ -261,26 +307,23 @@ impl Client {
         }
     }
 
-    /// Discards the state from before a restart of the board.
+    /// Ends what was present, and discards the state from before a restart of the board.
     fn forget(&mut self) {
-        self.picture = Picture::default();
-        self.contacts.clear();
-        self.regions.clear();
+        self.end_all();
+        // Its contacts are counted anew.
+        self.ongoing = Ongoing::default();
         self.ill.clear();
-        self.self_test = None;
-        (self.intention, self.led) = (None, None);
-        self.confidence = None;
-        self.unsure.clear();
-        (self.forms, self.boot) = (None, None);
+        (self.self_test, self.boot) = (None, None);
     }
 
     /// No event, if the report belongs to the next one.
     fn take(&mut self, report: Report<'_>) -> Option<Event> {
         Some(match report {
-            Report::Hello(hello) => self.take_hello(&hello),
+            Report::Hello(hello) => return self.take_hello(&hello),
             Report::Frame(frame) => self.take_frame(&frame),
             Report::Contacts(ref list) => self.take_contacts(list),
-            Report::Symbols(list) => {
+            Report::Symbols(mut list) => {
+                self.ongoing.symbols(&mut list);
                 self.regions = list.regions.to_vec();
                 Event::Symbols(Box::new(list))
             }
@@ -303,6 +346,7 @@ impl Client {
             }
             Report::Pressing(mut report) => {
                 report.links.iter_mut().for_each(|wrench| cleaned::name(&mut wrench.name));
+                self.ongoing.pressing(&report);
                 Event::Pressing(Box::new(report))
             }
             Report::Bounds(bounds) => {
@@ -314,11 +358,15 @@ impl Client {
                 self.surface_regions = names.collect();
                 return None;
             }
-            Report::Regions(report) => Event::Regions(Box::new(report)),
+            Report::Regions(report) => {
+                self.ongoing.regions(&report);
+                Event::Regions(Box::new(report))
+            }
             Report::Folds(report) => Event::Folds(Box::new(report)),
             Report::Shapes(report) => self.take_shapes(&report),
             Report::Reaction(mut report) => {
                 cleaned::name(&mut report.reaction.name);
+                self.ongoing.reaction(&report.reaction);
                 Event::Reaction(report)
             }
             Report::Reflex(report) => Event::Reflex(report),
@@ -386,10 +434,14 @@ impl Client {
         Event::Answer { request: answer.request, refusal }
     }
 
-    fn take_hello(&mut self, hello: &Hello<'_>) -> Event {
-        match Worn::read(hello) {
+    /// No event of a board that is refused.
+    fn take_hello(&mut self, hello: &Hello<'_>) -> Option<Event> {
+        Some(match Worn::read(hello) {
             Ok(worn) => {
-                self.greeted(&worn);
+                if !self.greeted(&worn) {
+                    self.line.clear();
+                    return None;
+                }
                 if self.worn.as_ref().is_none_or(|before| before.garment != worn.garment) {
                     self.forget();
                 }
@@ -397,7 +449,7 @@ impl Client {
                 Event::Hello
             }
             Err(why) => Event::Unusable(why),
-        }
+        })
     }
 
     fn take_frame(&mut self, frame: &Frame<'_>) -> Event {
@@ -424,8 +476,9 @@ impl Client {
         if std::mem::take(&mut self.told) {
             self.released.clear();
         }
-        let (gone, here): (Vec<_>, Vec<_>) =
+        let (gone, mut here): (Vec<_>, Vec<_>) =
             list.contacts.iter().cloned().partition(|p| p.contact.phase == Phase::Released);
+        self.ongoing.contacts(&mut here);
         self.growths.feel(&here, &gone);
         self.released.extend(gone.iter().map(|p| p.contact.id));
         // A board that sends no images never completes the list.

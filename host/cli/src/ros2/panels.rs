@@ -75,6 +75,16 @@ impl Panels {
             .filter(move |topic| (is_flat || *topic != POINTS) && (is_calibrated || *topic != WRENCH))
     }
 
+    /// Publishes that nothing presses on any panel, at the time `us`: the last wrenches of a board that is lost.
+    pub fn still(&self, node: &mut RosNode, us: u64) -> Result<()> {
+        let Some(per_newton) = self.per_newton else { return Ok(()) };
+        self.areas.iter().try_for_each(|area| {
+            let nothing = vec![0; usize::from(area.rows) * usize::from(area.columns)];
+            let message = messages::wrench(node.board(), us, area, &nothing, per_newton);
+            node.publish(&WRENCH, &topic_part(&area.name), message)
+        })
+    }
+
     /// Publishes the last image of a client, if it is due and somebody wants it. Messages have the time `us`.
     pub fn image(&mut self, node: &mut RosNode, client: &Client, us: u64, board_us: u64) -> Result<()> {
         let hz = node.number(IMAGE_HZ);

@@ -9,6 +9,7 @@ use super::services::Services;
 use anyhow::Result;
 use ros2_client::log::LogLevel;
 use serde_json::Value;
+use std::time::{Duration, Instant};
 use taxel::body::ReadBody;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json;
@@ -22,6 +23,8 @@ use taxel_core::fold::Posture;
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
 
+/// Time between two diagnostics of a lost board.
+const PERIOD: Duration = Duration::from_secs(1);
 /// Number of the request that tells the board poses.
 const MOVE_POSES: u8 = Request::MovePoses(&[]).number();
 
@@ -40,6 +43,8 @@ pub struct RosShow {
     services: Services,
     /// Messages without room that were reported.
     told_lost: u64,
+    /// Why the board is lost, and when that was told last.
+    lost: Option<(String, Instant)>,
 }
 
 impl RosShow {
@@ -68,6 +73,7 @@ impl RosShow {
             concepts: Concepts::default(),
             services: Services::open(&mut node, deaf)?,
             told_lost: 0,
+            lost: None,
             node,
         })
     }
@@ -107,6 +113,15 @@ impl RosShow {
                 self.tell_lost();
                 Ok(())
             }
+            Event::Lost { why, .. } => {
+                self.panels.still(node, us)?;
+                self.lost = Some((why.clone(), Instant::now()));
+                self.stale(client)
+            }
+            Event::Back { .. } => {
+                self.lost = None;
+                Ok(())
+            }
             Event::Answer { request, refusal } => {
                 self.services.answered(*request, refusal.as_deref());
                 if *request == Request::Posture(Posture::default()).number() {
@@ -119,6 +134,17 @@ impl RosShow {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Says that the board is lost.
+    fn stale(&mut self, client: &Client) -> Result<()> {
+        let stamp = self.stamps.now(client);
+        let us = self.us(stamp);
+        let Some((why, told)) = &mut self.lost else { return Ok(()) };
+        *told = Instant::now();
+        let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
+        let message = messages::diagnostics(self.node.board(), us, firmware, BoardState::Lost(why));
+        self.node.publish(&DIAGNOSTICS, "", message)
     }
 
     /// Reports messages for which there was no room.
@@ -134,6 +160,10 @@ impl RosShow {
 
 impl Show<anyhow::Error> for RosShow {
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+        if let Some(remark) = event.remark() {
+            eprintln!("{remark}");
+            self.node.log(LogLevel::Warn, remark);
+        }
         let stamp = self.stamps.of(client, event);
         if self.is_clock {
             self.node.publish(&CLOCK, "", messages::clock(stamp.board_us))?;
@@ -150,18 +180,6 @@ impl Show<anyhow::Error> for RosShow {
         Ok(())
     }
 
-    /// A lost board is an error of the diagnostics until it reports its health again.
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
-        let Event::Log { text, .. } = note else { return Ok(()) };
-        eprintln!("{text}");
-        self.node.log(LogLevel::Warn, text);
-        let stamp = self.stamps.now(client);
-        let us = self.us(stamp);
-        let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
-        let told = messages::diagnostics(self.node.board(), us, firmware, BoardState::Lost(text));
-        self.node.publish(&DIAGNOSTICS, "", told)
-    }
-
     fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
         if self.base.is_empty() {
             self.base = posing.base().into();
@@ -176,6 +194,9 @@ impl Show<anyhow::Error> for RosShow {
     }
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
+        if self.lost.as_ref().is_some_and(|(_, told)| told.elapsed() >= PERIOD) {
+            self.stale(client)?;
+        }
         self.services.turn(&self.node, client)?;
         self.postures.turn(client)?;
         self.concepts.turn(&self.node, client)?;

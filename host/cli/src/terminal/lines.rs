@@ -68,6 +68,10 @@ impl<W: Write> Show<anyhow::Error> for Lines<W> {
         Ok(())
     }
 
+    fn follows_another(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, _: &mut Client) -> Result<bool> {
         self.out.flush()?;
         Ok(true)

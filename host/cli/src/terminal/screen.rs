@@ -67,6 +67,10 @@ impl Show<anyhow::Error> for Screen {
         Ok(())
     }
 
+    fn follows_another(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         let mut go_on = true;
         while event::poll(Duration::ZERO)? {

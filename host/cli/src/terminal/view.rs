@@ -32,6 +32,8 @@ pub struct View {
     /// Half of the last round trip to the board.
     pub latency: Option<Duration>,
     paint: Paint,
+    /// Why the board is lost; none while it is there.
+    lost: Option<String>,
     /// Shown while paused: the client and the view at that moment.
     paused: Option<Box<(Client, View)>>,
 }
@@ -47,6 +49,7 @@ impl View {
             top: START,
             latency: None,
             paint: Paint::Colours,
+            lost: None,
             paused: None,
         }
     }
@@ -58,8 +61,11 @@ impl View {
 
     /// Handles an event.
     pub fn event(&mut self, client: &Client, event: &Event) {
-        if let Event::Frame { time, .. } = event {
-            self.rate.add(*time);
+        match event {
+            Event::Frame { time, .. } => self.rate.add(*time),
+            Event::Lost { why, .. } => self.lost = Some(why.clone()),
+            Event::Back { .. } | Event::Other { .. } => self.lost = None,
+            _ => {}
         }
         for line in self.narrator.tell(client, event) {
             self.note(line);
@@ -184,6 +190,9 @@ impl View {
                 budget.overruns
             );
         }
+        if let Some(why) = &self.lost {
+            line = format!("LOST  {why}");
+        }
         if space.height > 1 {
             buffer.set_stringn(space.x, space.y + 1, line, width, Style::new());
         }
@@ -299,6 +308,26 @@ mod tests {
         };
         assert!(heavy(&pressed) > heavy(&rest) + 10, "{pressed:#?}");
         assert!(pressed[39].contains(".:-=+o*#%@ 200 counts"), "{}", pressed[39]);
+    }
+
+    #[test]
+    fn a_lost_board_is_said_to_be_lost_and_not_drawn() {
+        let mut seat = Seat::take(Paint::Glyphs);
+        seat.until(100_000);
+        let heavy = |picture: &[String]| {
+            ['*', '#', '%', '@'].map(|glyph| picture.concat().matches(glyph).count()).iter().sum::<usize>()
+        };
+        let rest = heavy(&seat.picture());
+        seat.until(400_000);
+        assert!(heavy(&seat.picture()) > rest + 10);
+        let pressed = seat.picture().concat().matches("chest ").count();
+        seat.client.lost("usb is gone; waiting for it".into(), 5);
+        while let (_, Some(event)) = seat.client.next_event(&[]) {
+            seat.view.event(&seat.client, &event);
+        }
+        let lost = seat.picture();
+        assert!(lost[1].starts_with("LOST  usb is gone; waiting for it"), "{}", lost[1]);
+        assert!(heavy(&lost) <= rest && lost.concat().matches("chest ").count() < pressed, "{lost:#?}");
     }
 
     #[test]

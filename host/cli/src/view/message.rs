@@ -1,6 +1,6 @@
 //! Messages between the program and a page, over one WebSocket at `socket` beside the page.
 //!
-//! Text messages to a page are JSON objects with a `type`: the lines `health`, `health_map` and `budget` of
+//! Text messages to a page are JSON objects with a `type`: the lines `health`, `health_map`, `budget` and `lost` of
 //! `taxel live --json`, those of `lines.rs` beside this, and `body` and `poses` of `on_robot/lines.rs`.
 //!
 //! A binary message is an image, all numbers little-endian:

@@ -48,7 +48,14 @@ impl Recent {
     /// Keeps the bytes of an event, unless they were damaged.
     pub fn take(&mut self, client: &Client, event: &Event) {
         let key = match event {
+            Event::Other { .. } => {
+                // What is saved is of one board.
+                self.pieces.clear();
+                self.bytes.clear();
+                return;
+            }
             Event::Refused(_) => return,
+            _ if client.is_own() => return,
             Event::Hello | Event::Unusable(_) => {
                 self.greeted(client.line());
                 false

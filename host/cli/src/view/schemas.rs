@@ -8,7 +8,7 @@ use super::message::PageWish;
 use crate::folding::FoldingLine;
 use crate::on_robot::{BodyLine, PosesLine};
 use serde_json::Value;
-use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine};
+use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine, LostLine};
 use taxel::json::schema::of;
 
 /// The schema of each message, and of what a page asks, by the name of its struct.
@@ -18,6 +18,7 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("HealthLine", of::<HealthLine>()),
         ("HealthMapLine", of::<HealthMapLine>()),
         ("BudgetLine", of::<BudgetLine>()),
+        ("LostLine", of::<LostLine<'static>>()),
         ("ImageHead", of::<ImageHead>()),
         ("BodyLine", of::<BodyLine<'static>>()),
         ("PosesLine", of::<PosesLine<'static>>()),

@@ -44,6 +44,8 @@ pub struct Viewer {
     token: u32,
     /// Half of the last round trip to the board.
     latency: Option<Duration>,
+    /// Number and time of the last image.
+    last: (u32, Micros),
 }
 
 impl Viewer {
@@ -64,6 +66,7 @@ impl Viewer {
             asked: now,
             token: 0,
             latency: None,
+            last: (0, Micros(0)),
         }
     }
 
@@ -81,7 +84,12 @@ impl Viewer {
     fn show(&mut self, client: &Client, event: &Event) -> Result<()> {
         match event {
             Event::Hello => self.hello(client)?,
-            Event::Frame { time, image: ImageNews::Whole, .. } => self.frame(client, event, *time),
+            Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
+                self.last = (*frame, *time);
+                self.frame(client, event, *time);
+            }
+            Event::Lost { .. } => self.lost(client, event),
+            Event::Back { .. } | Event::Other { .. } => self.hub.forget("lost"),
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
             Event::Health(_) => self.hub.state("health", &json::message(client, event)),
             Event::HealthMap { .. } => self.hub.state("health_map", &json::message(client, event)),
@@ -114,6 +122,17 @@ impl Viewer {
         let line = text(&PageFrame { pressing, ..line });
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
+    }
+
+    /// Shows that the board is lost, and nothing of what touched it: an image of nothing follows the last one.
+    fn lost(&mut self, client: &Client, event: &Event) {
+        self.hub.state("lost", &json::message(client, event));
+        self.hub.forget_images();
+        let (frame, time) = (self.last.0, Micros(self.last.1.0 + 1));
+        let nothing = Event::Frame { frame, time, alone: true, image: ImageNews::NoBase };
+        let Some((line, layout)) = message::frame(client, &nothing).zip(client.layout()) else { return };
+        let image = vec![0; layout.taxels()].into();
+        self.hub.shot(&Shot { line: text(&line), image, time_us: time.0, total: 0 });
     }
 
     fn hello(&mut self, client: &Client) -> Result<()> {
@@ -153,9 +172,8 @@ impl Show<anyhow::Error> for Viewer {
         self.show(client, event)
     }
 
-    /// It has no bytes on the wire.
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
-        self.show(client, note)
+    fn follows_another(&self) -> bool {
+        true
     }
 
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
@@ -183,5 +201,54 @@ impl Show<anyhow::Error> for Viewer {
         self.link(client);
         self.hub.state("end", &EndLine { text: format!("{} has ended", self.label) });
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::mailbox::Parcel;
+    use super::*;
+    use serde_json::Value;
+    use taxel::source::{self, SourceOptions};
+
+    #[test]
+    fn a_lost_page_shows_no_touch() {
+        let source = source::open(&"sim:press".parse().unwrap(), &SourceOptions::default()).unwrap();
+        let hub = Arc::new(PageHub::default());
+        let (mut viewer, page) = (Viewer::new(&source, hub.clone()), hub.join().unwrap());
+        let mut session = taxel::session::Session::over(source).unwrap();
+        let shown = |page: &super::super::mailbox::Mailbox| {
+            let Some(Parcel::Image(bytes)) = page.take() else { panic!("no image") };
+            let (head, rest) =
+                bytes[4..].split_at(u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize);
+            let head: Value = serde_json::from_slice(head).unwrap();
+            (head["frame"].clone(), rest[..rest.len() / 2].iter().any(|byte| *byte > 0))
+        };
+        while session.client().contacts().is_empty() {
+            let event = session.wait().unwrap().expect("it presses");
+            viewer.event(session.client(), &event).unwrap();
+        }
+        while let Some(event) = session.wait().unwrap() {
+            viewer.event(session.client(), &event).unwrap();
+            if matches!(event, Event::Frame { .. }) {
+                break;
+            }
+        }
+        let (before, presses) = shown(&page);
+        assert!(presses && !before["contacts"].as_array().unwrap().is_empty(), "{before}");
+        session.parts().0.lost("it is gone".into(), 5);
+        while let Some(event) = session.note() {
+            viewer.event(session.client(), &event).unwrap();
+        }
+        let (frame, presses) = shown(&page);
+        assert!(!presses && frame["contacts"].as_array().unwrap().is_empty(), "{frame}");
+        assert_eq!(
+            (&frame["intent"]["leading"], frame["time_us"].as_u64()),
+            (&"none".into(), before["time_us"].as_u64().map(|us| us + 1))
+        );
+        let lines: Vec<_> = std::iter::from_fn(|| page.line_now()).collect();
+        let says =
+            |parcel: &Parcel| matches!(parcel, Parcel::Line(line) if line.contains("\"type\":\"lost\""));
+        assert!(lines.iter().any(says), "{lines:?}");
     }
 }

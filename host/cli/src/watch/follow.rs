@@ -9,6 +9,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, ImageNews, request_name};
+use taxel::error::SourceError;
 use taxel::files::calibrate::Calibration;
 use taxel::files::output::{Begun, Output};
 use taxel::learn::shapes::base::Base;
@@ -44,10 +45,18 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
         if turn == Turn::End {
             break;
         }
-        show.bytes(session.bytes());
+        patience.look(&session)?;
+        limits.look(&mut session)?;
         while let Some(event) = session.next_event() {
             tell(session.client(), &event);
             show.event(session.client(), &event)?;
+            if let Event::Other { why } = &event
+                && (save.is_some() || !show.follows_another())
+            {
+                // What is already shown or written of the other board is whole.
+                show.end(session.client())?;
+                bail!(taxel::Error::from(SourceError::Other(why.clone())));
+            }
             asked.answered(&event);
             if limits.reached(&event) || asked.refusal.is_some() {
                 break;
@@ -55,11 +64,6 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
         }
         if let Some(save) = &mut save {
             save.write(&session.bytes()[..session.taken()])?;
-        }
-        patience.look(&session)?;
-        limits.look(&mut session)?;
-        while let Some(note) = session.note() {
-            show.gap(session.client(), &note)?;
         }
         if !show.idle(session.parts().0)? || stop::asked() {
             break;

@@ -99,7 +99,7 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
                 report.reaction.value
             )]
         }
-        Event::Log { time, level, text } => {
+        Event::Log { time, level, text } | Event::Note { time, level, text } => {
             vec![format!("{} {}: {text}", seconds(*time), format!("{level:?}").to_lowercase())]
         }
         Event::Answer { request, refusal: Some(why) } => {
@@ -107,6 +107,9 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
         }
         Event::Answer { request: 2, refusal: None } => vec!["tare: done".into()],
         Event::Refused(error) => vec![format!("refused: {error}")],
+        Event::Lost { why: text, .. } => vec![format!("lost: {text}")],
+        Event::Back { how: text, .. } => vec![format!("back: {text}")],
+        Event::Other { why } => vec![format!("another board: {why}")],
         _ => Vec::new(),
     }
 }

@@ -161,13 +161,14 @@ impl RawBoard {
                 stop::check()?;
             }
             while let Some(event) = self.session.next_event() {
+                if let Event::Other { why } = event {
+                    // It is not the board whose garment and scene are to be restored.
+                    self.borrowed = false;
+                    bail!(Fault::board(why));
+                }
+                event.remark().iter().for_each(|remark| eprintln!("{remark}"));
                 if is_it(self.session.client(), &event) {
                     return Ok(());
-                }
-            }
-            while let Some(note) = self.session.note() {
-                if let Event::Log { text, .. } = note {
-                    eprintln!("{text}");
                 }
             }
             let turn = self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))?;

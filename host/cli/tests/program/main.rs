@@ -8,6 +8,7 @@ mod cli;
 mod commands;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
+mod exchanged;
 mod exports;
 mod fitted;
 mod folded;

@@ -18,13 +18,15 @@ struct Plugged {
     garment: Option<&'static str>,
     /// Number of times that something was plugged in or out: older connections are cut.
     times: u64,
+    /// Bytes that the plugged board has sent.
+    sent: usize,
 }
 
 impl Socket {
     pub fn new(garment: &'static str) -> Socket {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap().to_string();
-        let plugged = Arc::new(Mutex::new(Plugged { garment: Some(garment), times: 0 }));
+        let plugged = Arc::new(Mutex::new(Plugged { garment: Some(garment), ..Plugged::default() }));
         let known = plugged.clone();
         std::thread::spawn(move || {
             for stream in listener.incoming() {
@@ -36,7 +38,14 @@ impl Socket {
 
     pub fn plug(&self, garment: Option<&'static str>) {
         let mut plugged = self.plugged.lock().unwrap();
-        (plugged.garment, plugged.times) = (garment, plugged.times + 1);
+        *plugged = Plugged { garment, times: plugged.times + 1, sent: 0 };
+    }
+
+    /// Waits until the board that is plugged in has sent enough to be known.
+    pub fn await_client(&self) {
+        while self.plugged.lock().unwrap().sent < 50_000 {
+            std::thread::sleep(Duration::from_millis(5));
+        }
     }
 }
 
@@ -66,5 +75,7 @@ fn serve(mut stream: TcpStream, plugged: &Mutex<Plugged>) {
         if stream.write_all(&buffer[..count]).is_err() {
             return;
         }
+        let mut plugged = plugged.lock().unwrap();
+        plugged.sent += if plugged.times == times { count } else { 0 };
     }
 }

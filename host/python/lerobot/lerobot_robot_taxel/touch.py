@@ -62,6 +62,8 @@ class Touch:
         self.simulated = False
         self._felt = dict.fromkeys(INTENTIONS, 0.0)
         self._error: BaseException | None = None
+        #: Why the board is lost; None while it is there.
+        self._lost: str | None = None
         self._stream: Stream | None = None
         self._thread: threading.Thread | None = None
 
@@ -104,6 +106,10 @@ class Touch:
         if isinstance(event, taxel.Hello):
             self._panels = {one["name"]: (one["rows"], one["columns"]) for one in event.panels}
             self.simulated = event.simulated
+        if isinstance(event, taxel.Lost):
+            with self._news:
+                # Images from before are not those of the next observation.
+                self._lost, self._windows = event.why, Windows(self._windows.rows)
         if isinstance(event, taxel.Pressing):
             with self._news:
                 self._presses = {one["link"]: one for one in event.links}
@@ -111,16 +117,20 @@ class Touch:
             return
         with self._news:
             self._windows.add(event.frame, event.time_us, event.image)
-            self._frame = event
+            self._frame, self._lost = event, None
             concepts = event.intent["concepts"]
             self._felt = {name: float(concepts.get(name, 0.0)) for name in INTENTIONS}
             self._news.notify_all()
 
     def observe(self) -> Seen:
-        """All that has come since the last call. An error of the stream is raised here."""
+        """All that has come since the last call. An error of the stream is raised here, and that the board is lost: a
+        touch that nobody feels is no observation. From its first image on after it is back, there are observations
+        again."""
         with self._news:
             if self._error:
                 raise self._error
+            if self._lost:
+                raise taxel.BoardError(self._lost)
             frame = self._frame
             if frame is None or frame.image is None:
                 raise taxel.BoardError("the garment is not connected")

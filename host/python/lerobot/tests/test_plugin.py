@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import importlib.util
+import socket
+import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -141,6 +144,46 @@ def test_nothing_is_simulated_in_place_of_a_board(tmp_path: Path, monkeypatch: p
         touch.connect()
     with pytest.raises(taxel.BoardError, match="no board is plugged in"):
         _ = touch.panels
+
+
+def test_a_lost_board_is_no_touch(tmp_path: Path) -> None:
+    file = tmp_path / "press.mcap"
+    words = ["record", "--source", "sim:press", "--seconds", "2", "-o", str(file)]
+    subprocess.run([sys.executable, "-m", "taxel", *words], check=True, capture_output=True)
+    wire = b"".join(one.data for one in taxel.read(file).messages("/taxel/wire"))
+    server = socket.create_server(("127.0.0.1", 0))
+    cut, mended = threading.Event(), threading.Event()
+
+    def board() -> None:
+        for until in (cut, mended):
+            link, _ = server.accept()
+            with link:
+                link.sendall(wire)
+                until.wait(30)
+
+    threading.Thread(target=board, daemon=True).start()
+    touch = Touch(lambda: taxel.open(f"tcp:127.0.0.1:{server.getsockname()[1]}"))
+    with server, touch:
+        assert touch.observe().window.images > 0
+        cut.set()
+
+        def lost() -> bool:
+            try:
+                touch.observe()
+            except taxel.BoardError as error:
+                assert "is gone" in str(error)
+                return True
+            return False
+
+        until = time.monotonic() + 20
+        while not lost():
+            assert time.monotonic() < until, "it goes on"
+            time.sleep(0.01)
+        assert touch.waiting == 0
+        while lost():
+            assert time.monotonic() < until, "it does not come back"
+            time.sleep(0.01)
+        mended.set()
 
 
 def test_errors_of_the_stream_are_raised() -> None:

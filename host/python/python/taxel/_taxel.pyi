@@ -337,8 +337,9 @@ class SelfTest(_Timed):
     @property
     def faults(self) -> list[dict[str, Any]]: ...
 
+@final
 class Log(_Timed):
-    """A log message of the board."""
+    """A log message of the board, or a remark of the host about the link."""
 
     @property
     def level(self) -> str: ...
@@ -346,12 +347,22 @@ class Log(_Timed):
     def text(self) -> str: ...
 
 @final
-class Lost(Log):
-    """The link to the board is lost, and waited for; ``text`` says why."""
+class Lost(Event):
+    """The link to the board is lost, and waited for. What was present has ended just before."""
+
+    @property
+    def since_us(self) -> int: ...
+    @property
+    def why(self) -> str: ...
 
 @final
-class Back(Log):
-    """The board is back, and its settings are restored; ``text`` says which."""
+class Back(Event):
+    """The lost board is back, and its settings are restored; ``how`` says which."""
+
+    @property
+    def after_s(self) -> float: ...
+    @property
+    def how(self) -> str: ...
 
 @final
 class Sync(Event):

@@ -5,16 +5,6 @@ use serde_json::{Value, json};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json;
 use taxel_core::format::Micros;
-use taxel_core::wire::Level;
-
-/// What the session itself says about its link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Note {
-    /// The link is lost.
-    Lost,
-    /// It is back, and the board's settings are restored.
-    Back,
-}
 
 /// An event.
 #[derive(Clone)]
@@ -23,8 +13,6 @@ pub struct Fact {
     pub line: Value,
     /// The host's time, ns since 1970.
     pub host_ns: u64,
-    /// Set if it is the session's own.
-    pub note: Option<Note>,
     /// The image of a frame, or the codes of a scan, by taxel; none if they could not be decoded.
     pub values: Option<Vec<u16>>,
     /// The garment's panels.
@@ -34,7 +22,7 @@ pub struct Fact {
 impl Fact {
     /// A line at a time of the host, without an image.
     pub fn alone(line: Value, host_ns: u64) -> Fact {
-        Fact { line, host_ns, note: None, values: None, panels: Panels::from([]) }
+        Fact { line, host_ns, values: None, panels: Panels::from([]) }
     }
 }
 
@@ -69,16 +57,6 @@ impl Teller {
             _ => None,
         };
         let host_ns = host.map_or(now_ns, |time| time.us.saturating_mul(1000));
-        Fact { line, host_ns, note: None, values, panels: self.panels.clone() }
-    }
-
-    /// The fact of a message of the session itself.
-    pub fn note(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
-        let note = match event {
-            Event::Log { level: Level::Error, .. } => Some(Note::Lost),
-            Event::Log { level: Level::Warn, .. } => Some(Note::Back),
-            _ => None,
-        };
-        Fact { note, ..self.fact(client, event, now_ns) }
+        Fact { line, host_ns, values, panels: self.panels.clone() }
     }
 }

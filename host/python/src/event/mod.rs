@@ -21,14 +21,14 @@ use pyo3::prelude::*;
 
 /// The Python object of an event.
 pub fn object(py: Python<'_>, fact: Fact) -> PyResult<Py<PyAny>> {
-    let Fact { line, host_ns, note, values, panels } = fact;
+    let Fact { line, host_ns, values, panels } = fact;
     let kind = line["type"].as_str().unwrap_or_default().to_string();
     let event = Event::new(line, host_ns);
-    match (kind.as_str(), note) {
-        ("frame", _) => Frame::object(py, event, values, panels),
-        ("raw", _) => Raw::object(py, event, values, panels),
-        ("contacts", _) => Contacts::object(py, event),
-        (kind, note) => plain::object(py, kind, note, event),
+    match kind.as_str() {
+        "frame" => Frame::object(py, event, values, panels),
+        "raw" => Raw::object(py, event, values, panels),
+        "contacts" => Contacts::object(py, event),
+        kind => plain::object(py, kind, event),
     }
 }
 

@@ -1,20 +1,7 @@
 //! Events whose attributes are the keys of their line, and nothing else.
 
 use super::base::Event;
-use super::fact::Note;
 use pyo3::prelude::*;
-
-/// A log message of the board.
-#[pyclass(frozen, subclass, extends = Event, module = "taxel")]
-pub struct Log;
-
-/// The link to the board is lost, and waited for; `text` says why.
-#[pyclass(frozen, extends = Log, module = "taxel")]
-pub struct Lost;
-
-/// The board is back, and its settings are restored; `text` says which.
-#[pyclass(frozen, extends = Log, module = "taxel")]
-pub struct Back;
 
 /// Classes without methods of their own, by the type of their lines.
 macro_rules! classes {
@@ -25,7 +12,8 @@ macro_rules! classes {
             pub struct $name;
         )*
 
-        fn of_kind(py: Python<'_>, kind: &str, event: Event) -> PyResult<Py<PyAny>> {
+        /// The Python object of an event of this kind.
+        pub fn object(py: Python<'_>, kind: &str, event: Event) -> PyResult<Py<PyAny>> {
             let event = PyClassInitializer::from(event);
             match kind {
                 $($kind => Ok(Py::new(py, event.add_subclass($name))?.into_any()),)*
@@ -33,7 +21,8 @@ macro_rules! classes {
             }
         }
 
-        fn add_kinds(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        /// Adds the classes to the module.
+        pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
             $(module.add_class::<$name>()?;)*
             Ok(())
         }
@@ -61,29 +50,13 @@ classes! {
     "temperature" => Temperature, "Temperature of the board's converter.";
     "health_map" => HealthMap, "Faulty taxels.";
     "self_test" => SelfTest, "Faults of lines and inputs.";
+    "log" => Log, "A log message of the board, or a remark of the host about the link.";
+    "lost" => Lost, "The link to the board is lost, and waited for; `why` says why. What was present has ended just before.";
+    "back" => Back, "The lost board is back after `after_s` seconds, and its settings are restored; `how` says which.";
     "sync" => Sync, "Answer to a request for the board's time.";
     "start_of_frame" => StartOfFrame, "When a frame of the USB began.";
     "answer" => Answer, "Answer to a request: `refusal` is None if it was carried out.";
     "board" => BoardState, "How a board of a robot is: `state`, and why.";
     "robot_intent" => RobotIntent, "What touches on all boards together mean to the robot.";
     "refused" => Refused, "Bytes that are not a message.";
-}
-
-/// The Python object of an event of this kind.
-pub fn object(py: Python<'_>, kind: &str, note: Option<Note>, event: Event) -> PyResult<Py<PyAny>> {
-    let log = |event| PyClassInitializer::from(event).add_subclass(Log);
-    match (note, kind) {
-        (Some(Note::Lost), _) => Ok(Py::new(py, log(event).add_subclass(Lost))?.into_any()),
-        (Some(Note::Back), _) => Ok(Py::new(py, log(event).add_subclass(Back))?.into_any()),
-        (None, "log") => Ok(Py::new(py, log(event))?.into_any()),
-        (None, kind) => of_kind(py, kind, event),
-    }
-}
-
-/// Adds the classes to the module.
-pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Log>()?;
-    module.add_class::<Lost>()?;
-    module.add_class::<Back>()?;
-    add_kinds(module)
 }

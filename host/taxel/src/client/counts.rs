@@ -43,13 +43,12 @@ impl Counts {
         }
     }
 
-    /// Handles a message's number. Returns true if the board has restarted.
+    /// Handles a message's number. Returns true if the board has restarted, or is another one.
     pub(super) fn sequence(&mut self, seq: u32) -> bool {
         let gap = self.next.map_or(0, |next| seq.wrapping_sub(next));
         self.next = Some(seq.wrapping_add(1));
         // A gap of more than half of the numbers is a step back.
         if gap > u32::MAX / 2 {
-            self.restarts += 1;
             self.last_frame = None;
             self.lost_since_frame = 0;
             return true;
@@ -85,7 +84,7 @@ mod tests {
         assert_eq!((counts.lost, counts.thinned), (2, 1));
         assert!(counts.sequence(0));
         counts.frame(1, true);
-        assert_eq!((counts.lost, counts.thinned, counts.restarts), (2, 1, 1));
+        assert_eq!((counts.lost, counts.thinned), (2, 1));
         let mut counts = Counts::default();
         assert!(!counts.sequence(u32::MAX) && !counts.sequence(0) && !counts.sequence(1));
         assert_eq!(counts.lost, 0);

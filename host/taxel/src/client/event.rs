@@ -1,5 +1,6 @@
 //! Events from the wire.
 
+use std::time::Duration;
 use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
@@ -11,6 +12,7 @@ use taxel_core::wire::{
 
 /// An event; persistent state is found in the [`Client`](super::Client).
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Event {
     /// Garment and scene were received.
     Hello,
@@ -115,6 +117,49 @@ pub enum Event {
     },
     /// Bytes that are not a message.
     Refused(WireError),
+    /// The link to the board is lost, and waited for. What was present has ended just before: events of the host's own
+    /// say so, as the board would.
+    Lost {
+        /// The reason, a sentence.
+        why: String,
+        /// When the board was last heard, the host's time, us since 1970.
+        since_us: u64,
+    },
+    /// The lost board is back, and its settings are restored.
+    Back {
+        /// Whether it had restarted and what was set again, a sentence.
+        how: String,
+        /// How long it was lost.
+        after: Duration,
+    },
+    /// Another board answers in its place; see [`Identity`](super::Identity). Unless it is refused, all that follows is
+    /// of this one, and no setting of the other is sent to it.
+    Other {
+        /// How it differs, a sentence.
+        why: String,
+    },
+    /// A remark of the host about the link.
+    Note {
+        /// The board's time, as it was told last.
+        time: Micros,
+        /// Severity.
+        level: Level,
+        /// Text.
+        text: String,
+    },
+}
+
+impl Event {
+    /// Sentence of the host's own about the link; none of all else.
+    pub fn remark(&self) -> Option<&str> {
+        match self {
+            Event::Lost { why: text, .. }
+            | Event::Back { how: text, .. }
+            | Event::Other { why: text }
+            | Event::Note { text, .. } => Some(text),
+            _ => None,
+        }
+    }
 }
 
 /// Result of decoding an image; on failure the next key frame is requested.

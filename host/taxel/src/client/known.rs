@@ -19,17 +19,22 @@ impl Client {
         &self.counts
     }
 
+    /// True if the last event is the host's own: the board has sent nothing for it.
+    pub fn is_own(&self) -> bool {
+        self.is_own
+    }
+
     /// Bytes of the last message including its 0x00; valid right after [`Client::push`] has returned its
-    /// event.
+    /// event. None of an event of the host's own.
     pub fn line(&self) -> &[u8] {
-        &self.line
+        if self.is_own { &[] } else { &self.line }
     }
 
     /// Bytes of the messages of the last event, each with its 0x00: those before the last one that have brought no
     /// event, because they belong to it, and [`Client::line`]; valid as that is.
     pub fn lines(&self) -> impl Iterator<Item = &[u8]> {
         let before = self.unheard.split_inclusive(|byte| *byte == 0).filter(|line| line.len() > 1);
-        before.chain(std::iter::once(self.line()))
+        before.chain(std::iter::once(self.line())).filter(|_| !self.is_own)
     }
 
     /// Garment, scene and firmware; none before the first `Hello`.

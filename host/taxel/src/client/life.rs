@@ -18,8 +18,16 @@ pub(super) struct Life {
     pub started: bool,
     /// A `Hello` has come since the link was opened.
     pub met: bool,
-    /// The link was reopened, and it is not known yet whether the board has restarted.
+    /// The link was reopened, and it is not known yet which board answers and whether it has restarted.
     pub reopened: bool,
+    /// Numbers of messages have stepped back since.
+    pub stepped_back: bool,
+    /// The board has said which it is since the link was opened, and since its last restart.
+    pub is_known: bool,
+    /// How the board that answers differs from the one that is waited for.
+    pub refused: Option<String>,
+    /// What was told of it.
+    pub told_other: Option<String>,
     /// The board has probably kept running when the link was last lost.
     pub lived_on: bool,
     /// Number of `Hello`s since any other message.

@@ -82,14 +82,19 @@ impl Client {
         Ok(())
     }
 
-    /// Sends held requests in order, while the board has answers to spare and is not being restored.
+    /// Sends held requests in order, while the board has answers to spare and is not being restored. A garment waits
+    /// for the first `Hello`: the one that the board has by itself is what it is recognised by after a restart.
     pub(super) fn release(&mut self) {
         while !self.is_restoring()
-            && let Some((frame, sets)) =
-                self.held.pop_front_if(|(_, sets)| sets.is_none() || self.life.wanted.takes_more())
+            && let Some((frame, sets)) = self.held.pop_front_if(|(_, sets)| {
+                let is_early = self.worn.is_none() && sets.as_ref().is_some_and(Sets::is_garment);
+                sets.is_none() || self.life.wanted.takes_more() && !is_early
+            })
         {
             self.requests.extend(frame);
-            sets.into_iter().for_each(|sets| self.life.wanted.ask(sets));
+            let Some(sets) = sets else { continue };
+            sets.garment().iter().for_each(|garment| self.identity.learn_garment(garment));
+            self.life.wanted.ask(sets);
         }
     }
 

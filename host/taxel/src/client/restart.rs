@@ -1,7 +1,7 @@
 //! Detects that a board has restarted, and requests its settings again.
 
 use super::again::Restored;
-use super::{Client, Worn};
+use super::{Client, Event, Identity, Worn};
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Request, encode, frame_bound};
@@ -11,16 +11,30 @@ use taxel_core::wire::{Receiver, Request, encode, frame_bound};
 const LONELY: u8 = 2;
 
 impl Client {
-    /// The link was reopened. Discards a partial message, and asks the board to stream; its messages show
-    /// whether it has restarted.
+    /// Follows only the board of this identity: any other is refused, and its settings are kept for it.
+    pub fn recognise(&mut self, identity: Identity) {
+        (self.identity, self.is_only) = (identity, true);
+    }
+
+    /// Why the board that answers is refused, once: nothing that it says is taken.
+    pub fn refused(&mut self) -> Option<String> {
+        self.life.refused.take()
+    }
+
+    /// The link to a board is open: the short name of its source, and its serial number on USB if there is one.
+    pub fn linked(&mut self, label: &str, usb_serial: Option<&str>) {
+        self.link = (label.into(), usb_serial.map(String::from));
+    }
+
+    /// The link was reopened. Discards a partial message, and asks the board to stream; its `Hello` shows which board it
+    /// is and whether it has restarted, and nothing before it counts.
     pub fn reconnected(&mut self) {
         *self.receiver = Receiver::new();
         self.line.clear();
         self.requests = vec![0];
         self.syncs.restart();
-        self.picture = Default::default();
         (self.life.met, self.life.started, self.life.hellos) = (false, false, 0);
-        self.life.reopened = true;
+        (self.life.reopened, self.life.stepped_back, self.life.is_known) = (true, false, false);
         self.ask_to_start();
     }
 
@@ -68,20 +82,68 @@ impl Client {
         }
     }
 
-    /// Handles a restart shown by the message numbers: discards earlier state.
-    pub(super) fn begun_anew(&mut self) {
+    /// Handles message numbers that have stepped back: a restart, or another board.
+    pub(super) fn stepped_back(&mut self) {
+        match self.life.reopened {
+            true => self.life.stepped_back = true,
+            false => self.begun_anew(),
+        }
+    }
+
+    /// Handles a restart: discards earlier state.
+    fn begun_anew(&mut self) {
+        self.counts.restarts += 1;
         self.forget();
         self.shapes.clear();
         self.syncs.restart();
-        (self.life.started, self.life.hellos) = (false, 0);
+        (self.life.started, self.life.hellos, self.life.is_known) = (false, 0, false);
         self.set_again();
     }
 
-    /// Handles a `Hello`, before it replaces the last one.
-    pub(super) fn greeted(&mut self, now: &Worn) {
+    /// Handles another board than the one before: it gets nothing that was asked of that one, or is refused.
+    fn replaced(&mut self, how: &str) {
+        let why = format!("{} answers with another board: {how}", self.link.0);
+        if self.is_only {
+            self.life.reopened = true;
+            // Told once, not with each `Hello`.
+            if self.life.told_other.as_ref() != Some(&why) {
+                self.say(Event::Other { why: why.clone() });
+            }
+            (self.life.refused, self.life.told_other) = (Some(why.clone()), Some(why));
+            return;
+        }
+        self.forget();
+        self.shapes.clear();
+        self.syncs.restart();
+        (self.surface_regions, self.held, self.identity) = Default::default();
+        (self.health, self.budget, self.celsius) = (None, None, None);
+        let was_asked = std::mem::take(&mut self.life).reopened;
+        if !was_asked {
+            self.ask_to_start();
+        }
+        self.say(Event::Other { why });
+    }
+
+    /// Handles a `Hello`, before it replaces the last one. Returns false if the board is refused.
+    pub(super) fn greeted(&mut self, now: &Worn) -> bool {
+        let is_due = !self.life.is_known || self.identity.states_garment();
+        if let Some(how) = self.identity.differs(self.link.1.as_deref(), now).filter(|_| is_due) {
+            self.replaced(&how);
+            if self.is_only {
+                return false;
+            }
+        }
+        self.recognised(now);
+        self.identity.learn(self.link.1.as_deref(), now);
+        (self.life.is_known, self.life.told_other) = (true, None);
+        true
+    }
+
+    /// Handles the `Hello` of the board that is followed: decides what it is to be set again.
+    fn recognised(&mut self, now: &Worn) {
         self.life.met = true;
         self.life.hellos = self.life.hellos.saturating_add(1);
-        let goes_on = self.life.goes_on(now.clock);
+        let goes_on = self.life.goes_on(now.clock) && !self.life.stepped_back;
         let is_same = self.life.wanted.agrees(now)
             && self
                 .worn
@@ -98,11 +160,9 @@ impl Client {
                 self.set_again();
                 self.life.lived_on = goes_on;
             } else {
-                self.counts.restarts += 1;
                 self.begun_anew();
             }
         } else if self.life.started && !self.is_restoring() && self.life.hellos >= LONELY {
-            self.counts.restarts += 1;
             self.begun_anew();
         }
         self.told_time(now.clock);

@@ -103,11 +103,7 @@ impl Wanted {
     /// True if a board with this `Hello` may still have its settings.
     pub fn agrees(&self, worn: &Worn) -> bool {
         let body = |key| self.done.get(&key).map(|setting| setting.body.as_slice());
-        let garment =
-            body(Key::Garment).and_then(|bytes| decode::<Garment>(bytes).ok()).map(|mut garment| {
-                cleaned::garment(&mut garment);
-                garment
-            });
+        let garment = body(Key::Garment).and_then(garment);
         let scene = body(Key::Scene).and_then(|bytes| decode::<Scene>(bytes).ok()).map(|mut scene| {
             cleaned::scene(&mut scene);
             scene
@@ -224,6 +220,16 @@ impl Sets {
         Some(Sets(key, Setting { number: request.number(), frame: frame.to_vec(), feed, clears, body }))
     }
 
+    /// True for a garment.
+    pub fn is_garment(&self) -> bool {
+        self.0 == Key::Garment
+    }
+
+    /// The garment that it sets, as a `Hello` tells it; none if it sets something else.
+    pub fn garment(&self) -> Option<Garment> {
+        garment(&self.1.body).filter(|_| self.is_garment())
+    }
+
     /// True for a piece of a table.
     pub fn is_piece(&self) -> bool {
         self.0 == Key::Table
@@ -239,6 +245,13 @@ impl Setting {
         });
         Wish { number: self.number, frame: older.unwrap_or_else(|| self.frame.clone()) }
     }
+}
+
+/// Decodes a garment, as a `Hello` tells it.
+fn garment(bytes: &[u8]) -> Option<Garment> {
+    let mut garment = decode(bytes).ok()?;
+    cleaned::garment(&mut garment);
+    Some(garment)
 }
 
 /// Encodes a request as a frame of the wire; none if it is too long.

@@ -35,6 +35,9 @@ pub enum SourceError {
         /// How long it was waited for; none if it was not.
         patience: Option<Duration>,
     },
+    /// Another board answers in place of the one that was followed.
+    #[error("{0}")]
+    Other(String),
     /// The board refuses a request.
     #[error("{what}: {reason}")]
     Refused {

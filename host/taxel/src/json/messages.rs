@@ -6,11 +6,11 @@
 
 use super::contact::ContactLine;
 use super::lines::{
-    AnswerLine, BootLine, ConfidenceLine, ContactsLine, DoubtLine, FoldsLine, FormAge, FormsLine, FrameLine,
-    GestureLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, PinFaultLine,
-    RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, RegionsLine, SelfTestLine, ShapesLine,
-    StartOfFrameLine, SurfaceRegionLine, SymbolLine, SymbolsLine, SyncLine, TemperatureLine, UnsureLine,
-    UnusableLine, WordsLine,
+    AnswerLine, BackLine, BootLine, ConfidenceLine, ContactsLine, DoubtLine, FoldsLine, FormAge, FormsLine,
+    FrameLine, GestureLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine,
+    LostLine, OtherLine, PinFaultLine, RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine,
+    RegionsLine, SelfTestLine, ShapesLine, StartOfFrameLine, SurfaceRegionLine, SymbolLine, SymbolsLine,
+    SyncLine, TemperatureLine, UnsureLine, UnusableLine, WordsLine,
 };
 use super::meaning::MeaningOfTouch;
 use super::pressing;
@@ -108,7 +108,7 @@ fn of_board<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             JsonLine::HealthMap(HealthMapLine { time_us: time.0, whole: *whole, ill: ill.collect() })
         }
         Event::SelfTest(report) => JsonLine::SelfTest(self_test(report)),
-        Event::Log { time, level, text } => {
+        Event::Log { time, level, text } | Event::Note { time, level, text } => {
             JsonLine::Log(LogLine { time_us: time.0, level: self::level(*level), text })
         }
         Event::Sync(report) => JsonLine::Sync(SyncLine {
@@ -125,6 +125,9 @@ fn of_board<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             JsonLine::Answer(AnswerLine { request: request_name(*request), refusal: refusal.as_deref() })
         }
         Event::Refused(error) => JsonLine::Refused(RefusedLine { why: error.to_string() }),
+        Event::Lost { why, since_us } => JsonLine::Lost(LostLine { since_us: *since_us, why }),
+        Event::Back { how, after } => JsonLine::Back(BackLine { after_s: after.as_secs_f64(), how }),
+        Event::Other { why } => JsonLine::Other(OtherLine { why }),
         _ => return None,
     })
 }

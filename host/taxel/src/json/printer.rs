@@ -70,6 +70,10 @@ impl<W: Write, E: From<Error>> Show<E> for MessagePrinter<W> {
         Ok(writeln!(self.out, "{line}").map_err(Error::from)?)
     }
 
+    fn follows_another(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, _: &mut Client) -> Result<bool, E> {
         self.out.flush().map_err(Error::from)?;
         Ok(true)

@@ -45,11 +45,6 @@ impl Teller<MindRecord> for MindRecordTeller {
         Ok(is_news.then(|| MindRecord { record: record.unwrap_or_default(), sense }))
     }
 
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<MindRecord>> {
-        let record = self.records.note(client, note, stamp)?;
-        Ok(record.map(|record| MindRecord { record, sense: None }))
-    }
-
     fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<MindRecord>> {
         let record = self.records.asked(client, bytes, stamp)?;
         Ok(record.map(|record| MindRecord { record, sense: None }))

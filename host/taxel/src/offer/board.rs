@@ -12,7 +12,6 @@ use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
-use taxel_core::wire::Level;
 use zenoh::liveliness::LivelinessToken;
 use zenoh::pubsub::{Publisher, Subscriber};
 use zenoh::qos::{CongestionControl, Priority};
@@ -134,10 +133,10 @@ impl BoardOffer {
         self.stamp.publisher
     }
 
-    /// Publishes frames; images only if somebody listens.
-    fn publish(&mut self, bytes: &[u8]) {
+    /// Publishes the frames of an event; images only if somebody listens.
+    fn publish(&mut self, client: &Client) {
         let BoardOffer { cutter, stamp, main, images, failed, .. } = self;
-        cutter.push(bytes, |kind, frame| {
+        let mut publish = |kind, frame: &[u8]| {
             let wire = match kind {
                 PieceKind::Main => &*main,
                 PieceKind::Image => &*images,
@@ -148,7 +147,8 @@ impl BoardOffer {
             *stamp = stamp.next(kind);
             let put = wire.publisher.put(frame).attachment(stamp.to_bytes().as_slice()).wait();
             put.unwrap_or_else(|why| *failed = Some(of_zenoh(&why)));
-        });
+        };
+        client.lines().for_each(|line| cutter.push(line, &mut publish));
     }
 
     /// The board is there: says so, and what it is.
@@ -186,32 +186,16 @@ impl BoardOffer {
 }
 
 impl<E: From<Error>> Show<E> for BoardOffer {
-    fn bytes(&mut self, bytes: &[u8]) {
-        self.publish(bytes);
-    }
-
     fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
+        self.publish(client);
+        event.remark().iter().for_each(|remark| eprintln!("{remark}"));
         let done = match event {
-            Event::Hello => self.meet(client),
+            Event::Hello | Event::Back { .. } => self.meet(client),
+            Event::Lost { .. } | Event::Other { .. } => self.part(),
             Event::Health(_) => match json::line(client, event).map(|told| line(&told)) {
                 Some(told) => self.health_key.put(told).wait(),
                 None => Ok(()),
             },
-            _ => Ok(()),
-        };
-        Ok(self.done(done)?)
-    }
-
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<(), E> {
-        let done = match note {
-            Event::Log { level: Level::Error, text, .. } => {
-                eprintln!("{text}");
-                self.part()
-            }
-            Event::Log { text, .. } => {
-                eprintln!("{text}");
-                self.meet(client)
-            }
             _ => Ok(()),
         };
         Ok(self.done(done)?)

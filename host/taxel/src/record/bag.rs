@@ -8,7 +8,9 @@
 //! | `/tactile/PANEL/wrench` | geometry_msgs/WrenchStamped | normal force, N, and its moment about the first taxel, N m; if counts per newton are known |
 //! | `/tactile/links/LINK/wrench` | geometry_msgs/WrenchStamped | of a board with a body: force, N, and moment on a link; without counts per newton `wrench_counts`, in counts |
 //! | `/tf_static` | tf2_msgs/TFMessage | the frame of each panel on its link: by the body, else panels of one link side by side |
-//! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second |
+//! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second; stale once it is lost |
+//!
+//! When the board is lost, a last wrench of each panel and link is 0.
 //!
 //! The frame of a panel's messages is `tactile/PANEL`, whose parent is its link. Stamps are the host's time.
 
@@ -101,15 +103,16 @@ impl<S: Store> Ros2<S> {
             }
             Event::Pressing(report) => self.pressing(report, stamp, scale),
             Event::Health(health) => {
-                let board = client.worn().map_or("", |worn| worn.firmware.as_str());
-                let data = messages::diagnostics(
-                    "",
-                    stamp.host_us,
-                    board,
-                    BoardState::Reports(health, client.ill().len()),
-                );
-                let schema = "diagnostic_msgs/msg/DiagnosticArray";
-                vec![Sent { topic: "/diagnostics".into(), schema, text: schemas::DIAGNOSTICS, data }]
+                vec![diagnostics(client, stamp, BoardState::Reports(health, client.ill().len()))]
+            }
+            Event::Lost { why, .. } => {
+                let still = self.areas.iter().filter_map(|area| {
+                    let taxels = usize::from(area.rows) * usize::from(area.columns);
+                    Some(wrench(area, &vec![0; taxels], stamp, scale?))
+                });
+                let mut all: Vec<Sent> = still.collect();
+                all.push(diagnostics(client, stamp, BoardState::Lost(why)));
+                all
             }
             _ => return Ok(()),
         };
@@ -127,6 +130,21 @@ impl<S: Store> Ros2<S> {
         }
         Ok(())
     }
+}
+
+/// How the board is.
+fn diagnostics(client: &Client, stamp: Stamp, state: BoardState<'_>) -> Sent {
+    let board = client.worn().map_or("", |worn| worn.firmware.as_str());
+    let data = messages::diagnostics("", stamp.host_us, board, state);
+    let schema = "diagnostic_msgs/msg/DiagnosticArray";
+    Sent { topic: "/diagnostics".into(), schema, text: schemas::DIAGNOSTICS, data }
+}
+
+/// Force on a panel.
+fn wrench(area: &Area, values: &[u16], stamp: Stamp, scale: f32) -> Sent {
+    let data = messages::wrench("", stamp.host_us, area, values, scale);
+    let topic = format!("/tactile/{}/wrench", topic_part(&area.name));
+    Sent { topic, schema: "geometry_msgs/msg/WrenchStamped", text: schemas::WRENCH, data }
 }
 
 /// Image, points and force of each panel.
@@ -147,10 +165,7 @@ fn frame(client: &Client, stamp: Stamp, scale: Option<f32>, surface: Option<&Sur
             let data = pressing::points("", time, area, surface, values);
             send("points", "sensor_msgs/msg/PointCloud2", schemas::POINT_CLOUD, data);
         }
-        if let Some(scale) = scale {
-            let data = messages::wrench("", time, area, values, scale);
-            send("wrench", "geometry_msgs/msg/WrenchStamped", schemas::WRENCH, data);
-        }
+        all.extend(scale.map(|scale| wrench(area, values, stamp, scale)));
     }
     all
 }

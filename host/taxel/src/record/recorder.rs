@@ -184,7 +184,13 @@ impl Recorder {
             file.close()?;
         }
         file.put(|messages| messages.frames(client, stamp))?;
-        file.event(client, event, stamp, self.plan.origin.counts_per_newton)
+        file.event(client, event, stamp, self.plan.origin.counts_per_newton)?;
+        if matches!(event, Event::Other { .. }) && self.plan.rotate.is_some() {
+            // A file is of one board: the `Hello` of this one follows.
+            (self.standing, self.worn) = (Standing::default(), None);
+            self.next_file()?;
+        }
+        Ok(())
     }
 
     /// Continues in another file when due. It begins with a key frame, so that the file stands alone: with
@@ -202,20 +208,26 @@ impl Recorder {
         if !due {
             return Ok(());
         }
-        self.finish()?;
-        self.tally[1] = self.tally[0];
-        self.number += 1;
-        self.path = numbered(&self.plan.path, self.number);
-        (self.passed, self.key_us) = (Passed::default(), 0);
-        let (file, begun) = begin(&self.plan, &self.path)?;
-        self.begun = begun;
-        let file = self.file.insert(file);
+        self.next_file()?;
+        let Some(file) = &mut self.file else { return Ok(()) };
         if let Some(worn) = &self.worn {
             file.attach(worn, self.standing.hello(), &self.plan.origin, stamp)?;
         }
         for bytes in self.standing.frames(recording::sequence(client.lines().next().unwrap_or_default())?)? {
             file.put(|messages| messages.wire(stamp, &bytes))?;
         }
+        Ok(())
+    }
+
+    /// Completes the file, and begins another one.
+    fn next_file(&mut self) -> Result<()> {
+        self.finish()?;
+        self.tally[1] = self.tally[0];
+        self.number += 1;
+        self.path = numbered(&self.plan.path, self.number);
+        (self.passed, self.key_us) = (Passed::default(), 0);
+        let (file, begun) = begin(&self.plan, &self.path)?;
+        (self.file, self.begun) = (Some(file), begun);
         Ok(())
     }
 
@@ -279,21 +291,19 @@ fn begin(plan: &Plan, path: &Path) -> Result<(RecordingFile<File>, Vec<Begun>)> 
 
 impl<E: From<Error>> Show<E> for Recorder {
     fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
+        // Also printed to standard error: a recording may not be looked at for days.
+        if let Some(remark) = event.remark() {
+            self.shown.clear();
+            eprintln!("{remark}");
+        }
         let done = self.take(client, event);
         self.guard(done)?;
         Ok(self.answered(event)?)
     }
 
-    /// Also printed to standard error: a recording may not be looked at for days.
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<(), E> {
-        if let Event::Log { text, .. } = note {
-            self.shown.clear();
-            eprintln!("{text}");
-        }
-        let stamp = self.stamps.now(client);
-        let Some(file) = &mut self.file else { return Ok(()) };
-        let done = file.event(client, note, stamp, self.plan.origin.counts_per_newton);
-        Ok(self.guard(done)?)
+    /// In another file.
+    fn follows_another(&self) -> bool {
+        self.plan.rotate.is_some()
     }
 
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<(), E> {

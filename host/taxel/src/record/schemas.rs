@@ -11,7 +11,7 @@ macro_rules! schema {
 pub type JsonTopic = (&'static str, &'static str);
 
 /// All JSON topics.
-pub const JSON: [JsonTopic; 18] = [
+pub const JSON: [JsonTopic; 21] = [
     schema!("hello"),
     schema!("frames"),
     schema!("contacts"),
@@ -30,17 +30,21 @@ pub const JSON: [JsonTopic; 18] = [
     schema!("joints"),
     schema!("poses"),
     schema!("regions"),
+    schema!("lost"),
+    schema!("back"),
+    schema!("other"),
 ];
 
 /// The schemas as the structs give them, in the order of [`JSON`]: as programs for recordings want them, and
 /// as they are.
 #[cfg(feature = "schema")]
-pub fn derived() -> [[serde_json::Value; 2]; 18] {
+pub fn derived() -> [[serde_json::Value; 2]; 21] {
     use super::message::{FrameMessage, JointsLine, PosesLine, PostureLine};
     use crate::json::HostTimed;
     use crate::json::lines::{
-        BudgetLine, ContactsLine, GestureLine, HealthLine, HealthMapLine, HelloLine, IntentLine, LogLine,
-        PressingLine, ReactionLine, RegionsLine, SelfTestLine, SymbolsLine, TemperatureLine,
+        BackLine, BudgetLine, ContactsLine, GestureLine, HealthLine, HealthMapLine, HelloLine, IntentLine,
+        LogLine, LostLine, OtherLine, PressingLine, ReactionLine, RegionsLine, SelfTestLine, SymbolsLine,
+        TemperatureLine,
     };
     use crate::json::schema::{of, plain};
     use schemars::JsonSchema;
@@ -75,5 +79,8 @@ pub fn derived() -> [[serde_json::Value; 2]; 18] {
         timed::<JointsLine<'static>>(),
         timed::<PosesLine<'static>>(),
         timed::<RegionsLine<'static>>(),
+        timed::<LostLine<'static>>(),
+        timed::<BackLine<'static>>(),
+        timed::<OtherLine<'static>>(),
     ]
 }

@@ -123,6 +123,7 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         | Event::Contacts { time, .. }
         | Event::HealthMap { time, .. }
         | Event::Log { time, .. }
+        | Event::Note { time, .. }
         | Event::Raw { time, .. } => *time,
         Event::Symbols(list) => list.time,
         Event::Intent(report) => report.time,
@@ -145,7 +146,10 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         | Event::Shapes { .. }
         | Event::Unusable(_)
         | Event::Answer { .. }
-        | Event::Refused(_) => return None,
+        | Event::Refused(_)
+        | Event::Lost { .. }
+        | Event::Back { .. }
+        | Event::Other { .. } => return None,
     };
     Some(time.0)
 }

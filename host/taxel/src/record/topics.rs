@@ -73,7 +73,10 @@ pub fn of(event: &Event) -> Option<&'static str> {
         Event::SelfTest(_) => "self_test",
         Event::Pressing(_) => "pressing",
         Event::Regions(_) => "regions",
-        Event::Log { .. } => "log",
+        Event::Log { .. } | Event::Note { .. } => "log",
+        Event::Lost { .. } => "lost",
+        Event::Back { .. } => "back",
+        Event::Other { .. } => "other",
         _ => return None,
     })
 }

@@ -1,10 +1,9 @@
 //! A board of a robot: how it is opened and recognised, and what is asked of it first.
 
-use super::identity::Identity;
 use super::recognise::recognised;
 use crate::body::posture::Motion;
 use crate::body::{self, robot::Robot};
-use crate::client::Client;
+use crate::client::{Client, Identity};
 use crate::error::Result;
 use crate::files::calibrate::Calibration;
 use crate::session::{POSES_HZ, Posing, setting};

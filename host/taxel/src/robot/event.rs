@@ -65,11 +65,6 @@ pub trait Teller<T>: Send {
     /// Of an event, which the client already includes; none if it is not wanted.
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<T>>;
 
-    /// Of an [`Event::Log`] of the host itself: the source is lost, or is back.
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<T>> {
-        self.event(client, note, stamp)
-    }
-
     /// Of requests that are sent to the board, as bytes.
     fn asked(&mut self, _client: &Client, _bytes: &[u8], _stamp: Stamp) -> Result<Option<T>> {
         Ok(None)

@@ -2,13 +2,12 @@
 //! made of its events.
 
 use super::event::{BoardEvent, RobotEvent, Teller};
-use super::identity::Identity;
 use super::queue::{EventQueue, WhenFull};
 use super::recognise::recognised;
 use super::refused::Required;
 use crate::client::clock::SteadyTime;
-use crate::client::{Buses, Client, Event};
-use crate::error::{Error, RecordingError, Result, SourceError};
+use crate::client::{Buses, Client, Event, Identity};
+use crate::error::{Error, ErrorKind, RecordingError, Result, SourceError};
 use crate::record::{Stamp, Stamps};
 use crate::session::{PATIENCE, Returns, Session, TimeLimit, Turn};
 use crate::source::Source;
@@ -57,7 +56,6 @@ pub struct Follower<T> {
     /// Events that are queued together once all bytes are read, and whether they may be dropped.
     waiting: Vec<(RobotEvent<T>, bool)>,
     when_full: WhenFull,
-    identity: Identity,
     teller: Box<dyn Teller<T>>,
     time: SteadyTime,
     stamps: Stamps,
@@ -72,8 +70,6 @@ pub struct Follower<T> {
     limit: Option<TimeLimit>,
     /// The limit is reached.
     is_done: bool,
-    /// Why the link was lost last.
-    why: String,
 }
 
 /// Follows a board until it is over or nobody takes its events any longer. `time` is that of all boards,
@@ -92,7 +88,6 @@ pub fn follow<T>(
         queue,
         waiting: Vec::new(),
         when_full,
-        identity,
         teller,
         time,
         stamps: Stamps::by(time),
@@ -104,10 +99,9 @@ pub fn follow<T>(
         gather,
         limit: limit.map(TimeLimit::of),
         is_done: false,
-        why: String::new(),
     };
-    let ended = match follower.open(open, waits) {
-        Ok(Some(source)) => follower.run(source, begin, asks, buses),
+    let ended = match follower.open(open, waits, &identity) {
+        Ok(Some(source)) => follower.run(source, identity, begin, asks, buses),
         Ok(None) => return,
         Err(error) => Err(error),
     };
@@ -120,17 +114,21 @@ pub fn follow<T>(
 
 impl<T> Follower<T> {
     /// Waits for the board; none if nobody takes events any longer.
-    fn open(&mut self, mut open: Opener, waits: bool) -> Result<Option<Source>> {
-        let (mut pause, mut told, begun) = (TRY[0], false, Instant::now());
+    fn open(&mut self, mut open: Opener, waits: bool, identity: &Identity) -> Result<Option<Source>> {
+        let (mut pause, mut told, mut other, begun) = (TRY[0], false, None, Instant::now());
         while !self.queue.is_closed() {
-            let error = match open().and_then(|source| recognised(source, &self.identity)) {
+            let error = match open().and_then(|source| recognised(source, identity)) {
                 Ok(source) => return Ok(Some(source)),
                 Err(error) if !waits || self.limit.is_some() && begun.elapsed() > PATIENCE => {
                     return Err(error);
                 }
                 Err(error) => error,
             };
-            self.tell_other();
+            if let ErrorKind::Source(SourceError::Other(why)) = error.kind()
+                && other.as_ref() != Some(why)
+            {
+                self.tell(BoardEvent::Other { why: other.insert(why.clone()).clone() });
+            }
             if !std::mem::replace(&mut told, true) {
                 self.tell(BoardEvent::Absent { why: words::sentence(&error) });
             }
@@ -141,17 +139,24 @@ impl<T> Follower<T> {
         Ok(None)
     }
 
-    fn run(&mut self, source: Source, begin: Begin, asks: &Receiver<Ask>, buses: Buses) -> Result<()> {
+    fn run(
+        &mut self,
+        source: Source,
+        identity: Identity,
+        begin: Begin,
+        asks: &Receiver<Ask>,
+        buses: Buses,
+    ) -> Result<()> {
         self.teller.opened(&source);
         self.drops = source.real_time && self.when_full == WhenFull::DropImages;
         let returns = self.limit.as_ref().map_or(Returns::Always, |_| Returns::Within(PATIENCE));
         let mut session = Session::by(self.time, source, returns);
         session.gather(self.gather);
+        session.recognise(identity);
         session.parts().0.share(buses);
         begin(&mut session)?;
         let (client, source) = session.parts();
         self.required = if source.listens { Required::of(client) } else { Required::default() };
-        let mut gap: Option<Instant> = None;
         while !self.queue.is_closed() {
             asks.try_iter().try_for_each(|ask| ask(&mut session))?;
             let turn = session.turn::<Error>(&mut |client, bytes| self.asked(client, bytes))?;
@@ -161,13 +166,10 @@ impl<T> Follower<T> {
                 self.event(&mut session, &event)?;
             }
             self.is_done |= self.limit.as_mut().is_some_and(|limit| limit.look(&mut session));
-            while let Some(note) = session.note() {
-                if let Event::Log { text, .. } = &note {
-                    self.why.clone_from(text);
-                }
-                let (client, stamp) = (session.client(), self.stamps.now(session.client()));
-                let news = self.teller.note(client, &note, stamp)?;
-                self.pass(stamp, news, false);
+            while self.is_done
+                && let Some(note) = session.note()
+            {
+                self.news(session.client(), &note)?;
             }
             if turn == Turn::End || self.is_done {
                 self.check_met(&session)?;
@@ -179,17 +181,6 @@ impl<T> Follower<T> {
             if self.is_known {
                 self.teller.idle(session.parts().0)?;
             }
-            self.tell_other();
-            match (gap, session.gap()) {
-                (None, Some(_)) => {
-                    let since =
-                        self.time.now_us().saturating_sub(session.heard().elapsed().as_micros() as u64);
-                    self.tell(BoardEvent::Lost { since_us: since, why: self.why.clone() });
-                }
-                (Some(began), None) => self.tell(BoardEvent::Back { after: began.elapsed() }),
-                _ => {}
-            }
-            gap = session.gap();
             self.hand_over();
         }
         Ok(())
@@ -212,15 +203,9 @@ impl<T> Follower<T> {
         if std::mem::replace(&mut self.restarts, restarts) != restarts {
             self.is_known = false;
         }
-        if *event == Event::Hello
-            && let Some(worn) = session.client().worn()
-        {
-            let checked = self.identity.check(session.source(), worn);
-            self.is_known = checked.is_ok();
-            if let Err(why) = checked {
-                self.tell_other();
-                return session.reject(SourceError::NoBoard(why).into());
-            }
+        // That of another board does not come.
+        if *event == Event::Hello {
+            self.is_known = true;
             if !std::mem::replace(&mut self.is_met, true) {
                 self.tell(BoardEvent::Met);
             }
@@ -230,10 +215,24 @@ impl<T> Follower<T> {
             let why = format!("{}: {why}", session.source().label);
             return session.reject(SourceError::Foreign(why).into());
         }
+        if let Event::Other { why } = event {
+            // It is refused: nothing is shown or recorded of it.
+            self.tell(BoardEvent::Other { why: why.clone() });
+            return Ok(());
+        }
+        if self.is_known || session.client().is_own() {
+            self.news(session.client(), event)?;
+        }
+        match event {
+            Event::Lost { why, since_us } => {
+                self.tell(BoardEvent::Lost { since_us: *since_us, why: why.clone() })
+            }
+            Event::Back { after, .. } => self.tell(BoardEvent::Back { after: *after }),
+            _ => {}
+        }
         if !self.is_known {
             return Ok(());
         }
-        self.news(session.client(), event)?;
         self.is_done = self.limit.as_mut().is_some_and(|limit| limit.take(event));
         Ok(self.required.answered(&session.source().label, event)?)
     }
@@ -265,13 +264,6 @@ impl<T> Follower<T> {
     fn tell(&mut self, what: BoardEvent<T>) {
         let stamp = Stamp { board_us: 0, host_us: self.time.now_us(), uncertainty_us: Some(0) };
         self.add(stamp, what, false);
-    }
-
-    /// Adds that another board has answered, if it has.
-    fn tell_other(&mut self) {
-        if let Some(why) = self.identity.other() {
-            self.tell(BoardEvent::Other { why });
-        }
     }
 
     fn add(&mut self, stamp: Stamp, what: BoardEvent<T>, is_image: bool) {

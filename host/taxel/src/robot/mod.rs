@@ -6,7 +6,6 @@
 //! | `place.rs` | file, line, board and key of an error |
 //! | `board.rs` | [`RobotBoard`]: how a board is opened and recognised, and what is asked of it first |
 //! | `file.rs` | [`ReadRobot`]: the file and what it names, checked |
-//! | `identity.rs` | [`Identity`]: which board is which |
 //! | `recognise.rs` | recognises a board before anything is asked of it |
 //! | `event.rs` | [`RobotEvent`]: what the boards say, and how they are |
 //! | `line.rs` | how a board is, as JSON |
@@ -24,9 +23,9 @@
 //! | `open.rs` | the boards of a file, followed |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
-//! it, at the start and each time that it comes back, its serial number on USB and its garment are compared
-//! with what is known of it: another board under its name is an event ([`BoardEvent::Other`]), and nothing
-//! that it sends is passed on. A board that is lost does not hold up the others.
+//! it, at the start and each time that it comes back, it is [recognised](crate::client::Identity): another board under
+//! its name is an event ([`BoardEvent::Other`]), and nothing that it sends is passed on. A board that is lost does not
+//! hold up the others.
 
 mod board;
 mod config;
@@ -35,7 +34,6 @@ mod contact_reader;
 mod event;
 mod file;
 mod follow;
-mod identity;
 mod line;
 mod moments;
 mod open;
@@ -56,7 +54,6 @@ pub use contact_reader::ContactReader;
 pub use event::{BoardEvent, RobotEvent, Teller};
 pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener};
-pub use identity::Identity;
 pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;

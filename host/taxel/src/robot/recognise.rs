@@ -1,10 +1,9 @@
 //! Recognises a board before anything is asked of it: its bytes go nowhere until its `Hello` is the right
 //! one.
 
-use super::identity::Identity;
-use crate::client::{Client, Event};
+use crate::client::{Client, Event, Identity};
 use crate::error::{Result, SourceError};
-use crate::source::{Heard, Return, Source, Stranger};
+use crate::source::{Heard, Source, Stranger};
 use std::time::{Duration, Instant};
 use taxel_core::wire::{Request, encode, frame_bound};
 
@@ -13,24 +12,13 @@ const PATIENCE: Duration = Duration::from_secs(3);
 /// Bytes read at a time.
 const PIECE: usize = 4096;
 
-/// An open source once its board is recognised, and from then on each time that it is opened again.
-/// Simulations and recordings, which do not run in real time, are recognised by who follows them: their first
-/// bytes depend on what is asked before.
-pub fn recognised(source: Source, identity: &Identity) -> Result<Source> {
+/// Opens a source for the first time: asks for a `Hello`, and compares it. The bytes read meanwhile are read again.
+/// Simulations and recordings, which do not run in real time, are recognised by their session, as is a board that
+/// returns: their first bytes depend on what is asked before.
+pub fn recognised(mut source: Source, identity: &Identity) -> Result<Source> {
     if !source.real_time {
         return Ok(source);
     }
-    let mut source = greeted(source, identity)?;
-    let identity = identity.clone();
-    source.returns = source
-        .returns
-        .take()
-        .map(|mut open| -> Box<Return> { Box::new(move || greeted(open()?, &identity)) });
-    Ok(source)
-}
-
-/// Asks for a `Hello`, and compares it. The bytes read meanwhile are read again.
-fn greeted(mut source: Source, identity: &Identity) -> Result<Source> {
     let mut room = [0; frame_bound(8)];
     // Behind an end of the line, for what the board may have received in part.
     let mut asks = vec![0];
@@ -51,7 +39,9 @@ fn greeted(mut source: Source, identity: &Identity) -> Result<Source> {
                 _ => continue,
             }
             let Some(worn) = client.worn() else { continue };
-            identity.check(&source, worn).map_err(SourceError::NoBoard)?;
+            if let Some(how) = identity.differs(source.usb_serial.as_deref(), worn) {
+                fail!(SourceError::Other, "{} answers with another board: {how}", source.label);
+            }
             return Ok(Source { port: Box::new(Heard::new(source.port, heard)), ..source });
         }
     }

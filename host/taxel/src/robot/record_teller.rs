@@ -88,11 +88,6 @@ impl Teller<BoardRecord> for RecordTeller {
         Ok(BoardRecord { is_ready, refusal }.news())
     }
 
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<BoardRecord>> {
-        let is_ready = self.add(client, stamp, |messages| messages.event(client, note, stamp))?;
-        Ok(BoardRecord { is_ready, ..BoardRecord::default() }.news())
-    }
-
     fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<BoardRecord>> {
         let is_ready = self.add(client, stamp, |messages| messages.requests(client, bytes, stamp))?;
         Ok(BoardRecord { is_ready, ..BoardRecord::default() }.news())

@@ -111,12 +111,15 @@ pub fn wrench(board: &str, host_us: u64, area: &Area, values: &[u16], per_newton
         .finish()
 }
 
+/// Level of a status that is not renewed.
+const STALE: u8 = 3;
+
 /// State of a board, as its diagnostics tell it.
 #[derive(Debug, Clone, Copy)]
 pub enum BoardState<'a> {
     /// Its counters, and its number of faulty taxels. A warning if anything was lost or failed.
     Reports(&'a Health, usize),
-    /// Its source is lost, and why: an error.
+    /// Its source is lost, and why: stale.
     Lost(&'a str),
 }
 
@@ -140,7 +143,7 @@ pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: BoardState<
             ]);
             (u8::from(bad), if bad { "scans, messages or taxels are missing" } else { "all is well" })
         }
-        BoardState::Lost(why) => (2, why),
+        BoardState::Lost(why) => (STALE, why),
     };
     let simulated = if is_simulated(firmware) { "simulated: " } else { "" };
     let name = format!("taxel: {}", if board.is_empty() { "board" } else { board });

@@ -11,9 +11,13 @@
 //! ```
 //!
 //! A board that restarts, is unplugged or loses its connection is waited for, and all its settings are
-//! restored: garment, scene, gains and calibration, shapes, gestures, feeds, tare. The start of a gap is reported by
-//! an [`Event::Log`] of the host's own, an error, and its end by another, a warning; what else the host has to
-//! say is for information. It is an error if the board refuses a setting that it had accepted before.
+//! restored: garment, scene, gains and calibration, shapes, gestures, feeds, tare. [`Event::Lost`] begins a gap and
+//! [`Event::Back`] ends it. What was present when the board was lost ends then, by events such as the board sends: nobody
+//! knows whether it goes on. If the board has lived on and still feels a contact, this begins anew, with its id. It is an
+//! error if the board refuses a setting that it had accepted before.
+//!
+//! Another board that answers in its place is an [`Event::Other`]: the stream goes on with that one, which gets no
+//! setting of the one before, or it is refused ([`Session::recognise`]). See [`Identity`] for how boards are told apart.
 //!
 //! | file | holds |
 //! |---|---|
@@ -46,13 +50,12 @@ pub use posing::{JointPositions, POSES, POSES_HZ, Posing};
 pub use show::Show;
 
 use crate::client::clock::SteadyTime;
-use crate::client::{Client, Event, Restored, request_name};
+use crate::client::{Client, Event, Identity, Restored, request_name};
 use crate::error::{Error, Result, SourceError, UsageError};
 use crate::source::{self, Source, SourceOptions, SourceSpec, Stranger};
 use absence::Absence;
 use gather::Gather;
 use outgoing::Outgoing;
-use std::collections::VecDeque;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
@@ -87,7 +90,6 @@ pub struct Session {
     /// Start of a gap in the stream, which ends once the board's settings are restored.
     gap: Option<Instant>,
     returns: Returns,
-    notes: VecDeque<Event>,
     posing: Option<Posing>,
     gather: Gather,
     /// What was received before the first message of a board.
@@ -145,9 +147,11 @@ impl Session {
     /// times, these differ.
     pub fn by(time: SteadyTime, source: Source, returns: Returns) -> Session {
         let now = Instant::now();
+        let mut client = Client::new();
+        client.linked(&source.label, source.usb_serial.as_deref());
         Session {
             source,
-            client: Client::new(),
+            client,
             time,
             buffer: Vec::new(),
             taken: 0,
@@ -158,7 +162,6 @@ impl Session {
             absence: None,
             gap: None,
             returns,
-            notes: VecDeque::new(),
             posing: None,
             gather: Gather::default(),
             stranger: Stranger::default(),
@@ -170,6 +173,12 @@ impl Session {
     /// a round trip is measured, and if a robot's posture is told to the board.
     pub fn gather(&mut self, time: Duration) {
         self.gather.time = time;
+    }
+
+    /// Follows the board of this identity only. Another one is refused: [`Event::Other`] says so, its link is given up,
+    /// and the right one is waited for; error if the source is not waited for.
+    pub fn recognise(&mut self, identity: Identity) {
+        self.client.recognise(identity);
     }
 
     /// Tells the board its robot's posture from now on.
@@ -220,11 +229,6 @@ impl Session {
         self.gap
     }
 
-    /// When bytes were last received, or the link was opened.
-    pub fn heard(&self) -> Instant {
-        self.heard
-    }
-
     /// Gives up the link as if it were lost, for this reason: what answers is not the board that was meant.
     /// Error if the source is not waited for.
     pub fn reject(&mut self, why: Error) -> Result<()> {
@@ -241,7 +245,7 @@ impl Session {
     /// Returns an event, or nothing if none is complete within a short while (10 ms to a second, depending on
     /// the link).
     pub fn poll(&mut self) -> Result<Poll> {
-        if let Some(event) = self.next_event().or_else(|| self.note()) {
+        if let Some(event) = self.next_event() {
             return Ok(Poll::Event(event));
         }
         Ok(match self.turn::<Error>(&mut |_, _| Ok(()))? {
@@ -270,6 +274,9 @@ impl Session {
         self.taken = 0;
         if self.absence.is_some() {
             return Ok(self.come_back()?);
+        }
+        if let Some(why) = self.client.refused() {
+            return Ok(self.lose(SourceError::Other(why).into())?);
         }
         self.check_stranger()?;
         self.restored()?;
@@ -312,23 +319,27 @@ impl Session {
 
     /// Next event of the last turn.
     pub fn next_event(&mut self) -> Option<Event> {
-        let (count, event) = self.client.push_all(&self.buffer[self.taken..]);
+        let (count, event) = self.client.next_event(&self.buffer[self.taken..]);
         self.taken += count;
         let event = event?;
         if let Some(posing) = &mut self.posing {
             posing.event(&event);
         }
+        if matches!(event, Event::Other { .. }) && !self.client.is_restoring() {
+            // It is followed instead, and is on no robot that is known.
+            (self.gap, self.posing) = (None, None);
+        }
         Some(event)
     }
 
-    /// The host's own message about the stream: an [`Event::Log`].
+    /// Next event without handling further bytes: what the host itself has to say, once enough has come.
     pub fn note(&mut self) -> Option<Event> {
-        self.notes.pop_front()
+        self.client.next_event(&[]).1
     }
 
     fn say(&mut self, level: Level, text: String) {
         let time = self.client.board_time().unwrap_or(Micros(0));
-        self.notes.push_back(Event::Log { time, level, text });
+        self.client.say(Event::Note { time, level, text });
     }
 
     fn tell_time(&mut self) {
@@ -409,14 +420,16 @@ impl Session {
             Restored::Done { set, untared } => {
                 let mut names: Vec<&str> = set.iter().map(|number| request_name(*number)).collect();
                 names.dedup();
-                let gap = self.gap.take().map(|gap| gap.elapsed().as_secs_f64());
-                let life = match (gap, self.client.has_lived_on()) {
-                    (Some(gap), true) => format!("is back after {gap:.1} s, and its board kept running"),
-                    (Some(gap), false) => format!("is back after {gap:.1} s, and its board had restarted"),
-                    (None, _) => "has restarted, or missed requests".into(),
-                };
                 let untared = untared.map_or(String::new(), |why| format!("; no new tare: {why}"));
-                self.say(Level::Warn, format!("{label} {life}; set again: {}{untared}", names.join(", ")));
+                let set = format!("set again: {}{untared}", names.join(", "));
+                let Some(after) = self.gap.take().map(|gap| gap.elapsed()) else {
+                    self.say(Level::Warn, format!("{label} has restarted, or missed requests; {set}"));
+                    return Ok(());
+                };
+                let life = if self.client.has_lived_on() { "kept running" } else { "had restarted" };
+                let seconds = after.as_secs_f64();
+                let how = format!("{label} is back after {seconds:.1} s, and its board {life}; {set}");
+                self.client.say(Event::Back { how, after });
             }
         }
         Ok(())
@@ -428,9 +441,12 @@ impl Session {
         if self.source.returns.is_none() || self.returns == Returns::Never {
             return Err(Error::caused(SourceError::Gone { label, patience: None }, why));
         }
-        let text = format!("{label} is gone: {}; waiting for it", crate::tell::words::sentence(&why));
-        self.say(Level::Error, text);
         // A link that opens without bringing data does not end a gap.
+        if self.gap.is_none() {
+            let text = format!("{label} is gone: {}; waiting for it", crate::tell::words::sentence(&why));
+            let silent = u64::try_from(self.heard.elapsed().as_micros()).unwrap_or(u64::MAX);
+            self.client.lost(text, self.time.now_us().saturating_sub(silent));
+        }
         self.absence = Some(Absence::new(why, *self.gap.get_or_insert_with(Instant::now)));
         Ok(Turn::Waiting)
     }
@@ -453,6 +469,7 @@ impl Session {
         {
             self.absence = None;
             (self.source.label, self.source.port) = (again.label, again.port);
+            self.client.linked(&self.source.label, again.usb_serial.as_deref());
             self.outgoing = Outgoing::default();
             (self.heard, self.greeted, self.opened) = (Instant::now(), Instant::now(), Instant::now());
             self.client.reconnected();

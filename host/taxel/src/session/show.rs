@@ -7,15 +7,13 @@ use crate::error::{Error, Result};
 /// Receiver of a stream: shows or stores it. `E` is the error of the program that drives it; receivers of
 /// this library take any that is made from an [`Error`].
 pub trait Show<E = Error> {
-    /// Handles received bytes; their events follow in [`event`](Show::event).
-    fn bytes(&mut self, _bytes: &[u8]) {}
-
     /// Handles an event; the client already includes it.
     fn event(&mut self, client: &Client, event: &Event) -> Result<(), E>;
 
-    /// Handles an [`Event::Log`] of the host itself: the source is lost, or is back.
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<(), E> {
-        self.event(client, note)
+    /// True if it goes on with another board in place of the one that it was opened for, after an
+    /// [`Event::Other`]. Else the stream ends: what is recorded or written is of one board.
+    fn follows_another(&self) -> bool {
+        false
     }
 
     /// Called before these bytes are sent to the board.

@@ -2,6 +2,7 @@
 //! golden file.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 use taxel::client::{Client, Event};
 use taxel::json::{MessagePrinter, Replay, message};
 use taxel::record::{Stamp, json_message};
@@ -74,7 +75,7 @@ fn simulate(scene: &str, lines: &mut Lines) {
     }
 }
 
-fn pressing() -> PressingReport {
+pub fn pressing() -> PressingReport {
     let spot = SurfacePoint { link: 1, at: [-150_000, 20, 300_000], normal: [0, -16_384, 5] };
     let base = InBase { at: [1, -1, 1_000_000], normal: [16_384, 0, 0], force: [-4_000, 3, 0] };
     let landed = |id, base| Landed { id, spot, force: [-3, 4_000, 0], base };
@@ -145,6 +146,9 @@ fn others(client: &Client, lines: &mut Lines) {
         Event::SelfTest(SelfTestReport { time: TIME, findings }),
         Event::Boot(Boot { cause: BootCause::Watchdog, resets: 2, aside: Aside::Resets }),
         Event::Log { time: TIME, level: Level::Warn, text: "a \"word\"\n".into() },
+        Event::Lost { why: "usb is gone".into(), since_us: 1_700_000_000_000_000 },
+        Event::Back { how: "usb is back".into(), after: Duration::from_millis(1500) },
+        Event::Other { why: "another \"board\"".into() },
         Event::Sync(SyncReport { token: 3, received: TIME, sent: Micros(1_234_599) }),
         Event::StartOfFrame(StartOfFrame { number: 2047, noticed: TIME, late_us: 24 }),
         Event::Answer { request: 3, refusal: Some("no".into()) },

@@ -23,7 +23,7 @@ fn goes_on(viewer: &mut Session) {
     let mut frames = 0;
     wait_for(viewer, "frames", |event| {
         frames += usize::from(matches!(event, Event::Frame { .. }));
-        assert!(!matches!(event, Event::Log { text, .. } if text.contains(STRANGE)), "{event:?}");
+        assert!(!event.remark().is_some_and(|text| text.contains(STRANGE)), "{event:?}");
         frames == 100
     });
     let counts = viewer.client().counts();

@@ -122,12 +122,8 @@ impl Drop for Offered {
 fn turn(session: &mut Session, offer: &mut dyn Show<Error>, sent: &Mutex<Vec<u8>>) -> taxel::Result<()> {
     session.turn::<Error>(&mut |_, _| Ok(()))?;
     sent.lock().unwrap().extend_from_slice(session.bytes());
-    offer.bytes(session.bytes());
     while let Some(event) = session.next_event() {
         offer.event(session.client(), &event)?;
-    }
-    while let Some(note) = session.note() {
-        offer.gap(session.client(), &note)?;
     }
     offer.idle(session.parts().0).map(drop)
 }
@@ -145,12 +141,8 @@ pub fn wait_for(session: &mut Session, what: &str, mut is: impl FnMut(&Event) ->
     panic!("there was no {what}")
 }
 
-/// Waits for a log message that holds these words.
+/// Waits for a remark of the host that holds these words.
 pub fn wait_for_words(session: &mut Session, words: &str) -> String {
-    let event =
-        wait_for(session, words, |event| matches!(event, Event::Log { text, .. } if text.contains(words)));
-    match event {
-        Event::Log { text, .. } => text,
-        other => panic!("{other:?}"),
-    }
+    let holds = |event: &Event| event.remark().is_some_and(|text| text.contains(words));
+    wait_for(session, words, holds).remark().unwrap_or_default().to_string()
 }

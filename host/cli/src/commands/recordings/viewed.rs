@@ -24,18 +24,13 @@ impl ViewedRecorder<'_> {
 }
 
 impl Show<anyhow::Error> for ViewedRecorder<'_> {
-    fn bytes(&mut self, bytes: &[u8]) {
-        self.viewer.bytes(bytes);
-    }
-
     fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
         self.show(|viewer| viewer.event(client, event));
         self.recorder.event(client, event)
     }
 
-    fn gap(&mut self, client: &Client, note: &Event) -> Result<()> {
-        self.show(|viewer| viewer.gap(client, note));
-        self.recorder.gap(client, note)
+    fn follows_another(&self) -> bool {
+        Show::<anyhow::Error>::follows_another(&*self.recorder)
     }
 
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<()> {

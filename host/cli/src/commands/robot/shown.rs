@@ -48,15 +48,9 @@ impl<S: Show<anyhow::Error> + Send> Teller<BoardSense> for ShownTeller<S> {
 
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<Option<BoardSense>> {
         if let Some(show) = self.show()? {
-            client.lines().for_each(|line| show.bytes(line));
             show.event(client, event).map_err(Error::other)?;
         }
         Ok(self.mind.sense(client, event))
-    }
-
-    fn note(&mut self, client: &Client, note: &Event, _: Stamp) -> Result<Option<BoardSense>> {
-        self.show()?.map_or(Ok(()), |show| show.gap(client, note)).map_err(Error::other)?;
-        Ok(None)
     }
 
     fn asked(&mut self, client: &Client, bytes: &[u8], _: Stamp) -> Result<Option<BoardSense>> {

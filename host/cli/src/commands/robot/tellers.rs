@@ -40,6 +40,10 @@ impl JsonTeller {
 
 impl Teller<BoardNews> for JsonTeller {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<BoardNews>> {
+        // How the board is, the robot says.
+        if let Event::Lost { .. } | Event::Back { .. } = event {
+            return Ok(None);
+        }
         let mut line = self.printer.message(client, event)?;
         line["board"] = self.board.as_str().into();
         stamp.mark(&mut line);

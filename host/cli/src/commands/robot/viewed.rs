@@ -52,11 +52,6 @@ impl Teller<MindRecord> for ViewedTeller {
         self.records.event(client, event, stamp)
     }
 
-    fn note(&mut self, client: &Client, note: &Event, stamp: Stamp) -> Result<Option<MindRecord>> {
-        self.show(|viewer| viewer.gap(client, note));
-        self.records.note(client, note, stamp)
-    }
-
     fn asked(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<Option<MindRecord>> {
         self.show(|viewer| viewer.asked(client, bytes));
         self.records.asked(client, bytes, stamp)

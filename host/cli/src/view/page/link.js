@@ -45,8 +45,10 @@ export class Link {
    * @param {import("./store.js").Store} store
    */
   absence(store) {
-    const quiet = Boolean(store.recorded) || Boolean(store.states.end);
-    return absence({ ...this, quiet }, Date.now());
+    const { end, lost } = store.states;
+    const quiet = Boolean(store.recorded) || Boolean(end);
+    const board = lost && { since: lost.since_us / 1000, text: lost.why };
+    return absence({ ...this, quiet, board }, Date.now());
   }
 
   /**

@@ -158,6 +158,16 @@ export type BudgetLine = {
   time_us: number;
 };
 
+/** The link to the board is lost, and waited for. What was present has ended just before. */
+export type LostLine = {
+  /** Type of the message. */
+  type: "lost";
+  /** When the board was last heard, the host's time, us since 1970. */
+  since_us: number;
+  /** The reason, for people. */
+  why: string;
+};
+
 /** Head of a binary message. */
 export type ImageHead = {
   /** Line of the image. */

@@ -278,6 +278,7 @@ export class Store {
   /** The afterglow at the image shown. */
   glowing() {
     if (this.still) return this.still.glow;
+    if (this.states.lost) return afterglow([], this.glow);
     return this.count ? this.glowAt(this.count - 1) : this.glow;
   }
 

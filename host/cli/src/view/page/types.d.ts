@@ -8,6 +8,7 @@ import type {
   GlowLine,
   HealthLine,
   HealthMapLine,
+  LostLine,
   ImageHead,
   LinkLine,
   NoneLine,
@@ -123,6 +124,7 @@ export interface States {
   poses?: PosesLine;
   folding?: FoldingLine;
   end?: EndLine;
+  lost?: LostLine;
   player?: PlayerState;
   glow?: GlowLine & { values?: Uint16Array };
   overview?: Overview;

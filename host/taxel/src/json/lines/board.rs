@@ -231,7 +231,7 @@ pub struct PinFaultLine<'a> {
     pub fault: &'a Fault,
 }
 
-/// A log message of the board.
+/// A log message of the board, or a remark of the host about the link.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("log")))]
@@ -243,6 +243,40 @@ pub struct LogLine<'a> {
     pub level: &'static str,
     /// The message.
     pub text: &'a str,
+}
+
+/// The link to the board is lost, and waited for. What was present has ended just before.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("lost")))]
+#[serde(tag = "type", rename = "lost")]
+pub struct LostLine<'a> {
+    /// When the board was last heard, the host's time, us since 1970.
+    pub since_us: u64,
+    /// The reason, for people.
+    pub why: &'a str,
+}
+
+/// The lost board is back, and its settings are restored.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("back")))]
+#[serde(tag = "type", rename = "back")]
+pub struct BackLine<'a> {
+    /// How long it was lost, s.
+    pub after_s: f64,
+    /// Whether it had restarted and what was set again, for people.
+    pub how: &'a str,
+}
+
+/// Another board answers in place of the one before.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("other")))]
+#[serde(tag = "type", rename = "other")]
+pub struct OtherLine<'a> {
+    /// How it differs, for people.
+    pub why: &'a str,
 }
 
 /// Answer to a `Sync`.

@@ -11,8 +11,9 @@ mod regions;
 mod touch;
 
 pub use board::{
-    AnswerLine, BootLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, LogLine,
-    PinFaultLine, RefusedLine, SelfTestLine, StartOfFrameLine, SyncLine, TemperatureLine, UnusableLine,
+    AnswerLine, BackLine, BootLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel,
+    LogLine, LostLine, OtherLine, PinFaultLine, RefusedLine, SelfTestLine, StartOfFrameLine, SyncLine,
+    TemperatureLine, UnusableLine,
 };
 pub use folds::{DoubtLine, FoldsLine};
 pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
@@ -58,4 +59,7 @@ pub enum JsonLine<'a> {
     Answer(AnswerLine<'a>),
     Raw(RawLine),
     Refused(RefusedLine),
+    Lost(LostLine<'a>),
+    Back(BackLine<'a>),
+    Other(OtherLine<'a>),
 }

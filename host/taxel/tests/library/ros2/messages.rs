@@ -259,7 +259,7 @@ fn small_messages_are_as_their_definitions() {
     let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &lost);
     assert_eq!(
         [&read["status"][0]["level"], &read["status"][0]["message"]],
-        [&json!(2), &json!("usb is gone")]
+        [&json!(3), &json!("usb is gone")]
     );
     let health = Health::default();
     let simulated = messages::diagnostics("", US, SIMULATED, BoardState::Reports(&health, 0));

@@ -57,10 +57,10 @@ fn breaks(spec: &str, rig: &Mutex<Rig>) {
             }
             rig.cut();
         }
-        until(&mut session, |event| matches!(event, Event::Log { text, .. } if text.contains("is gone: ")));
+        until(&mut session, |event| matches!(event, Event::Lost { why, .. } if why.contains("is gone: ")));
         until(
             &mut session,
-            |event| matches!(event, Event::Log { text, .. } if text.contains("is back after ")),
+            |event| matches!(event, Event::Back { how, .. } if how.contains("is back after ")),
         );
         until(&mut session, |event| matches!(event, Event::Frame { .. }));
         assert_eq!(rig.lock().unwrap().scene(), &scene(), "round {round}");

@@ -1,8 +1,11 @@
 //! A board that restarts, is unplugged, or loses its connection: all settings are restored, the gap is
-//! reported, and what cannot be restored is an error.
+//! reported, what touched it ends, and what cannot be restored is an error. Another board in its place is told as
+//! another.
 
+mod ended;
 mod links;
 mod lost;
+mod other;
 mod plugged;
 mod posing;
 mod restored;

@@ -79,15 +79,12 @@ pub fn until(session: &mut Session, mut is_it: impl FnMut(&Event) -> bool) -> Ev
     }
 }
 
-/// The host's message at the end of a gap.
+/// A remark of the host that holds these words.
 #[track_caller]
 pub fn told(session: &mut Session, words: &str) -> String {
-    let event = until(
-        session,
-        |event| matches!(event, Event::Log { text, .. } if text.starts_with("rig ") && text.contains(words)),
-    );
-    let Event::Log { text, .. } = event else { unreachable!() };
-    text
+    let holds =
+        |event: &Event| event.remark().is_some_and(|text| text.starts_with("rig ") && text.contains(words));
+    until(session, holds).remark().unwrap().to_string()
 }
 
 #[test]

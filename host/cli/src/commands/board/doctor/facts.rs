@@ -40,7 +40,7 @@ pub struct Facts {
     pub self_test: Option<Result<(), String>>,
     /// Lines and inputs of a garment, and what the last self-test found of them.
     pub pins: Option<(Garment, Findings)>,
-    /// Errors that the board has logged.
+    /// Errors that the board has logged, and losses of its link.
     pub told: Vec<String>,
     /// A self-test was requested.
     pub asked: bool,
@@ -80,7 +80,10 @@ impl Show<anyhow::Error> for Facts {
             Event::Answer { request, refusal } if *request == Request::SelfTest.number() => {
                 self.self_test = Some(refusal.clone().map_or(Ok(()), Err));
             }
-            Event::Log { level: taxel_core::wire::Level::Error, text, .. } => self.told.push(text.clone()),
+            Event::Log { level: taxel_core::wire::Level::Error, text, .. }
+            | Event::Lost { why: text, .. } => {
+                self.told.push(text.clone());
+            }
             _ => {}
         }
         Ok(())

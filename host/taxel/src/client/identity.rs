@@ -1,0 +1,95 @@
+//! Which board is which.
+
+use super::{Worn, cleaned};
+use taxel_core::garment::Garment;
+
+/// Most garments that are remembered of a board.
+const GARMENTS: usize = 32;
+
+/// What a board is recognised by when it answers again: after its link was open anew, and after it has restarted.
+///
+/// - What is stated, a serial number on USB or a garment, must agree.
+/// - A serial number, where the link had one before and has one now, decides alone: the board may have been dressed
+///   otherwise meanwhile.
+/// - Else the name of its firmware must be the same, without its version, and its garment one that it has worn since it
+///   was met, or was sent: the one that it had first, to which it returns if it restarts; that of `--garment`; any that
+///   another program has dressed it with under our eyes. A garment that nobody has seen on it is another board's.
+///
+/// Nothing else is compared: scene, calibration and gains are settings, and boards on one supply have one uptime.
+#[derive(Debug, Default, Clone)]
+pub struct Identity {
+    usb_serial: Option<String>,
+    /// The stated garment.
+    garment: Option<Garment>,
+    /// Name of the firmware; none before the board was met.
+    firmware: Option<String>,
+    /// Garments that it has worn, or was sent.
+    garments: Vec<Garment>,
+}
+
+impl Identity {
+    /// A board with this serial number on USB and this garment; none: any, and learned from the board that is met
+    /// first.
+    pub fn new(usb_serial: Option<String>, garment: Option<Garment>) -> Identity {
+        // The garment of a `Hello` is cleaned, too.
+        let garment = garment.map(|mut garment| {
+            cleaned::garment(&mut garment);
+            garment
+        });
+        Identity { usb_serial, garment, ..Identity::default() }
+    }
+
+    /// True if a garment is stated, in which the board must always be.
+    pub(super) fn states_garment(&self) -> bool {
+        self.garment.is_some()
+    }
+
+    /// How a board with this serial number on USB differs; none if it is the one.
+    pub fn differs(&self, usb_serial: Option<&str>, worn: &Worn) -> Option<String> {
+        let serials = self.usb_serial.as_deref().zip(usb_serial);
+        if let Some((known, found)) = serials.filter(|(known, found)| known != found) {
+            return Some(format!("its serial number is {found}, not {known}"));
+        }
+        if let Some(stated) = &self.garment {
+            return (*stated != worn.garment).then(|| other_garment(stated, &worn.garment));
+        }
+        let known = self.firmware.as_deref().filter(|_| serials.is_none())?;
+        let found = firmware(worn);
+        if known != found {
+            return Some(format!("its firmware is {found}, not {known}"));
+        }
+        let last = self.garments.last().filter(|_| !self.garments.contains(&worn.garment))?;
+        Some(other_garment(last, &worn.garment))
+    }
+
+    /// Learns from a `Hello` of the board.
+    pub(super) fn learn(&mut self, usb_serial: Option<&str>, worn: &Worn) {
+        self.usb_serial = self.usb_serial.take().or_else(|| usb_serial.map(String::from));
+        self.firmware.get_or_insert_with(|| firmware(worn).into());
+        self.learn_garment(&worn.garment);
+    }
+
+    /// Learns that the board is sent this garment.
+    pub(super) fn learn_garment(&mut self, garment: &Garment) {
+        if let Some(at) = self.garments.iter().position(|known| known == garment) {
+            // The last one is the one that is named.
+            return self.garments[at..].rotate_left(1);
+        }
+        if self.garments.len() >= GARMENTS {
+            // The first one is what the board returns to.
+            self.garments.remove(1);
+        }
+        self.garments.push(garment.clone());
+    }
+}
+
+fn firmware(worn: &Worn) -> &str {
+    worn.firmware.split(' ').next().unwrap_or_default()
+}
+
+fn other_garment(known: &Garment, found: &Garment) -> String {
+    match known.name == found.name {
+        true => format!("its garment {} differs from the one known by this name", found.name),
+        false => format!("it wears the garment {}, not {}", found.name, known.name),
+    }
+}
