@@ -27,8 +27,8 @@ fn at_terminal(folder: &Path, ports: &str, words: &[&str], until: &str) -> (Opti
     }
     if status.is_none() {
         let _ = child.kill();
-        wait(&mut child);
     }
+    child.wait().unwrap();
     (status, String::from_utf8_lossy(&seen).into_owned(), std::fs::read_to_string(errors).unwrap())
 }
 

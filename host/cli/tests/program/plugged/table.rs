@@ -43,8 +43,11 @@ const REST: &[&str] = &[
     "body fit reference --pick 3 -o {}/body.toml",
 ];
 
-/// What is plugged in, how the boards' ports open, and what is told.
-const STATES: [(&str, &[(&str, &str)], &str); 5] = [
+/// What is plugged in, the boards with how their ports open, and what is told.
+type State = (&'static str, &'static [(&'static str, &'static str)], &'static str);
+
+/// The columns of the table.
+const STATES: [State; 5] = [
     ("none", &[], "no board is plugged in: no serial port has the USB id of a board, 1209:0001"),
     ("hung", &[("A1", "hung")], "usb:/dev/ttyTAXEL0 is silent: it sends no Hello of a taxel board in 1.5 s"),
     (
@@ -65,7 +68,7 @@ const STATES: [(&str, &[(&str, &str)], &str); 5] = [
 ];
 
 /// Runs a cell of the table. Returns its line.
-fn cell(line: &str, number: usize, (state, plugged, words): (&str, &[(&str, &str)], &str)) -> String {
+fn cell(line: &str, number: usize, (state, plugged, words): State) -> String {
     let folder = folder(&format!("{number}-{}", state.replace(' ', "-")));
     std::fs::write(
         folder.join("robot.toml"),
