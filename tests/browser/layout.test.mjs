@@ -1,0 +1,100 @@
+// Nothing on the page lies over anything else, whatever is opened: above all over the timeline and its buttons.
+
+import { execFile } from "node:child_process";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { promisify } from "node:util";
+import assert from "node:assert/strict";
+import { Chromium } from "./chromium.mjs";
+import { drawn } from "./page.fixture.mjs";
+import { View } from "./program.mjs";
+
+const SIZES = [
+  { width: 1440, height: 900 },
+  { width: 1280, height: 720 },
+];
+let folder;
+let robot;
+let recorded;
+let browser;
+
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), "taxel-layout-"));
+  const board = (name, source, garment) =>
+    `[[boards]]\nname = "${name}"\nsource = "${source}"\ngarment = "${garment}"\n`;
+  const boards = board("torso", "sim:five", "reference") + board("hand", "sim:press", "block-4x16");
+  const seam =
+    '[[seams]]\na = { board = "torso", panel = "left arm", side = "bottom" }\nb = { board = "hand", panel = "mat", side = "top" }\nlength = 16\n';
+  const [file, recording] = ["robot.toml", "five.mcap"].map((name) => join(folder, name));
+  await writeFile(file, `name = "two"\nurdf = "reference"\n${boards}${seam}`);
+  await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:five", "--seconds", "3", "-o", recording]);
+  [robot, recorded, browser] = await Promise.all([View.robot(file), View.start("--source", `replay:${recording}`), Chromium.start()]);
+});
+after(async () => {
+  await browser?.stop();
+  await Promise.all([robot?.stop(), recorded?.stop()]);
+  await rm(folder, { recursive: true });
+});
+
+/** What lies over something else, in words. */
+const covered = () =>
+  browser.value(`(() => {
+    const found = [];
+    const place = (selector) => document.querySelector(selector).getBoundingClientRect();
+    const shown = (selector) => [...document.querySelectorAll(selector)].filter((part) => part.getClientRects().length);
+    const blocks = ["header", "#boards", "#mind", ".stage", ".time", ".beside"].filter((block) => shown(block).length);
+    blocks.forEach((one, at) => blocks.slice(at + 1).forEach((other) => {
+      const [a, b] = [place(one), place(other)];
+      const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+      const down = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+      if (across > 0.5 && down > 0.5) found.push(one + " and " + other + " share " + Math.round(down) + " px");
+    }));
+    const stage = place(".stage");
+    for (const part of shown(".stage > *")) {
+      const { top, bottom } = part.getBoundingClientRect();
+      if (top < stage.top || bottom > stage.bottom + 0.5) found.push((part.id || part.className) + " leaves the stage");
+    }
+    for (const part of shown(".time :is(button, input, select, canvas)")) {
+      part.scrollIntoView({ block: "center" });
+      const { left, top, width, height } = part.getBoundingClientRect();
+      for (const [x, y] of [[0.1, 0.1], [0.5, 0.5], [0.9, 0.9]]) {
+        const seen = document.elementFromPoint(left + x * width, top + y * height);
+        if (!seen?.closest(".time")) found.push(part.id + " is under " + (seen?.id || seen?.className));
+      }
+    }
+    return found;
+  })()`);
+
+/** Looks at every view, with everything shut and with everything open. */
+async function look(name) {
+  for (const open of [false, true]) {
+    await browser.value(`document.getElementById("mind-details").open = ${open}`);
+    const isShut = 'document.getElementById("savings").hidden';
+    if ((await browser.value(isShut)) === open) await browser.value('document.getElementById("save").click()');
+    for (const view of ["panels", "surface", "body", "map", "health"]) {
+      await browser.value(`document.getElementById("tab-${view}").click()`);
+      await drawn(browser);
+      assert.deepEqual(await covered(), [], `${name}, ${view}, ${open ? "open" : "shut"}`);
+    }
+  }
+}
+
+for (const size of SIZES) {
+  const { width, height } = size;
+  test(`on ${width} x ${height} a robot that is watched shows all of its timeline`, async () => {
+    await browser.open(robot.url, size);
+    await browser.until("taxel.store.states.robot_intent?.touches.length && taxel.store.states.robot_contacts");
+    await look("live");
+  });
+
+  test(`on ${width} x ${height} so does one that is recorded`, async () => {
+    const lines = await browser.value("[taxel.store.states.robot, taxel.store.states.robot_intent]");
+    await browser.open(recorded.url, size);
+    await browser.until("taxel.store.states.overview");
+    await browser.value(`${JSON.stringify(lines)}.forEach((line) => taxel.store.line(line)), taxel.changed()`);
+    await browser.until('!document.getElementById("mind").hidden && !document.getElementById("boards").hidden');
+    await look("recorded");
+  });
+}
