@@ -163,7 +163,7 @@ fn built(python: &Path, build: Build, log: &Path) -> Result<PathBuf, String> {
     match build {
         // As all tests have it, so that cargo compiles little but the package itself.
         Build::Dev => maturin.args(["--strip", "false", "--features", "full,taxel/full,taxel-cli/full"]),
-        Build::Release => maturin.args(["--release", "--features", "full"]),
+        Build::Release => maturin.arg("--release"),
     };
     without_increments(&mut maturin);
     process::run_into(&mut maturin, log)?;

@@ -39,7 +39,8 @@ fn foreign(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String
     Ok(format!("{}: imported by CPython {}, its first image seen", shown(&wheel), aarch64::SHOWN))
 }
 
-/// Makes a source distribution, and installs it by pip in an environment of its own.
+/// Makes a source distribution, and installs it by pip in an environment of its own; then the package as README says,
+/// whose command has all features.
 fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String> {
     let source = maturin(tools, "sdist", &[], "source", log)?;
     let own = install::new_python(interpreter, &paths::target().join("xtask/source-new"), log)?;
@@ -48,7 +49,13 @@ fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String>
     // What cargo has built already of its dependencies is the same.
     process::run_into(install.env("CARGO_TARGET_DIR", paths::target()), log)?;
     interpreter::first_image(&mut Command::new(&own))?;
-    Ok(format!("{}: built and installed by pip, its first image seen", shown(&source)))
+    let folder = own.parent().and_then(Path::parent).ok_or("an environment without a folder")?;
+    for line in ["pip install --force-reinstall ./host/python", "taxel ros2 --source sim:pat --seconds 1"] {
+        let mut typed = Command::new("sh");
+        typed.args(["-c", line]).current_dir(paths::root()).env("PATH", process::path_with(folder)?);
+        process::run_into(&mut typed, log)?;
+    }
+    Ok(format!("{}: built and installed by pip, its first image seen; as README says, too", shown(&source)))
 }
 
 /// The environment with maturin and zig; its interpreter.
@@ -62,8 +69,7 @@ fn folder() -> PathBuf {
 
 fn wheel(tools: &Path, target: &str, log: &Path) -> Result<PathBuf, String> {
     process::run_into(Command::new("rustup").args(["target", "add", target]), log)?;
-    let options =
-        ["--release", "--features", "full", "--locked", "--zig", "--compatibility", PLATFORM, "--target"];
+    let options = ["--release", "--locked", "--zig", "--compatibility", PLATFORM, "--target"];
     maturin(tools, "build", &[&options[..], &[target]].concat(), target, log)
 }
 

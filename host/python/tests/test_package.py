@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import importlib.metadata
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -13,7 +14,9 @@ import pytest
 import taxel
 from conftest import program
 
-DOCS = Path(__file__).parents[3] / "docs/python.md"
+ROOT = Path(__file__).parents[3]
+DOCS = ROOT / "docs/python.md"
+READMES = [ROOT / "README.md", ROOT / "host/python/README.md"]
 MODULES = [taxel, taxel.fcm, sys.modules["taxel._recording"]]
 
 
@@ -33,6 +36,16 @@ def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = doctest.DocTestParser().get_doctest(text, {}, DOCS.name, str(DOCS), 0)
     found = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(page)
     assert found.attempted > 10 and found.failed == 0
+
+
+@pytest.mark.skipif(not DOCS.exists(), reason="outside of the repository")
+@pytest.mark.parametrize("readme", READMES, ids=lambda readme: str(readme.parent.name))
+def test_the_readme_runs(readme: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", readme.read_text(encoding="utf-8"), re.DOTALL)
+    assert blocks
+    for block in blocks:
+        exec(compile(block, str(readme), "exec"), {})
+    assert "back" in capsys.readouterr().out
 
 
 def test_the_command() -> None:

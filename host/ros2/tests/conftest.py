@@ -89,8 +89,6 @@ class Listener:
         """Calls a service."""
         client = self.node.create_client(kind, name)
         assert client.wait_for_service(timeout_sec=10), name
-        # The server finds its client a little later, and a request from before is sent again after 3 s.
-        self.rest(0.3)
         answer = client.call_async(request)
         self.spin(answer.done, 15)
         self.node.destroy_client(client)

@@ -4,7 +4,7 @@ import json
 import math
 import time
 
-from conftest import FIVE, LATCHED, NEWEST, taxel
+from conftest import FIVE, LATCHED, NEWEST, Listener, taxel
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import Image, JointState
@@ -51,6 +51,16 @@ def test_services_pass_on_what_the_board_says(listener):
         assert moon.message.startswith("the board refuses: scene: react[0].region must be")
     asked = [line["request"] for line in said(told, "answer")]
     assert {"tare", "save", "set-scene"} <= set(asked), asked
+
+
+def test_the_first_call_of_a_client_is_answered(listener):
+    """At once, while the node is still finding the client; the answer is no longer than a sentence."""
+    with taxel("--source", "sim:idle"):
+        for number in range(10):
+            first = Listener(f"first_{number}")
+            answer = first.call(SetScene, "/taxel/set_scene", SetScene.Request(scene=70_000 * "x"))
+            assert not answer.success and answer.message.endswith("x cannot be read: file name too long")
+            first.node.destroy_node()
 
 
 def test_a_refusal_is_the_boards_own(listener):

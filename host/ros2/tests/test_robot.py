@@ -102,7 +102,7 @@ def test_regions_of_the_body_say_what_json_says(listener, tmp_path):
 
 
 def test_forces_by_link_and_points_in_its_frame(listener):
-    forces = listener.hear(WrenchStamped, "/tactile/links/torso/wrench", NEWEST)
+    forces = listener.hear(WrenchStamped, "/tactile/links/torso/wrench", 10)
     points = listener.hear(PointCloud2, "/tactile/back/points", NEWEST)
     told = listener.hear(String, "/taxel/json")
     pressed = lambda: [one for one in forces.messages if one.wrench.force.x]

@@ -36,6 +36,12 @@ def complete(got):
     return many
 
 
+def resident(process):
+    """Resident memory of a process, MB."""
+    status = Path(f"/proc/{process.pid}/status").read_text()
+    return int(status.split("VmRSS:")[1].split()[0]) / 1000
+
+
 def test_all_contacts_arrive_and_say_what_json_says(listener):
     got = listener.hear(Contacts, "/taxel/contacts")
     told = listener.hear(String, "/taxel/json")
@@ -65,22 +71,26 @@ def test_nothing_is_lost_while_images_are_sent_and_another_is_slow(listener):
     images = [listener.hear(Image, f"/tactile/{panel}/image", NEWEST) for panel in PANELS]
     words = [sys.executable, Path(__file__).parent / "slow.py"]
     slow = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
-    with taxel("--source", SOURCE, "--image-hz", "50"):
+    with taxel("--source", SOURCE, "--image-hz", "50") as node:
         listener.spin(lambda: len(of_five(got)) > 100, 30)
+        before = resident(node)
+        # It confirms nothing for as long.
+        slow.send_signal(signal.SIGSTOP)
+        listener.rest(5 if LONG else 2)
+        slow.send_signal(signal.SIGCONT)
         if LONG:
-            # It confirms nothing for as long, and is then killed: the node finds out by itself.
-            slow.send_signal(signal.SIGSTOP)
-            listener.rest(5)
-            slow.send_signal(signal.SIGCONT)
+            # It is killed: the node finds out by itself.
             listener.rest(5)
             slow.kill()
         listener.spin(lambda: len(of_five(got)) == MANY, 20 + MANY / 150)
+        grown = resident(node) - before
     slow.kill()
     slowly = slow.stdout.read().split()
     assert slowly, "the slow one has heard nothing"
     complete(got)
     counts = [len(image.messages) for image in images]
     assert min(counts) > 0
+    assert grown < 64, f"{grown:.0f} MB more"
     p99 = got.table(f"{MANY} of {MANY} with {sum(counts)} images, beside a slow one that took {len(slowly)}")
     assert not REAL_TIME or p99 <= P99_MS
 

@@ -1,5 +1,6 @@
 //! Concepts on their way to the board.
 
+use super::inbox::received;
 use super::node::RosNode;
 use anyhow::Result;
 use ros2_client::Subscription;
@@ -46,10 +47,7 @@ impl Concepts {
     /// Takes what has come, and sends the newest.
     pub fn turn(&mut self, node: &RosNode, client: &mut Client) -> Result<()> {
         for (name, fed) in &mut self.0 {
-            // What cannot be read is another program's mistake.
-            while let Some((value, _)) = fed.values.take().ok().flatten() {
-                fed.newest = Some(value);
-            }
+            fed.newest = received(&fed.values).last().or(fed.newest);
             if fed.sent.elapsed() < PAUSE {
                 continue;
             }

@@ -9,6 +9,7 @@
 //! | `names.rs` | names of topics in the node's namespace |
 //! | `raw.rs` | messages as they go over the wire |
 //! | `node.rs` | the node, its publishers and subscriptions |
+//! | `inbox.rs` | what has come for it, a few at a time |
 //! | `parameters.rs` | its parameters |
 //! | `panels.rs` | images, points and forces of the panels, thinned |
 //! | `links.rs` | what presses on the robot's links |
@@ -20,6 +21,7 @@
 //! | `robot.rs` | [`RobotNode`]: the node of a robot of several boards |
 
 mod concepts;
+mod inbox;
 mod links;
 mod names;
 mod node;

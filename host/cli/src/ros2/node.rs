@@ -28,8 +28,6 @@ pub struct RosNode {
     node: Node,
     /// By whole name of the topic.
     publishers: BTreeMap<String, Publisher<Encoded>>,
-    /// Messages for which a reliable topic had no room: a subscriber has confirmed none for long.
-    pub lost: u64,
 }
 
 impl RosNode {
@@ -46,7 +44,7 @@ impl RosNode {
         // It ends with the node.
         let spin = move || drop(block_on(spinner.spin()));
         thread::Builder::new().name("ros2".into()).spawn(spin).context("a thread for ROS 2")?;
-        Ok(RosNode { place, node, publishers: BTreeMap::new(), lost: 0 })
+        Ok(RosNode { place, node, publishers: BTreeMap::new() })
     }
 
     /// Name of its board among those of a robot; empty if it is alone.
@@ -85,19 +83,22 @@ impl RosNode {
         publisher.is_some_and(|publisher| publisher.get_subscription_count(&self.node) > 0)
     }
 
-    /// Publishes a message of [`Cdr`](taxel::ros2::Cdr). Never waits: a message without room is counted.
+    /// Publishes a message of [`Cdr`](taxel::ros2::Cdr). Never waits: a publisher without room, because a subscriber
+    /// confirms nothing, is replaced by a new one, which all subscribers find.
     pub fn publish(&mut self, topic: &RosTopic, part: &str, cdr: Vec<u8>) -> Result<()> {
-        self.offer(topic, part)?;
         let name = self.name(topic, part);
-        let Some(publisher) = self.publishers.get(&name) else { return Ok(()) };
-        match publisher.publish(Encoded::new(cdr)) {
-            Ok(()) => Ok(()),
-            Err(WriteError::WouldBlock { .. }) => {
-                self.lost += 1;
-                Ok(())
-            }
-            Err(error) => Err(anyhow!("topic {name}: {error}")),
+        let mut message = Encoded::new(cdr);
+        for _ in 0..2 {
+            self.offer(topic, part)?;
+            let Some(publisher) = self.publishers.get(&name) else { break };
+            message = match publisher.publish(message) {
+                Err(WriteError::WouldBlock { data }) => data,
+                done => return done.map_err(|error| anyhow!("topic {name}: {error}")),
+            };
+            self.publishers.remove(&name);
+            self.log(LogLevel::Warn, &format!("a subscriber of {name} confirms nothing: it is offered anew"));
         }
+        Ok(())
     }
 
     /// Subscribes to a topic.
@@ -116,10 +117,12 @@ impl RosNode {
         let name = self.place.absolute(name);
         let fail = |why: String| anyhow!("service {name}: {why}");
         let whole = Name::parse(&name).map_err(|error| fail(error.to_string()))?;
-        let qos = QosProfile::publisher_default().history(History::KeepLast { depth: 10 });
         let kind = ServiceTypeName::new(package, kind);
+        // A client's call may be known before its end that takes answers, which then gets the last ones.
+        let [calls, answers] =
+            [false, true].map(|latched| profile(RosQos { reliable: true, latched, depth: 10 }));
         self.node
-            .create_server(ServiceMapping::Enhanced, &whole, &kind, qos.clone(), qos)
+            .create_server(ServiceMapping::Enhanced, &whole, &kind, calls, answers)
             .map_err(|error| fail(error.to_string()))
     }
 

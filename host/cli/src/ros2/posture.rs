@@ -1,5 +1,6 @@
 //! Joint states on their way to the board, as its posture.
 
+use super::inbox::received;
 use super::node::RosNode;
 use super::raw::JointState;
 use anyhow::Result;
@@ -51,10 +52,9 @@ impl Postures {
 
     /// Takes what has come.
     fn read(&mut self, mut each: impl FnMut(&JointState)) {
-        // What cannot be read is another program's mistake.
-        while let Some(state) = self.states.take().ok().flatten() {
-            each(&state.0);
-            self.newest = Some(state.0);
+        for state in received(&self.states) {
+            each(&state);
+            self.newest = Some(state);
         }
     }
 

@@ -41,8 +41,6 @@ pub struct RosShow {
     postures: Postures,
     concepts: Concepts,
     services: Services,
-    /// Messages without room that were reported.
-    told_lost: u64,
     /// Why the board is lost, and when that was told last.
     lost: Option<(String, Instant)>,
 }
@@ -72,7 +70,6 @@ impl RosShow {
             postures: Postures::open(&mut node)?,
             concepts: Concepts::default(),
             services: Services::open(&mut node, deaf)?,
-            told_lost: 0,
             lost: None,
             node,
         })
@@ -109,9 +106,7 @@ impl RosShow {
                 let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
                 let state = BoardState::Reports(health, client.ill().len());
                 let told = messages::diagnostics(node.board(), us, firmware, state);
-                node.publish(&DIAGNOSTICS, "", told)?;
-                self.tell_lost();
-                Ok(())
+                node.publish(&DIAGNOSTICS, "", told)
             }
             Event::Lost { why, .. } => {
                 self.panels.still(node, us)?;
@@ -145,16 +140,6 @@ impl RosShow {
         let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
         let message = messages::diagnostics(self.node.board(), us, firmware, BoardState::Lost(why));
         self.node.publish(&DIAGNOSTICS, "", message)
-    }
-
-    /// Reports messages for which there was no room.
-    fn tell_lost(&mut self) {
-        let lost = self.node.lost - self.told_lost;
-        if lost > 0 {
-            self.told_lost = self.node.lost;
-            let why = "a subscriber has confirmed nothing for long";
-            self.node.log(LogLevel::Warn, &format!("{lost} messages were not published: {why}"));
-        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What others tell the robot: values on their way to its mind, and its joints.
 
+use super::inbox::received;
 use super::node::RosNode;
 use super::posture::at;
 use super::raw::JointState;
@@ -65,14 +66,13 @@ impl RobotTold {
             }
             Err(error) => wrong = Some(format!("{topic}: {}", words::sentence(&error))),
         };
-        for (name, values) in &mut self.values {
-            // What cannot be read is another program's mistake.
-            while let Some((value, _)) = values.take().ok().flatten() {
+        for (name, values) in &self.values {
+            if let Some(value) = received(values).last() {
                 let line = ToldLine { told: [(name.clone(), value)].into(), ..ToldLine::default() };
                 tell(&line, now_us, TOLD.name);
             }
         }
-        while let Some((state, _)) = self.joints.as_mut().and_then(|joints| joints.take().ok().flatten()) {
+        for state in self.joints.iter().flat_map(received) {
             let host_us = match at(state.header.stamp, JointTime::Host) {
                 JointTime::Host(us) => us.min(now_us),
                 _ => now_us,

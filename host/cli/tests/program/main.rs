@@ -6,6 +6,7 @@ mod builds;
 mod called;
 mod cli;
 mod commands;
+mod documents;
 #[path = "../../../../core/tests/core/shape/drawn.rs"]
 mod drawn;
 mod exchanged;

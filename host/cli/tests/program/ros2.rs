@@ -1,5 +1,9 @@
 //! `taxel ros2` from outside; what it publishes is tested with ROS (`cargo xtask ros2`).
 
+mod calls;
+mod peer;
+mod quality;
+
 use super::robot::folder;
 use std::process::{Command, Output};
 

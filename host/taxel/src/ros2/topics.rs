@@ -32,8 +32,10 @@ const fn topic(name: &'static str, package: &'static str, message: &'static str,
 const EVERY: RosQos = RosQos { reliable: true, latched: false, depth: 100 };
 /// Each message counts, and the last one to a new subscriber.
 const STATE: RosQos = RosQos { reliable: true, latched: true, depth: 1 };
-/// The newest message counts, as for images of a camera.
+/// The newest message counts, as for images of a camera: of large messages that are sent again, most come late.
 const NEWEST: RosQos = RosQos { reliable: false, latched: false, depth: 5 };
+/// Each message counts for whoever controls by it: controllers ask for reliable messages, ten of them.
+const CONTROL: RosQos = RosQos { reliable: true, latched: false, depth: 10 };
 
 /// Contacts of each scan.
 pub const CONTACTS: RosTopic = topic("~/contacts", "taxel_msgs", "Contacts", EVERY);
@@ -54,17 +56,17 @@ pub const IMAGE: RosTopic = topic("tactile/PANEL/image", "sensor_msgs", "Image",
 /// Points of a panel.
 pub const POINTS: RosTopic = topic("tactile/PANEL/points", "sensor_msgs", "PointCloud2", NEWEST);
 /// Force on a panel.
-pub const WRENCH: RosTopic = topic("tactile/PANEL/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
+pub const WRENCH: RosTopic = topic("tactile/PANEL/wrench", "geometry_msgs", "WrenchStamped", CONTROL);
 /// What presses on the robot, with a body.
 pub const PRESSING: RosTopic = topic("~/pressing", "taxel_msgs", "Pressing", EVERY);
 /// What the regions of the robot's surface feel, with a body.
 pub const REGIONS: RosTopic = topic("~/regions", "taxel_msgs", "BodyRegions", EVERY);
 /// Force and moment on a link, with a body and a calibration.
 pub const LINK_WRENCH: RosTopic =
-    topic("tactile/links/LINK/wrench", "geometry_msgs", "WrenchStamped", NEWEST);
+    topic("tactile/links/LINK/wrench", "geometry_msgs", "WrenchStamped", CONTROL);
 /// The same in counts, with a body and without a calibration.
 pub const LINK_COUNTS: RosTopic =
-    topic("tactile/links/LINK/wrench_counts", "geometry_msgs", "WrenchStamped", NEWEST);
+    topic("tactile/links/LINK/wrench_counts", "geometry_msgs", "WrenchStamped", CONTROL);
 /// Frames of the panels.
 pub const FRAMES: RosTopic = topic("/tf_static", "tf2_msgs", "TFMessage", STATE);
 /// State of the board.

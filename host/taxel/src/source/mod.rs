@@ -192,7 +192,7 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::Zenoh { .. } => {
             fail!(
                 UsageError::Unknown,
-                "source {spec}: this program was built without Zenoh (feature `zenoh`)"
+                "source {spec}: this program was built without Zenoh (feature `zenoh`); docs/zenoh.md says how it is built in"
             )
         }
         SourceSpec::Emulator(scene) => emulator::open(scene, options),

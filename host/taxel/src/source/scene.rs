@@ -20,6 +20,9 @@ pub fn scene_of(script: &Script) -> Result<Scene> {
     })
 }
 
+/// Longest text of a scene, bytes. One with every key and a map of its own takes a tenth.
+const LONGEST: u64 = 64 << 10;
+
 /// A scene's file and its contents.
 #[derive(Debug, Clone)]
 pub struct SceneFile {
@@ -33,11 +36,13 @@ impl SceneFile {
     /// Reads a scene's file, whose map may be [named](crate::fcm::scene). Errors name file, line and key.
     pub fn read(path: &Path) -> Result<SceneFile> {
         let name = path.display().to_string();
+        std::fs::metadata(path).map_or(Ok(()), |file| check_length(&name, file.len()))?;
         let text = input::text(path).with_context(|| format!("{name} cannot be read"))?;
         SceneFile::parse(text, name, path.parent().unwrap_or(Path::new(".")))
     }
 
-    /// A scene by its file, or by its text, which has more than one line or an assignment.
+    /// A scene by its file, or by its text, which has more than one line or an assignment. Either has at most
+    /// 64 KiB.
     pub fn named(path_or_text: &str) -> Result<SceneFile> {
         if path_or_text.contains(['\n', '=']) && !Path::new(path_or_text).is_file() {
             return SceneFile::parse(path_or_text.into(), "the scene".into(), Path::new("."));
@@ -47,6 +52,7 @@ impl SceneFile {
 
     /// Parses a scene's text. `name` names it in errors; paths of maps are relative to `folder`.
     pub fn parse(text: String, name: String, folder: &Path) -> Result<SceneFile> {
+        check_length(&name, text.len() as u64)?;
         let said: toml::Table = toml::from_str(&text)
             .map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
         let said = serde_json::to_value(said)?;
@@ -66,6 +72,18 @@ impl SceneFile {
     }
 }
 
+/// Error if a scene is longer than it may be.
+fn check_length(name: &str, bytes: u64) -> Result<()> {
+    require!(
+        bytes <= LONGEST,
+        SettingError::TooLong,
+        "{name}: a scene has at most {} KiB, not {}",
+        LONGEST >> 10,
+        bytes.div_ceil(1 << 10)
+    );
+    Ok(())
+}
+
 /// Reads a scene's file, see [`SceneFile::read`].
 pub fn read_scene(path: &Path) -> Result<Scene> {
     Ok(SceneFile::read(path)?.scene)
@@ -79,61 +97,17 @@ struct SceneFault {
 
 /// Merges values into the shipped scene. Paths of maps are relative to `folder`.
 fn filled(mut said: Value, folder: &Path) -> Result<Scene, SceneFault> {
-    fcm::scene::resolve(&mut said, folder).map_err(|error| SceneFault {
-        key: "intent.map".into(),
-        why: words::chain(&error).skip(1).map(words::cause).collect::<Vec<_>>().join(": "),
+    let fault = |key: &str, why: String| SceneFault { key: key.into(), why };
+    fcm::scene::resolve(&mut said, folder).map_err(|error| {
+        let causes = words::chain(&error).skip(1).map(words::cause);
+        fault("intent.map", causes.collect::<Vec<_>>().join(": "))
     })?;
-    scene_as(&said).map_err(|why| SceneFault { key: key_of(&why, &said), why })
-}
-
-/// Parses a scene, or returns the parser's message.
-fn scene_as(said: &Value) -> Result<Scene, String> {
     // Via JSON, because TOML has no 64-bit masks.
-    let mut merged = serde_json::to_value(Scene::shipped()).map_err(|error| error.to_string())?;
-    merge(&mut merged, said.clone());
-    serde_json::from_value(merged).map_err(|error| words::cause(&error))
-}
-
-/// Finds the path of the innermost value without which the parser no longer reports this message.
-fn key_of(why: &str, said: &Value) -> String {
-    let is_missing = |why: &str| why.contains("is missing") || why.starts_with("missing field");
-    let (mut path, mut pointer) = (String::new(), String::new());
-    while let Some(node) = said.pointer(&pointer) {
-        let children: Vec<(String, String)> = match node {
-            Value::Object(table) => {
-                let dot = if path.is_empty() { "" } else { "." };
-                table.keys().map(|key| (format!("/{key}"), format!("{dot}{key}"))).collect()
-            }
-            Value::Array(items) => (0..items.len()).map(|at| (format!("/{at}"), format!("[{at}]"))).collect(),
-            _ => break,
-        };
-        let decides = |(step, _): &&(String, String)| match scene_as(&without(said, &pointer, step)) {
-            Ok(_) => true,
-            // If something is missing, another missing thing proves nothing.
-            Err(other) => words_of(&other) != words_of(why) && !(is_missing(why) && is_missing(&other)),
-        };
-        let Some((step, name)) = children.iter().find(decides) else { break };
-        pointer += step;
-        path += name;
-    }
-    path
-}
-
-/// A message without its numbers: those of a list's length change as its values are left out.
-fn words_of(why: &str) -> String {
-    why.chars().filter(|letter| !letter.is_ascii_digit()).collect()
-}
-
-/// A copy of the values without one value of the node at `pointer`.
-fn without(said: &Value, pointer: &str, step: &str) -> Value {
-    let mut rest = said.clone();
-    let key = step.trim_start_matches('/');
-    match (rest.pointer_mut(pointer), key.parse::<usize>()) {
-        (Some(Value::Object(table)), _) => drop(table.remove(key)),
-        (Some(Value::Array(items)), Ok(at)) if at < items.len() => drop(items.remove(at)),
-        _ => {}
-    }
-    rest
+    let shipped = serde_json::to_value(Scene::shipped());
+    let mut merged = shipped.map_err(|error| fault("", words::cause(&error)))?;
+    merge(&mut merged, said);
+    serde_path_to_error::deserialize(merged)
+        .map_err(|error| fault(&error.path().to_string(), words::cause(error.inner())))
 }
 
 /// Merges tables; replaces everything else.
@@ -184,5 +158,33 @@ mod tests {
         let text = "duration_s = 1\nscene = { intent = { map = \"mine.toml\" } }";
         let error = scene_of(&scripts::parse(text, "some/where/a.toml").unwrap()).unwrap_err().to_string();
         assert!(error.contains("some/where/mine.toml: cannot be read"), "{error}");
+    }
+
+    /// The key is found while the scene is read once: it was sought by reading the scene without each of its values.
+    #[test]
+    fn the_last_of_many_keys_is_told() {
+        let row = |name: &str| format!("{{ region = \"{name}\", percent = 1 }},\n");
+        let many: String = (0..4).map(|at| row(&format!("part {at}"))).collect();
+        let error =
+            SceneFile::named(&format!("friendliness = [\n{many}{}]", row("part").replace('1', "1000")));
+        let text = error.unwrap_err().to_string();
+        assert!(text.starts_with("the scene, line 6, `friendliness[4].percent`: must be"), "{text}");
+        let keys: String = (0..3000).map(|at| format!("key_{at} = {at}\n")).collect();
+        let text = SceneFile::named(&keys).unwrap_err().to_string();
+        assert!(text.starts_with("the scene, line 1, `key_0`: `key_0` is not a known key"), "{text}");
+    }
+
+    #[test]
+    fn a_scene_that_is_too_long_is_refused() {
+        let text = format!("name = \"long\"\n# {}", "x".repeat(LONGEST as usize));
+        let refused = |error: crate::Error, name: &str| {
+            assert_eq!(error.to_string(), format!("{name}: a scene has at most 64 KiB, not 65"));
+        };
+        refused(SceneFile::named(&text).unwrap_err(), "the scene");
+        let path = std::env::temp_dir().join(format!("taxel-long-scene-{}.toml", std::process::id()));
+        std::fs::write(&path, &text).unwrap();
+        let read = SceneFile::read(&path);
+        std::fs::remove_file(&path).unwrap();
+        refused(read.unwrap_err(), &path.display().to_string());
     }
 }
