@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 /// the terminal, and its errors.
 fn at_terminal(folder: &Path, ports: &str, words: &[&str], until: &str) -> (Option<i32>, String, String) {
     let (mut master, name) = terminal();
+    // As long as it is open here, what the program has written can be read after its end.
+    let held = opened(&name);
     let mut command = command(folder, ports, words);
     let errors = folder.join("errors.txt");
     command.stdout(opened(&name)).stderr(std::fs::File::create(&errors).unwrap());
@@ -29,6 +31,7 @@ fn at_terminal(folder: &Path, ports: &str, words: &[&str], until: &str) -> (Opti
         let _ = child.kill();
     }
     child.wait().unwrap();
+    drop(held);
     (status, String::from_utf8_lossy(&seen).into_owned(), std::fs::read_to_string(errors).unwrap())
 }
 

@@ -122,7 +122,10 @@ pub fn board() -> String {
 fn pass(master: &mut TTYPort, mut bytes: &[u8]) {
     let began = Instant::now();
     while !bytes.is_empty() && began.elapsed() < UNREAD {
-        bytes = &bytes[master.write(bytes).unwrap_or(0)..];
+        match master.write(bytes) {
+            Ok(count) => bytes = &bytes[count..],
+            Err(_) => thread::sleep(Duration::from_millis(1)),
+        }
     }
 }
 
