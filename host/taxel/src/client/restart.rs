@@ -26,8 +26,8 @@ impl Client {
         self.link = (label.into(), usb_serial.map(String::from));
     }
 
-    /// The link was reopened. Discards a partial message, and asks the board to stream; its `Hello` shows which board it
-    /// is and whether it has restarted, and nothing before it counts.
+    /// The link was reopened. Discards a partial message, and asks the board to stream; its `Hello` shows which
+    /// board it is and whether it has restarted, and nothing before it counts.
     pub fn reconnected(&mut self) {
         *self.receiver = Receiver::new();
         self.line.clear();
