@@ -133,6 +133,7 @@ fn a_file_that_appears_meanwhile_is_not_replaced() {
     for error in [draft.keep().unwrap_err(), begun.name().unwrap_err()] {
         assert!(error.to_string().contains("already exists"), "{error}");
     }
+    drop(begun);
     assert_eq!(scratch.read("new.csv"), "another's");
     assert_eq!(scratch.names(), ["in.mcap", "new.csv", "old.csv", "sub"]);
 }

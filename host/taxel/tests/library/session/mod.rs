@@ -2,6 +2,7 @@
 //! reported, what touched it ends, and what cannot be restored is an error. Another board in its place is told as
 //! another.
 
+mod dressed;
 mod ended;
 mod links;
 mod lost;
