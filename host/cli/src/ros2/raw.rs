@@ -19,11 +19,13 @@ impl Encoded {
 }
 
 impl Serialize for Encoded {
-    /// The bytes one by one: a tuple of bytes is written without a length and without gaps.
+    /// The bytes one by one: a tuple of bytes is written without a length and without gaps. Their number is a
+    /// multiple of four: of a large message the middleware writes a wrong length otherwise.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let bytes = self.0.get(HEAD..).unwrap_or_default();
-        let mut tuple = serializer.serialize_tuple(bytes.len())?;
-        for byte in bytes {
+        let length = bytes.len().next_multiple_of(4);
+        let mut tuple = serializer.serialize_tuple(length)?;
+        for byte in bytes.iter().chain(&[0; 3]).take(length) {
             tuple.serialize_element(byte)?;
         }
         tuple.end()

@@ -6,8 +6,9 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
+use std::time::Duration;
 use taxel::ros2::Cdr;
-use taxel::ros2::topics::{CONCEPT, RosTopic};
+use taxel::ros2::topics::{CONCEPT, JSON, RosTopic};
 use taxel_cli::ros2::{RosNode, RosParameters, RosPlace};
 
 /// Messages that the middleware keeps for a subscriber that confirms none, and more.
@@ -42,14 +43,19 @@ fn scene() -> PathBuf {
     scene
 }
 
+/// A node of ours in this process.
+fn talker(name: &str) -> RosNode {
+    let place = RosPlace { domain: domain(), namespace: "/peers".into(), name: name.into(), board: None };
+    RosNode::open(place, &RosParameters { source: "none".into(), image_hz: 0.0 }).unwrap()
+}
+
 /// The one that stands still is a `taxel ros2` that subscribes to a concept.
 #[test]
 fn a_subscriber_that_confirms_nothing_takes_nothing_from_others() {
     let still = Taxel::start("still", &["--source", "sim:idle", "--scene", &scene().display().to_string()]);
     let name = still.name("taxel/concepts/warmth");
     let topic = RosTopic { name: name.clone().leak(), ..CONCEPT };
-    let place = RosPlace { domain: domain(), namespace: "/peers".into(), name: "talker".into(), board: None };
-    let mut node = RosNode::open(place, &RosParameters { source: "none".into(), image_hz: 0.0 }).unwrap();
+    let mut node = talker("talker");
     node.offer(&topic, "").unwrap();
     until("the one that stands still", || node.wants(&topic, "").then_some(()));
     still.signal("-STOP");
@@ -68,6 +74,23 @@ fn a_subscriber_that_confirms_nothing_takes_nothing_from_others() {
             publish(number);
             number += 1;
             newest().filter(|newest| *newest >= wanted)
+        });
+    }
+}
+
+#[test]
+fn messages_of_any_length_arrive() {
+    let (mut peer, mut node) = (Peer::open("long"), talker("long_talker"));
+    let name = format!("/long_{}/text", std::process::id());
+    let topic = RosTopic { name: name.clone().leak(), ..JSON };
+    let heard = peer.hear::<String>(&name, topic.message);
+    let next = || std::iter::from_fn(|| heard.take().unwrap()).last().map(|(text, _)| text.len());
+    for length in [1, 2000, 70_001, 70_002, 70_003, 70_004] {
+        let text = Cdr::default().text(&"x".repeat(length)).finish();
+        until(&format!("{length} bytes"), || {
+            node.publish(&topic, "", text.clone()).unwrap();
+            thread::sleep(Duration::from_millis(20));
+            next().filter(|heard| *heard == length)
         });
     }
 }
