@@ -25,6 +25,7 @@ pub mod growths;
 mod identity;
 mod known;
 mod life;
+mod loss;
 mod ongoing;
 pub mod passed;
 mod picture;

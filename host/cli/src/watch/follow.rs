@@ -70,14 +70,15 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
         }
     }
     let (client, source) = session.parts();
-    show.end(client)?;
+    let ended = show.end(client);
     if let Some(remark) = source.port.remark() {
         eprintln!("{}: {remark}", source.label);
     }
     match (asked.refusal, client.worn()) {
+        // The reason for whatever the receiver lacks at its end, too.
         (Some(refusal), _) => Err(Fault::board(format!("{}: {refusal}", source.label)).into()),
-        (None, Some(_)) => Ok(()),
-        (None, None) => Err(silent(source, client.counts().bytes)),
+        (None, Some(_)) => ended,
+        (None, None) => ended.and(Err(silent(source, client.counts().bytes))),
     }
 }
 

@@ -1,14 +1,13 @@
 //! What goes on until the board ends it, and its end if the board no longer can.
 
-use super::{Client, Event};
+use super::event::Event;
 use taxel_core::body::Placed;
 use taxel_core::contact::Phase;
-use taxel_core::format::{Micros, Q15};
-use taxel_core::intent::{Leading, Outcome};
+use taxel_core::format::Micros;
 use taxel_core::react::Reaction;
 use taxel_core::surface::RegionPhase;
 use taxel_core::symbol::Symbol;
-use taxel_core::wire::{IntentReport, LISTED, PressingReport, ReactionReport, RegionsReport, SymbolList};
+use taxel_core::wire::{LISTED, PressingReport, ReactionReport, RegionsReport, SymbolList};
 
 /// What goes on, besides contacts and intention.
 #[derive(Debug, Default, Clone)]
@@ -66,10 +65,11 @@ impl Ongoing {
         }
     }
 
-    /// Ends everything. Returns the events that say so.
-    fn end(&mut self, frame: u32, time: Micros) -> Vec<Event> {
+    /// Ends everything, with the contacts of these ids. Returns the events that say so.
+    pub fn end(&mut self, contacts: Vec<u32>, frame: u32, time: Micros) -> Vec<Event> {
         let mut events = Vec::new();
         let Ongoing { symbols, regions, presses, reactions, .. } = std::mem::take(self);
+        self.ended[0] = contacts;
         self.ended[1] = symbols.iter().map(|symbol| symbol.contact).collect();
         if !symbols.is_empty() {
             let ends = symbols.into_iter().take(LISTED).map(|it| Symbol { phase: Phase::Released, ..it });
@@ -98,44 +98,5 @@ impl Ongoing {
         let ends = reactions.into_iter().map(|reaction| Reaction { active: false, ..reaction });
         events.extend(ends.map(|reaction| Event::Reaction(ReactionReport { frame, time, reaction })));
         events
-    }
-}
-
-impl Client {
-    /// The link is lost, for this reason, and was last heard at this time of the host, us. What was present ends.
-    pub fn lost(&mut self, why: String, since_us: u64) {
-        self.end_all();
-        self.say(Event::Lost { why, since_us });
-    }
-
-    /// Ends what the board has told to be present: it has forgotten it, or can no longer say that it ends. Events say
-    /// so, at the time and with the number of the scan that were told last.
-    pub(super) fn end_all(&mut self) {
-        let (frame, time) = (self.contacts_of, self.board_time().unwrap_or(Micros(0)));
-        let ids = self.contacts.iter().map(|placed| placed.contact.id).collect();
-        let mut released = std::mem::take(&mut self.contacts);
-        for Placed { contact, .. } in &mut released {
-            (contact.phase, contact.total) = (Phase::Released, 0);
-        }
-        if !released.is_empty() {
-            self.growths.feel(&[], &released);
-            self.say(Event::Contacts { frame, time, dropped: 0, released });
-        }
-        let ends = self.ongoing.end(frame, time);
-        self.ongoing.ended[0] = ids;
-        ends.into_iter().for_each(|event| self.say(event));
-        if let Some(report) = self.intention.take()
-            && (report.leading != Leading::None || report.concepts.iter().any(|value| *value != Q15(0)))
-        {
-            let concepts = report.concepts.iter().map(|_| Q15(0)).collect();
-            let (leading, outcome) = (Leading::None, Outcome::Fixed);
-            let none = IntentReport { frame, time, leading, outcome, steps: 0, concepts };
-            self.say(Event::Intent(Box::new(none)));
-        }
-        (self.picture, self.led, self.confidence) = Default::default();
-        (self.forms, self.bounds) = Default::default();
-        [&mut self.released, &mut self.unsure].into_iter().for_each(Vec::clear);
-        self.regions.clear();
-        self.raw.clear();
     }
 }
