@@ -54,9 +54,9 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap,
-    Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode,
-    decode_image,
+    Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, GestureReport, Health,
+    HealthMap, Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError,
+    decode, decode_image,
 };
 use wanted::Sets;
 
@@ -99,6 +99,8 @@ pub struct Client {
     led: Option<IntentReport>,
     /// Confidence of the gesture reported last, or of the next one.
     confidence: Option<ConfidenceReport>,
+    /// Gesture reported last.
+    gesture: Option<GestureReport>,
     /// Ids of contacts that may be drift.
     unsure: Vec<u32>,
     /// The ages of forms were requested.
@@ -154,6 +156,7 @@ impl Client {
             intention: None,
             led: None,
             confidence: None,
+            gesture: None,
             unsure: Vec::new(),
             ages_asked: false,
             forms: None,
@@ -269,7 +272,7 @@ impl Client {
         self.ill.clear();
         self.self_test = None;
         (self.intention, self.led) = (None, None);
-        self.confidence = None;
+        (self.confidence, self.gesture) = (None, None);
         self.unsure.clear();
         (self.forms, self.boot) = (None, None);
     }
@@ -287,6 +290,7 @@ impl Client {
             Report::Intent(report) => self.take_intent(report),
             Report::Gesture(mut report) => {
                 cleaned::name(&mut report.name);
+                self.gesture = Some(report.clone());
                 Event::Gesture(report)
             }
             Report::Confidence(report) => {
