@@ -3,7 +3,7 @@
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { violations } from "./access.fixture.mjs";
-import { drawn, page, pauseAtTouch } from "./page.fixture.mjs";
+import { drawn, page } from "./page.fixture.mjs";
 
 const both = page("sim:pat");
 const text = (id) => both.browser.value(`document.getElementById(${JSON.stringify(id)}).textContent`);
@@ -11,8 +11,9 @@ const click = (id) => both.browser.value(`document.getElementById(${JSON.stringi
 
 test("one sentence says what touches, how much, and what that means", async () => {
   const { browser } = both;
-  await browser.until(`document.getElementById("leading").textContent === "kindness"`);
-  await pauseAtTouch(browser, 7000);
+  await browser.until(`(({ contacts: [touch], intent }) => touch?.total > 7000 && intent.leading === "kindness")(
+    taxel.store.latest.head.frame) && (taxel.store.pause(true), taxel.changed(), true)`);
+  await drawn(browser);
   assert.match(await text("what"), /^a (sliding )?touch on the back, [78] N$/);
   assert.equal(await text("basis"), "simulated newtons");
   assert.match(await text("when"), /^at \d+\.\d\d s$/);
@@ -52,9 +53,9 @@ test("why adds up, also of a moment that is past, and closes again", async () =>
   assert.equal(sum[0], "sum");
   const parts = rows.slice(0, -1).reduce((all, [, share]) => all + share, 0);
   assert.ok(Math.abs(parts - sum[1]) < 0.005 * rows.length, JSON.stringify(rows));
-  assert.ok(rows.some(([name, share]) => name === "rhythm" && share > 0), JSON.stringify(rows));
+  assert.ok(rows.some(([name, share]) => name === "shape" && share > 0), JSON.stringify(rows));
   const paths = await browser.value(`[...document.querySelectorAll("#reasons-paths li")].map((item) => item.textContent)`);
-  assert.ok(paths.some((path) => path.endsWith("rhythm → kindness")), paths.join("; "));
+  assert.ok(paths.some((path) => path.endsWith("shape → kindness")), paths.join("; "));
   assert.deepEqual(await violations(browser), []);
   // An intention's name asks the same.
   await browser.value(`[...document.querySelectorAll("#concepts li button")].find((one) => one.textContent === "attack").click()`);

@@ -7,6 +7,7 @@ import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
+import WebSocket from "ws";
 import { small, violations } from "./access.fixture.mjs";
 import { box, drawn, page, screen, show } from "./page.fixture.mjs";
 import { View } from "./program.mjs";
