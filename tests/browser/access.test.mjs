@@ -89,7 +89,7 @@ test("a tare is asked for before it is done", async () => {
   const { browser } = both;
   const open = () => browser.value('document.getElementById("ask-tare").open');
   const opened = () => browser.until('document.querySelector("#ask-tare[open] [value=no]") === document.activeElement');
-  const tared = () => browser.value('taxel.store.log.some((line) => line.includes("tare over"))');
+  const tared = () => browser.value('taxel.store.log.some(({ said }) => said.includes("tare over"))');
   await browser.key("t");
   await opened();
   // What is at hand is the way out.
@@ -104,7 +104,7 @@ test("a tare is asked for before it is done", async () => {
   assert.equal(await tared(), false);
   await browser.value('document.getElementById("tare").click()');
   await browser.value(`document.querySelector('#ask-tare [value="tare"]').click()`);
-  await browser.until('taxel.store.log.some((line) => line.includes("tare over"))');
+  await browser.until('taxel.store.log.some(({ said }) => said.includes("tare over"))');
 });
 
 test("the menu is one of keys, too, and keys without a focus can be switched off", async () => {
@@ -139,11 +139,12 @@ test("one colour has one meaning", async () => {
       return {
         ...Object.fromEntries(${JSON.stringify(NAMES)}.map((name) => [name, style.getPropertyValue("--" + name).trim()])),
         ...palette.intentions,
+        feeling: palette.feeling,
         ...Object.fromEntries(Object.entries(CLASSES).map(([health, [, fill]]) => [health, fill])),
       };
     })()`);
     const names = Object.keys(seen);
-    assert.ok(names.length >= NAMES.length + 3 + 5, names.join());
+    assert.ok(names.length >= NAMES.length + 3 + 1 + 5, names.join());
     const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
     for (const one of names)
       for (const other of names.filter((name) => name > one)) {

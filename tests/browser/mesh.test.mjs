@@ -138,3 +138,13 @@ test("taxels have places, and counts have units", () => {
   const raw = garment.garmentOf({ ...HELLO, counts_per_newton: null });
   assert.equal(units.pressure(raw, 120), "120 counts");
 });
+
+test("ticks have the decimals that tell them apart", () => {
+  const told = (end) => {
+    const marks = mesh.ticks(end);
+    return marks.map((mark) => mark.toFixed(mesh.decimals(marks)));
+  };
+  assert.deepEqual(told(0.2), ["0.00", "0.05", "0.10", "0.15", "0.20"]);
+  assert.deepEqual(told(8), ["0.0", "2.5", "5.0", "7.5"]);
+  for (const end of [0.07, 0.2, 0.9, 1.7, 3, 42, 800]) assert.equal(new Set(told(end)).size, mesh.ticks(end).length, end);
+});

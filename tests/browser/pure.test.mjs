@@ -1,11 +1,11 @@
-// Modules of the page that need no browser: the line of time, the afterglow, the scale that follows, and who is there.
+// Modules of the page that need no browser: the line of time, the afterglow, the scale that follows, what is felt, and who is there.
 
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { load } from "./module.fixture.mjs";
 
-const [timeline, glow, follow, presence, speaker] = await Promise.all(
-  ["timeline", "afterglow", "follow", "presence", "speaker"].map(load),
+const [timeline, glow, follow, presence, speaker, sentences] = await Promise.all(
+  ["timeline", "afterglow", "follow", "presence", "speaker", "sentence"].map(load),
 );
 
 test("times are read as on a clock", () => {
@@ -113,15 +113,43 @@ test("a touch of 61 ms glows for most of a second, and no longer", () => {
   assert.equal(into[0], 0);
 });
 
-test("the scale grows at once, becomes smaller after a while, and stays at rest", () => {
+test("the scale fits the first touch, whether light or hard, and afterwards only grows", () => {
   const ENDS = [25, 51_200];
-  const scale = new follow.Follow();
-  assert.equal(scale.next(200, 1_500, 0, ENDS), 1_600);
-  assert.equal(scale.next(1_600, 0, 60_000, ENDS), 1_600);
-  assert.equal(scale.next(1_600, 90, 70_000, ENDS), 1_600);
-  assert.equal(scale.next(1_600, 300, 71_000, ENDS), 1_600);
-  assert.equal(scale.next(1_600, 90, 72_500, ENDS), 400);
+  for (const [first, end] of [
+    [90, 100],
+    [1_500, 1_600],
+  ]) {
+    const scale = new follow.Follow();
+    assert.equal(scale.next(200, 9, 10, ENDS), 200, "at rest");
+    assert.equal(scale.next(200, first, 10, ENDS), end);
+    for (const less of [first / 2, 12, 0]) assert.equal(scale.next(end, less, 10, ENDS), end);
+    assert.equal(scale.next(end, 2_000, 10, ENDS), 3_200);
+  }
   assert.equal(follow.endFor(1e9, ENDS), 51_200);
+});
+
+test("what is felt is said of now, of what has just ended, and of the moment at which the page pauses", () => {
+  const image = (number, ms, what, meaning, leading = "none") => {
+    const contacts = what === "nothing touches" ? [] : [{}];
+    return { number, head: { frame: { time_us: ms * 1000, contacts, felt: { what, meaning }, intent: { leading } } } };
+  };
+  const images = [
+    image(0, 0, "nothing touches", ""),
+    image(1, 100, "a touch on the back, 8 N", "kindness", "kindness"),
+    image(2, 200, "nothing touches", "kindness", "kindness"),
+    image(3, 300, "nothing touches", ""),
+    image(4, 1_000, "nothing touches", ""),
+  ];
+  const store = { paused: false, at: (number) => images[number], span: () => [0, images.length] };
+  const told = (number) => sentences.sentence({ ...store, shown: () => images[number] });
+  assert.deepEqual(told(0), { when: "now", what: "nothing touches", meaning: "" });
+  assert.deepEqual(told(1), { when: "now", what: "a touch on the back, 8 N", meaning: "kindness" });
+  assert.deepEqual(told(2), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
+  assert.deepEqual(told(3), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
+  assert.deepEqual(told(4), { when: "now", what: "nothing touches", meaning: "" });
+  const paused = sentences.sentence({ ...store, paused: true, shown: () => images[1] });
+  assert.equal(paused.when, "at 0.10 s");
+  assert.equal(sentences.sentence({ ...store, shown: () => null }), null);
 });
 
 test("who is not there is said to be away, and since when", () => {

@@ -7,6 +7,7 @@ import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
+import WebSocket from "ws";
 import { small, violations } from "./access.fixture.mjs";
 import { box, drawn, page, screen, show } from "./page.fixture.mjs";
 import { View } from "./program.mjs";
@@ -141,12 +142,35 @@ test("the range is saved as a recording that info takes", async () => {
 test("the scale follows what is shown, where that is asked for", async () => {
   const { browser } = both;
   await ask({ range: null }, "taxel.store.recorded.range[1] > 7");
-  await browser.value("(taxel.settings.top = 25, document.getElementById('auto').click())");
+  await browser.value("(taxel.settings.top = 25, taxel.settings.auto || document.getElementById('auto').click())");
   await ask({ seek: 0.38 }, `${moment} === 0.38`);
   const most = await browser.value("Math.max(...taxel.store.shown().image)");
   await browser.until(`taxel.settings.top >= ${most}`);
   await browser.key("-");
   assert.equal(await browser.value("taxel.settings.auto"), false);
+});
+
+test("a line of the log leads to its moment, and so does an address", async () => {
+  const { browser, view } = both;
+  await ask({ seek: 6 }, `Math.abs(${moment} - 6) < 0.1`);
+  const link = `[...document.querySelectorAll("#log a")].find((line) => line.textContent.includes("begins"))`;
+  const href = await browser.value(`(${link}.click(), ${link}.getAttribute("href"))`);
+  await browser.until(`Math.abs(${moment} - ${href.slice(3)}) < 0.01 && !taxel.store.recorded.playing`);
+  assert.ok((await browser.value("location.href")).endsWith(href));
+  await browser.open(`${view.url}#t=2.5`);
+  await browser.until(`Math.abs(${moment} - 2.5) < 0.01 && !taxel.store.recorded.playing`);
+  await browser.value("void (location.hash = '#t=1.5')");
+  await browser.until(`Math.abs(${moment} - 1.5) < 0.01`);
+});
+
+test("who shares the moment with others is told so", async () => {
+  const { browser, view } = both;
+  const told = "document.getElementById('viewers').textContent";
+  assert.equal(await browser.value(told), "");
+  const other = new WebSocket(`${view.url.replace("http", "ws")}socket`);
+  await browser.until(`${told} === "2 viewers: all see this moment"`);
+  other.close();
+  await browser.until(`${told} === ""`);
 });
 
 test("a telephone has room for all of it", async () => {

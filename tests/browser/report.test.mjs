@@ -133,7 +133,7 @@ test("terminal, page and report show a touch in one palette on one scale", async
     ramp.filter((fill) => !fills.includes(fill)),
     [],
   );
-  assert.match(text, new RegExp(` ${start} counts *<`));
+  assert.match(text, new RegExp(` ${(start / 1000).toFixed(2)} N on a taxel *<`));
 });
 
 test("nothing has been complained of", () => assert.deepEqual(both.browser.complaints, []));

@@ -88,13 +88,15 @@ test("what is kept has an end", async () => {
 
 test("a page that is loaded again steps back through what was before", async () => {
   const { browser, view } = both;
-  const before = await browser.value("taxel.store.latest.head.frame.time_us");
+  await browser.until("taxel.store.log.length > 40", 30);
+  const [before, oldest] = await browser.value("[taxel.store.latest.head.frame.time_us, taxel.store.marks[0][0]]");
   await browser.open(`${view.url}?keep=8`);
   const kept = "taxel.store.latest.head.frame.time_us - taxel.store.at(taxel.store.span()[0]).head.frame.time_us";
   await browser.until(`taxel.store.latest.head.frame.time_us > ${before} && ${kept} > 7e6`, 6);
-  await browser.value("taxel.store.seek(4)");
+  await browser.value("taxel.store.seek(taxel.store.end() - 4e6)");
   assert.ok((await time(browser)) < before);
   assert.ok(await browser.value("taxel.store.marks.some(([, kind]) => kind === 'onset')"));
+  assert.equal(await browser.value("taxel.store.marks[0][0]"), oldest);
   await browser.key(" ");
 });
 

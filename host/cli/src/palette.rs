@@ -20,6 +20,8 @@ pub struct PaletteTold {
     /// Colour of each intention, `#rrggbb`.
     #[cfg_attr(feature = "schema", schemars(with = "std::collections::BTreeMap<String, String>"))]
     pub intentions: Map<String, Value>,
+    /// Colour of feelings, `#rrggbb`.
+    pub feeling: String,
 }
 
 /// Red, green, blue.
@@ -92,6 +94,9 @@ pub fn intention(leading: Leading) -> Rgb {
     }
 }
 
+/// Colour of feelings: no other colour means them.
+pub const FEELING: Rgb = [214, 86, 143];
+
 /// `#rrggbb`
 pub fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
@@ -107,6 +112,7 @@ pub fn told() -> PaletteTold {
         start: START,
         ends: ENDS,
         intentions: intentions.map(colour).collect(),
+        feeling: hex(FEELING),
     }
 }
 

@@ -59,9 +59,9 @@ use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, Health, HealthMap,
-    Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode,
-    decode_image,
+    Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, GestureReport, Health,
+    HealthMap, Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError,
+    decode, decode_image,
 };
 use wanted::Sets;
 
@@ -117,6 +117,8 @@ pub struct Client {
     led: Option<IntentReport>,
     /// Confidence of the gesture reported last, or of the next one.
     confidence: Option<ConfidenceReport>,
+    /// Gesture reported last.
+    gesture: Option<GestureReport>,
     /// Ids of contacts that may be drift.
     unsure: Vec<u32>,
     /// The ages of forms were requested.
@@ -179,6 +181,7 @@ impl Client {
             intention: None,
             led: None,
             confidence: None,
+            gesture: None,
             unsure: Vec::new(),
             ages_asked: false,
             forms: None,
@@ -331,6 +334,7 @@ impl Client {
             Report::Intent(report) => self.take_intent(report),
             Report::Gesture(mut report) => {
                 cleaned::name(&mut report.name);
+                self.gesture = Some(report.clone());
                 Event::Gesture(report)
             }
             Report::Confidence(report) => {

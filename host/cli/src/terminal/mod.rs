@@ -1,5 +1,7 @@
 //! A board's stream in the terminal: panes and maps, lines of text, one taxel, and a picture of the panes.
 
+mod curve;
+mod head;
 mod lines;
 mod map;
 mod panes;

@@ -1,12 +1,14 @@
-//! Panes beside the maps: contacts and intention.
+//! Panes beside the maps: contacts and concepts.
 
 use super::ramp::color;
-use crate::palette::{Rgb, intention as colour_of};
+use crate::palette::{FEELING, Rgb, intention as colour_of};
 use crate::watch::narrate::force;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
+use std::cmp::Reverse;
 use taxel::client::Client;
+use taxel::fcm::layers::{self, Role};
 use taxel_core::body::Placed;
 use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
@@ -51,47 +53,51 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
     )
 }
 
-/// Draws the leading intention, and a bar for every concept: intentions, their consequences, inputs.
-pub fn intention(client: &Client, space: Rect, buffer: &mut Buffer) {
-    if space.is_empty() {
-        return;
-    }
-    let leading = client.leading();
-    let bold = Style::new().add_modifier(Modifier::BOLD);
-    let (x, _) = buffer.set_stringn(space.x, space.y, "intention ", usize::from(space.width), bold);
-    let room = usize::from(space.right().saturating_sub(x));
-    buffer.set_stringn(x, space.y, leading.as_str(), room, bold.fg(color(colour_of(leading))));
+/// Titles of the groups of concepts, in reading order.
+const GROUPS: [(Role, &str); 3] =
+    [(Role::Meaning, "what it means"), (Role::Feeling, "feelings"), (Role::Felt, "what is felt")];
+
+/// Rows that [`concepts`] needs: a title for each group, and its concepts.
+pub fn rows(client: &Client) -> u16 {
+    let groups = groups(client);
+    (groups.len() + groups.iter().map(|(_, group)| group.len()).sum::<usize>()) as u16
+}
+
+/// Draws a bar for every concept, by groups: meanings, feelings, and what is felt, the strongest first.
+pub fn concepts(client: &Client, space: Rect, buffer: &mut Buffer) {
     let activations = client.activations_of_leading();
-    for (row, concept) in order(client).into_iter().enumerate().take(usize::from(space.height) - 1) {
-        let (Some(name), Some(value)) = (client.concepts().get(concept), activations.get(concept)) else {
-            continue;
-        };
-        let known = Leading::INTENTIONS.into_iter().find(|l| l.as_str() == name.as_str());
-        let colour = known.map_or(BLUE, colour_of);
-        bar(name, *value, colour, Rect { y: space.y + 1 + row as u16, height: 1, ..space }, buffer);
+    let value = |at: usize| activations.get(at).copied().unwrap_or(Q15(0));
+    let mut lines = space.rows();
+    for (role, mut group) in groups(client) {
+        if role == Role::Felt {
+            group.sort_by_key(|at| Reverse(value(*at).0.abs()));
+        }
+        let Some(line) = lines.next() else { return };
+        let title = GROUPS.iter().find(|(known, _)| *known == role).map_or("", |(_, title)| title);
+        let bold = Style::new().add_modifier(Modifier::BOLD);
+        buffer.set_stringn(line.x, line.y, title, usize::from(line.width), bold);
+        for (at, line) in group.into_iter().zip(lines.by_ref()) {
+            let name = client.concepts().get(at).map_or("", |name| name.as_str());
+            let known = Leading::INTENTIONS.into_iter().find(|leading| leading.as_str() == name);
+            let other = if role == Role::Feeling { FEELING } else { BLUE };
+            bar(name, value(at), known.map_or(other, colour_of), line, buffer);
+        }
     }
 }
 
-/// Indices of the concepts in display order.
-fn order(client: &Client) -> Vec<usize> {
-    let map = client.worn().and_then(|worn| worn.scene.intent.as_ref()).map(|intent| &intent.map);
-    let is_input =
-        |i: usize| map.is_some_and(|m| m.inputs.iter().any(|input| usize::from(input.concept) == i));
-    let names = client.concepts();
-    let is_intention = |i: usize| {
-        let name = names.get(i).map_or("", |name| name.as_str());
-        Leading::INTENTIONS.iter().any(|l| l.as_str() == name)
-    };
-    let mut order: Vec<usize> = (0..names.len()).collect();
-    order.sort_by_key(|i| if is_intention(*i) { 0 } else { 1 + u8::from(is_input(*i)) });
-    order
+/// Indices of the concepts of each group that has some.
+fn groups(client: &Client) -> Vec<(Role, Vec<usize>)> {
+    let intent = client.worn().and_then(|worn| worn.scene.intent.as_ref());
+    let roles = intent.map_or_else(Vec::new, |intent| layers::of_config(&intent.map));
+    let of = |role: Role| (0..roles.len()).filter(|at| roles[*at].1 == role).collect::<Vec<_>>();
+    GROUPS.iter().map(|(role, _)| (*role, of(*role))).filter(|(_, group)| !group.is_empty()).collect()
 }
 
 /// Draws `name ████▌   0.45`.
 fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
     const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
     buffer.set_stringn(space.x, space.y, format!("{name:<11.11}"), usize::from(space.width), Style::new());
-    let room = space.width.saturating_sub(18).min(24);
+    let room = space.width.saturating_sub(18).min(40);
     let value = value.to_f64();
     let eighths = (value.abs().min(1.0) * f64::from(room) * 8.0).round() as usize;
     let filled = "█".repeat(eighths / 8) + EIGHTHS[eighths % 8];
@@ -120,10 +126,9 @@ mod tests {
         fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
             let Event::Intent(report) = event else { return Ok(()) };
             let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
-            intention(client, buffer.area, &mut buffer);
+            concepts(client, buffer.area, &mut buffer);
             let row = |y: u16| -> String { (0..40).map(|x| buffer[(x, y)].symbol()).collect() };
             if report.leading != Leading::None {
-                assert!(row(0).contains(report.leading.as_str()));
                 let at = client.concepts().iter().position(|name| name.as_str() == report.leading.as_str());
                 let told = at.map_or(0.0, |at| report.concepts[at].to_f64());
                 let bar = (1..12).map(row).find(|row| row.starts_with(report.leading.as_str()));

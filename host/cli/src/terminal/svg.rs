@@ -82,6 +82,15 @@ fn blocks(buffer: &Buffer, y: u16, svg: &mut String) -> std::fmt::Result {
         }
     }
     for (x, cell) in row(buffer, y).enumerate() {
+        if let Some(eighths) = level(cell.symbol()) {
+            let (at, high, fill) = (x as u32 * CELL[0], eighths * CELL[1] / 8, hex(cell.fg, INK));
+            let y = top + CELL[1] - high;
+            writeln!(
+                svg,
+                "<rect x=\"{at}\" y=\"{y}\" width=\"{}\" height=\"{high}\" fill=\"{fill}\"/>",
+                CELL[0]
+            )?;
+        }
         if let Some(eighths) = bar(cell.symbol()) {
             let (at, width, fill) = (x as u32 * CELL[0], eighths * CELL[0] / 8, hex(cell.fg, INK));
             let high = CELL[1] - 4;
@@ -115,10 +124,18 @@ fn bar(symbol: &str) -> Option<u32> {
     "▏▎▍▌▋▊▉█".chars().position(|c| symbol.starts_with(c)).map(|index| index as u32 + 1)
 }
 
+/// Eighths of a cell that a level character fills from below.
+fn level(symbol: &str) -> Option<u32> {
+    "▁▂▃▄▅▆▇".chars().position(|c| symbol.starts_with(c)).map(|index| index as u32 + 1)
+}
+
 /// Writes the text of one row, with neighbours of one style merged.
 fn text(buffer: &Buffer, y: u16, svg: &mut String) -> std::fmt::Result {
     let cells: Vec<_> = row(buffer, y).collect();
-    let is_text = |cell: &Cell| cell.symbol() != "▀" && bar(cell.symbol()).is_none();
+    let is_text = |cell: &Cell| {
+        let symbol = cell.symbol();
+        symbol != "▀" && bar(symbol).is_none() && level(symbol).is_none()
+    };
     let mut x = 0;
     for run in cells.chunk_by(|a, b| is_text(a) == is_text(b) && a.fg == b.fg && a.modifier == b.modifier) {
         let (at, width) = (x * CELL[0], run.len() as u32 * CELL[0]);

@@ -1,10 +1,13 @@
 //! State of the display: draws what is known of a garment into a buffer of characters.
 
+use super::curve::Curve;
+use super::head::Head;
 use super::map::Grid;
 use super::panes;
 use super::ramp::{GLYPHS, Paint, color};
 use crate::palette::{ENDS, START, STEPS, ramp};
-use crate::watch::narrate::Narrator;
+use crate::watch::Basis;
+use crate::watch::narrate::{Narrator, force};
 use crate::watch::rate::Rate;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -17,9 +20,15 @@ use taxel::source::Source;
 /// Log lines kept.
 const LOG: usize = 100;
 /// Width that the panes beside the maps need.
-const SIDE: u16 = 62;
+const SIDE: u16 = 57;
 /// Smallest width at which the panes are beside the maps instead of below them.
 const WIDE: u16 = 98;
+/// Smallest width of the panes at which the log is beside the others instead of below them.
+const BROAD: u16 = 110;
+/// Smallest height at which nothing is left out.
+const TALL: u16 = 30;
+/// Height of the curve of force and its title.
+const CURVE: u16 = 5;
 
 /// State of the display beyond the client's.
 #[derive(Debug, Clone)]
@@ -28,6 +37,8 @@ pub struct View {
     narrator: Narrator,
     log: VecDeque<String>,
     rate: Rate,
+    head: Head,
+    curve: Curve,
     top: u16,
     /// Half of the last round trip to the board.
     pub latency: Option<Duration>,
@@ -46,6 +57,8 @@ impl View {
             narrator: Narrator::new(source.counts_per_newton),
             log: VecDeque::new(),
             rate: Rate::default(),
+            head: Head::default(),
+            curve: Curve::default(),
             top: START,
             latency: None,
             paint: Paint::Colours,
@@ -62,7 +75,11 @@ impl View {
     /// Handles an event.
     pub fn event(&mut self, client: &Client, event: &Event) {
         match event {
-            Event::Frame { time, .. } => self.rate.add(*time),
+            Event::Frame { time, .. } => {
+                self.rate.add(*time);
+                self.head.take(client, *time, self.narrator.counts_per_newton);
+                self.curve.add(client, *time);
+            }
             Event::Lost { why, .. } => self.lost = Some(why.clone()),
             Event::Back { .. } | Event::Other { .. } => self.lost = None,
             _ => {}
@@ -114,37 +131,45 @@ impl View {
             // A terminal that is being resized may have no rows.
             return;
         }
-        let rows = Layout::vertical([Constraint::Length(2), Constraint::Fill(1), Constraint::Length(1)]);
-        let [header, body, footer] = rows.areas(buffer.area);
+        let is_tall = buffer.area.height >= TALL;
+        let [header, head] = if is_tall { [2, 2] } else { [1, 1] }.map(Constraint::Length);
+        let rows = [header, head, Constraint::Fill(1), Constraint::Length(1)];
+        let [header, head, body, footer] = Layout::vertical(rows).areas(buffer.area);
         self.header(client, header, buffer);
         self.footer(paused, footer, buffer);
-        let body = Rect {
-            y: body.y + u16::from(body.height > 12),
-            height: body.height - u16::from(body.height > 12),
-            ..body
-        };
-        if body.width >= WIDE {
-            let room = Rect { width: body.width - SIDE, ..body };
-            let taken = self.maps(client, room, buffer);
-            let side = Rect { x: body.x + taken, width: body.width - taken, ..body };
-            self.side(client, side, buffer);
-        } else if body.height >= 24 {
-            let parts = Layout::vertical([Constraint::Fill(1), Constraint::Length(12)]);
-            let [maps, below] = parts.areas(body);
+        let head = Rect { y: head.bottom().saturating_sub(1), height: head.height.min(1), ..head };
+        let basis = Basis::of(client, self.narrator.counts_per_newton);
+        self.head.draw(client, head, (basis, self.paint), buffer);
+        if body.width < WIDE && is_tall {
+            let parts = [Constraint::Fill(1), Constraint::Length(CURVE), Constraint::Length(12)];
+            let [maps, curve, below] = Layout::vertical(parts).areas(body);
             self.maps(client, maps, buffer);
+            self.force(curve, buffer);
             let [left, right] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas(below);
             self.contacts(client, left, buffer);
-            panes::intention(client, right, buffer);
-        } else {
-            let [maps, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(body);
-            self.maps(client, maps, buffer);
-            if below.is_empty() {
-                return;
-            }
-            let touched: Vec<_> = client.contacts().iter().map(|p| client.region_name(p.region)).collect();
-            let line = format!("{} {}", client.leading().as_str(), touched.join(", "));
-            buffer.set_stringn(below.x, below.y, line, usize::from(below.width), Style::new());
+            return panes::concepts(client, right, buffer);
         }
+        let room = if body.width >= WIDE { body.width - SIDE } else { body.width };
+        let taken = self.maps(client, Rect { width: room, ..body }, buffer);
+        let side = Rect { x: body.x + taken, width: body.width - taken, ..body };
+        let parts = [Constraint::Length(CURVE), Constraint::Fill(1)];
+        let [curve, below] = Layout::vertical(parts).spacing(u16::from(is_tall)).areas(side);
+        self.force(curve, buffer);
+        match body.width >= WIDE {
+            true => self.side(client, below, buffer),
+            false => panes::concepts(client, below, buffer),
+        }
+    }
+
+    /// Draws the force of the last half minute below its name.
+    fn force(&self, space: Rect, buffer: &mut Buffer) {
+        if space.is_empty() {
+            return;
+        }
+        let most = force(self.curve.most(), self.narrator.counts_per_newton);
+        let title = format!("force of the last 30 s, up to {most}");
+        buffer.set_stringn(space.x, space.y, title, usize::from(space.width), Style::new());
+        self.curve.draw(Rect { y: space.y + 1, height: space.height - 1, ..space }, buffer);
     }
 
     /// Draws the maps. Returns their width.
@@ -199,13 +224,22 @@ impl View {
     }
 
     fn side(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
-        let concepts = client.concepts().len() as u16 + 1;
+        let is_broad = space.width >= BROAD;
+        let columns = if is_broad {
+            [Constraint::Length(SIDE), Constraint::Fill(1)]
+        } else {
+            [Constraint::Fill(1), Constraint::Length(0)]
+        };
+        let [left, right] = Layout::horizontal(columns).spacing(u16::from(is_broad)).areas(space);
+        let concepts = panes::rows(client);
         let contacts = client.contacts().len().max(3) as u16 + 1;
-        let rows = [contacts.min(space.height / 3), concepts.min(space.height / 2)].map(Constraint::Length);
+        let most = if is_broad { left.height } else { left.height / 2 };
+        let rows = [contacts.min(left.height / 3), concepts.min(most)].map(Constraint::Length);
         let [upper, middle, lower] =
-            Layout::vertical([rows[0], rows[1], Constraint::Fill(1)]).spacing(1).areas(space);
+            Layout::vertical([rows[0], rows[1], Constraint::Fill(1)]).spacing(1).areas(left);
         self.contacts(client, upper, buffer);
-        panes::intention(client, middle, buffer);
+        panes::concepts(client, middle, buffer);
+        let lower = if is_broad { right } else { lower };
         let log: Vec<String> = self.log.iter().cloned().collect();
         panes::list("events, newest first", &log, lower, buffer);
     }
@@ -236,7 +270,11 @@ impl View {
             x += 1;
         }
         let left = usize::from(space.right().saturating_sub(x));
-        buffer.set_stringn(x, y, format!(" {} counts", self.top), left, Style::new());
+        let end = match self.narrator.counts_per_newton {
+            Some(counts) => format!(" {:.2} N on a taxel", f32::from(self.top) / counts),
+            None => format!(" {} counts", self.top),
+        };
+        buffer.set_stringn(x, y, end, left, Style::new());
     }
 }
 
@@ -307,7 +345,7 @@ mod tests {
             ['*', '#', '%', '@'].map(|glyph| count(picture, glyph)).iter().sum::<usize>()
         };
         assert!(heavy(&pressed) > heavy(&rest) + 10, "{pressed:#?}");
-        assert!(pressed[39].contains(".:-=+o*#%@ 200 counts"), "{}", pressed[39]);
+        assert!(pressed[39].contains(".:-=+o*#%@ 0.20 N on a taxel"), "{}", pressed[39]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Connects the board's thread with the threads of the pages.
 
-use super::lines::NoneLine;
+use super::lines::{LogLine, NoneLine};
 use super::mailbox::Mailbox;
 use super::message::{self, PageWish};
 use super::order::Order;
@@ -15,15 +15,16 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel::client::{Client, Event};
+use taxel::fcm::map::MapFile;
 use taxel::recording::Store;
 use taxel::source::shared;
-use taxel_core::garment::Circuit;
+use taxel_core::garment::{Circuit, Pins};
 use taxel_core::wire::PressingReport;
 
 /// Most pages at a time.
 pub const PAGES: usize = 16;
-/// Log lines sent to a new page.
-const LOG: usize = 32;
+/// Log lines kept for a new page: more than those of half a minute.
+const LOG: usize = 512;
 /// Recordings sent at a time: each takes as much memory as the bytes kept of the board.
 const TRANSFERS: usize = 3;
 /// Most tares queued: one in progress, and another.
@@ -47,8 +48,11 @@ struct PageShared {
     pages: Vec<Arc<Mailbox>>,
     /// The newest message of each kind.
     known: BTreeMap<&'static str, Arc<str>>,
-    log: VecDeque<Arc<str>>,
+    log: VecDeque<Said>,
     circuit: Option<Box<Circuit>>,
+    counts_per_newton: Option<f32>,
+    /// The map of the scene.
+    map: Option<Arc<MapFile>>,
     tares: VecDeque<u16>,
     /// The image for pages that come later.
     shown: Option<Shot>,
@@ -123,7 +127,9 @@ impl PageHub {
         }
         let page = Arc::new(Mailbox::default());
         shared.known.iter().for_each(|(kind, line)| page.state(kind, line.clone()));
-        shared.log.iter().for_each(|line| page.line(line.clone()));
+        if !shared.log.is_empty() {
+            page.state("log", text(&LogLine { said: shared.log.iter().map(Said::message).collect() }));
+        }
         shared.shown.iter().for_each(|shot| page.shot(shot));
         shared.pages.push(page.clone());
         Some(page)
@@ -162,7 +168,7 @@ impl PageHub {
         let line = text(&said.message());
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.line(line.clone()));
-        shared.log.push_back(line);
+        shared.log.push_back(said.clone());
         while shared.log.len() > LOG {
             shared.log.pop_front();
         }
@@ -184,9 +190,23 @@ impl PageHub {
         self.lock().pages.iter().for_each(|page| page.forget_images());
     }
 
-    /// Sets the wiring of the current garment.
-    pub fn wired(&self, circuit: Option<Circuit>) {
-        self.lock().circuit = circuit.map(Box::new);
+    /// Shows the garment and the scene of the last `Hello`.
+    pub fn greet(&self, client: &Client, label: &str, counts_per_newton: Option<f32>) {
+        let worn = client.worn();
+        let circuit = worn.and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
+        let intent = worn.and_then(|worn| worn.scene.intent.as_ref());
+        {
+            let mut shared = self.lock();
+            shared.circuit = circuit.map(Box::new);
+            shared.map = intent.map(|intent| Arc::new(MapFile::from_config(&intent.map)));
+            shared.counts_per_newton = counts_per_newton;
+        }
+        self.state("hello", &message::hello(client, label, counts_per_newton));
+    }
+
+    /// Counts per newton on a taxel; none if unknown.
+    pub fn counts_per_newton(&self) -> Option<f32> {
+        self.lock().counts_per_newton
     }
 
     /// Handles the raw codes of a frame.
@@ -218,6 +238,12 @@ impl PageHub {
             }
             PageWish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
             PageWish::Tare(_) => {}
+            PageWish::Why { of, concepts } => {
+                let map = shared.map.clone();
+                drop(shared);
+                let why = map.and_then(|map| message::why(&map, of.as_deref(), &concepts));
+                page.state("why", why.map_or_else(|| text(&NoneLine { of: "why" }), |why| text(&why)));
+            }
             PageWish::Player(order) => self.order(order),
         }
     }
@@ -313,11 +339,12 @@ mod tests {
         let hub = PageHub::default();
         hub.state("link", &json!(1));
         hub.state("link", &json!(2));
-        (0..100).for_each(|n| hub.say(&Said::note(n.to_string())));
+        (0..600).for_each(|n| hub.say(&Said::note(n.to_string())));
         let page = hub.join().unwrap();
         assert_eq!(page.next(), Parcel::Line("2".into()));
         let Parcel::Line(line) = page.next() else { panic!("no line") };
-        assert_eq!(serde_json::from_str::<serde_json::Value>(&line).unwrap()["text"], "68");
+        let said = serde_json::from_str::<serde_json::Value>(&line).unwrap()["said"].take();
+        assert_eq!((said[0]["said"].as_str(), said.as_array().unwrap().len()), (Some("88"), LOG));
         hub.leave(&page);
         assert_eq!(page.next(), Parcel::Closed);
         let many: Vec<_> = std::iter::from_fn(|| hub.join()).take(2 * PAGES).collect();

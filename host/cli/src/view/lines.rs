@@ -3,7 +3,9 @@
 
 use super::line_kind::LineKind;
 use crate::palette::PaletteTold;
+use crate::watch::{Basis, Felt};
 use serde::Serialize;
+use taxel::fcm::layers::Role;
 use taxel::json::lines::{FrameLine, HelloLine, PressingLine};
 #[cfg(feature = "schema")]
 use taxel::json::schema::TypeIs;
@@ -23,6 +25,9 @@ pub struct PageHello<'a> {
     pub palette: PaletteTold,
     /// Counts per newton on a taxel; null if unknown.
     pub counts_per_newton: Option<f64>,
+    /// Basis of forces: `simulated`, `calibrated`, `nominal` or `counts`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub basis: Basis,
     /// Counts at which a contact ends.
     pub low: u16,
     /// Rectangles of positions without a taxel.
@@ -67,6 +72,9 @@ pub struct PageConcept<'a> {
     pub name: &'a str,
     /// Layer in the drawing, from 0.
     pub layer: usize,
+    /// Its part: `felt`, `meaning` or `feeling`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub role: Role,
 }
 
 /// An edge of a map.
@@ -89,6 +97,8 @@ pub struct PageFrame<'a> {
     /// The frame.
     #[serde(flatten)]
     pub line: FrameLine<'a>,
+    /// What is felt, for people.
+    pub felt: Felt,
     /// Of a recording: time since its beginning, us.
     #[cfg_attr(feature = "schema", schemars(with = "u64"))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -153,6 +163,36 @@ pub struct TaxelLine {
     pub wired_column: Option<u8>,
 }
 
+/// Causes of a concept's activation, in shares of the sum that causes it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("why")))]
+#[serde(tag = "type", rename = "why")]
+pub struct WhyLine {
+    /// Name of the concept.
+    pub concept: String,
+    /// Its activation, -1 to 1.
+    pub activation: f64,
+    /// Share of each input over all its paths, the greatest first.
+    pub inputs: Vec<(String, f64)>,
+    /// The paths, the greatest share first.
+    pub paths: Vec<PathShare>,
+    /// Shares due to no input, by reason.
+    pub rest: Vec<(String, f64)>,
+    /// Sum of the paths and the rest.
+    pub sum: f64,
+}
+
+/// Share of a path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PathShare {
+    /// Names of the concepts from an input to the last before the explained one.
+    pub concepts: Vec<String>,
+    /// The share.
+    pub share: f64,
+}
+
 /// State of the link.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -177,20 +217,28 @@ pub struct LinkLine {
     pub pages: usize,
 }
 
+/// The log so far.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("log")))]
+#[serde(tag = "type", rename = "log")]
+pub struct LogLine<'a> {
+    /// Its lines, the oldest first.
+    pub said: Vec<SayLine<'a>>,
+}
+
 /// A line of the log.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("say")))]
 #[serde(tag = "type", rename = "say")]
 pub struct SayLine<'a> {
-    /// The line with its time.
-    pub text: String,
     /// `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub kind: LineKind,
     /// Its time, us of the board; null if it has none.
     pub time_us: Option<u64>,
-    /// The line without its time.
+    /// The sentence.
     pub said: &'a str,
 }
 
@@ -299,8 +347,8 @@ mod tests {
                 r#""block":3,"wired_row":null,"wired_column":3}"#
             )
         );
-        let said = SayLine { text: "1 s on".into(), kind: LineKind::Onset, time_us: Some(9), said: "on" };
-        assert_eq!(text(&said), r#"{"type":"say","text":"1 s on","kind":"onset","time_us":9,"said":"on"}"#);
+        let said = SayLine { kind: LineKind::Onset, time_us: Some(9), said: "on" };
+        assert_eq!(text(&said), r#"{"type":"say","kind":"onset","time_us":9,"said":"on"}"#);
         assert_eq!(text(&EndLine { text: "over".into() }), r#"{"type":"end","text":"over"}"#);
         assert_eq!(text(&NoneLine { of: "taxel" }), r#"{"type":"none","of":"taxel"}"#);
         let player = PlayerLine {
@@ -381,6 +429,10 @@ pub struct RobotBoardLine<'a> {
     pub why: Option<String>,
     /// Contacts on it.
     pub contacts: usize,
+    /// Counts per newton on its taxels; null if unknown.
+    pub counts_per_newton: Option<f32>,
+    /// True if the loads of its touches are thousandths of a newton, by a calibration in force.
+    pub is_calibrated: bool,
 }
 
 /// What the touches of all boards mean to the robot.

@@ -12,27 +12,34 @@
 //! | 2 n | pressure of the n taxels, counts, in the order of the garment |
 //! | 2 n | the greatest pressure of each since the last image sent |
 //!
-//! A page sends `{"hover": taxel}` (or null), and `{"tare": frames}`. If it shows a recording, it sends
+//! A page sends `{"hover": taxel}` (or null), `{"tare": frames}`, and `{"why": {"of": concept, "concepts":
+//! activations}}`, which is answered by `why`. If it shows a recording, it sends
 //! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range":
 //! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
 //! not finite, a speed of 0 or less, and a step of 0; a time beyond the recording becomes its end.
 
 use super::lines::{
-    GlowLine, LinkLine, PageConcept, PageEdge, PageFrame, PageHello, PageMap, PinsLine, TaxelLine,
+    GlowLine, LinkLine, PageConcept, PageEdge, PageFrame, PageHello, PageMap, PathShare, PinsLine, TaxelLine,
+    WhyLine,
 };
 use super::order::Order;
 use super::shot::Shot;
 use crate::palette;
+use crate::watch::{Basis, Felt};
 use serde::Deserialize;
 use std::time::Duration;
 use taxel::client::{Client, Event};
-use taxel::fcm;
+use taxel::fcm::map::MapFile;
+use taxel::fcm::{layers, why as causes};
 use taxel::json::lines::{FrameLine, JsonLine};
 use taxel::json::{self, MeaningOfTouch, pins};
-use taxel_core::format::Micros;
+use taxel_core::format::{Micros, Name, Q15};
 use taxel_core::garment::Circuit;
 use taxel_core::intent::{Edge, MapConfig};
 use taxel_core::selftest::Findings;
+
+/// Paths listed in `why`.
+const PATHS: usize = 24;
 
 /// The binary message.
 pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64, missed: u64) -> Vec<u8> {
@@ -64,6 +71,7 @@ pub fn hello<'a>(
         label,
         palette: palette::told(),
         counts_per_newton: counts_per_newton.map(f64::from),
+        basis: Basis::of(client, counts_per_newton),
         low: worn.scene.contact.low,
         absent: &worn.garment.absent,
         map: worn.scene.intent.as_ref().map(|intent| map(&intent.map)),
@@ -73,25 +81,57 @@ pub fn hello<'a>(
 /// The cognitive map, in layers as in `taxel fcm draw`.
 fn map(map: &MapConfig) -> PageMap<'_> {
     let one = 10f64.powi(map.decimals.into());
-    let edges: Vec<_> = map.edges.iter().filter(|edge| edge.weight != 0).collect();
-    let ends: Vec<_> = edges.iter().map(|edge| (usize::from(edge.from), usize::from(edge.to))).collect();
-    let layers = fcm::layers::layers(map.concepts.len(), &ends);
-    let concepts = map.concepts.iter().zip(layers);
+    let concepts = map.concepts.iter().zip(layers::of_config(map));
+    let concept = |(name, (layer, role))| PageConcept { name: Name::as_str(name), layer, role };
     let edge = |edge: &Edge| PageEdge { from: edge.from, to: edge.to, weight: f64::from(edge.weight) / one };
     PageMap {
-        concepts: concepts.map(|(name, layer)| PageConcept { name: name.as_str(), layer }).collect(),
-        edges: edges.into_iter().map(edge).collect(),
+        concepts: concepts.map(concept).collect(),
+        edges: map.edges.iter().filter(|edge| edge.weight != 0).map(edge).collect(),
     }
+}
+
+/// `why`: causes of a concept's activation, or of the strongest intention's; none if it has no cause, or the map
+/// does not know it.
+pub fn why(map: &MapFile, of: Option<&str>, activations: &[f64]) -> Option<WhyLine> {
+    let activations: Vec<_> = activations.iter().map(|value| Q15((value * 32768.0).round() as i32)).collect();
+    let explained = causes::explain_state(map, &activations, of).ok()?;
+    let (shares, concept) = (&explained.shares, usize::from(explained.why.concept));
+    let name = |at: usize| map.concept[at].name.clone();
+    let share = |units: i64| units as f64 / 32768.0;
+    let others: i64 = shares.paths.iter().skip(PATHS).map(|path| path.share).sum();
+    let others = (others != 0).then(|| ("further paths".to_string(), share(others)));
+    let rest = shares.rest.iter().map(|(reason, units)| (reason.clone(), share(*units)));
+    Some(WhyLine {
+        concept: name(concept),
+        activation: explained.map.value(explained.run.state[concept]),
+        inputs: shares.inputs().into_iter().map(|(at, units)| (name(at), share(units))).collect(),
+        paths: shares
+            .paths
+            .iter()
+            .take(PATHS)
+            .map(|path| PathShare {
+                concepts: path.concepts.iter().copied().map(name).collect(),
+                share: share(path.share),
+            })
+            .collect(),
+        rest: rest.chain(others).collect(),
+        sum: share(shares.sum()),
+    })
 }
 
 /// The line of an image; none of another event. The activations are those of the last moment at which the
 /// announced intention led: a board announces it a little longer than the touch activates it, and a page
 /// shows both together.
-pub fn frame<'a>(client: &'a Client, event: &'a Event) -> Option<PageFrame<'a>> {
+pub fn frame<'a>(
+    client: &'a Client,
+    event: &'a Event,
+    counts_per_newton: Option<f32>,
+) -> Option<PageFrame<'a>> {
     let Some(JsonLine::Frame(line)) = json::line(client, event) else { return None };
     let intent = MeaningOfTouch::of(client.leading(), client.concepts(), &client.activations_of_leading());
     Some(PageFrame {
         line: FrameLine { intent, ..line },
+        felt: Felt::of(client, counts_per_newton),
         at_us: None,
         seeks: None,
         pressing: None,
@@ -140,7 +180,7 @@ pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize)
 }
 
 /// A request of a page.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum PageWish {
@@ -148,6 +188,13 @@ pub enum PageWish {
     Hover(Option<u16>),
     /// A tare over this many frames.
     Tare(u16),
+    /// Causes of an activation.
+    Why {
+        /// The concept; null for the strongest intention.
+        of: Option<String>,
+        /// Activation of each concept of the map, -1 to 1, in the order of the map.
+        concepts: Vec<f64>,
+    },
     /// An order to the player of a recording.
     #[serde(untagged)]
     Player(Order),
@@ -159,6 +206,7 @@ pub fn wish(text: &str) -> Option<PageWish> {
     let known = match &wish {
         PageWish::Hover(_) => true,
         PageWish::Tare(frames) => (1..=4096).contains(frames),
+        PageWish::Why { concepts, .. } => concepts.iter().all(|value| (-1.0..=1.0).contains(value)),
         PageWish::Player(order) => order.is_sound(),
     };
     known.then_some(wish)
@@ -168,6 +216,7 @@ pub fn wish(text: &str) -> Option<PageWish> {
 mod tests {
     use super::*;
     use serde_json::{Value, json};
+    use taxel::fcm::{self, decimal::Decimal};
 
     #[test]
     fn only_what_is_known_is_a_wish() {
@@ -178,7 +227,12 @@ mod tests {
         assert_eq!(wish(r#"{"range": null}"#), Some(PageWish::Player(Order::Range(None))));
         assert_eq!(wish(r#"{"range": [1, 2]}"#), Some(PageWish::Player(Order::Range(Some([1.0, 2.0])))));
         assert_eq!(wish(r#"{"step": -1}"#), Some(PageWish::Player(Order::Step(-1))));
+        let of = Some("kindness".into());
+        let why = PageWish::Why { of, concepts: vec![0.5, -1.0] };
+        assert_eq!(wish(r#"{"why": {"of": "kindness", "concepts": [0.5, -1]}}"#), Some(why));
         for nonsense in [
+            r#"{"why": {"of": null, "concepts": [2]}}"#,
+            r#"{"why": {"of": 7, "concepts": []}}"#,
             r#"{"seek": 1e999}"#,
             r#"{"seek": NaN}"#,
             r#"{"seek": null}"#,
@@ -196,6 +250,23 @@ mod tests {
         for nonsense in ["", "{}", "[]", r#"{"hover": -1}"#, r#"{"hover": 1e9}"#, r#"{"tare": 0}"#, "7"] {
             assert_eq!(wish(nonsense), None, "{nonsense}");
         }
+    }
+
+    #[test]
+    fn why_adds_up_and_names_what_pat_and_rhythm_cause() {
+        let map = fcm::load::map("tactile").unwrap();
+        let inputs = [("press", -0.5), ("shape", 1.0), ("rhythm", 1.0)];
+        let inputs = inputs.map(|(name, value)| (name.to_string(), Decimal::from_f64(value).unwrap()));
+        let run = fcm::why::explain(&map, &inputs, None).unwrap();
+        let activations: Vec<f64> =
+            run.run.state[..map.concept.len()].iter().map(|x| run.map.value(*x)).collect();
+        let line = why(&map, None, &activations).unwrap();
+        assert_eq!((line.concept.as_str(), line.inputs[0].0.as_str()), ("kindness", "rhythm"));
+        let rest: f64 = line.rest.iter().map(|(_, share)| share).sum();
+        let paths: f64 = line.paths.iter().map(|path| path.share).sum();
+        assert!((paths + rest - line.sum).abs() < 1e-9 && line.activation > 0.9, "{line:?}");
+        assert!(why(&map, Some("press"), &activations).is_none(), "an input has no cause");
+        assert!(why(&map, Some("nothing"), &[]).is_none());
     }
 
     #[test]

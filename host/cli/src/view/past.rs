@@ -31,7 +31,9 @@ impl<'a> Past<'a> {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return false };
         let Some((_, image)) = self.client.image() else { return false };
         let total = self.client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let Some(line) = message::frame(&self.client, event) else { return false };
+        let Some(line) = message::frame(&self.client, event, self.hub.counts_per_newton()) else {
+            return false;
+        };
         let wearer = self.hub.wearer();
         let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(&self.client, *time));
         self.mailbox.shot(&Shot {

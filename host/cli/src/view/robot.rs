@@ -42,6 +42,8 @@ impl<'a> RobotPages<'a> {
             since_us,
             why: why.clone(),
             contacts,
+            counts_per_newton: None,
+            is_calibrated: board.calibration.is_some(),
         });
         let mut pages = RobotPages {
             robot,
@@ -142,6 +144,9 @@ impl<'a> RobotPages<'a> {
 
     fn tell_boards(&mut self) {
         (self.is_new, self.told_boards) = (false, Instant::now());
+        for (hub, board) in self.hubs.iter().zip(&mut self.boards) {
+            board.counts_per_newton = hub.counts_per_newton();
+        }
         for (hub, board) in self.hubs.iter().zip(&self.boards) {
             let line = RobotLine { name: &self.robot.name, board: board.name, boards: &self.boards };
             hub.state("robot", &line);

@@ -25,15 +25,9 @@ impl Said {
         Said { kind: LineKind::Note, time_us: None, text: text.into() }
     }
 
-    /// The sentence behind the board's time, as shown in the log.
-    pub fn line(&self) -> String {
-        self.time_us
-            .map_or_else(|| self.text.clone(), |time| format!("{} {}", seconds(Micros(time)), self.text))
-    }
-
     /// The message `say`.
     pub fn message(&self) -> SayLine<'_> {
-        SayLine { text: self.line(), kind: self.kind, time_us: self.time_us, said: &self.text }
+        SayLine { kind: self.kind, time_us: self.time_us, said: &self.text }
     }
 }
 

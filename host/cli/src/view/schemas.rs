@@ -1,8 +1,8 @@
 //! The JSON schemas of the messages between the program and a page.
 
 use super::lines::{
-    EndLine, GlowLine, ImageHead, LinkLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine,
-    RobotIntentLine, RobotLine, SayLine, TaxelLine,
+    EndLine, GlowLine, ImageHead, LinkLine, LogLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine,
+    RobotIntentLine, RobotLine, SayLine, TaxelLine, WhyLine,
 };
 use super::message::PageWish;
 use crate::folding::FoldingLine;
@@ -28,6 +28,8 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("TaxelLine", of::<TaxelLine>()),
         ("LinkLine", of::<LinkLine>()),
         ("SayLine", of::<SayLine<'static>>()),
+        ("LogLine", of::<LogLine<'static>>()),
+        ("WhyLine", of::<WhyLine>()),
         ("EndLine", of::<EndLine>()),
         ("NoneLine", of::<NoneLine>()),
         ("PlayerLine", of::<PlayerLine>()),

@@ -17,7 +17,6 @@ use taxel::json;
 use taxel::session::{JointPositions, Show};
 use taxel::source::Source;
 use taxel_core::format::Micros;
-use taxel_core::garment::{Circuit, Pins};
 use taxel_core::wire::Request;
 
 /// Time between two messages about the link.
@@ -116,7 +115,7 @@ impl Viewer {
             self.hub.state("folding", line);
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
-        let Some(line) = message::frame(client, event) else { return };
+        let Some(line) = message::frame(client, event, self.counts_per_newton) else { return };
         let wearer = self.hub.wearer();
         let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, time));
         let line = text(&PageFrame { pressing, ..line });
@@ -136,10 +135,7 @@ impl Viewer {
     }
 
     fn hello(&mut self, client: &Client) -> Result<()> {
-        let circuit =
-            client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
-        self.hub.wired(circuit);
-        self.hub.state("hello", &message::hello(client, &self.label, self.counts_per_newton));
+        self.hub.greet(client, &self.label, self.counts_per_newton);
         if let (Some(folding), Some(worn)) = (&mut self.folding, client.worn()) {
             folding.wear(worn)?;
         }

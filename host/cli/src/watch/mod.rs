@@ -4,6 +4,7 @@
 mod args;
 mod asked;
 mod feed;
+mod felt;
 mod follow;
 mod forms;
 mod gesture_model;
@@ -17,6 +18,7 @@ pub mod stop;
 
 pub use args::{BoardArgs, LiveArgs, seconds};
 pub use feed::feed;
+pub use felt::{Basis, Felt};
 pub use follow::watch;
 pub use forms::forms;
 pub use gesture_model::GestureModel;

@@ -132,7 +132,7 @@ fn each_board_has_its_page_and_each_page_tells_of_all_boards() {
     let back = line(&mut other, "robot", |line| state(line, 1, "live"));
     assert_eq!((&back["boards"][1]["since_us"], &back["boards"][1]["why"]), (&json!(null), &json!(null)));
     other.send(Message::text("{\"tare\": 8}")).unwrap();
-    line(&mut other, "say", |line| line["text"].as_str().unwrap().ends_with("tare: done"));
+    line(&mut other, "say", |line| line["said"].as_str().unwrap().ends_with("tare: done"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `taxel view` from outside: access, served files, and messages to a page while a simulated board is
 //! watched.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -225,7 +225,12 @@ fn the_board_sends_raw_codes_while_a_pointer_is_on_a_taxel() {
     }
     page.send(Message::Binary(vec![0; 100].into())).unwrap();
     page.send(Message::Text(r#"{"tare": 16}"#.into())).unwrap();
-    line(&mut page, "say", |line| line["text"].as_str().unwrap().contains("tare: done"));
+    line(&mut page, "say", |line| line["said"].as_str().unwrap().contains("tare: done"));
+    page.send(Message::Text(r#"{"why": {"of": null, "concepts": [-0.5, 1, 0, 0, 0.9]}}"#.into())).unwrap();
+    let why = line(&mut page, "why", |_| true);
+    assert_eq!((&why["concept"], &why["activation"]), (&"kindness".into(), &json!(0.899993896484375)));
+    page.send(Message::Text(r#"{"why": {"of": "press", "concepts": []}}"#.into())).unwrap();
+    line(&mut page, "none", |line| line["of"] == "why");
     page.send(Message::Text(r#"{"hover": 0}"#.into())).unwrap();
     assert_eq!(
         line(&mut page, "taxel", |line| line["taxel"] == 0 && !line["code"].is_null())["wired_row"],
@@ -244,7 +249,7 @@ fn a_page_that_says_too_much_goes_and_the_others_stay() {
     let _ = bad.send(Message::Text("x".repeat(100_000).into()));
     while bad.read().is_ok() {}
     hub.say(&Said::note("still here"));
-    line(&mut good, "say", |line| line["text"] == "still here");
+    line(&mut good, "say", |line| line["said"] == "still here");
     // Its threads end shortly after.
     let gone = (0..2000).any(|_| {
         thread::sleep(Duration::from_millis(5));

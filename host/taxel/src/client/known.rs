@@ -138,6 +138,11 @@ impl Client {
         self.confidence.as_ref().filter(of_it).map(|told| told.confidence)
     }
 
+    /// Gesture that the touch of a panel looks like; none if it was not recognised, or is over.
+    pub fn gesture(&self, panel: u8) -> Option<&GestureReport> {
+        self.gesture.as_ref().filter(|report| report.panel == panel && !report.ended)
+    }
+
     /// Faulty taxels by number, by the latest report.
     pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
         &self.ill

@@ -38,7 +38,7 @@ impl Client {
             let none = IntentReport { frame, time, leading, outcome, steps: 0, concepts };
             self.say(Event::Intent(Box::new(none)));
         }
-        (self.picture, self.led, self.confidence) = Default::default();
+        (self.picture, self.led, self.confidence, self.gesture) = Default::default();
         (self.forms, self.bounds) = Default::default();
         [&mut self.released, &mut self.unsure].into_iter().for_each(Vec::clear);
         self.regions.clear();

@@ -1,6 +1,37 @@
 //! Layers of a drawn map: causes left of their effects.
 
 use super::map::MapFile;
+use serde::Serialize;
+use taxel_core::intent::{Leading, MapConfig};
+
+/// Part of a concept in a map that reads from touch to mood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// Measured or told: nothing causes it.
+    Felt,
+    /// Meaning of what is felt: an intention, or a cause of one.
+    Meaning,
+    /// Feeling about the meaning: it lies behind all intentions.
+    Feeling,
+}
+
+/// Layer and role of each concept of a board's map.
+pub fn of_config(map: &MapConfig) -> Vec<(usize, Role)> {
+    let edges = map.edges.iter().filter(|edge| edge.weight != 0);
+    let ends: Vec<_> = edges.map(|edge| (usize::from(edge.from), usize::from(edge.to))).collect();
+    let layers = layers(map.concepts.len(), &ends);
+    let is_intention =
+        |at: usize| Leading::INTENTIONS.iter().any(|of| of.as_str() == map.concepts[at].as_str());
+    let last = (0..layers.len()).filter(|at| is_intention(*at)).map(|at| layers[at]).max();
+    let role = |at: usize| match layers[at] {
+        _ if is_intention(at) => Role::Meaning,
+        0 => Role::Felt,
+        layer if last.is_some_and(|last| layer > last) => Role::Feeling,
+        _ => Role::Meaning,
+    };
+    (0..layers.len()).map(|at| (layers[at], role(at))).collect()
+}
 
 /// Layer of each concept: 0 without a cause, else one more than the highest layer of its causes. Edges that
 /// close a ring are ignored.
@@ -62,12 +93,22 @@ fn visit(
 mod tests {
     use super::*;
     use crate::fcm::load;
+    use taxel_core::scene::Scene;
 
     #[test]
     fn the_shipped_map_reads_from_touch_to_mood() {
         let map = load::map("tactile").unwrap();
         assert_eq!(of_map(&map)[..10], [0, 0, 0, 0, 3, 2, 1, 4, 4, 5]);
         assert_eq!(of_map(&map)[10..], [0; 10], "what is measured beside");
+    }
+
+    #[test]
+    fn the_shipped_map_leads_from_what_is_felt_to_feelings() {
+        let intent = Scene::shipped().intent.unwrap();
+        let roles: Vec<Role> = of_config(&intent.map).into_iter().map(|(_, role)| role).collect();
+        let wanted =
+            [[Role::Felt; 4].as_slice(), &[Role::Meaning; 3], &[Role::Feeling; 3], &[Role::Felt; 10]];
+        assert_eq!(roles, wanted.concat());
     }
 
     #[test]

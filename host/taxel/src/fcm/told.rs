@@ -1,9 +1,7 @@
 //! A board's report of an intention, with the map that produced it.
 
 use super::decimal::Decimal;
-use super::engine::Q15_CONCEPTS;
 use super::map::MapFile;
-use taxel_core::intent::Inference;
 use taxel_core::wire::IntentReport;
 
 /// A report of an intention, and the map that produced it.
@@ -18,17 +16,6 @@ pub struct Told {
 }
 
 impl Told {
-    /// Final state of the board's inference; `one` is 1.0 in the map's states.
-    pub fn run(&self, one: i32) -> Inference<Q15_CONCEPTS> {
-        let mut state = [0; Q15_CONCEPTS];
-        for (slot, value) in state.iter_mut().zip(&self.report.concepts) {
-            // The board rounds activations of a threshold map from decimal steps, which are coarser than
-            // 2^-15, so this is the exact inverse.
-            *slot = (f64::from(value.0) * f64::from(one) / 32768.0).round() as i32;
-        }
-        Inference { state, steps: self.report.steps, outcome: self.report.outcome }
-    }
-
     /// Concepts set by the touch or the host, with their activations.
     pub fn inputs(&self) -> Vec<(String, Decimal)> {
         let value = |at: usize| self.report.concepts.get(at).and_then(|v| Decimal::from_f64(v.to_f64()));

@@ -8,6 +8,7 @@ use super::paths::{Shares, shares};
 use super::told::Told;
 use crate::error::{MapFileError, Result, UsageError};
 use serde_json::{Value, json};
+use taxel_core::format::Q15;
 use taxel_core::intent::{Inference, Leading, Outcome, Why};
 
 /// A settled map, and the explanation of one of its activations.
@@ -31,10 +32,24 @@ pub fn explain(file: &MapFile, inputs: &[(String, Decimal)], of: Option<&str>) -
 
 /// Explains a board's report, from its final state instead of a new inference.
 pub fn explain_told(told: &Told, of: Option<&str>) -> Result<Explained> {
-    let map = BoardMap::build(&told.map)?;
-    let run = told.run(map.map.one());
     let leading = Some(told.report.leading).filter(|leading| *leading != Leading::None);
-    explain_run(&told.map, map, run, of.or(leading.map(Leading::as_str)))
+    let explained = explain_state(&told.map, &told.report.concepts, of.or(leading.map(Leading::as_str)))?;
+    let Inference { state, .. } = explained.run;
+    let run = Inference { state, steps: told.report.steps, outcome: told.report.outcome };
+    Ok(Explained { run, ..explained })
+}
+
+/// Explains a concept in a final state of a board, of which steps and outcome are not known.
+pub fn explain_state(file: &MapFile, activations: &[Q15], of: Option<&str>) -> Result<Explained> {
+    let map = BoardMap::build(file)?;
+    let mut state = [0; Q15_CONCEPTS];
+    for (slot, value) in state.iter_mut().zip(activations) {
+        // The board rounds activations of a threshold map from decimal steps, which are coarser than 2^-15, so
+        // this is the exact inverse.
+        *slot = (f64::from(value.0) * f64::from(map.map.one()) / 32768.0).round() as i32;
+    }
+    let run = Inference { state, steps: 0, outcome: Outcome::Fixed };
+    explain_run(file, map, run, of)
 }
 
 fn explain_run(

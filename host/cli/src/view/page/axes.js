@@ -1,7 +1,7 @@
 // What surrounds a relief: the floor, the walls behind it, and names and numbers.
 
 import { colour } from "./dom.js";
-import { ticks } from "./mesh.js";
+import { decimals, ticks } from "./mesh.js";
 
 /**
  * @typedef {import("./mesh.js").Mesh} Mesh
@@ -99,7 +99,7 @@ function names(context, sight, mesh, height) {
   const edge = /** @type {[number, number]} */ ([sight.behind[0] ? 0 : box[0], facesFront ? box[1] : 0]);
   const middle = /** @type {Triple} */ ([box[0] / 2, box[1] / 2, 0]);
   const marks = ticks(height.highest);
-  const digits = marks.some((mark) => !Number.isInteger(mark)) ? 1 : 0;
+  const digits = decimals(marks);
   for (const mark of marks.slice(1)) {
     const last = mark === marks.at(-1);
     const z = (mark / height.highest) * box[2];

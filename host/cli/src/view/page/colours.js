@@ -9,7 +9,7 @@
  * The palette of the program; empty before its first message.
  * @type {Palette & { pixels: Uint32Array }}
  */
-export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions: {}, pixels: new Uint32Array(0) };
+export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions: {}, feeling: "", pixels: new Uint32Array(0) };
 
 /** Where it is not known what presses: no colour of the ramp. */
 export const GREY = 0.45;

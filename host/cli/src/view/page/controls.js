@@ -35,7 +35,7 @@ const KEYS = [
   ["Tab", "to a panel: arrow keys read its taxels"],
   ["Tab", "to the surface or the robot: arrow keys turn it, Page Up and Page Down move it, Home resets it"],
   ["+ −", "scale"],
-  ["a", "adapt the scale to the pressure shown"],
+  ["a", "fit the scale to the next touch"],
   ["u", "kPa or counts"],
   ["x", "clear what is held"],
   ["s", "save"],
@@ -59,6 +59,7 @@ export class Controls {
     this.ask = ask;
     this.changed = changed;
     this.follow = new Follow();
+    this.worn = "";
     /** @type {import("./types.d.ts").Settings} */
     this.settings = {
       view: "panels",
@@ -70,7 +71,7 @@ export class Controls {
       glow: true,
       held: false,
       top: 0,
-      auto: false,
+      auto: true,
       theme: null,
       keys: true,
     };
@@ -152,17 +153,21 @@ export class Controls {
   /** Adapts the scale to the pressure shown, if that is switched on. */
   scale() {
     const { settings, store } = this;
+    const { garment } = store;
     if (!settings.top && palette.start) this.set({ top: palette.start });
     const shown = settings.auto && store.shown();
-    if (!shown) return;
+    if (!shown || !garment) return;
+    if (garment.key !== this.worn) this.follow = new Follow();
+    this.worn = garment.key;
     const image = settings.held && store.held ? store.held : shown.image;
     const greatest = image.reduce((most, value) => Math.max(most, value), 0);
-    const top = this.follow.next(settings.top, greatest, performance.now(), palette.ends);
+    const top = this.follow.next(settings.top, greatest, garment.low, palette.ends);
     if (top !== settings.top) this.set({ top });
   }
 
   /** @param {Layer | "auto"} name */
   toggle(name) {
+    if (name === "auto") this.follow = new Follow();
     this.set({ [name]: !this.settings[name] });
   }
 

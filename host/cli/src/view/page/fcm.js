@@ -1,9 +1,12 @@
 // The cognitive map with its live activations. As in `taxel fcm draw`: solid edges increase, dashed ones
 // decrease, width is strength; the number is the activation.
 
+import { colourOf } from "./concepts.js";
 import { draw, make, say } from "./dom.js";
 
-const [WIDTH, HEIGHT, ACROSS, DOWN] = [112, 42, 150, 84];
+const [WIDTH, HEIGHT, ACROSS, DOWN] = [98, 38, 126, 50];
+/** Height by which neighbouring columns are skewed, rows. */
+const SKEW = 0.4;
 
 /** The view. */
 export class CognitiveMap {
@@ -11,7 +14,7 @@ export class CognitiveMap {
   constructor(root) {
     this.root = root;
     this.key = "";
-    /** @type {{ name: string, box: SVGElement, text: SVGElement }[]} */
+    /** @type {{ name: string, own: string | null, box: SVGElement, text: SVGElement }[]} */
     this.nodes = [];
     /** @type {{ from: string, weight: number, line: SVGElement }[]} */
     this.edges = [];
@@ -26,10 +29,10 @@ export class CognitiveMap {
     if (!shown || !garment.map) return;
     const { concepts, leading } = shown.head.frame.intent;
     const value = (/** @type {string} */ name) => concepts[name] ?? 0;
-    for (const { name, box, text } of this.nodes) {
+    for (const { name, own, box, text } of this.nodes) {
       const activation = value(name);
-      box.style.fillOpacity = String(Math.min(1, Math.abs(activation)) * 0.75);
-      box.style.fill = activation < 0 ? "var(--less)" : "var(--more)";
+      box.style.fillOpacity = String(Math.min(1, Math.abs(activation)) * 0.6);
+      box.style.fill = activation < 0 ? "var(--less)" : (own || "var(--more)");
       box.style.strokeWidth = name === leading ? "3" : "1";
       say(text, activation.toFixed(2));
     }
@@ -40,14 +43,15 @@ export class CognitiveMap {
 
   /** @param {import("./types.d.ts").CognitiveMapOf | null} map */
   build(map) {
-    const key = JSON.stringify(map);
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const key = JSON.stringify([map, width, height]);
     if (key === this.key) return;
     this.key = key;
     if (!map) {
       this.root.replaceChildren(make("p", { class: "empty" }, "This scene has no cognitive map."));
       return;
     }
-    const places = placesOf(map.concepts);
+    const places = placesOf(map.concepts, width / height || 2);
     const extent = (/** @type {0 | 1} */ at) => Math.max(...places.map((place) => place[at]));
     const svg = draw("svg", {
       viewBox: `-12 -12 ${extent(0) + WIDTH + 24} ${extent(1) + HEIGHT + 24}`,
@@ -63,19 +67,20 @@ export class CognitiveMap {
       svg.append(line);
       return { from: name(from), weight, line };
     });
-    this.nodes = map.concepts.map(({ name }, at) => {
+    this.nodes = map.concepts.map((concept, at) => {
+      const { name } = concept;
       const [x, y] = place(at);
       const box = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, stroke: "var(--quiet)" });
       const text = draw("text", {
         x: x + WIDTH / 2,
-        y: y + 33,
+        y: y + 31,
         "text-anchor": "middle",
         "font-size": 12,
         fill: "var(--ink)",
       });
       const title = {
         x: x + WIDTH / 2,
-        y: y + 17,
+        y: y + 16,
         "text-anchor": "middle",
         "font-size": 13,
         "font-weight": 600,
@@ -83,26 +88,38 @@ export class CognitiveMap {
       };
       const back = draw("rect", { x, y, width: WIDTH, height: HEIGHT, rx: 7, fill: "var(--card)" });
       svg.append(back, box, draw("text", title, name), text);
-      return { name, box, text };
+      return { name, own: colourOf(concept), box, text };
     });
     this.root.replaceChildren(svg);
   }
 }
 
 /**
- * Places causes left of effects; layers are slightly skewed, so that few edges cross a concept.
+ * Places causes left of effects. The inputs, which are many, stand in as many columns as make the picture large;
+ * neighbouring columns are slightly skewed, so that few edges cross a concept.
  * @param {import("./types.d.ts").Concept[]} concepts
+ * @param {number} aspect width of the room, heights
  * @returns {[number, number][]}
  */
-function placesOf(concepts) {
-  const count = (/** @type {number} */ layer) => concepts.filter((concept) => concept.layer === layer).length;
-  const tallest = Math.max(...concepts.map(({ layer }) => count(layer)));
+export function placesOf(concepts, aspect) {
+  const counts = Array.from({ length: 1 + Math.max(...concepts.map(({ layer }) => layer)) }, () => 0);
+  for (const { layer } of concepts) counts[layer] = (counts[layer] ?? 0) + 1;
+  const [inputs = 0, ...others] = counts;
+  const rows = (/** @type {number} */ columns) => Math.max(Math.ceil(inputs / columns), ...others);
+  const size = (/** @type {number} */ columns) =>
+    Math.max(((columns + others.length) * ACROSS) / aspect, rows(columns) * DOWN);
+  const choices = Array.from({ length: Math.max(1, inputs) }, (_, at) => at + 1);
+  const first = choices.reduce((best, columns) => (size(columns) < size(best) ? columns : best), 1);
+  const deep = Math.ceil(inputs / first);
   const seen = new Map();
   return concepts.map(({ layer }) => {
     const above = seen.get(layer) ?? 0;
     seen.set(layer, above + 1);
-    const top = (tallest - count(layer)) / 2;
-    return [layer * ACROSS, (above + top) * DOWN + (layer % 2 ? DOWN * 0.37 : 0)];
+    const column = layer === 0 ? Math.floor(above / deep) : layer - 1 + first;
+    const row = layer === 0 ? above % deep : above;
+    const top = (rows(first) - (layer === 0 ? deep : (counts[layer] ?? 0))) / 2;
+    const skew = (column % 2) * (layer === 0 ? SKEW : 2 * SKEW);
+    return [column * ACROSS, (row + top) * DOWN + skew * DOWN];
   });
 }
 

@@ -1,7 +1,4 @@
-// A scale that follows the pressure shown: it grows at once, and shrinks after a while.
-
-/** Time of lower pressure after which the scale shrinks, milliseconds. */
-export const PATIENCE_MS = 2000;
+// A scale that fits the first touch, and afterwards grows where a touch goes beyond it.
 
 /**
  * The smallest end at or above the greatest pressure.
@@ -14,35 +11,25 @@ export function endFor(greatest, [least, most]) {
   return end;
 }
 
-/** Remembers since when the pressure is lower. */
+/** Remembers whether anything has touched. */
 export class Follow {
   constructor() {
-    /** @type {number | null} */
-    this.since = null;
-    this.most = 0;
+    this.fits = false;
   }
 
   /**
-   * The end of the scale at `now` ms, from the previous end and the greatest pressure shown. Unchanged at
-   * rest.
+   * The end of the scale, from the previous end and the greatest pressure shown; unchanged below `low`, where
+   * nothing touches.
    * @param {number} top
    * @param {number} greatest
-   * @param {number} now
+   * @param {number} low
    * @param {[number, number]} ends
    */
-  next(top, greatest, now, ends) {
+  next(top, greatest, low, ends) {
+    if (greatest < low) return top;
     const wanted = endFor(greatest, ends);
-    if (greatest <= 0 || wanted >= top) {
-      this.since = null;
-      this.most = 0;
-      return greatest > 0 ? Math.max(top, wanted) : top;
-    }
-    this.most = Math.max(this.most, wanted);
-    this.since ??= now;
-    if (now - this.since < PATIENCE_MS) return top;
-    const next = this.most;
-    this.since = null;
-    this.most = 0;
+    const next = this.fits ? Math.max(top, wanted) : wanted;
+    this.fits = true;
     return next;
   }
 }

@@ -94,12 +94,22 @@ export class Link {
     this.set("board", rate, "Images per second of the board");
     this.set("page", `${this.images.length} /s`, "Images per second drawn by this page; it draws the newest");
     if (store.recorded) return;
-    this.set("lost", String(link.lost), "Messages lost on the link", link.lost > 0);
-    this.set("thinned", String(link.thinned), "Images that the board left out for lack of bandwidth");
-    const missed = latest?.head.missed ?? 0;
-    this.set("missed", String(missed), "Samples and lines that this page did not read in time", missed > 0);
+    this.count("lost", link.lost, "Messages lost on the link", true);
+    this.count("thinned", link.thinned, "Images that the board left out for lack of bandwidth: the others are whole");
+    this.count("missed", latest?.head.missed ?? 0, "Samples and lines that this page, in the background, did not read");
     const latency = link.latency_ms;
     this.set("latency", latency === null ? "–" : `${latency.toFixed(1)} ms`, "Half of the round trip to the board");
+  }
+
+  /**
+   * Shows a count that is worth a word.
+   * @param {string} name
+   * @param {number} count
+   * @param {string} title
+   * @param {boolean} warn
+   */
+  count(name, count, title, warn = false) {
+    if (count > 0 || this.cells.has(name)) this.set(name, String(count), title, warn && count > 0);
   }
 
   /**

@@ -1,14 +1,17 @@
 // Assembles the page: messages are stored on arrival, and drawn once per screen refresh.
 
-import { $, make, one, say } from "./dom.js";
+import { $, one, say } from "./dom.js";
 import { Body } from "./body.js";
 import { CognitiveMap } from "./fcm.js";
-import { Concepts, contacts } from "./contacts.js";
+import { Concepts } from "./concepts.js";
+import { contacts } from "./contacts.js";
 import { Controls } from "./controls.js";
+import { felt } from "./felt.js";
 import { legend } from "./folds.js";
 import { Health } from "./health.js";
 import { Hover } from "./hover.js";
 import { Link } from "./link.js";
+import { Log } from "./log.js";
 import { Mind } from "./mind.js";
 import { Others } from "./others.js";
 import { Panels } from "./panels.js";
@@ -18,6 +21,7 @@ import { Save } from "./save.js";
 import { Store } from "./store.js";
 import { Surface } from "./surface.js";
 import { Speaker } from "./speaker.js";
+import { Why } from "./why.js";
 import { connect } from "./socket.js";
 import * as ranges from "./ranges.js";
 import * as scale from "./scale.js";
@@ -57,7 +61,9 @@ const mind = new Mind();
 const others = new Others(() => (stale = true));
 const speaker = new Speaker();
 const player = new Player(store, ask, changed);
-const concepts = new Concepts($("concepts"), $("leading"));
+const why = new Why(ask, changed);
+const concepts = new Concepts($("concepts"), (concept) => why.open(concept), changed);
+const log = new Log($("log"), (at) => player.go(at));
 /** @type {Record<string, import("./types.d.ts").View>} */
 const views = {
   panels: new Panels($("view-panels"), hover),
@@ -68,18 +74,8 @@ const views = {
 };
 const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) });
 
-/** @type {string | null} */
-let told = null;
 /** @type {import("./types.d.ts").Shown | null} */
 let drawn = null;
-
-function log() {
-  const lines = store.lines();
-  const key = lines.join("\n");
-  if (told === key) return;
-  told = key;
-  $("log").replaceChildren(...lines.map((text) => make("li", {}, text)));
-}
 
 function draw() {
   requestAnimationFrame(draw);
@@ -121,13 +117,15 @@ function beside(settings) {
   $("layer-folds").hidden = !store.states.folding;
   say($("folding"), legend(store.shown(), settings));
   say($("spoken"), speaker.next(spoken(), performance.now()));
+  felt(store);
+  why.draw(store);
   concepts.draw(store);
   robot.draw(store);
   mind.draw(store);
   contacts(one(HTMLTableElement, "contacts"), $("contact-count"), store);
   ranges.draw(one(HTMLCanvasElement, "ranges"), store, settings);
   if (!store.recorded) strips.draw(one(HTMLCanvasElement, "strips"), store);
-  log();
+  log.draw(store.lines());
 }
 requestAnimationFrame(draw);
 

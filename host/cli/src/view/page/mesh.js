@@ -128,6 +128,15 @@ export function ticks(end) {
 }
 
 /**
+ * Decimals that tell ticks apart.
+ * @param {number[]} ticks
+ */
+export function decimals(ticks) {
+  const exact = (/** @type {number} */ digits) => ticks.every((tick) => Math.abs(Number(tick.toFixed(digits)) - tick) < 1e-9);
+  return [0, 1, 2, 3].find(exact) ?? 4;
+}
+
+/**
  * End of the height: a multiple of the colours' end that holds the highest pressure, so that it changes seldom.
  * @param {ArrayLike<number>} held
  * @param {number} top

@@ -52,9 +52,13 @@ export type PageHello = {
     ends: [number, number];
     /** Colour of each intention, `#rrggbb`. */
     intentions: Record<string, string>;
+    /** Colour of feelings, `#rrggbb`. */
+    feeling: string;
   };
   /** Counts per newton on a taxel; null if unknown. */
   counts_per_newton: number | null;
+  /** Basis of forces: `simulated`, `calibrated`, `nominal` or `counts`. */
+  basis: string;
   /** Counts at which a contact ends. */
   low: number;
   /** Rectangles of positions without a taxel. */
@@ -78,6 +82,8 @@ export type PageHello = {
       name: string;
       /** Layer in the drawing, from 0. */
       layer: number;
+      /** Its part: `felt`, `meaning` or `feeling`. */
+      role: string;
     }[];
     /** The edges whose weight is not 0. */
     edges: {
@@ -287,6 +293,13 @@ export type ImageHead = {
     }[] | null;
     /** Force on each panel by the calibration in force, N; null where a panel has none, absent without a calibration. */
     force_n?: (number | null)[] | null;
+    /** What is felt, for people. */
+    felt: {
+      /** The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`. */
+      what: string;
+      /** The announced intention, or why none is; empty while nothing touches. */
+      meaning: string;
+    };
     /** Of a recording: time since its beginning, us. */
     at_us?: number;
     /** Of a recording: number of jumps in time. */
@@ -484,14 +497,52 @@ export type LinkLine = {
 export type SayLine = {
   /** Type of the message. */
   type: "say";
-  /** The line with its time. */
-  text: string;
   /** `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`. */
   kind: string;
   /** Its time, us of the board; null if it has none. */
   time_us: number | null;
-  /** The line without its time. */
+  /** The sentence. */
   said: string;
+};
+
+/** The log so far. */
+export type LogLine = {
+  /** Type of the message. */
+  type: "log";
+  /** Its lines, the oldest first. */
+  said: {
+    /** Type of the message. */
+    type: "say";
+    /** `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`. */
+    kind: string;
+    /** Its time, us of the board; null if it has none. */
+    time_us: number | null;
+    /** The sentence. */
+    said: string;
+  }[];
+};
+
+/** Causes of a concept's activation, in shares of the sum that causes it. */
+export type WhyLine = {
+  /** Type of the message. */
+  type: "why";
+  /** Name of the concept. */
+  concept: string;
+  /** Its activation, -1 to 1. */
+  activation: number;
+  /** Share of each input over all its paths, the greatest first. */
+  inputs: [string, number][];
+  /** The paths, the greatest share first. */
+  paths: {
+    /** Names of the concepts from an input to the last before the explained one. */
+    concepts: string[];
+    /** The share. */
+    share: number;
+  }[];
+  /** Shares due to no input, by reason. */
+  rest: [string, number][];
+  /** Sum of the paths and the rest. */
+  sum: number;
 };
 
 /** The stream has ended. */
@@ -570,6 +621,10 @@ export type RobotLine = {
     why: string | null;
     /** Contacts on it. */
     contacts: number;
+    /** Counts per newton on its taxels; null if unknown. */
+    counts_per_newton: number | null;
+    /** True if the loads of its touches are thousandths of a newton, by a calibration in force. */
+    is_calibrated: boolean;
   }[];
 };
 
@@ -629,6 +684,13 @@ export type PageWish = {
   hover: number | null;
 } | {
   tare: number;
+} | {
+  why: {
+    /** The concept; null for the strongest intention. */
+    of: string | null;
+    /** Activation of each concept of the map, -1 to 1, in the order of the map. */
+    concepts: number[];
+  };
 } | {
   play: boolean;
 } | {

@@ -1,7 +1,7 @@
 // What the touches of all boards mean to the robot: in words, and on demand in numbers.
 
 import { $, one, say } from "./dom.js";
-import { Bars } from "./contacts.js";
+import { Bars } from "./bars.js";
 
 /** @typedef {import("./messages.d.ts").RobotIntentLine} Meaning */
 
@@ -14,10 +14,13 @@ const MOVERS = { own: "the robot", other: "what touches it", unsure: "unsure" };
  * @param {import("./messages.d.ts").RobotLine | undefined} robot
  */
 export function cells({ board, contact, region, link, load, mover, approach }, robot) {
-  const name = robot?.boards[board]?.name ?? String(board);
+  const of = robot?.boards[board];
+  const name = of?.name ?? String(board);
+  const scale = of?.is_calibrated ? 1000 : of?.counts_per_newton;
+  const force = scale ? `${(load / scale).toFixed(1)} N` : `${load} counts`;
   const moved = MOVERS[/** @type {keyof typeof MOVERS} */ (mover)] ?? mover;
   const speed = approach ? (1000 * approach.normal_m_s).toFixed(0) : "?";
-  return [`${name} ${contact}`, `${region} (${link})`, moved, String(load), speed];
+  return [`${name} ${contact}`, `${region} (${link})`, moved, force, speed];
 }
 
 /** What touches mean to the robot, above the picture of a board. */

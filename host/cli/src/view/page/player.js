@@ -3,10 +3,13 @@
 import { $, one, say } from "./dom.js";
 import { Recorder } from "./recorder.js";
 import { KEPT_S } from "./store.js";
+import { nearest } from "./timeline.js";
 import { seconds } from "./units.js";
 
 /** Images of one second. */
 const SECOND = 60;
+/** Distance from a mark within which a click is on it, pixels. */
+const REACH = 5;
 
 /** The buttons below the picture. */
 export class Player {
@@ -17,6 +20,7 @@ export class Player {
    */
   constructor(store, ask, changed) {
     this.store = store;
+    this.ask = ask;
     this.changed = changed;
     this.recorder = new Recorder(store, ask);
     this.slider = one(HTMLInputElement, "seek");
@@ -26,12 +30,34 @@ export class Player {
     on("pause", " ");
     on("back", "ArrowLeft");
     on("forth", "ArrowRight");
-    this.slider.addEventListener("input", () => this.do(() => store.seek(-Number(this.slider.value))));
+    this.slider.addEventListener("input", () => this.go(store.end() + Number(this.slider.value) * 1e6));
     $("strips").addEventListener("pointerdown", (event) => {
       if (store.recorded) return;
       const { left, width } = $("strips").getBoundingClientRect();
-      this.do(() => store.seek(KEPT_S * (1 - (event.clientX - left) / width)));
+      const pixel = (KEPT_S * 1e6) / width;
+      const at = store.end() - KEPT_S * 1e6 + (event.clientX - left) * pixel;
+      this.go(nearest(store.marks, at, REACH * pixel)?.[0] ?? at);
     });
+    window.addEventListener("hashchange", () => this.do(() => (this.hash = location.hash)));
+    this.hash = location.hash;
+  }
+
+  /**
+   * Goes to a moment: us of the board, or since the beginning of a recording.
+   * @param {number} at
+   */
+  go(at) {
+    if (!this.store.recorded) return this.do(() => this.store.seek(at));
+    this.ask({ play: false });
+    this.ask({ seek: at / 1e6 });
+    history.replaceState(null, "", `#t=${(at / 1e6).toFixed(3)}`);
+  }
+
+  /** The address may name a moment of a recording: `#t=12.5`, in seconds. */
+  follow() {
+    const at = /^#t=(\d+(?:\.\d+)?)$/.exec(this.hash)?.[1];
+    this.hash = "";
+    if (at !== undefined) this.go(Number(at) * 1e6);
   }
 
   /** @param {() => void} act */
@@ -64,6 +90,7 @@ export class Player {
     const { store } = this;
     const recorded = Boolean(store.recorded);
     document.body.classList.toggle("recorded", recorded);
+    if (recorded && this.hash) this.follow();
     if (recorded) this.recorder.draw();
     else this.live();
   }

@@ -70,6 +70,7 @@ export class Recorder {
   draw() {
     const { store } = this;
     if (!store.recorded) return;
+    const { states } = store;
     const { playing, speed, loop, range, duration } = store.recorded;
     const at = store.moment();
     say($("pause"), playing ? "Pause" : "Play");
@@ -78,6 +79,8 @@ export class Recorder {
     one(HTMLButtonElement, "all").disabled = whole;
     say($("save-recording"), whole ? "Recording (MCAP)" : `Range ${timeText(range[0], 1)} – ${timeText(range[1], 1)} s (MCAP)`);
     this.speeds(speed);
+    const pages = states.link?.pages ?? 1;
+    say($("viewers"), pages > 1 ? `${pages} viewers: all see this moment` : "");
     const frame = store.latest ? `  #${store.latest.head.frame.frame}` : "";
     say($("clock"), `${timeText(at, 3)} / ${timeText(duration)} s${frame}`);
     if (this.theme !== document.documentElement.dataset.theme) {

@@ -12,6 +12,8 @@ export const KEPT_S = Math.max(1, Math.min(120, Number(new URLSearchParams(locat
 const RATE = 62;
 /** Images whose maxima since the previous image are kept: all that may still glow. */
 const GLOWING = 64;
+/** Lines of the log that are kept, and shown. */
+const [LOGGED, LINES] = [512, 60];
 /** Age relative to the newest up to which an image may be a repeat, us. */
 const TWICE = 500_000;
 
@@ -19,6 +21,7 @@ const TWICE = 500_000;
  * @typedef {import("./types.d.ts").Garment} Garment
  * @typedef {import("./types.d.ts").Head} Head
  * @typedef {import("./types.d.ts").Said} Said
+ * @typedef {import("./messages.d.ts").SayLine} SayLine
  * @typedef {import("./types.d.ts").Shown} Shown
  * @typedef {import("./types.d.ts").Still} Still
  */
@@ -32,10 +35,11 @@ export class Store {
     this.garment = null;
     /** @type {import("./types.d.ts").States} */
     this.states = {};
-    /** @type {string[]} */
+    /**
+     * Lines of the live log, the oldest first.
+     * @type {SayLine[]}
+     */
     this.log = [];
-    /** @type {Said[]} */
-    this.marks = [];
     /** @type {number | null} */
     this.seeks = null;
     this.size = Math.ceil(kept * RATE);
@@ -66,7 +70,6 @@ export class Store {
   /** A new connection: the program sends everything again. */
   connected() {
     this.log = [];
-    this.marks = [];
   }
 
   /**
@@ -79,10 +82,11 @@ export class Store {
       return;
     }
     if (line.type === "say") {
-      this.log.unshift(line.text);
-      this.log.length = Math.min(this.log.length, 60);
-      const { time_us: time, kind, said } = line;
-      if (time !== null) this.mark({ time_us: time, kind, said });
+      this.tell(line);
+      return;
+    }
+    if (line.type === "log") {
+      for (const said of line.said) this.tell(said);
       return;
     }
     Object.assign(this.states, { [line.type]: line });
@@ -101,14 +105,22 @@ export class Store {
   }
 
   /**
-   * Keeps a line of the live log while its time is on the time line.
-   * @param {{ time_us: number, kind: string, said: string }} line
+   * Keeps a line of the live log. After a restart of the board's clock, no moment can be sought by earlier lines.
+   * @param {SayLine} line
    */
-  mark({ time_us: time, kind, said }) {
-    if (time < (this.marks.at(-1)?.[0] ?? 0)) this.marks = [];
-    this.marks.push([time, kind, said]);
-    const oldest = time - 2 * this.kept * 1e6;
-    while ((this.marks[0]?.[0] ?? oldest) < oldest) this.marks.shift();
+  tell(line) {
+    const newest = this.log.findLast(({ time_us: time }) => time !== null)?.time_us ?? 0;
+    if (line.time_us !== null && line.time_us < newest) this.log = this.log.map((old) => ({ ...old, time_us: null }));
+    this.log.push(line);
+    if (this.log.length > LOGGED) this.log.shift();
+  }
+
+  /**
+   * Lines of the live log that have a time.
+   * @returns {Said[]}
+   */
+  get marks() {
+    return this.log.flatMap(({ time_us: time, kind, said }) => (time === null ? [] : [[time, kind, said]]));
   }
 
   /**
@@ -257,13 +269,12 @@ export class Store {
   }
 
   /**
-   * Pauses at the image nearest to `seconds` before the end of the half minute.
-   * @param {number} seconds
+   * Pauses at the last image up to a time of the board, us, or at the oldest.
+   * @param {number} wanted
    */
-  seek(seconds) {
+  seek(wanted) {
     if (!this.count) return;
     const [first, end] = this.span();
-    const wanted = this.end() - seconds * 1e6;
     let number = end - 1;
     while (number > first && this.at(number).head.frame.time_us > wanted) number -= 1;
     this.stand(number);
@@ -308,11 +319,21 @@ export class Store {
     return afterglow(images, this.glow);
   }
 
-  /** Lines of the log, newest first; of a recording those up to the moment shown. */
+  /**
+   * Lines of the log up to the moment shown, newest first.
+   * @returns {import("./types.d.ts").LogEntry[]}
+   */
   lines() {
     const { overview } = this.states;
-    if (!this.recorded || !overview) return this.log;
-    return logAt(overview.said, this.moment() * 1e6).map(([at, , text]) => `${(at / 1e6).toFixed(3)} s  ${text}`);
+    if (this.recorded && overview) {
+      const said = logAt(overview.said, this.moment() * 1e6);
+      return said.map(([at, kind, said]) => ({ at, kind, said, leads: true }));
+    }
+    const until = this.still ? this.still.head.frame.time_us : Infinity;
+    const [first, past] = this.span();
+    const oldest = first < past ? this.at(first).head.frame.time_us : Infinity;
+    const said = this.log.filter(({ time_us: time }) => time === null || time <= until);
+    return said.slice(-LINES).reverse().map(({ time_us: at, kind, said }) => ({ at, kind, said, leads: at !== null && at >= oldest }));
   }
 
   /** Seconds from the beginning of a recording to the moment shown. */

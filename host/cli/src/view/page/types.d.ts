@@ -11,6 +11,7 @@ import type {
   LostLine,
   ImageHead,
   LinkLine,
+  LogLine,
   NoneLine,
   OverviewLine,
   PageHello,
@@ -22,6 +23,7 @@ import type {
   RobotLine,
   SayLine,
   TaxelLine,
+  WhyLine,
 } from "./messages.d.ts";
 
 export type Triple = [number, number, number];
@@ -88,6 +90,13 @@ export interface Still extends Shown {
 
 /** Time, kind and text of a line of the log. */
 export type Said = OverviewLine["said"][number];
+/** A line of the log as it is shown: its time, us, and whether its moment can be shown. */
+export interface LogEntry {
+  at: number | null;
+  kind: string;
+  said: string;
+  leads: boolean;
+}
 export type LinkState = LinkLine;
 export type Overview = OverviewLine;
 export type BodyState = BodyLine;
@@ -130,6 +139,7 @@ export interface States {
   overview?: Overview;
   robot?: RobotLine;
   robot_intent?: RobotIntentLine;
+  why?: WhyLine;
 }
 
 /** A text message. */
@@ -137,6 +147,7 @@ export type Line =
   | Hello
   | (Omit<NoneLine, "of"> & { of: keyof States })
   | SayLine
+  | LogLine
   | { type: Exclude<keyof States, "hello"> };
 
 /** What a page asks of the program. */

@@ -50,10 +50,9 @@ export function force(garment, counts) {
  * The unit, and how reliable it is.
  * @param {import("./types.d.ts").Garment} garment
  */
-export function provenance(garment) {
-  if (garment.calibration) return `calibrated: ${garment.calibration}`;
-  if ((garment.counts_per_newton ?? 0) > 0) return "simulated gain, not calibrated";
-  return "counts: not calibrated";
+export function provenance({ basis, calibration }) {
+  if (basis === "calibrated") return `calibrated: ${calibration}`;
+  return basis === "counts" ? "counts: not calibrated" : `${basis} newtons, not calibrated`;
 }
 
 /** Seconds of board time. */

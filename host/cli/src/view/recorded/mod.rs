@@ -58,6 +58,8 @@ pub struct Player {
     reel: Reel,
     screen: PageScreen,
     told: Instant,
+    /// Number of pages that was told last.
+    pages: usize,
 }
 
 impl Player {
@@ -90,6 +92,7 @@ impl Player {
             reel: Reel::new(clips, survey),
             screen: PageScreen::new(hub.clone(), recording.to_string(), scale, folding),
             told: Instant::now(),
+            pages: 0,
             hub,
         };
         let Some((at, event)) = player.reel.seek(0) else { bail!("{recording} holds no image") };
@@ -121,6 +124,9 @@ impl Player {
         }
         let go = self.deck.tick(Instant::now());
         self.go(go);
+        if std::mem::replace(&mut self.pages, self.hub.pages()) != self.pages {
+            self.screen.link(self.reel.client());
+        }
         if self.deck.is_playing() && self.told.elapsed() >= TOLD {
             self.tell();
             self.screen.link(self.reel.client());

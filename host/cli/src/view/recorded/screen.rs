@@ -11,7 +11,6 @@ use std::sync::Arc;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::json;
 use taxel_core::format::Micros;
-use taxel_core::garment::{Circuit, Pins};
 
 /// Messages to the pages.
 pub struct PageScreen {
@@ -73,7 +72,7 @@ impl PageScreen {
             self.hub.state("folding", line);
         }
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let Some(line) = message::frame(client, event) else { return };
+        let Some(line) = message::frame(client, event, self.scale) else { return };
         let wearer = self.hub.wearer();
         let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, *time));
         let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), pressing, ..line });
@@ -81,10 +80,7 @@ impl PageScreen {
     }
 
     fn hello(&mut self, client: &Client) {
-        let circuit =
-            client.worn().and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
-        self.hub.wired(circuit);
-        self.hub.state("hello", &message::hello(client, &self.label, self.scale));
+        self.hub.greet(client, &self.label, self.scale);
         let folds = match (&mut self.folding, client.worn()) {
             (Some(folding), Some(worn)) => folding.wear(worn),
             _ => Ok(()),

@@ -1,0 +1,68 @@
+//! The first line that one reads: what is felt now, and on what its newtons rest.
+
+use super::ramp::{Paint, color};
+use crate::palette::intention;
+use crate::watch::{Basis, Felt};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier, Style};
+use taxel::client::Client;
+use taxel_core::format::Micros;
+use taxel_core::intent::Leading;
+
+/// Time for which a touch that has ended is still told, us of the board: the pause between two pats.
+const LASTS: u64 = 800_000;
+
+/// The sentence, and whether its touch has just ended.
+#[derive(Debug, Default, Clone)]
+pub struct Head {
+    felt: Option<Felt>,
+    /// Time at which something touched last.
+    touched: Option<Micros>,
+    is_over: bool,
+}
+
+impl Head {
+    /// Handles a frame.
+    pub fn take(&mut self, client: &Client, time: Micros, counts_per_newton: Option<f32>) {
+        let touches = !client.contacts().is_empty();
+        if touches {
+            self.touched = Some(time);
+        }
+        let lasts = |at: Micros| time.0.wrapping_sub(at.0) <= LASTS;
+        self.is_over = !touches && self.touched.is_some_and(lasts);
+        let felt = Felt::of(client, counts_per_newton);
+        match &mut self.felt {
+            Some(_) if self.is_over && client.leading() == Leading::None => {}
+            Some(told) if self.is_over => told.meaning = felt.meaning,
+            told => *told = Some(felt),
+        }
+    }
+
+    /// Draws it in one row, the meaning on its colour.
+    pub fn draw(&self, client: &Client, space: Rect, (basis, paint): (Basis, Paint), buffer: &mut Buffer) {
+        let (Some(felt), false) = (&self.felt, space.is_empty()) else { return };
+        let bold = Style::new().add_modifier(Modifier::BOLD);
+        let room = |x: u16| usize::from(space.right().saturating_sub(x));
+        let mut put = |x: u16, text: &str, style| buffer.set_stringn(x, space.y, text, room(x), style).0;
+        let mut letters = felt.what.chars();
+        let what: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
+        let mut x = put(space.x, &what, bold);
+        if !felt.meaning.is_empty() {
+            x = put(x, ": ", bold);
+            let leading = Leading::INTENTIONS.into_iter().find(|known| known.as_str() == felt.meaning);
+            x = match (leading, paint) {
+                (Some(leading), Paint::Colours) => {
+                    let style = bold.fg(Color::Black).bg(color(intention(leading)));
+                    put(x, &format!(" {} ", felt.meaning), style)
+                }
+                _ => put(x, felt.meaning, bold),
+            };
+        }
+        let now = if self.is_over { "just now" } else { "now" };
+        let newtons = if basis == Basis::Counts { "" } else { " newtons" };
+        if client.worn().is_some() {
+            put(x, &format!("   {now}, {}{newtons}", basis.as_str()), Style::new());
+        }
+    }
+}
