@@ -129,7 +129,8 @@ impl Viewer {
         self.hub.forget_images();
         let (frame, time) = (self.last.0, Micros(self.last.1.0 + 1));
         let nothing = Event::Frame { frame, time, alone: true, image: ImageNews::NoBase };
-        let Some((line, layout)) = message::frame(client, &nothing).zip(client.layout()) else { return };
+        let line = message::frame(client, &nothing, self.counts_per_newton);
+        let Some((line, layout)) = line.zip(client.layout()) else { return };
         let image = vec![0; layout.taxels()].into();
         self.hub.shot(&Shot { line: text(&line), image, time_us: time.0, total: 0 });
     }
