@@ -140,7 +140,7 @@ test("what is felt is said of now, of what has just ended, and of the moment at 
     image(3, 300, "nothing touches", ""),
     image(4, 1_000, "nothing touches", ""),
   ];
-  const store = { paused: false, at: (number) => images[number], span: () => [0, images.length] };
+  const store = { paused: false, states: {}, at: (number) => images[number], span: () => [0, images.length] };
   const told = (number) => sentences.sentence({ ...store, shown: () => images[number] });
   assert.deepEqual(told(0), { when: "now", what: "nothing touches", meaning: "" });
   assert.deepEqual(told(1), { when: "now", what: "a touch on the back, 8 N", meaning: "kindness" });
@@ -150,6 +150,8 @@ test("what is felt is said of now, of what has just ended, and of the moment at 
   const paused = sentences.sentence({ ...store, paused: true, shown: () => images[1] });
   assert.equal(paused.when, "at 0.10 s");
   assert.equal(sentences.sentence({ ...store, shown: () => null }), null);
+  const lost = { ...store, states: { lost: {} }, shown: () => images[2] };
+  assert.equal(sentences.sentence(lost), null, "nothing is known of a lost board");
 });
 
 test("who is not there is said to be away, and since when", () => {

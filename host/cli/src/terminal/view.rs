@@ -80,7 +80,10 @@ impl View {
                 self.head.take(client, *time, self.narrator.counts_per_newton);
                 self.curve.add(client, *time);
             }
-            Event::Lost { why, .. } => self.lost = Some(why.clone()),
+            Event::Lost { why, .. } => {
+                self.lost = Some(why.clone());
+                self.head = Head::default();
+            }
             Event::Back { .. } | Event::Other { .. } => self.lost = None,
             _ => {}
         }
@@ -149,7 +152,7 @@ impl View {
             self.contacts(client, left, buffer);
             return panes::concepts(client, right, buffer);
         }
-        let room = if body.width >= WIDE { body.width - SIDE } else { body.width };
+        let room = if body.width >= WIDE { body.width - SIDE } else { body.width / 3 * 2 };
         let taken = self.maps(client, Rect { width: room, ..body }, buffer);
         let side = Rect { x: body.x + taken, width: body.width - taken, ..body };
         let parts = [Constraint::Length(CURVE), Constraint::Fill(1)];

@@ -12,7 +12,7 @@ const BASES = {
   counts: "counts: not calibrated",
 };
 
-/** The sentence before the first image. */
+/** The sentence without a board. */
 const NOBODY = { when: "", what: "waiting for a board", meaning: "" };
 
 /**

@@ -4,12 +4,12 @@
 const LASTS_US = 800_000;
 
 /**
- * The sentence of the moment shown; null before the first image.
+ * The sentence of the moment shown; null before the first image, and while the board is lost.
  * @param {import("./store.js").Store} store
  */
 export function sentence(store) {
   const shown = store.shown();
-  if (!shown) return null;
+  if (!shown || (store.states.lost && !store.paused)) return null;
   const touched = lastTouched(store, shown);
   const { frame } = shown.head;
   const { what, meaning } = touched.head.frame.felt;
