@@ -81,7 +81,7 @@ def test_the_robot_says_who_is_missing(listener, robot):
     statuses = lambda: {one.name: one for message in diagnostics.messages for one in message.status}
     with taxel(robot, command=("robot", "ros2")):
         listener.spin(lambda: {"taxel: torso", "taxel: left-hand", "taxel: foot"} <= {*statuses()}, 20)
-    assert statuses()["taxel: foot"].level == b"\2" and "cannot be reached" in statuses()["taxel: foot"].message
+    assert statuses()["taxel: foot"].level == b"\3" and "cannot be reached" in statuses()["taxel: foot"].message
     assert statuses()["taxel: torso"].level == b"\0"
 
 

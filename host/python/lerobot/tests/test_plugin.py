@@ -152,14 +152,15 @@ def test_a_lost_board_is_no_touch(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "taxel", *words], check=True, capture_output=True)
     wire = b"".join(one.data for one in taxel.read(file).messages("/taxel/wire"))
     server = socket.create_server(("127.0.0.1", 0))
-    cut, mended = threading.Event(), threading.Event()
+    cut, seen, mended = threading.Event(), threading.Event(), threading.Event()
 
     def board() -> None:
-        for until in (cut, mended):
+        for until, then in ((cut, seen), (mended, mended)):
             link, _ = server.accept()
             with link:
                 link.sendall(wire)
                 until.wait(30)
+            then.wait(30)
 
     threading.Thread(target=board, daemon=True).start()
     touch = Touch(lambda: taxel.open(f"tcp:127.0.0.1:{server.getsockname()[1]}"))
@@ -180,6 +181,7 @@ def test_a_lost_board_is_no_touch(tmp_path: Path) -> None:
             assert time.monotonic() < until, "it goes on"
             time.sleep(0.01)
         assert touch.waiting == 0
+        seen.set()
         while lost():
             assert time.monotonic() < until, "it does not come back"
             time.sleep(0.01)
