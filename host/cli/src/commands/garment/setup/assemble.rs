@@ -2,7 +2,7 @@
 
 use super::ask::{Ask, Gesture, blocks_along, extent};
 use super::bundle::Bundle;
-use super::reading::{Blocks, Felt, Reading};
+use super::reading::{Blocks, Reading, StrokedBlock};
 use taxel_core::garment::{Block, Coding, Garment, Group, Line, Orientation};
 
 /// Margin below which the side of a block is undecided.
@@ -133,7 +133,7 @@ fn runs_crosswise(block: &Block, down: &Reading, rows: &Wires) -> bool {
 
 /// Returns whether x runs against the wiring in a block of this width that was stroked along column `at`, and
 /// the margin of that decision.
-fn side(felt: &Felt, across: &Wires, width: u16, at: u16) -> (bool, f64) {
+fn side(felt: &StrokedBlock, across: &Wires, width: u16, at: u16) -> (bool, f64) {
     let (last, at) = (f64::from(width - 1), f64::from(at));
     if width == 1 {
         return (false, 1.0);

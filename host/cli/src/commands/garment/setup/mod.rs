@@ -29,7 +29,7 @@ pub use ask::{Ask, Gesture};
 pub use bundle::Bundle;
 pub use command::{SetupArgs, run};
 pub use feel::Feeler;
-pub use reading::{Blocks, Felt, Reading};
+pub use reading::{Blocks, Reading, StrokedBlock};
 pub use solver::{Found, Next, Solver};
 pub use touch::{Touch, TouchFrame, Trace};
 pub use user::User;

@@ -30,7 +30,7 @@ pub struct Reading {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocks {
     /// In the order of the stroke.
-    pub felt: Vec<Felt>,
+    pub felt: Vec<StrokedBlock>,
     /// Which of the fine lines are inverted, if the most significant is not.
     pub inverted: Vec<bool>,
     /// Margin of the directions.
@@ -39,7 +39,7 @@ pub struct Blocks {
 
 /// A stroked block.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Felt {
+pub struct StrokedBlock {
     /// Signals of its addresses.
     pub traces: Vec<Trace>,
     /// True if the code of the fine lines rises along the stroke.
@@ -91,7 +91,7 @@ impl Reading {
             if *inverted.get_or_insert_with(|| turned.clone()) != turned {
                 return Err("the blocks along the way contradict each other".into());
             }
-            felt.push(Felt { traces, rising });
+            felt.push(StrokedBlock { traces, rising });
         }
         Ok(Blocks { felt, inverted: inverted.unwrap_or_default(), margin })
     }
