@@ -176,7 +176,9 @@ fn clippy(log: &Path) -> End {
     let others = ["taxel-tests", "taxel-core-featureless", "taxel-bench", "taxel-fuzz"];
     let others = others.iter().flat_map(|name| ["--exclude", *name]);
     let plain: Vec<&str> = ["--workspace"].into_iter().chain(others).collect();
-    Ok(run(&[WHOLE, &["--all-targets"]].concat())
+    // The unit tests of a core without features are those of the core.
+    let whole = [WHOLE, &["--exclude", "taxel-core-featureless", "--all-targets"]].concat();
+    Ok(run(&whole)
         .and_then(|()| run(&[WHOLE, &apart].concat()))
         .and_then(|()| run(&plain)))
 }

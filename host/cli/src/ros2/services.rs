@@ -77,10 +77,8 @@ impl Services {
         let (done, read) = channel();
         // It ends with the services.
         let each = move || {
-            asked
-                .iter()
-                .map(|(id, scene)| (id, SceneFile::named(&scene)))
-                .try_for_each(|scene| done.send(scene))
+            let scenes = asked.iter().map(|(id, scene)| (id, SceneFile::named(&scene)));
+            scenes.map_while(|scene| done.send(scene).ok()).for_each(drop)
         };
         let reader = thread::Builder::new().name("scenes".into()).stack_size(STACK);
         reader.spawn(each).context("a thread for scenes")?;
