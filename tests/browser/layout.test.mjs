@@ -25,10 +25,8 @@ before(async () => {
   const board = (name, source, garment) =>
     `[[boards]]\nname = "${name}"\nsource = "${source}"\ngarment = "${garment}"\n`;
   const boards = board("torso", "sim:five", "reference") + board("hand", "sim:press", "block-4x16");
-  const seam =
-    '[[seams]]\na = { board = "torso", panel = "left arm", side = "bottom" }\nb = { board = "hand", panel = "mat", side = "top" }\nlength = 16\n';
   const [file, recording] = ["robot.toml", "five.mcap"].map((name) => join(folder, name));
-  await writeFile(file, `name = "two"\nurdf = "reference"\n${boards}${seam}`);
+  await writeFile(file, `name = "two"\nurdf = "reference"\n${boards}`);
   await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:five", "--seconds", "3", "-o", recording]);
   [robot, recorded, browser] = await Promise.all([View.robot(file), View.start("--source", `replay:${recording}`), Chromium.start()]);
 });

@@ -178,9 +178,7 @@ fn clippy(log: &Path) -> End {
     let plain: Vec<&str> = ["--workspace"].into_iter().chain(others).collect();
     // The unit tests of a core without features are those of the core.
     let whole = [WHOLE, &["--exclude", "taxel-core-featureless", "--all-targets"]].concat();
-    Ok(run(&whole)
-        .and_then(|()| run(&[WHOLE, &apart].concat()))
-        .and_then(|()| run(&plain)))
+    Ok(run(&whole).and_then(|()| run(&[WHOLE, &apart].concat())).and_then(|()| run(&plain)))
 }
 
 fn compare_locks(_: &Path) -> End {

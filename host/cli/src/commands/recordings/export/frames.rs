@@ -34,6 +34,7 @@ pub struct RecordedGarment {
     /// Concepts of the scene's map.
     pub concepts: Vec<Name>,
     /// True of a simulated board.
+    #[cfg(feature = "lerobot")]
     pub simulated: bool,
     /// Calibration, as described by the board.
     calibration: String,
@@ -139,8 +140,14 @@ impl<'a> Frames<'a> {
                 let units = scale.unwrap_or_else(|| Ok(Units::counts(&now.layout)))?;
                 let concepts = client.concepts().to_vec();
                 let (layout, calibration) = (now.layout.clone(), now.calibration.clone());
-                let simulated = now.is_simulated();
-                Ok(Some(Rc::new(RecordedGarment { layout, units, concepts, simulated, calibration })))
+                Ok(Some(Rc::new(RecordedGarment {
+                    layout,
+                    units,
+                    concepts,
+                    #[cfg(feature = "lerobot")]
+                    simulated: now.is_simulated(),
+                    calibration,
+                })))
             }
         }
     }
