@@ -28,7 +28,10 @@ before(async () => {
   const [file, recording] = ["robot.toml", "five.mcap"].map((name) => join(folder, name));
   await writeFile(file, `name = "two"\nurdf = "reference"\n${boards}`);
   await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:five", "--seconds", "3", "-o", recording]);
-  [robot, recorded, browser] = await Promise.all([View.robot(file), View.start("--source", `replay:${recording}`), Chromium.start()]);
+  // One after the other: what has started is stopped even if the next one fails.
+  robot = await View.robot(file);
+  recorded = await View.start("--source", `replay:${recording}`);
+  browser = await Chromium.start();
 });
 after(async () => {
   await browser?.stop();
