@@ -1,6 +1,7 @@
 //! Records a scene and the events seen meanwhile.
 
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::record::{Origin, Plan, Recorder, Rotate};
 use taxel::session::Show;
@@ -53,11 +54,16 @@ impl Show<anyhow::Error> for Both<'_> {
     }
 }
 
-/// Path of a test's file in the build folder.
+/// Path of a test's file in the build folder, without the files of an earlier run: a recording without frames would
+/// not replace them.
 pub fn file(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("record");
-    std::fs::create_dir_all(&folder).unwrap();
-    folder.join(name)
+    static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("record");
+        _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        folder
+    });
+    FOLDER.join(name)
 }
 
 /// Plan of a recording.
