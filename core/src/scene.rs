@@ -6,6 +6,7 @@ use crate::contact::ContactConfig;
 use crate::fold::JOINTS;
 use crate::format::{Invalid, InvalidRow, LEFT_OUT, Name, name};
 use crate::garment::{Layout, Line, PANELS};
+use crate::gesture::GestureConfig;
 use crate::intent::{IntentConfig, Leading, MapInput, Source, tactile};
 use crate::react::{Cause, REACTIONS, ReactionConfig};
 use crate::reflex::Agree;
@@ -39,8 +40,11 @@ pub struct StreamConfig {
     pub symbols: bool,
     /// True if intentions are sent.
     pub intent: bool,
-    /// Frames of raw codes per second.
-    pub raw_hz: u16,
+    /// Reports per second of what presses on the robot, from a board whose surface is known. With more than 16
+    /// contacts, or more than 512 taxels under them, at most with every second scan.
+    pub pressing_hz: u16,
+    /// True if lists of contacts tell how old their forms are.
+    pub form_ages: bool,
     /// Longest time between two key frames, ms, 1 ..= 1000.
     pub key_ms: u16,
 }
@@ -52,7 +56,8 @@ impl Default for StreamConfig {
             contacts_hz: u16::MAX,
             symbols: true,
             intent: true,
-            raw_hz: 0,
+            pressing_hz: 0,
+            form_ages: false,
             key_ms: 1000,
         }
     }
@@ -61,8 +66,8 @@ impl Default for StreamConfig {
 impl StreamConfig {
     /// Checks the limits that hold on every board.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
-        if !cfg!(feature = "raw") && self.raw_hz > 0 {
-            return Err(Invalid { parameter: "stream.raw_hz", must: LEFT_OUT });
+        if !cfg!(feature = "surface") && self.pressing_hz > 0 {
+            return Err(Invalid { parameter: "stream.pressing_hz", must: LEFT_OUT });
         }
         match self.key_ms {
             1..=1000 => Ok(()),
@@ -87,6 +92,8 @@ pub struct Scene {
     pub contact: ContactConfig,
     /// Shapes; none: not recognised.
     pub shape: Option<ShapeConfig>,
+    /// Touch over time; none: no gestures are recognised.
+    pub gestures: Option<GestureConfig>,
     /// Thresholds of the words.
     pub symbol: SymbolConfig,
     /// Fuzzy cognitive map and its decision; none: no intention.
@@ -117,6 +124,7 @@ impl Scene {
             condition: ConditionConfig::default(),
             contact: ContactConfig::default(),
             shape: None,
+            gestures: None,
             symbol: SymbolConfig::default(),
             intent: None,
             friendliness: Vec::new(),
@@ -145,6 +153,7 @@ impl Scene {
             condition: ConditionConfig { floor: 14, filter: Filter::Persistent, track_baseline: true },
             contact: ContactConfig { low: 16, high: 40, ..ContactConfig::default() },
             shape: Some(ShapeConfig::default()),
+            gestures: None,
             symbol: SymbolConfig::default(),
             intent: cfg!(feature = "intent").then(|| IntentConfig::new(tactile())),
             friendliness: USUAL_REGIONS

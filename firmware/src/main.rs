@@ -28,7 +28,7 @@ use defmt_rtt as _;
 use embassy_executor::Spawner;
 use static_cell::StaticCell;
 use taxel_core::acquire::{Lines, Mux};
-use taxel_core::board::{SetupError, Shipped};
+use taxel_core::board::{BoardInfo, SetupError, Shipped};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 
@@ -83,12 +83,12 @@ fn scanner(
 async fn main(_spawner: Spawner) {
     guard::put_up();
     supply::watch();
-    let board::BoardParts { lines, converter, chain, sniffer, mut wire, led, watchdog, flash } =
+    let board::BoardParts { chip, lines, converter, chain, sniffer, mut wire, led, watchdog, flash } =
         board::take();
     let mut platform = platform::BoardPlatform::start(watchdog, led, flash, sniffer);
     const { assert!(limits::INFO.link_bytes_per_s == link::uart::BAUD / BITS_PER_BYTE) };
     let scanner = scanner(lines, converter, chain);
-    let mut board = Shipped::bare(limits::INFO);
+    let mut board = Shipped::bare(BoardInfo { chip, ..limits::INFO });
     ship(&mut board);
     platform.recall(&mut board);
     taxel_core::run::run(scanner, &mut wire, &mut platform, &mut board).await;

@@ -144,6 +144,8 @@ impl Told {
             clock: &clock,
             scene: &scene,
             calibration: b"",
+            chip: b"",
+            boot: None,
         }));
     }
 

@@ -1,9 +1,11 @@
 //! What a browser sends to the page's port: the head of a request, and what follows it on a WebSocket.
 
 use crate::bytes::Bytes;
+use std::sync::{Mutex, OnceLock};
 use std::time::Duration;
+use taxel::source::{self, Source, SourceOptions};
 use taxel_cli::serve::http::{self, Sites};
-use taxel_cli::view::{Mailbox, PageHub, hear};
+use taxel_cli::view::{Mailbox, PageHand, PageHub, hear};
 
 /// Orders that wait at most, as the hub says.
 const ORDERS: usize = 64;
@@ -39,10 +41,22 @@ fn talk(stream: impl std::io::Read, request: http::Request) {
     let text = String::from_utf8(answer).expect("an answer is a text");
     assert_eq!(text.matches("\r\n\r\n").count(), 1, "a key adds no line of its own: {text:?}");
     let (hub, mailbox) = (PageHub::default(), Mailbox::default());
+    hub.hand(PageHand::new(hand()));
     hear(stream, request.rest, &hub, &mailbox);
     assert!(std::iter::from_fn(|| hub.tare()).count() <= TARES);
     let orders = hub.orders(Duration::ZERO);
+    assert!(hand().waiting() <= source::HAND_ORDERS, "orders of the hand");
+    let touches = hub.touches().expect("there is a hand").expect("they are finite");
+    assert!(!touches.contains("nan") && !touches.contains("inf"), "{touches}");
     assert!(orders.len() <= ORDERS && orders.iter().all(|order| order.is_sound()), "{orders:?}");
+}
+
+/// Presses a simulated board, which has not begun: it takes no order.
+fn hand() -> source::Hand {
+    static BOARD: OnceLock<Mutex<Source>> = OnceLock::new();
+    let open = || source::open(&"sim:idle".parse().expect("it is a source"), &SourceOptions::default());
+    let board = BOARD.get_or_init(|| Mutex::new(open().expect("it is simulated")));
+    board.lock().expect("nothing panics").hand.clone().expect("it is simulated")
 }
 
 /// A request for the socket, and frames after it.

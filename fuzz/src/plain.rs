@@ -27,7 +27,7 @@ mod tests {
 
     #[test]
     fn the_bytes_of_a_message_are_that_message() {
-        let mut frame = framed(&[5, 200, 1]);
+        let mut frame = framed(&[2, 200, 1]);
         assert_eq!(frame.pop(), Some(0));
         let message = decode::<Request<'_>>(open(&mut frame).unwrap()).unwrap();
         assert_eq!(message, Request::Sync { token: 200 });

@@ -4,7 +4,7 @@
 use taxel::body::DVec3;
 use taxel::body::fit::{known_touches, marks};
 use taxel::body::mesh;
-use taxel::body::robot::{LinkShape, Robot, meshes, parse};
+use taxel::body::robot::{LinkShape, Robot, meshes, parse, solids};
 
 /// Reads the bytes as a URDF, as meshes, as marks and as touches. A robot is a tree that has a pose in each
 /// posture, a mesh has a nearest point; an error names the file.
@@ -19,6 +19,10 @@ pub fn run(data: &[u8]) {
     match parse("any.urdf", &text) {
         Ok(robot) => {
             moves(&robot);
+            let of = solids("any.urdf", &text, LinkShape::Visual).expect("what is a robot has links");
+            for error in of.into_iter().filter_map(|(_, solids)| solids.err()) {
+                assert!(error.to_string().starts_with("any.urdf"), "{error}");
+            }
             for link in robot.links() {
                 match meshes("any.urdf", &text, &link.name, LinkShape::Visual) {
                     Ok(meshes) => assert!(!meshes.is_empty()),

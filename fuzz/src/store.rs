@@ -12,7 +12,7 @@ use taxel_store::{Found, Store};
 type Small = Board<64, 32>;
 
 const INFO: BoardInfo =
-    BoardInfo { firmware: "fuzz", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    BoardInfo { firmware: "fuzz", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
 
 /// Bytes of a sector.
 const SECTOR: u32 = 4096;

@@ -15,7 +15,7 @@ export async function violations(browser) {
 
 /** Controls that are smaller than a finger. */
 export const small = (browser) =>
-  browser.value(`[...document.querySelectorAll("button, select, input")]
+  browser.value(`[...document.querySelectorAll("button, select, input, a.button")]
     .filter((control) => control.checkVisibility())
     .map((control) => [control.id || control.textContent, control.getBoundingClientRect()])
     .filter(([, { width, height }]) => width < ${FINGER} || height < ${FINGER})

@@ -6,7 +6,7 @@ import { small, violations } from "./access.fixture.mjs";
 import { box, drawn, page, show } from "./page.fixture.mjs";
 
 const both = page("sim:pat");
-const VIEWS = ["panels", "surface", "body", "map", "health"];
+const VIEWS = ["garment", "surface", "body", "map", "health"];
 const SIZES = {
   light: {},
   dark: { dark: true },
@@ -42,15 +42,15 @@ test("on a telephone every control is as large as a finger", async () => {
 
 test("the arrow keys of the tabs are the tabs'", async () => {
   const { browser } = both;
-  await browser.value('document.getElementById("tab-panels").click()');
-  await browser.value('document.getElementById("tab-panels").focus()');
+  await browser.value('document.getElementById("tab-garment").click()');
+  await browser.value('document.getElementById("tab-garment").focus()');
   const chosen = () => browser.value('[document.activeElement.id, document.querySelector("[aria-selected=true]").id]');
   for (const [key, tab] of [
     ["ArrowRight", "surface"],
     ["End", "health"],
-    ["ArrowRight", "panels"],
+    ["ArrowRight", "garment"],
     ["ArrowLeft", "health"],
-    ["Home", "panels"],
+    ["Home", "garment"],
   ]) {
     await browser.key(key);
     assert.deepEqual(await chosen(), [`tab-${tab}`, `tab-${tab}`], key);
@@ -77,7 +77,7 @@ test("nothing that is spoken changes faster than it can be listened to", async (
 
 test("a taxel that the keys read is spoken", async () => {
   const { browser } = both;
-  await show(browser, "panels");
+  await show(browser, "garment");
   await browser.value('document.querySelector("#view-panels canvas").focus()');
   await browser.key("ArrowUp");
   await browser.until(`/^chest, row 15, column 8: [\\d.]+ kPa$/.test(document.getElementById("spoken").textContent)`);
@@ -121,7 +121,7 @@ test("the menu is one of keys, too, and keys without a focus can be switched off
   await browser.value("document.activeElement.blur()");
   await browser.value("document.getElementById('keys-on').click()");
   await browser.key("2");
-  assert.equal(await browser.value("taxel.settings.view"), "panels");
+  assert.equal(await browser.value("taxel.settings.view"), "garment");
   await browser.value("document.getElementById('keys-on').click()");
   await browser.key("2");
   assert.equal(await browser.value("taxel.settings.view"), "surface");

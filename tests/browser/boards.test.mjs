@@ -95,7 +95,7 @@ test("the page of a board is that of its garment, and grey while it is not live"
   assert.equal(await browser.value('document.body.classList.contains("lost")'), false);
   await browser.visit(`${view.url}boards/foot/`);
   await browser.until('document.body.classList.contains("lost")');
-  const grey = 'getComputedStyle(document.querySelector(".stage")).filter';
+  const grey = 'getComputedStyle(document.querySelector(".view:not([hidden])")).filter';
   assert.match(await browser.value(grey), /grayscale/);
   // The program is there: the page tells of the other boards, and does not look disconnected.
   await new Promise((done) => setTimeout(done, 3500));

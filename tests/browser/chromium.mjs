@@ -115,16 +115,32 @@ export class Chromium {
 
   /** Presses a key. */
   async key(key) {
-    const text = key.length === 1 ? key : undefined;
-    // A dialog goes by the number of the key.
-    const windowsVirtualKeyCode = key === "Escape" ? 27 : undefined;
-    await this.send("Input.dispatchKeyEvent", { type: "keyDown", key, text, windowsVirtualKeyCode });
-    await this.send("Input.dispatchKeyEvent", { type: "keyUp", key, windowsVirtualKeyCode });
+    await this.keyEvent("keyDown", key);
+    await this.keyEvent("keyUp", key);
   }
 
-  /** What is seen, as PNG. */
-  async picture() {
-    const { data } = await this.send("Page.captureScreenshot", { format: "png" });
+  /** A key goes down or up. */
+  keyEvent(type, key) {
+    const text = type === "keyDown" && key.length === 1 ? key : undefined;
+    // A dialog and the tabulator go by the number of the key.
+    const windowsVirtualKeyCode = { Escape: 27, Tab: 9 }[key];
+    return this.send("Input.dispatchKeyEvent", { type, key, text, windowsVirtualKeyCode });
+  }
+
+  /** Fingers on the screen: `touchStart`, `touchMove` with all that are down, and `touchEnd` with those that stay. */
+  fingers(type, points) {
+    const touchPoints = points.map(([x, y], id) => ({ x, y, id }));
+    return this.send("Input.dispatchTouchEvent", { type, touchPoints });
+  }
+
+  /** Turns the wheel by notches, below 0 towards the user. */
+  wheel(x, y, notches, modifiers = 0) {
+    return this.send("Input.dispatchMouseEvent", { type: "mouseWheel", x, y, deltaX: 0, deltaY: -100 * notches, modifiers });
+  }
+
+  /** What is seen, as PNG; or all of the page, however long. */
+  async picture(isWhole = false) {
+    const { data } = await this.send("Page.captureScreenshot", { format: "png", captureBeyondViewport: isWhole });
     return Buffer.from(data, "base64");
   }
 

@@ -4,7 +4,8 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { load } from "./module.fixture.mjs";
 
-const cloth = await load("cloth");
+const [cloth, figure] = await Promise.all(["cloth", "figure"].map(load));
+const marks = await load("robot-marks");
 
 const PANELS = [
   { name: "chest", base: 0, rows: 3, columns: 4, mm: [12, 10], known: true },
@@ -136,4 +137,50 @@ test("an arrow ends where the force presses, comes from outside, and is as long 
   near([long.tail[1] - long.tip[1]], [200]);
   const none = cloth.arrowOf(STILL, push(0), 3_000, bounds);
   assert.deepEqual(none.tip, none.tail);
+});
+
+test("the robot is behind its cloth: its corners have no taxel, look outwards, and are of no colour of the ramp", () => {
+  const own = cloth.clothOf(BODY, PANELS);
+  // A tetrahedron whose corners are known to look away from its middle, and a link that the body lacks.
+  const points = [
+    [0, 0, 0],
+    [0.1, 0, 0],
+    [0, 0.1, 0],
+    [0, 0, 0.1],
+  ];
+  const triangles = [
+    [0, 2, 1],
+    [0, 1, 3],
+    [0, 3, 2],
+    [1, 2, 3],
+  ];
+  const links = ["arm", "nose"].map((name) => ({ name, points, triangles }));
+  const all = figure.withFigure(own, BODY, { type: "figure", links });
+  const first = own.taxels.length;
+  assert.deepEqual([...all.taxels.slice(0, first)], [...own.taxels]);
+  assert.deepEqual([...all.taxels.slice(first)], new Array(4).fill(figure.NONE));
+  assert.deepEqual([...all.links.slice(first)], [2, 2, 2, 2]);
+  assert.deepEqual([...all.faces.slice(own.faces.length)], triangles.flatMap(([a, b, c]) => [a, b, c, c].map((at) => first + at)));
+  points.forEach((point, at) => {
+    const normal = [...all.normals.slice(3 * (first + at), 3 * (first + at) + 3)];
+    const outwards = normal.reduce((sum, part, axis) => sum + part * (point[axis] - 0.025), 0);
+    assert.ok(outwards > 0 && Math.abs(Math.hypot(...normal) - 1) < 1e-6, `${normal}`);
+    const place = [...all.own.slice(3 * (first + at), 3 * (first + at) + 3)];
+    const inside = Math.hypot(...place.map((part, axis) => part - point[axis]));
+    assert.ok(Math.abs(inside - 0.003) < 1e-6, `${inside} m`);
+  });
+  const data = new Float32Array(cloth.STRIDE * all.taxels.length);
+  cloth.shade(data, all, new Uint16Array(18).fill(50), 100);
+  assert.deepEqual([...Array(4).keys()].map((at) => data[cloth.STRIDE * (first + at) + 1]), [-2, -2, -2, -2]);
+  assert.equal(data[1], 0.5);
+  assert.deepEqual(figure.withFigure(own, BODY, null).faces, own.faces);
+});
+
+test("names that would lie on each other stand below each other, wherever they are", () => {
+  for (let y = 40; y < 600; y += 0.1 + 1 / 3) {
+    const names = ["left_hand", "left_arm", "torso"].map((name) => ({ name, at: [100, y] }));
+    marks.apart(names);
+    const rows = names.map(({ at }) => at[1]);
+    assert.ok(rows[0] === y && rows[1] - rows[0] > 13.9 && rows[2] - rows[1] > 13.9, `${rows}`);
+  }
 });

@@ -79,14 +79,4 @@ test("a paused log ends at the moment shown, and its lines lead to theirs", asyn
   assert.ok(newest <= at, `${newest} after ${at}`);
 });
 
-test("a shape is named only where it is likely", async () => {
-  const { browser } = both;
-  const shape = (contact) =>
-    browser.value(`(async () => (await import("./contacts.js")).shape(${JSON.stringify(contact)}))()`);
-  const palm = { shape: "rectangle", confidence: 1, area: 60, unsure: false };
-  assert.equal(await shape(palm), "rectangle");
-  for (const doubt of [{ confidence: 0.6 }, { area: 6 }, { unsure: true }, { shape: "unknown" }])
-    assert.equal(await shape({ ...palm, ...doubt }), "");
-});
-
 test("the page has complained of nothing", () => assert.deepEqual(both.browser.complaints, []));

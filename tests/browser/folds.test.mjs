@@ -40,7 +40,7 @@ const strokes = (browser) => browser.value(`(${ROBOT}.folds[0].getAttribute("d")
 
 test("taxels that fold are stroked on their panel, and nothing is a touch", async () => {
   const { browser } = both;
-  await show(browser, "panels", "folds");
+  await show(browser, "garment", "folds");
   const taxels = await pauseAtFold(browser);
   assert.ok(taxels.every((taxel) => taxel >= BASE && taxel < BASE + 512), taxels.join());
   assert.deepEqual(await browser.value("taxel.store.shown().head.frame.contacts"), []);
@@ -55,7 +55,7 @@ test("taxels that fold are stroked on their panel, and nothing is a touch", asyn
   const [fold, plain] = [await middle(taxels[0]), await middle(other)];
   const stroked = await screen(browser);
   const [on, beside] = [await stroked.at(...fold), await stroked.at(...plain)];
-  await show(browser, "panels");
+  await show(browser, "garment");
   const bare = await screen(browser);
   assert.notDeepEqual(await bare.at(...fold), on);
   assert.deepEqual(await bare.at(...plain), beside);
@@ -83,7 +83,7 @@ test("they are stroked on the robot where they are seen", async () => {
 
 test("an image keeps the folds of its moment", async () => {
   const { browser } = both;
-  await show(browser, "panels", "folds");
+  await show(browser, "garment", "folds");
   const bent = await pauseAtFold(browser);
   const head = await browser.value("taxel.store.shown().number");
   await browser.value("taxel.store.pause(false)");
@@ -96,7 +96,7 @@ test("an image keeps the folds of its moment", async () => {
 
 test("axe-core finds nothing where something folds", async () => {
   const { browser } = both;
-  await show(browser, "panels", "folds");
+  await show(browser, "garment", "folds");
   await pauseAtFold(browser);
   assert.deepEqual(await violations(browser), []);
 });

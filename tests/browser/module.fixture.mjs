@@ -2,8 +2,13 @@
 
 import { readFile } from "node:fs/promises";
 
-/** A module of the page that imports no other. */
-export async function load(name) {
-  const text = await readFile(new URL(`../../host/cli/src/view/page/${name}.js`, import.meta.url), "utf8");
-  return import(`data:text/javascript,${encodeURIComponent(text)}`);
+/** A module of the page. */
+export const load = async (name) => import(await address(name));
+
+/** Its text as an address, and so those of the modules that it imports. */
+async function address(name) {
+  let text = await readFile(new URL(`../../host/cli/src/view/page/${name}.js`, import.meta.url), "utf8");
+  for (const [, other] of text.matchAll(/^import .* from "\.\/(.*)\.js";$/gm))
+    text = text.replace(`"./${other}.js"`, JSON.stringify(await address(other)));
+  return `data:text/javascript,${encodeURIComponent(text)}`;
 }

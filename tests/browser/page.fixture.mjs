@@ -45,6 +45,8 @@ export async function pauseAtTouch(browser, total) {
 
 /** The colour in the middle of a taxel on the screen, as [red, green, blue]; the screen as it is shown. */
 export async function screen(browser) {
+  // The invitation to press lies over the picture until somebody does.
+  await browser.value('void document.getElementById("invite")?.style.setProperty("visibility", "hidden")');
   const png = (await browser.picture()).toString("base64");
   await browser.value(`(async () => {
     const image = new Image();

@@ -20,13 +20,13 @@ const close = (a, b, by) => a.every((part, at) => Math.abs(part - b[at]) <= by);
 
 test("the header says for as long as it lasts that the board is simulated", async () => {
   const { browser } = both;
-  await show(browser, "panels");
+  await show(browser, "garment");
   assert.match(await browser.value("document.getElementById('source').textContent"), /^SIMULATED · sim:pat · /);
 });
 
 test("a pat appears on the back, at its place, in the colours of its pressure", async () => {
   const { browser } = both;
-  await show(browser, "panels");
+  await show(browser, "garment");
   await pauseAtTouch(browser, 7000);
   const { frame } = await browser.value("taxel.store.shown().head");
   assert.equal(frame.contacts.length, 1);
@@ -65,12 +65,12 @@ test("a pat appears on the back, at its place, in the colours of its pressure", 
 test("layers are drawn where the contact is, and interpolation makes steps smaller", async () => {
   const { browser } = both;
   const count = async () => (await (await screen(browser)).colours(await box(browser, figure(PANEL)))).length;
-  await show(browser, "panels");
+  await show(browser, "garment");
   const raw = await count();
-  await show(browser, "panels", "smooth");
+  await show(browser, "garment", "smooth");
   assert.ok((await count()) > 1.5 * raw);
   for (const layer of ["contours", "contacts", "peaks"]) {
-    await show(browser, "panels", layer);
+    await show(browser, "garment", layer);
     const white = (await (await screen(browser)).colours(await box(browser, figure(PANEL)))).map((c) =>
       c.split(",").map(Number),
     );

@@ -1,12 +1,16 @@
-// Modules of the page that need no browser: the line of time, the afterglow, the scale that follows, what is felt, and who is there.
+// Modules of the page that need no browser: the line of time, the afterglow, the scale that follows, what is felt, the map's
+// places, the log, and who is there.
 
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { load } from "./module.fixture.mjs";
 
-const [timeline, glow, follow, presence, speaker, sentences] = await Promise.all(
-  ["timeline", "afterglow", "follow", "presence", "speaker", "sentence"].map(load),
+const [timeline, glow, follow, presence, speaker, sentences, map] = await Promise.all(
+  ["timeline", "afterglow", "follow", "presence", "speaker", "sentence", "layers"].map(load),
 );
+// It reads its address.
+globalThis.location = { search: "" };
+const { Store } = await load("store");
 
 test("times are read as on a clock", () => {
   const { timeText } = timeline;
@@ -71,6 +75,19 @@ test("marks are found beside the pointer, and from one to the next", () => {
   assert.equal(timeline.neighbour(SAID, 2_000_000, 1), null);
 });
 
+test("every event of the half minute has its mark, however many there are", () => {
+  const store = new Store();
+  const tell = (from, to, us) => {
+    for (let n = from; n < to; n += 1) store.line({ type: "say", time_us: n * us, kind: "onset", said: String(n) });
+    return store.marks.length;
+  };
+  assert.equal(tell(0, 2_500, 10_000), 2_500);
+  assert.equal(tell(2_500, 6_000, 10_000), 3_001);
+  assert.equal(tell(60, 600, 1_000_000), 512, "few a second");
+  store.connected();
+  assert.equal(tell(0, 9_000, 1_000), 4_096, "more than anybody reads");
+});
+
 test("intentions last until another leads", () => {
   const changes = [
     [5, "kindness"],
@@ -131,11 +148,12 @@ test("the scale fits the first touch, whether light or hard, and afterwards only
 test("what is felt is said of now, of what has just ended, and of the moment at which the page pauses", () => {
   const image = (number, ms, what, meaning, leading = "none") => {
     const contacts = what === "nothing touches" ? [] : [{}];
-    return { number, head: { frame: { time_us: ms * 1000, contacts, felt: { what, meaning }, intent: { leading } } } };
+    const felt = { what, peak: what.replace("2 N", "8 N"), meaning };
+    return { number, head: { frame: { time_us: ms * 1000, contacts, felt, intent: { leading } } } };
   };
   const images = [
     image(0, 0, "nothing touches", ""),
-    image(1, 100, "a touch on the back, 8 N", "kindness", "kindness"),
+    image(1, 100, "a touch on the back, 2 N", "kindness", "kindness"),
     image(2, 200, "nothing touches", "kindness", "kindness"),
     image(3, 300, "nothing touches", ""),
     image(4, 1_000, "nothing touches", ""),
@@ -143,7 +161,7 @@ test("what is felt is said of now, of what has just ended, and of the moment at 
   const store = { paused: false, states: {}, at: (number) => images[number], span: () => [0, images.length] };
   const told = (number) => sentences.sentence({ ...store, shown: () => images[number] });
   assert.deepEqual(told(0), { when: "now", what: "nothing touches", meaning: "" });
-  assert.deepEqual(told(1), { when: "now", what: "a touch on the back, 8 N", meaning: "kindness" });
+  assert.deepEqual(told(1), { when: "now", what: "a touch on the back, 2 N", meaning: "kindness" });
   assert.deepEqual(told(2), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
   assert.deepEqual(told(3), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
   assert.deepEqual(told(4), { when: "now", what: "nothing touches", meaning: "" });
@@ -152,6 +170,29 @@ test("what is felt is said of now, of what has just ended, and of the moment at 
   assert.equal(sentences.sentence({ ...store, shown: () => null }), null);
   const lost = { ...store, states: { lost: {} }, shown: () => images[2] };
   assert.equal(sentences.sentence(lost), null, "nothing is known of a lost board");
+});
+
+test("the map fills its card, on a telephone, too, and nothing of it lies on anything else", () => {
+  // As the shipped map has them: fourteen inputs, and six layers of what they cause.
+  const layers = [...new Array(14).fill(0), 1, 2, 3, 4, 4, 5];
+  for (const [width, height, least] of [
+    [1026, 530, 13],
+    [866, 350, 11],
+    [350, 540, 10],
+  ]) {
+    const { isDown, places, extent } = map.arrange(layers, [width, height]);
+    assert.equal(isDown, width < height);
+    const scale = Math.min(...[width, height].map((room, axis) => room / (extent[axis] + 2 * map.MARGIN)));
+    assert.ok(13 * scale >= least, `${width} x ${height}: numbers of ${(13 * scale).toFixed(1)} pixels`);
+    const shares = extent.map((part, axis) => (part * scale) / [width, height][axis]);
+    assert.ok(Math.max(...shares) > 0.9 && Math.min(...shares) > 0.6, `${width} x ${height}: ${shares}`);
+    places.forEach(([x, y], one) =>
+      places.slice(0, one).forEach(([u, v], other) => {
+        const apart = Math.abs(x - u) >= map.WIDTH || Math.abs(y - v) >= map.HEIGHT;
+        assert.ok(apart, `${one} lies on ${other}`);
+      }),
+    );
+  }
 });
 
 test("who is not there is said to be away, and since when", () => {

@@ -83,7 +83,7 @@ test("steps go from image to image", async () => {
 
 test("a lash glows after it has gone, and fades within a second", async () => {
   const { browser } = both;
-  await show(browser, "panels", "glow");
+  await show(browser, "garment", "glow");
   await ask({ speed: 0.25 }, "taxel.store.recorded.speed === 0.25");
   await ask({ seek: 0.34 }, `${moment} === 0.34`);
   await ask({ play: true }, `taxel.store.recorded.playing && ${moment} > 0.5`);

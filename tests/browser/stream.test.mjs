@@ -126,7 +126,7 @@ test("the surface goes along with the stream, and without WebGL the canvas draws
   } finally {
     await plain.stop();
   }
-  await show(browser, "panels", "contours", "contacts", "peaks");
+  await show(browser, "garment", "contours", "contacts", "peaks");
 });
 
 test("two pages show the same frames", async () => {

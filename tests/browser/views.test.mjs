@@ -69,10 +69,11 @@ test("the surface is turned by pointer and keys, and comes back", async () => {
   await show(browser, "surface");
   const camera = () => browser.value("taxel.views.surface.relief.camera");
   const first = await camera();
-  const { left, top, width, height } = await box(browser, "#view-surface");
-  await browser.pointer(left + width / 2, top + height / 2, "mousePressed");
-  await browser.pointer(left + width / 2 + 60, top + height / 2 + 20);
-  await browser.pointer(left + width / 2 + 60, top + height / 2 + 20, "mouseReleased");
+  // Beside the garment: on it a pointer presses.
+  const { left, top } = await box(browser, "#view-surface");
+  await browser.pointer(left + 10, top + 10, "mousePressed");
+  await browser.pointer(left + 70, top + 30);
+  await browser.pointer(left + 70, top + 30, "mouseReleased");
   const dragged = await camera();
   assert.ok(dragged.turn < first.turn - 0.3 && dragged.tilt > first.tilt + 0.1, JSON.stringify(dragged));
   await browser.value("document.querySelector('.relief').focus()");
@@ -152,12 +153,12 @@ test("bands and strips are filled", async () => {
 
 test("every view can be saved as a picture", async () => {
   const { browser } = both;
-  for (const view of ["panels", "surface", "body", "map", "health"]) {
+  for (const view of ["garment", "surface", "body", "map", "health"]) {
     await show(browser, view);
     const size = await browser.value(`(async () => {
       const { picture } = await import("./save.js");
       const image = new Image();
-      image.src = await picture(document.getElementById("view-${view}"));
+      image.src = await picture(document.getElementById("view"));
       await image.decode();
       return [image.width, image.height, image.src.length, image.src.slice(0, 22)];
     })()`);

@@ -34,11 +34,11 @@ fn start(flash: &Path, options: &[&str]) -> Emulated {
 /// Name of the scene with which the board started, and how it came to start; what it said in lives before is
 /// passed over.
 fn started(board: &mut Emulated, is_it: impl Fn(Boot) -> bool) -> (Name, Boot) {
-    let mut used = Name::new();
     loop {
         match board.receive().report() {
-            Report::Hello(Hello { scene, .. }) => used = postcard::from_bytes::<Scene>(scene).unwrap().name,
-            Report::Boot(boot) if is_it(boot) => return (used, boot),
+            Report::Hello(Hello { scene, boot: Some(boot), .. }) if is_it(boot) => {
+                return (postcard::from_bytes::<Scene>(scene).unwrap().name, boot);
+            }
             _ => {}
         }
     }

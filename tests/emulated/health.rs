@@ -131,7 +131,8 @@ fn breaking(healthy: u64) -> (Script, u64, u64) {
 
 /// What a board on this machine finds in these codes.
 fn on_this_machine(codes: &[u16]) -> BTreeMap<u16, TaxelHealth> {
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Shipped::new(info, Garment::reference(), Scene::shipped()).unwrap());
     let mut wire = [0; 64];
     let frame = encode(&Request::Tare { frames: TARE }, &mut wire).unwrap();

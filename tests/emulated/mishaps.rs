@@ -6,7 +6,7 @@ use std::time::Instant;
 use taxel_core::boot::BootCause;
 use taxel_core::capacity::TAXELS;
 use taxel_core::garment::Garment;
-use taxel_core::wire::{Frame, Report, Request};
+use taxel_core::wire::{Frame, Hello, Report, Request};
 
 /// A frame, us.
 const FRAME_US: u64 = 5_120;
@@ -134,7 +134,7 @@ fn a_stack_that_leaves_the_memory_ends_in_a_restart() {
     board.wait_for("lockup");
     assert_eq!(board.wait_for("reset")["reset"], "watchdog");
     loop {
-        if let Report::Boot(boot) = board.receive().report()
+        if let Report::Hello(Hello { boot: Some(boot), .. }) = board.receive().report()
             && boot.resets == 1
         {
             assert_eq!(boot.cause, BootCause::Watchdog);

@@ -189,7 +189,7 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
                     // Over a UART, more than 1,000 bytes at once could be lost (docs/wire.md).
                     when_answered(&mut board, &scene, &mut told);
                 }
-                4 => board.ask(&Request::SetRaw { hz: random.u32(..5) as u16 }),
+                4 => board.ask(&Request::Stream { raw_hz: random.u32(..5) as u16, budget_hz: 1 }),
                 5 => board.ask(&Request::SelfTest),
                 _ => board.ask(&Request::Start),
             }

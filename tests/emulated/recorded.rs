@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use taxel::files::arrays::read_all;
 use taxel_core::garment::Garment;
 use taxel_core::gesture::GestureConfig;
+use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
 
 /// Of a recording, every so many frames.
@@ -41,16 +42,15 @@ fn codes() -> Vec<u16> {
 fn recorded_people() {
     let codes = codes();
     let garment = postcard::to_allocvec(&Garment::mat()).unwrap();
-    let scene = postcard::to_allocvec(&scene()).unwrap();
     // A person on a mat makes no gestures; what the model says of them must be the same all the same.
     let gestures =
         GestureConfig { rate_hz: RATE_HZ, decide_ms: 50, onset_ms: 50, lead: 0, ..GestureConfig::default() };
-    let gestures = Request::SetGestures(Some(gestures));
-    let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), gestures, Request::Start];
+    let scene = postcard::to_allocvec(&Scene { gestures: Some(gestures), ..scene() }).unwrap();
+    let requests = [Request::SetGarment(&garment), Request::SetScene(&scene), Request::Start];
     let mut board = Emulated::start(&Garment::mat(), &codes, 0, &["--dwell", &DWELL.to_string()]);
     // It hears nothing before it has started.
     board.receive();
-    let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Reaction", "Gesture", "Confidence"];
+    let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Reaction", "Gesture"];
     let course = Course { tables: &[], requests: &requests, codes: &codes, dwell: DWELL };
     let counts = same(&mut board, &course, &kinds);
     board.end();

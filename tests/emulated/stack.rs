@@ -101,7 +101,6 @@ fn greatest_garment() -> Garment {
 fn greatest_scene() -> Scene {
     let mut scene = Scene { name: name("sixteen-letters-"), ..Scene::shipped() };
     scene.condition.filter = Filter::Off;
-    scene.stream.raw_hz = u16::MAX;
     let intent = scene.intent.as_mut().unwrap();
     intent.steps = STEPS;
     let map = &mut intent.map;

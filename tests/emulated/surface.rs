@@ -12,9 +12,8 @@ use taxel::files::scripts::load;
 use taxel::sim::{frame_codes, scale_rate};
 use taxel_core::board::TableKind;
 use taxel_core::capacity::TAXELS;
-use taxel_core::format::{Name, name};
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
+use taxel_core::wire::{Poses, Request, TABLE_PIECE, TablePiece};
 use taxel_suite::folds::FOLDS;
 
 /// More than the codes of a garment at rest, with their noise.
@@ -33,9 +32,10 @@ pub fn table() -> (&'static [u8], Surface) {
 
 /// Poses of links, as they are sent.
 fn sent<'a>(poses: impl Iterator<Item = (&'a String, Pose)>) -> Vec<u8> {
-    let poses: Vec<(Name, taxel_core::surface::Pose)> =
-        poses.map(|(link, pose)| (name(link), pose.for_board().unwrap())).collect();
-    postcard::to_allocvec(&poses).unwrap()
+    let links = poses
+        .map(|(link, pose)| (link.as_str().try_into().unwrap(), pose.for_board().unwrap(), None))
+        .collect();
+    postcard::to_allocvec(&Poses { at: None, links }).unwrap()
 }
 
 /// A pose of each link but the first, in no special direction.
@@ -75,11 +75,8 @@ pub fn store(board: &mut Emulated, tables: &[(TableKind, &'static [u8])]) {
     for (kind, table) in tables {
         for (index, bytes) in table.chunks(TABLE_PIECE).enumerate() {
             let (length, offset) = (table.len() as u32, (index * TABLE_PIECE) as u32);
-            let piece = postcard::to_allocvec(&TablePiece { length, offset, bytes }).unwrap();
-            board.obey(&match kind {
-                TableKind::Surface => Request::SetSurface(&piece),
-                TableKind::Folds => Request::SetFolds(&piece),
-            });
+            let piece = TablePiece { kind: *kind, length, offset, bytes };
+            board.obey(&Request::SetTable(&postcard::to_allocvec(&piece).unwrap()));
         }
     }
 }
@@ -95,15 +92,12 @@ fn five() -> Vec<u16> {
 fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart() {
     let codes = five();
     let (table, surface) = table();
-    let (scene, poses) = (postcard::to_allocvec(&scene()).unwrap(), poses(&surface));
+    let mut scene = scene();
+    scene.stream.pressing_hz = u16::MAX;
+    let (scene, poses) = (postcard::to_allocvec(&scene).unwrap(), poses(&surface));
     let tables = [(TableKind::Surface, table)];
     let mut board = storing(("surface.bin", "uart"), &tables, (&codes, DWELL));
-    let requests = [
-        Request::SetScene(&scene),
-        Request::SetPoses(&poses),
-        Request::SetPressing(u16::MAX),
-        Request::Start,
-    ];
+    let requests = [Request::SetScene(&scene), Request::SetPoses(&poses), Request::Start];
     let course = Course { tables: &tables, requests: &requests, codes: &codes, dwell: DWELL };
     let kinds = same(&mut board, &course, &["Frame", "Contacts", "Pressing"]);
     board.end();

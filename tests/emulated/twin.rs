@@ -76,7 +76,6 @@ fn keep(kept: &mut Reports, report: &Report<'_>) {
         Report::Pressing(pressing) => (pressing.frame, "Pressing"),
         Report::Folds(folds) => (folds.frame, "Folds"),
         Report::Gesture(gesture) => (gesture.frame, "Gesture"),
-        Report::Confidence(confidence) => (confidence.frame, "Confidence"),
         _ => return,
     };
     kept.push((frame, kind, postcard::to_allocvec(report).unwrap()));
@@ -186,8 +185,13 @@ struct Twin {
 
 impl Twin {
     fn new(tables: &[(TableKind, &'static [u8])]) -> Twin {
-        let info =
-            BoardInfo { firmware: "", pins: Pins::ANY, full_scale: FULL_SCALE, link_bytes_per_s: 92_160 };
+        let info = BoardInfo {
+            firmware: "",
+            chip: "",
+            pins: Pins::ANY,
+            full_scale: FULL_SCALE,
+            link_bytes_per_s: 92_160,
+        };
         let mut board = Shipped::new(info, Garment::reference(), Scene::shipped()).unwrap();
         tables.iter().for_each(|(kind, table)| board.recall_table(*kind, Some(table)));
         Twin { board: Box::new(board), receiver: Receiver::new(), reports: Reports::new() }

@@ -96,7 +96,7 @@ fn streaming(
     board.obey(&Request::SetScene(&postcard::to_allocvec(scene).unwrap()));
     let played = board.play().0;
     board.obey(&Request::Tare { frames: 16 });
-    board.obey(&Request::Budget { hz: u16::MAX });
+    board.obey(&Request::Stream { raw_hz: 0, budget_hz: u16::MAX });
     board.obey(&Request::Start);
     (board, played)
 }
@@ -171,12 +171,10 @@ fn arrives_of_a_moving_body(patterns: &[Shown], most: u64) -> BTreeMap<usize, Ca
     let moving = Moving::new(&Garment::reference(), &layout);
     let mut played = codes(&shown.0, shown.1);
     bend(&mut played, &layout);
-    let scene = Scene::shipped().interlaced(Agree::Two);
+    let mut scene = Scene::shipped().interlaced(Agree::Two);
+    scene.stream.pressing_hz = u16::MAX;
     let tables = [(TableKind::Surface, table().0), (TableKind::Folds, &FOLDS.0[..])];
-    let begin = |board: &mut Emulated| {
-        store(board, &tables);
-        board.obey(&Request::SetPressing(u16::MAX));
-    };
+    let begin = |board: &mut Emulated| store(board, &tables);
     arrives(&scene, most, &shown, &played, begin, |us| Some(moving.told(us)))
 }
 

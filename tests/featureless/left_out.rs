@@ -6,6 +6,7 @@ use taxel_core_featureless::contact::ContactConfig;
 use taxel_core_featureless::format::{Micros, Q15};
 use taxel_core_featureless::garment::{Garment, Pins};
 use taxel_core_featureless::gesture::GestureConfig;
+use taxel_core_featureless::intent::Feed;
 use taxel_core_featureless::react::{Cause, ReactionConfig};
 use taxel_core_featureless::scene::{Scene, StreamConfig};
 use taxel_core_featureless::wire::{Receiver, Report, Request, decode, encode, frame_bound};
@@ -13,7 +14,8 @@ use taxel_core_featureless::wire::{Receiver, Report, Request, decode, encode, fr
 type ShippedSize = Board<2048, 1024, 512>;
 
 fn board() -> Box<ShippedSize> {
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
     Box::new(ShippedSize::new(info, Garment::reference(), Scene::shipped()).expect("what ships fits"))
 }
 
@@ -53,8 +55,10 @@ fn a_scene_is_refused_by_the_name_of_what_it_asks_for() {
     let refused = |edit: fn(&mut Scene)| answer_to_scene(edit).unwrap();
     let slip = refused(|scene| scene.contact = ContactConfig { slip_speed: 64, ..scene.contact });
     assert_eq!(slip, "scene: contact.slip_speed is left out of this firmware");
-    let raw = refused(|scene| scene.stream = StreamConfig { raw_hz: 10, ..scene.stream });
-    assert_eq!(raw, "scene: stream.raw_hz is left out of this firmware");
+    let pressing = refused(|scene| scene.stream = StreamConfig { pressing_hz: 10, ..scene.stream });
+    assert_eq!(pressing, "scene: stream.pressing_hz is left out of this firmware");
+    let gestures = refused(|scene| scene.gestures = Some(GestureConfig::default()));
+    assert_eq!(gestures, "scene: gestures is left out of this firmware");
     let interlaced = refused(|scene| scene.plan.depth = Depth::Interlaced);
     assert_eq!(interlaced, "plan.depth cannot be interlaced: it is left out of this firmware");
     let flinch = refused(|scene| {
@@ -83,17 +87,15 @@ fn a_request_is_refused_by_the_name_of_what_it_asks_for() {
     let mut board = board();
     let mut refused = |request: Request<'_>| answers(&mut board, &request);
     let left_out = |name: &str| [Some(format!("{name} is left out of this firmware"))];
-    assert_eq!(refused(Request::SetGestures(Some(GestureConfig::default()))), left_out("gestures"));
-    assert_eq!(refused(Request::SetGestures(None)), [None]);
     assert_eq!(refused(Request::SetShapes(&[1])), left_out("shapes"));
     assert_eq!(refused(Request::SetShapes(&[])), [None]);
     assert_eq!(refused(Request::AddShapes(&[0])), left_out("shapes"));
-    assert_eq!(refused(Request::Concept { slot: 0, value: Q15(0) }), left_out("intent"));
-    assert_eq!(refused(Request::SetRaw { hz: 10 }), left_out("raw"));
-    assert_eq!(refused(Request::SetRaw { hz: 0 }), [None]);
-    assert_eq!(refused(Request::SetSurface(&[0; 164])), left_out("surface"));
+    let concept = "warmth".try_into().unwrap();
+    let feed = Feed { concept, value: Q15(0), age_ms: 0, lasts_ms: 0, otherwise: Q15(0) };
+    assert_eq!(refused(Request::Feed(feed)), left_out("intent"));
+    assert_eq!(refused(Request::Stream { raw_hz: 10, budget_hz: 1 }), left_out("raw"));
+    assert_eq!(refused(Request::Stream { raw_hz: 0, budget_hz: 9 }), [None]);
+    assert_eq!(refused(Request::SetTable(&[0; 4])), left_out("surface"));
+    assert_eq!(refused(Request::SetTable(&[1, 0, 0, 0])), left_out("folds"));
     assert_eq!(refused(Request::SetPoses(&[0])), left_out("surface"));
-    assert_eq!(refused(Request::SetPressing(10)), left_out("surface"));
-    assert_eq!(refused(Request::MovePoses(&[0; 9])), left_out("surface"));
-    assert_eq!(refused(Request::SetFolds(&[0; 300])), left_out("folds"));
 }

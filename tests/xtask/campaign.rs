@@ -215,8 +215,8 @@ const RUNS: &[(&str, Run, &str)] = &[
     ),
     (
         "absent",
-        Run::Program("nothing_is_simulated"),
-        "every command without a board, with one that hangs, is busy or not permitted, and with two: what is told, and when",
+        Run::Program("table::"),
+        "every command without a board, with one that hangs, is busy or not permitted, is lost or another one, and with two: what is told, and when",
     ),
     ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     (

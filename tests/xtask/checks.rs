@@ -172,13 +172,9 @@ fn clippy(log: &Path) -> End {
         .iter()
         .flat_map(|(_, names)| names.iter().flat_map(|name| ["--test", *name]))
         .collect();
-    // Tests use all features; the program is also checked with its default features. These have none of their own.
-    let others = ["taxel-tests", "taxel-core-featureless", "taxel-bench", "taxel-fuzz"];
-    let others = others.iter().flat_map(|name| ["--exclude", *name]);
-    let plain: Vec<&str> = ["--workspace"].into_iter().chain(others).collect();
     // The unit tests of a core without features are those of the core.
     let whole = [WHOLE, &["--exclude", "taxel-core-featureless", "--all-targets"]].concat();
-    Ok(run(&whole).and_then(|()| run(&[WHOLE, &apart].concat())).and_then(|()| run(&plain)))
+    Ok(run(&whole).and_then(|()| run(&[WHOLE, &apart].concat())))
 }
 
 fn compare_locks(_: &Path) -> End {

@@ -20,6 +20,7 @@ mod install;
 mod interpreter;
 #[cfg(test)]
 mod layers;
+mod lines;
 mod locks;
 mod mutants;
 mod names;
@@ -70,6 +71,7 @@ usage: cargo xtask COMMAND
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
+  size                  lines of the product by crate and language: not blank, no comment, no test
   package               pack the published crates, and build each from its package alone, and all with the oldest
                         dependencies allowed; compare their interfaces with the last tag. Needs a nightly compiler
   docs                  build the pages of docs/ as a book, target/docs/index.html
@@ -107,6 +109,7 @@ fn main() -> ExitCode {
         Some("cycles") => targets::show_cycles(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
+        Some("size") if rest.is_empty() => lines::run().map(|()| true),
         Some("package") if rest.is_empty() => package::run().map(|()| true),
         Some("docs") if rest.is_empty() => docs::run().map(|()| true),
         Some("campaign") => campaign::run(rest).map(|()| true),

@@ -19,9 +19,19 @@ fn packing() -> Command {
 
 /// Packs them and builds each from its package; then the other two. What could not run is an error.
 pub fn run() -> Result<(), String> {
+    lint_defaults()?;
     process::run(&mut packing())?;
     build_with_oldest()?;
     compare_with_last()
+}
+
+/// Lints them with their default features; the check uses all of them.
+fn lint_defaults() -> Result<(), String> {
+    let packages: Vec<&str> = PUBLISHED.iter().flat_map(|name| ["--package", *name]).collect();
+    process::run(&mut cargo(
+        &[&["clippy"], &packages[..], &["--", "--deny", "warnings"]].concat(),
+        paths::root(),
+    ))
 }
 
 /// Builds the last commit with the oldest version of each direct dependency.

@@ -10,7 +10,7 @@ const RATE_HZ: u16 = 1;
 
 /// The board's activity since its last call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Doing {
+pub(super) enum Activity {
     /// Turns the codes of a scan into a percept.
     Process,
     /// Encodes a message and hands it to the link.
@@ -20,9 +20,9 @@ pub(super) enum Doing {
 }
 
 /// Account of the time of each frame.
-pub(super) struct Ledger {
+pub(super) struct FrameBudget {
     pace: Pace,
-    doing: Doing,
+    activity: Activity,
     since: Micros,
     /// Time since which a message has been waiting for room on the link.
     waiting: Option<Micros>,
@@ -49,13 +49,13 @@ struct FrameCost {
     send: u32,
 }
 
-impl Ledger {
+impl FrameBudget {
     /// An account without any frame.
-    pub fn new() -> Ledger {
+    pub fn new() -> FrameBudget {
         let none = FrameCost::default();
-        Ledger {
+        FrameBudget {
             pace: Pace::new(RATE_HZ),
-            doing: Doing::Else,
+            activity: Activity::Else,
             since: Micros(0),
             waiting: None,
             frame: none,
@@ -83,14 +83,14 @@ impl Ledger {
 
     /// Charges the time until `now` to the present activity, and begins another. `rest`: the link has not
     /// taken all of the message in transmission.
-    pub fn turn(&mut self, now: Micros, doing: Doing, rest: bool) {
+    pub fn turn(&mut self, now: Micros, activity: Activity, rest: bool) {
         let passed = us(now, self.since);
-        match self.doing {
-            Doing::Process => self.frame.process = self.frame.process.saturating_add(passed),
-            Doing::Encode => self.frame.encode = self.frame.encode.saturating_add(passed),
-            Doing::Else => {}
+        match self.activity {
+            Activity::Process => self.frame.process = self.frame.process.saturating_add(passed),
+            Activity::Encode => self.frame.encode = self.frame.encode.saturating_add(passed),
+            Activity::Else => {}
         }
-        (self.doing, self.since) = (doing, now);
+        (self.activity, self.since) = (activity, now);
         match (self.waiting, rest) {
             (None, true) => self.waiting = Some(now),
             (Some(since), false) => {
@@ -103,7 +103,7 @@ impl Ledger {
 
     /// Ends encoding: there was no message, and the time from here on is not charged.
     pub fn rest(&mut self) {
-        self.doing = Doing::Else;
+        self.activity = Activity::Else;
     }
 
     /// Begins the account of another frame and closes the previous one.
@@ -170,20 +170,20 @@ mod tests {
 
     #[test]
     fn each_time_is_charged_to_its_frame() {
-        let mut ledger = Ledger::new();
+        let mut ledger = FrameBudget::new();
         ledger.report(u16::MAX);
         let health = Health { overruns: 4, thinned_frames: 5, ..Health::default() };
         let mut budgets = Vec::<Budget, 4>::new();
         for (number, slow) in [(1, 0), (2, 900), (3, 0), (4, 0)] {
             let start = u64::from(number) * 5_120;
             let at = |us: u64| Micros(start + us);
-            ledger.turn(at(0), Doing::Process, false);
+            ledger.turn(at(0), Activity::Process, false);
             ledger.begin(at(0), number, Micros(start - 5_120), 5_100);
             budgets.extend(ledger.due(at(0), &health));
-            ledger.turn(at(2_000 + slow), Doing::Encode, false);
-            ledger.turn(at(2_300 + slow), Doing::Else, true);
-            ledger.turn(at(2_800 + slow), Doing::Encode, false);
-            ledger.turn(at(2_850 + slow), Doing::Else, number == 3);
+            ledger.turn(at(2_000 + slow), Activity::Encode, false);
+            ledger.turn(at(2_300 + slow), Activity::Else, true);
+            ledger.turn(at(2_800 + slow), Activity::Encode, false);
+            ledger.turn(at(2_850 + slow), Activity::Else, number == 3);
         }
         let told: Vec<_, 4> =
             budgets.iter().map(|b| (b.frame, b.frames, b.process_us, b.encode_us, b.send_us)).collect();
@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_frame_is_late_by_half_a_scan() {
-        let mut ledger = Ledger::new();
+        let mut ledger = FrameBudget::new();
         let mut late = |number, by| {
             let start = Micros(u64::from(number) * 5_120);
             ledger.begin(Micros(start.0 + 5_120 + by), number, start, 5_120);
@@ -207,14 +207,14 @@ mod tests {
 
     #[test]
     fn a_report_of_many_frames_tells_the_dearest() {
-        let mut ledger = Ledger::new();
+        let mut ledger = FrameBudget::new();
         let mut budgets = Vec::<Budget, 4>::new();
         for number in 1..=400u32 {
             let start = Micros(u64::from(number) * 5_000);
-            ledger.turn(start, Doing::Process, false);
+            ledger.turn(start, Activity::Process, false);
             ledger.begin(start, number, start, 5_000);
             budgets.extend(ledger.due(start, &Health::default()));
-            ledger.turn(Micros(start.0 + 1_000 + u64::from(number % 100)), Doing::Else, false);
+            ledger.turn(Micros(start.0 + 1_000 + u64::from(number % 100)), Activity::Else, false);
         }
         let told: Vec<_, 4> = budgets.iter().map(|b| (b.frames, b.process_us)).collect();
         assert_eq!(told, [(1, 1_001), (198, 1_099), (200, 1_099)]);

@@ -1,11 +1,14 @@
 //! The garment's folds: their table follows garment and scene; what is expected of them is told.
 
+use super::outbox::{Reports, only};
 use super::pace::Pace;
+use super::perception::Perception;
+use super::setup::Setup;
+use super::tx_frame::TxFrame;
 use crate::fold::{Doubt, Expected, FoldState, FoldTable};
 use crate::format::Micros;
-use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
-use crate::wire::FoldsReport;
+use crate::wire::{FoldsReport, Report};
 use heapless::Vec;
 
 /// Rate of reports while a table is in force, per second.
@@ -27,15 +30,20 @@ impl Folds {
     }
 
     /// Puts a table in force.
-    pub fn wear(&mut self, table: Option<&'static [u8]>) {
+    pub fn install(&mut self, table: Option<&'static [u8]>) {
         self.table = table;
     }
 
-    /// Returns the table in force, if it fits a garment; only then there are reports.
-    pub fn fit(&mut self, layout: &Layout) -> Option<FoldTable<'static>> {
+    /// Checks the table in force for another garment or scene, and hands it to the stage if it fits; only then
+    /// there are reports.
+    pub fn revalidate<const TAXELS: usize, const RUNS: usize, const PARTS: usize>(
+        &mut self,
+        perception: &mut Perception<'_, TAXELS, RUNS, PARTS>,
+    ) {
+        let Setup { layout, scene, .. } = &perception.setup;
         let table = self.table.and_then(|table| FoldTable::check(table, layout).ok());
         (self.fits, self.rate) = (table.is_some(), Pace::new(RATE_HZ));
-        table
+        perception.state.condition.wear(table, &scene.joints);
     }
 
     /// Notes a frame to tell of.
@@ -45,20 +53,23 @@ impl Folds {
         }
     }
 
-    /// True if a report is due.
-    pub fn is_due(&self) -> bool {
-        self.due.is_some()
+    /// Reports that are due.
+    pub fn due(&self) -> Reports {
+        self.due.map_or(0, |_| only(Report::FOLDS))
     }
 
-    /// Report that is due, with the doubts of the present contacts.
-    pub fn report(
+    /// Encodes the report that is due, with the doubts of the present contacts; returns false if it does not
+    /// fit. Own frame: it needs much stack.
+    #[inline(never)]
+    pub fn put(
         &mut self,
+        tx_frame: &mut TxFrame,
         folds: &FoldState,
         contacts: impl FnOnce() -> Vec<Doubt, CONTACTS>,
-    ) -> Option<FoldsReport> {
-        let (frame, time) = self.due.take()?;
+    ) -> bool {
+        let Some((frame, time)) = self.due.take() else { return true };
         let Expected { taxels, total, doubt } = folds.expected();
-        Some(FoldsReport {
+        let report = FoldsReport {
             frame,
             time,
             posed: folds.posture.told(),
@@ -67,6 +78,7 @@ impl Folds {
             total,
             doubt,
             contacts: contacts(),
-        })
+        };
+        tx_frame.put(Report::FOLDS, &report)
     }
 }

@@ -7,6 +7,8 @@ use crate::garment::Pins;
 pub struct BoardInfo {
     /// Name and version of the firmware.
     pub firmware: &'static str,
+    /// Unique id of the chip; empty without one.
+    pub chip: &'static str,
     /// Pins that the board brings out.
     pub pins: Pins,
     /// Largest code of the converter.
@@ -19,6 +21,6 @@ impl BoardInfo {
     /// The shipped board, with 12-bit codes and a link at 921,600 Bd. Defined here for the firmware and for a
     /// host that checks files for it.
     pub const fn feather(firmware: &'static str) -> BoardInfo {
-        BoardInfo { firmware, pins: Pins::FEATHER, full_scale: 4095, link_bytes_per_s: 92_160 }
+        BoardInfo { firmware, chip: "", pins: Pins::FEATHER, full_scale: 4095, link_bytes_per_s: 92_160 }
     }
 }

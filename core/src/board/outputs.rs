@@ -29,6 +29,11 @@ impl Outputs {
         self.high = if level { self.high | bit } else { self.high & !bit };
     }
 
+    /// Sets the level of a pin, if there is one.
+    pub fn apply(&mut self, pin: Option<(u8, bool)>) {
+        pin.into_iter().for_each(|(pin, level)| self.set(pin, level));
+    }
+
     /// Merges `later` into this; its levels prevail.
     pub fn follow(&mut self, later: Outputs) {
         self.due |= later.due;

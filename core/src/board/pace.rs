@@ -37,6 +37,11 @@ impl Pace {
         true
     }
 
+    /// True if it is never due.
+    pub fn is_never(&self) -> bool {
+        self.period_us.is_none()
+    }
+
     /// Time of the next event.
     pub fn next(&self) -> Micros {
         self.next
@@ -47,23 +52,24 @@ impl Pace {
 pub(super) struct Rates {
     pub contacts: Pace,
     pub frames: Pace,
-    pub raw: Pace,
     /// Longest time between two key frames.
     pub key_us: u64,
     pub symbols: bool,
     pub intent: bool,
+    /// True if ages of forms are sent.
+    pub form_ages: bool,
 }
 
 impl Rates {
-    /// The rates of a scene, with at least `raw_hz` frames of raw codes per second.
-    pub fn of(stream: &StreamConfig, raw_hz: u16) -> Rates {
+    /// The rates of a scene.
+    pub fn of(stream: &StreamConfig) -> Rates {
         Rates {
             contacts: Pace::new(stream.contacts_hz),
             frames: Pace::new(stream.frames_hz),
-            raw: Pace::new(stream.raw_hz.max(raw_hz)),
             key_us: 1000 * u64::from(stream.key_ms),
             symbols: stream.symbols,
             intent: stream.intent,
+            form_ages: stream.form_ages,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Reasons for which requests are refused.
 
+use crate::format::{Invalid, LEFT_OUT};
 use core::fmt::{self, Write};
 use heapless::String;
 
@@ -15,6 +16,12 @@ impl Refusal {
     #[inline(never)] // M0+: out of line
     pub fn of(error: impl fmt::Display) -> Refusal {
         format_args!("{error}").into()
+    }
+
+    /// Refuses what this build leaves out.
+    #[inline(never)] // M0+: out of line
+    pub fn left_out(parameter: &'static str) -> Refusal {
+        Refusal::of(Invalid { parameter, must: LEFT_OUT })
     }
 
     /// The sentence.

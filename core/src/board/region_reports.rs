@@ -34,8 +34,8 @@ impl RegionReports {
     }
 
     /// Names the regions again before their next states.
-    pub fn introduce(&mut self) {
-        self.names = true;
+    pub fn name_regions(&mut self) {
+        self.names = !self.is_empty();
     }
 
     /// True if the table in force has no regions.
@@ -60,19 +60,21 @@ impl RegionReports {
         }
     }
 
-    /// True if states are to be sent.
-    pub fn is_due(&self) -> bool {
-        self.due.is_some()
+    /// Number of the report to send: the names, else the states.
+    pub fn due(&self) -> Option<u32> {
+        self.due.map(|_| if self.names { Report::REGION_NAMES } else { Report::REGIONS })
     }
 
-    /// Encodes what is due: the names, else the states; none if nothing is. `false` if it does not fit.
-    pub fn put(&mut self, tx_frame: &mut TxFrame, table: Option<&Table<'_>>) -> Option<bool> {
-        let (frame, time) = self.due?;
-        if let Some(table) = table.filter(|_| core::mem::take(&mut self.names)) {
-            let names = (0..table.regions() as u8).map(|region| table.region(region).unwrap_or_default());
-            return Some(tx_frame.put(Report::REGION_NAMES, &Each(names)));
-        }
-        self.due = None;
-        Some(tx_frame.put(Report::REGIONS, &(frame, time, self.states.all())))
+    /// Encodes the names of the regions of a table; returns false if they do not fit.
+    pub fn put_names(&mut self, tx_frame: &mut TxFrame, table: &Table<'_>) -> bool {
+        self.names = false;
+        let names = (0..table.regions() as u8).map(|region| table.region(region).unwrap_or_default());
+        tx_frame.put(Report::REGION_NAMES, &Each(names))
+    }
+
+    /// Encodes the states that are due; returns false if they do not fit.
+    pub fn put_states(&mut self, tx_frame: &mut TxFrame) -> bool {
+        let Some((frame, time)) = self.due.take() else { return true };
+        tx_frame.put(Report::REGIONS, &(frame, time, self.states.all()))
     }
 }

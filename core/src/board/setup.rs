@@ -4,6 +4,7 @@ use super::info::BoardInfo;
 use crate::acquire::{
     Depth, Fields, FrameTooLong, Unfit, check_duration, longest_frame_us, longest_self_test_us,
 };
+use crate::contact::ContactConfig;
 use crate::format::{Invalid, InvalidRow};
 use crate::garment::{Circuit, Garment, GarmentError, Layout};
 use crate::pipeline::{Pipeline, SceneError};
@@ -146,24 +147,23 @@ impl Setup {
         done.map_err(SetupError::Scene)
     }
 
-    /// Replaces the stream if the scene differs in nothing else, so that perception and outputs continue.
-    /// Returns none if it differs in more.
+    /// Replaces the scene if it differs only in what may change while contacts and reactions last: the stream,
+    /// gestures, and the number of forms. Returns none if it differs in more.
     #[inline(never)]
-    pub fn change_stream(&mut self, info: &BoardInfo, scene: &mut Scene) -> Option<Result<(), SetupError>> {
-        let wanted = core::mem::replace(&mut scene.stream, self.scene.stream);
-        let is_all = *scene == self.scene;
-        scene.stream = wanted;
+    pub fn adjust_scene(&mut self, info: &BoardInfo, scene: &mut Scene) -> Option<Result<(), SetupError>> {
+        let Scene { stream, gestures, contact: ContactConfig { forms_in_frame, .. }, .. } = *scene;
+        let old = &self.scene;
+        (scene.stream, scene.gestures) = (old.stream, old.gestures);
+        scene.contact.forms_in_frame = old.contact.forms_in_frame;
+        let is_all = *scene == *old;
+        (scene.stream, scene.gestures, scene.contact.forms_in_frame) = (stream, gestures, forms_in_frame);
         is_all.then(|| {
             check(info, scene, &self.circuit)?;
-            wanted.check().map_err(SceneError::from)?;
-            self.scene.stream = wanted;
+            stream.check().map_err(SceneError::from)?;
+            self.pipeline.adjust(scene).map_err(SetupError::Scene)?;
+            core::mem::swap(&mut self.scene, scene);
             Ok(())
         })
-    }
-
-    /// Scans per second for [`Pace`](super::pace::Pace); a scene's 0 means "as many as possible".
-    pub(super) fn scan_rate(&self) -> u16 {
-        if self.scene.rate_hz == 0 { u16::MAX } else { self.scene.rate_hz }
     }
 }
 

@@ -1,6 +1,9 @@
 //! The garment's surface: what presses on the robot is told at a rate of its own.
 
+use super::outbox::{Reports, only};
 use super::pace::Pace;
+use super::reading;
+use super::refusal::Refusal;
 use super::region_reports::RegionReports;
 use super::tx_frame::TxFrame;
 use crate::body::Placed;
@@ -9,21 +12,20 @@ use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
 use crate::surface::{Pressing, SurfaceState, Table};
 use crate::symbol::Words;
-use crate::wire::{Each, Report};
+use crate::wire::{Each, Poses, Report};
 
 /// The surface in force.
 pub(super) struct Surface {
     /// The stored table, and whether it fits the present garment.
     table: Option<&'static [u8]>,
     fits: bool,
-    pub poses: SurfaceState,
+    poses: SurfaceState,
     /// What the regions feel: without the feature there is no room for it.
     regions: [RegionReports; USED],
+    hz: u16,
     rate: Pace,
     /// Frame to tell of.
     due: Option<(u32, Micros)>,
-    /// True if the bounds of the frame to tell of were sent.
-    bounded: bool,
     /// True if the last report told of something.
     told: bool,
     /// True if the next frame is not told of, because there was much to tell of this one.
@@ -37,9 +39,9 @@ impl Surface {
             fits: false,
             poses: SurfaceState::new(),
             regions: [const { RegionReports::new() }; USED],
+            hz: 0,
             rate: Pace::NEVER,
             due: None,
-            bounded: false,
             told: false,
             pauses: false,
         }
@@ -57,27 +59,39 @@ impl Surface {
 
     /// Puts a table in force if it fits the garment; forgets poses, which are of the links of another. What
     /// was told by the table before is told anew, as of frame `at`.
-    pub fn wear(&mut self, table: Option<&'static [u8]>, layout: &Layout, at: (u32, Micros)) {
+    pub fn install(&mut self, table: Option<&'static [u8]>, layout: &Layout, at: (u32, Micros)) {
         self.table = table;
         self.fits = table.is_some_and(|table| Table::check(table, layout).is_ok());
         self.poses = SurfaceState::new();
         let table = self.table();
         self.regions.iter_mut().for_each(|regions| regions.reset(table.as_ref(), at));
-        (self.due, self.bounded) = (self.told.then_some(at), false);
+        self.due = self.told.then_some(at);
     }
 
     /// Names the regions again before their next states.
-    pub fn introduce(&mut self) {
-        self.regions.iter_mut().for_each(RegionReports::introduce);
+    pub fn name_regions(&mut self) {
+        self.regions.iter_mut().for_each(RegionReports::name_regions);
     }
 
-    /// Sets the rate of reports of what presses on the robot.
-    pub fn tell(&mut self, hz: u16) {
-        (self.rate, self.due) = (Pace::new(hz), None);
+    /// Sets the rate of reports of what presses on the robot. What was told at another rate before is told
+    /// anew, as of frame `at`; without a rate, that nothing presses.
+    pub fn pace(&mut self, hz: u16, at: (u32, Micros)) {
+        if core::mem::replace(&mut self.hz, hz) != hz {
+            self.rate = Pace::new(hz);
+            self.due = self.told.then_some(at);
+        }
+    }
+
+    /// Takes poses of links, encoded, at `now` unless they say when they are from.
+    #[inline(never)]
+    pub fn take_poses(&mut self, bytes: &[u8], now: Micros) -> Result<(), Refusal> {
+        let table = self.table().ok_or_else(|| Refusal::of("no surface is in force"))?;
+        let Poses { at, links } = reading::value("poses", bytes)?;
+        self.poses.accept(&links, &table, at.unwrap_or(now)).map_err(Refusal::of)
     }
 
     /// Follows the regions in a frame.
-    pub fn feel(
+    pub fn update_regions(
         &mut self,
         frame: (u32, Micros),
         layout: &Layout,
@@ -94,9 +108,9 @@ impl Surface {
     }
 
     /// Another garment is worn.
-    pub fn refit(&mut self, layout: &Layout, at: (u32, Micros)) {
+    pub fn revalidate(&mut self, layout: &Layout, at: (u32, Micros)) {
         if cfg!(feature = "surface") {
-            self.wear(self.table, layout, at);
+            self.install(self.table, layout, at);
         }
     }
 
@@ -107,57 +121,66 @@ impl Surface {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {
-            (self.due, self.bounded) = (Some((frame, time)), false);
+            self.due = Some((frame, time));
             self.pauses = are_many(present);
         }
     }
 
-    /// Encodes what is due: the regions' states, else what is unknown of a
-    /// [`PressingReport`](crate::wire::PressingReport), else that. `doubt` finds what is unknown, `sum` sums
-    /// up, both by a table. Returns `false` if it does not fit. Own frame: it needs much stack.
+    /// Reports that are due.
+    pub fn due(&self) -> Reports {
+        if !cfg!(feature = "surface") {
+            return 0;
+        }
+        let pressing = self.due.map(|_| Report::PRESSING);
+        let regions = self.regions.iter().filter_map(RegionReports::due);
+        pressing.into_iter().chain(regions).fold(0, |all, number| all | only(number))
+    }
+
+    /// Encodes a report that is due. `doubt` finds what is unknown of what presses, `sum` sums it up, both by a
+    /// table. Returns `false` if it does not fit. Own frame: it needs much stack.
     #[inline(never)]
     pub fn put(
         &mut self,
+        number: u32,
         tx_frame: &mut TxFrame,
         doubt: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
         sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
     ) -> bool {
         let table = self.table();
-        if let Some(fits) = self.regions.iter_mut().find_map(|regions| regions.put(tx_frame, table.as_ref()))
-        {
-            return fits;
+        let regions = self.regions.first_mut();
+        match (number, regions, table) {
+            (Report::REGION_NAMES, Some(regions), Some(table)) => regions.put_names(tx_frame, &table),
+            (Report::REGIONS, Some(regions), _) => regions.put_states(tx_frame),
+            _ => self.put_pressing(tx_frame, doubt, sum),
         }
+    }
+
+    /// Encodes what presses on the robot.
+    fn put_pressing(
+        &mut self,
+        tx_frame: &mut TxFrame,
+        doubt: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
+        sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
+    ) -> bool {
         let Some((frame, time)) = self.due.take() else { return true };
-        let Some(table) = table else {
+        let Some(table) = self.table().filter(|_| !self.rate.is_never()) else {
             self.told = false;
             let nothing: &[()] = &[];
             return tx_frame.put(Report::PRESSING, &(frame, time, None::<Micros>, nothing, nothing));
         };
         let mut pressing = Pressing::new();
-        let frames = self.poses.at(time);
-        if !self.bounded {
-            doubt(&mut pressing, &table);
-            if pressing.is_in_doubt() || frames.errors().next().is_some() {
-                // What it bounds follows.
-                (self.due, self.bounded) = (Some((frame, time)), true);
-                // Poses that are carried on are in doubt in most frames, taxels in few, which alone need sums.
-                if pressing.is_in_doubt() {
-                    sum(&mut pressing, &table);
-                }
-                let contacts = Each(pressing.doubts_of_contacts(&table));
-                let links = Each(pressing.doubts_of_links(&table));
-                return tx_frame.put(Report::BOUNDS, &(frame, contacts, links, Each(frames.errors())));
-            }
-        }
+        doubt(&mut pressing, &table);
         sum(&mut pressing, &table);
+        let frames = self.poses.at(time);
         let (contacts, links) = (pressing.contacts(&frames), pressing.links(&table));
         self.told = contacts.len() > 0;
-        tx_frame.put(Report::PRESSING, &(frame, time, self.poses.told(), Each(contacts), Each(links)))
-    }
-
-    /// True if something is due.
-    pub fn is_due(&self) -> bool {
-        cfg!(feature = "surface") && (self.due.is_some() || self.regions.iter().any(RegionReports::is_due))
+        let report = (frame, time, self.poses.told(), Each(contacts), Each(links));
+        if !pressing.is_in_doubt() && frames.errors().next().is_none() {
+            // A reader takes what is missing as empty.
+            return tx_frame.put(Report::PRESSING, &report);
+        }
+        let bounds = (Each(pressing.doubts_of_contacts(&table)), Each(pressing.doubts_of_links(&table)));
+        tx_frame.put(Report::PRESSING, &(report, bounds, Each(frames.errors())))
     }
 }
 

@@ -1,141 +1,173 @@
 //! Tables that lie in flash: a table comes in pieces, and is stored beside the one of its kind in force.
 
+use super::reading;
 use super::refusal::Refusal;
-use super::uploads::{PieceToStore, TableKind, Upload};
-use super::work::{FULL, Work};
-use super::{Board, reading};
-use crate::fold::FoldTable;
-use crate::format::{Invalid, Micros};
-use crate::surface::Table;
-use crate::wire::{TABLE_PIECE, TablePiece};
+use crate::capacity;
+use crate::fold::{CELLS, FOLDED, FOLDS, FoldTable, fold_table_bytes};
+use crate::format::Invalid;
+use crate::garment::Layout;
+use crate::surface::{Table, table_bytes};
+use crate::wire::{TABLE_PIECE, TableKind, TablePiece};
+use heapless::Vec;
 
-impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
-    /// Gives the board a table that its flash holds, after its garment and scene.
-    pub fn recall_table(&mut self, kind: TableKind, table: Option<&'static [u8]>) {
-        if TableKind::USED.contains(&kind) {
-            self.wear(kind, table);
+impl TableKind {
+    /// The kinds that this build has a use for.
+    pub const USED: &[TableKind] = match (cfg!(feature = "surface"), cfg!(feature = "folds")) {
+        (true, true) => &[TableKind::Surface, TableKind::Folds],
+        (true, false) => &[TableKind::Surface],
+        (false, true) => &[TableKind::Folds],
+        (false, false) => &[],
+    };
+
+    /// Length of the longest table: that of a garment of [`capacity::TAXELS`] taxels.
+    pub const fn bytes(self) -> usize {
+        match self {
+            TableKind::Surface => table_bytes(capacity::TAXELS),
+            TableKind::Folds => fold_table_bytes(FOLDS, FOLDED, CELLS),
         }
     }
 
-    /// Puts a table in force, if it fits the present garment.
-    fn wear(&mut self, kind: TableKind, table: Option<&'static [u8]>) {
-        match kind {
-            TableKind::Surface => self.surface.wear(table, &self.setup.layout, self.ledger.last()),
-            #[cfg(feature = "folds")]
-            TableKind::Folds => self.wear_folds(table),
-            #[cfg(not(feature = "folds"))]
-            TableKind::Folds => {}
+    /// Checks a table for a garment.
+    fn check(self, table: &[u8], layout: &Layout) -> Result<(), Invalid> {
+        match self {
+            TableKind::Surface => Table::check(table, layout).map(drop),
+            TableKind::Folds => FoldTable::check(table, layout).map(drop),
         }
     }
+}
 
-    /// Checks a table for the present garment.
-    fn check_table(&self, kind: TableKind, table: &[u8]) -> Result<(), Invalid> {
-        match kind {
-            TableKind::Surface => Table::check(table, &self.setup.layout).map(drop),
-            TableKind::Folds => FoldTable::check(table, &self.setup.layout).map(drop),
-        }
+/// True if this build has a use for any table.
+pub(super) const TABLES: bool = !TableKind::USED.is_empty();
+/// Room for a piece; a build without tables has none.
+const ROOM: usize = if TABLES { TABLE_PIECE } else { 0 };
+
+/// A piece of a table, to be stored.
+#[derive(Debug, Clone, Copy)]
+pub struct PieceToStore<'a> {
+    /// What the table holds.
+    pub kind: TableKind,
+    /// Length of the whole table.
+    pub length: u32,
+    /// Position of the piece in it, a multiple of 256.
+    pub offset: u32,
+    /// The piece: 256 bytes, or what is left.
+    pub bytes: &'a [u8],
+    /// Number of times that the flash may be written soon after this; a reset grants no more.
+    pub saves: u8,
+}
+
+/// The table being received.
+#[derive(Debug, Clone, Copy)]
+struct Upload {
+    kind: TableKind,
+    length: u32,
+    stored: u32,
+    /// The table, once all of it is stored.
+    whole: Option<&'static [u8]>,
+}
+
+/// The next table.
+pub(super) struct Uploads {
+    /// The table being received; a build without tables has no room for one.
+    upload: [Option<Upload>; TABLES as usize],
+    piece: Vec<u8, ROOM>,
+}
+
+/// What follows from a piece that was taken, or stored.
+pub(super) enum UploadStep {
+    /// The piece is to be stored.
+    Store,
+    /// The table, all of which is stored, is to be kept; or none.
+    Keep(TableKind),
+    /// Another piece follows.
+    More,
+}
+
+impl Uploads {
+    pub const fn new() -> Uploads {
+        Uploads { upload: [None; TABLES as usize], piece: Vec::new() }
     }
 
-    /// Takes a piece of a table. Error if it is not the next one. It is answered once it is stored.
+    fn upload(&self) -> Option<Upload> {
+        self.upload.first().copied().flatten()
+    }
+
+    /// Takes a piece of a table. Error if it is not the next one, or if the first one may not be stored.
     #[inline(never)]
-    pub(super) fn take_table(&mut self, now: Micros, kind: TableKind, piece: &[u8]) -> Result<(), Refusal> {
-        let TablePiece { length, offset, bytes } = reading::value("table", piece)?;
-        if self.works.iter().any(|work| matches!(work, Work::StoreTable | Work::KeepTable(_))) {
-            return Err(Refusal::of("the last piece is not stored yet"));
+    pub fn take(
+        &mut self,
+        piece: &[u8],
+        may_begin: impl FnOnce() -> Result<(), Refusal>,
+    ) -> Result<UploadStep, Refusal> {
+        let TablePiece { kind, length, offset, bytes } = reading::value("table", piece)?;
+        if !TableKind::USED.contains(&kind) {
+            let surface = kind == TableKind::Surface;
+            return Err(Refusal::left_out(if surface { "surface" } else { "folds" }));
         }
         let most = kind.bytes();
         if length as usize > most {
             return Err(format_args!("the table has {length} bytes, and there is room for {most}").into());
         }
         if offset == 0 {
-            self.save(now)?;
-            if self.is_busy() {
-                return Err(Refusal::of("something touches the garment"));
-            }
-            self.uploads.set(Some(Upload { kind, length, stored: 0, whole: None }));
+            may_begin()?;
+            self.upload.fill(Some(Upload { kind, length, stored: 0, whole: None }));
         }
-        let upload = self.uploads.upload().filter(|it| it.kind == kind);
+        let upload = self.upload().filter(|it| it.kind == kind);
         let Some(upload) = upload.filter(|it| it.length == length && it.stored == offset) else {
             let next = upload.map_or(0, |upload| upload.stored);
             return Err(format_args!("the next piece is the one from byte {next} on").into());
         };
         if length == 0 {
-            self.works.push_back(Work::KeepTable(kind)).map_err(|_| Refusal::of(FULL))?;
-            return Ok(());
+            return Ok(UploadStep::Keep(kind));
         }
         let left = (upload.length - upload.stored) as usize;
-        if bytes.len() != left.min(TABLE_PIECE) {
+        self.piece.clear();
+        if bytes.len() != left.min(TABLE_PIECE) || self.piece.extend_from_slice(bytes).is_err() {
             return Err(format_args!("a piece has {TABLE_PIECE} bytes, and the last one the rest").into());
         }
-        self.uploads.piece.clear();
-        self.uploads.piece.extend_from_slice(bytes).map_err(|_| Refusal::of(FULL))?;
-        self.works.push_back(Work::StoreTable).map_err(|_| Refusal::of(FULL))
+        Ok(UploadStep::Store)
     }
 
-    /// The piece to be stored.
-    pub fn piece_to_store(&self) -> PieceToStore<'_> {
-        let (upload, piece) = (self.uploads.upload(), &self.uploads.piece);
+    /// The piece to be stored, with so many saves left after it.
+    pub fn piece_to_store(&self, saves: u8) -> PieceToStore<'_> {
+        let upload = self.upload();
         let (length, offset) = upload.map_or((0, 0), |upload| (upload.length, upload.stored));
-        let saves = self.saving.left_after();
-        PieceToStore { kind: self.uploads.kind(), length, offset, bytes: piece, saves }
+        let kind = upload.map_or(TableKind::Surface, |upload| upload.kind);
+        PieceToStore { kind, length, offset, bytes: &self.piece, saves }
     }
 
-    /// Takes the result of storing a piece: the whole table with the last one.
+    /// True if the first piece is the one to be stored.
+    pub fn is_first(&self) -> bool {
+        self.upload().is_some_and(|upload| upload.stored == 0)
+    }
+
+    /// Takes the result of storing a piece: the whole table with the last one, which is checked for a garment.
+    /// An error ends the upload. None if there is no upload.
     #[inline(never)]
-    pub(super) fn table_stored(&mut self, now: Micros, result: Result<Option<&'static [u8]>, &'static str>) {
-        self.table_worked(now);
-        let kind = self.uploads.kind();
-        let Some(mut upload) = self.uploads.upload() else { return };
-        if upload.stored == 0 {
-            self.saving.charge(now);
-        }
-        upload.stored += self.uploads.piece.len() as u32;
+    pub fn stored(
+        &mut self,
+        result: Result<Option<&'static [u8]>, &'static str>,
+        layout: &Layout,
+    ) -> Option<Result<UploadStep, Refusal>> {
+        let mut upload = self.upload()?;
+        upload.stored += self.piece.len() as u32;
         upload.whole = result.ok().flatten();
-        self.uploads.set(Some(upload));
-        let checked = result.map_err(Refusal::of).and_then(|whole| {
-            whole.map(|whole| self.check_table(kind, whole).map_err(Refusal::of)).transpose()
+        self.upload.fill(Some(upload));
+        let kind = upload.kind;
+        let done = result.map_err(Refusal::of).and_then(|whole| match whole {
+            Some(whole) => kind.check(whole, layout).map(|()| UploadStep::Keep(kind)).map_err(Refusal::of),
+            None => Ok(UploadStep::More),
         });
-        let number = Work::KeepTable(kind).request();
-        match checked {
-            // It is answered once the table is kept.
-            Ok(Some(())) if self.works.push_back(Work::KeepTable(kind)).is_ok() => {}
-            Ok(None) => self.outbox.answer(number, None),
-            refused => {
-                self.uploads.set(None);
-                let why = refused.err().unwrap_or_else(|| Refusal::of(FULL));
-                self.outbox.answer(number, Some(why));
-            }
+        if done.is_err() {
+            self.upload.fill(None);
         }
+        Some(done)
     }
 
-    /// Takes the result of keeping the table that was stored last, or none.
-    #[inline(never)]
-    pub(super) fn table_kept(&mut self, now: Micros, kind: TableKind, result: Result<(), &'static str>) {
-        self.table_worked(now);
-        let upload = self.uploads.upload();
-        self.uploads.set(None);
-        if result.is_ok() {
-            self.wear(kind, upload.and_then(|upload| upload.whole));
-        }
-        self.outbox.answer(Work::KeepTable(kind).request(), result.err().map(Refusal::of));
-    }
-
-    fn table_worked(&mut self, now: Micros) {
-        let us = self.saving.ended(now).unwrap_or(0);
-        self.not_scanned(us);
-    }
-
-    /// Puts a table of folds in force, if it fits the present garment.
-    #[cfg(feature = "folds")]
-    fn wear_folds(&mut self, table: Option<&'static [u8]>) {
-        self.folds.wear(table);
-        self.refit_folds();
-    }
-
-    /// Garment or scene have changed.
-    #[cfg(feature = "folds")]
-    pub(super) fn refit_folds(&mut self) {
-        let table = self.folds.fit(&self.setup.layout);
-        self.state.condition.wear(table, &self.setup.scene.joints);
+    /// Ends the upload; returns the table that was received.
+    pub fn end(&mut self) -> Option<&'static [u8]> {
+        let whole = self.upload().and_then(|upload| upload.whole);
+        self.upload.fill(None);
+        whole
     }
 }

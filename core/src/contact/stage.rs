@@ -23,8 +23,6 @@ use crate::track::tracks::Tracks;
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct Contacts {
     config: ContactConfig,
-    /// Number of forms measured in a frame. Not part of a scene.
-    pub forms: Forms,
 }
 
 /// State and work space of the stage, for at most CONTACTS contacts, RUNS runs and LABELS labels
@@ -235,7 +233,7 @@ impl ContactConfig {
         if !cfg!(feature = "slip") && self.slip_speed != NO_SLIP {
             return refuse("contact.slip_speed", LEFT_OUT);
         }
-        Ok(Contacts { config: *self, forms: Forms::default() })
+        Ok(Contacts { config: *self })
     }
 }
 
@@ -290,7 +288,7 @@ impl Contacts {
         components.reunite(labeller, layout, tracks);
         tracks.merge(labeller, layout);
         let sight = Sight { labeller, layout, image };
-        tracks.update(&self.config, &components.list, &sight, (now, self.forms));
+        tracks.update(&self.config, &components.list, &sight, (now, Forms::of(self.config.forms_in_frame)));
         Touches {
             present: tracks.contacts(),
             ages: tracks.ages(),

@@ -1,5 +1,6 @@
 //! Settings of the recognition of touches, and the models that come with the program.
 
+use super::certainty::Certainty;
 use super::model::Model;
 use super::model_error::ModelError;
 use crate::format::Invalid;
@@ -47,6 +48,8 @@ pub struct GestureConfig {
     /// Lead over the second class that another class needs to displace the announced one, in thousandths of a
     /// score. A model is fitted to score 1 for the class of a touch, and -1 for the others.
     pub lead: u16,
+    /// Confidence that an announcement before the end of a touch needs, in thousandths, at most 999.
+    pub certainty: u16,
 }
 
 impl Default for GestureConfig {
@@ -59,6 +62,7 @@ impl Default for GestureConfig {
             decide_ms: 250,
             onset_ms: 250,
             lead: 200,
+            certainty: 0,
         }
     }
 }
@@ -113,6 +117,7 @@ impl GestureConfig {
         if self.decide_ms < 50 {
             return refuse("gestures.decide_ms", "must be at least 50");
         }
+        Certainty::of(self.certainty)?;
         Ok(Model::read(self.model.bytes())?)
     }
 }
@@ -139,5 +144,6 @@ mod tests {
         assert_eq!(refused(|c| c.gain = 0), "gestures.gain");
         assert_eq!(refused(|c| c.gain = 4097), "gestures.gain");
         assert_eq!(refused(|c| c.decide_ms = 49), "gestures.decide_ms");
+        assert_eq!(refused(|c| c.certainty = 1000), "gestures.certainty");
     }
 }

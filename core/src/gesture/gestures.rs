@@ -108,15 +108,13 @@ impl Gestures {
 
     /// Takes the frame of time `now`; `present` gives the panel and the total of each contact. Returns a new
     /// announcement or the end of the touch. A touch begins on the panel of the contact with the greatest
-    /// total and covers that panel alone; it ends when nothing has touched the panel for a while. An
-    /// announcement before the end needs the confidence `certainty`.
+    /// total and covers that panel alone; it ends when nothing has touched the panel for a while.
     pub fn process(
         &self,
         state: &mut GestureState,
         layout: &Layout,
         image: &Image<'_>,
         present: impl Iterator<Item = (u8, u32)> + Clone,
-        certainty: Certainty,
         now: Micros,
     ) -> Option<Gesture> {
         let panel = match state.panel {
@@ -147,7 +145,7 @@ impl Gestures {
         }
         state.due = self.later(now);
         let decision = touches.decide(&state.touch);
-        state.announced.take(&decision, now, &self.demand(certainty))?;
+        state.announced.take(&decision, now, &self.demand())?;
         Some(told(state, panel, &decision, now, false))
     }
 
@@ -155,12 +153,13 @@ impl Gestures {
         TouchClassifier::new(self.model, area.rows, area.columns).with_gain(self.config.gain)
     }
 
-    fn demand(&self, certainty: Certainty) -> Demand {
-        let GestureConfig { onset_ms, lead, .. } = self.config;
+    fn demand(&self) -> Demand {
+        let GestureConfig { onset_ms, lead, certainty, .. } = self.config;
         Demand {
             onset_us: 1000 * u64::from(onset_ms),
             lead: (u64::from(lead) * ONE / 1000) as u32,
-            certainty,
+            // Checked with the settings.
+            certainty: Certainty::of(certainty).unwrap_or_default(),
         }
     }
 
@@ -247,7 +246,7 @@ mod tests {
             let image = Image { values: &values, rows: &Rows::NONE };
             let now = Micros(self.frame * SCAN_US);
             let present = present.into_iter();
-            self.stage.process(&mut self.state, &self.layout, &image, present, Certainty::default(), now)
+            self.stage.process(&mut self.state, &self.layout, &image, present, now)
         }
 
         fn told(&mut self, frames: u64, panel: u8, of: fn(u64) -> (usize, u16)) -> Vec<Gesture> {

@@ -3,7 +3,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | input | [`Feed`]s, by name of the concept; or a value for a slot, which holds until the next one |
+//! | input | [`Feed`]s, by name of the concept |
 //! | output | a value for each slot of [`Source::Host`](super::input::Source::Host) |
 //! | saturation | none: values outside -1 ..= 1 are refused |
 //! | latency | none |
@@ -47,15 +47,6 @@ pub struct Fed {
 }
 
 impl Fed {
-    /// Puts a value into a slot until the next one. A refused value changes nothing.
-    pub fn set(&mut self, slot: u8, value: Q15) -> Result<(), Invalid> {
-        let value = fraction(value, "value")?;
-        let must = "must be less than 8";
-        let held = self.slots.get_mut(usize::from(slot)).ok_or(Invalid { parameter: "slot", must })?;
-        *held = Held { value, until: None, otherwise: Q15(0) };
-        Ok(())
-    }
-
     /// Takes a value that arrived at `now` for a concept of `map`. Error if the host does not feed the
     /// concept or a value is outside -1 ..= 1; then nothing changes.
     pub fn accept<const N: usize, const E: usize>(
@@ -77,7 +68,7 @@ impl Fed {
     }
 
     /// Called when no host feeds any more: each slot falls back to its `otherwise`, 0 if none was given.
-    pub fn let_go(&mut self) {
+    pub fn expire(&mut self) {
         self.slots.iter_mut().for_each(|held| *held = Held { value: held.otherwise, until: None, ..*held });
     }
 
@@ -136,8 +127,6 @@ mod tests {
         assert_eq!(at(&fed, 3000), -7, "too old on arrival");
         fed.accept(&feed(700, 5, 0), Some(&map), Micros(4_000_000)).unwrap();
         assert_eq!(at(&fed, 999_999), 700, "until the next");
-        fed.set(3, Q15(800)).unwrap();
-        assert_eq!(at(&fed, 999_999), 800);
         fed.accept(&feed(1, 0, u32::MAX), Some(&map), Micros(u64::MAX - 5)).unwrap();
         assert_eq!(fed.values(Micros(u64::MAX - 1))[3].0, 1);
         let state = map.encode(None, &fed.values(Micros(u64::MAX - 1)));
@@ -155,8 +144,6 @@ mod tests {
         assert_eq!(refused(feed(32769, 0, 0), Some(&map)), "feed.value");
         assert_eq!(refused(feed(i32::MIN, 0, 0), Some(&map)), "feed.value");
         assert_eq!(refused(Feed { otherwise: Q15(-32769), ..feed(1, 0, 0) }, Some(&map)), "feed.otherwise");
-        assert_eq!(fed.set(8, Q15(0)).unwrap_err().parameter, "slot");
-        assert_eq!(fed.set(0, Q15(32769)).unwrap_err().parameter, "value");
         assert_eq!(fed.values(Micros(0)), [Q15(0); SLOTS]);
     }
 }

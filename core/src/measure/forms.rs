@@ -1,7 +1,7 @@
 //! Number of forms measured in a frame.
 
-/// How many held contacts have their form measured in a frame, in turn; new contacts always have. The default
-/// is one: a form costs as much as all the rest of a contact.
+/// How many held contacts have their form measured in a frame, in turn; new contacts always have. A scene has
+/// one by default: a form costs as much as all the rest of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forms(u8);
 
@@ -17,11 +17,5 @@ impl Forms {
     /// Greatest number of held contacts that have their turn in a frame.
     pub(crate) const fn in_frame(self) -> usize {
         if self.0 == 0 { u16::MAX as usize } else { self.0 as usize }
-    }
-}
-
-impl Default for Forms {
-    fn default() -> Self {
-        Forms(1)
     }
 }

@@ -41,6 +41,11 @@ impl HardnessCue {
         self.first.get_or_insert((force, area));
     }
 
+    /// Greatest force of the contact so far, counts.
+    pub const fn greatest_force(&self) -> u32 {
+        self.greatest.0
+    }
+
     /// Returns the rise of the force over the rise of the area, counts per cm2; a taxel has `cell_mm2`
     /// ([`cell_mm2`](crate::garment::cell_mm2)). None before the force has doubled. Does not panic.
     pub fn hardness(&self, cell_mm2: u32) -> Option<u32> {

@@ -2,10 +2,10 @@
 
 use super::error::SceneError;
 use crate::condition::Condition;
-use crate::contact::{Contacts, Forms};
+use crate::contact::Contacts;
 use crate::format::{Invalid, InvalidRow, LEFT_OUT};
 use crate::garment::{Layout, PANELS};
-use crate::gesture::{Certainty, Gestures};
+use crate::gesture::Gestures;
 use crate::intent::Intent;
 use crate::react::Reactions;
 use crate::scene::Scene;
@@ -20,11 +20,7 @@ pub struct Pipeline {
     pub(super) contact: Contacts,
     pub(super) shape: Option<Shapes>,
     pub(super) symbol: Symbols,
-    /// Touch over time; none: not recognised. Not part of a scene: it stays when the scene or the garment
-    /// changes.
-    pub gestures: Option<Gestures>,
-    /// Confidence needed to announce a gesture. It stays as well, also when the model changes.
-    pub certainty: Certainty,
+    pub(super) gestures: Option<Gestures>,
     pub(super) friendliness: [i8; PANELS],
     pub(super) intent: Option<Intent>,
     pub(super) react: Reactions,
@@ -44,9 +40,7 @@ impl Pipeline {
         scene.stream.check()?;
         self.panels = scene.plan.panels;
         self.condition = scene.condition.build()?;
-        let forms = self.contact.forms;
-        self.contact = scene.contact.build()?;
-        self.contact.forms = forms;
+        self.adjust(scene)?;
         self.symbol = scene.symbol.build()?;
         self.build_shapes(scene)?;
         self.build_intent(scene)?;
@@ -80,9 +74,16 @@ impl Pipeline {
         Ok(())
     }
 
-    /// Sets how many forms are computed in a frame. Not part of a scene.
-    pub fn look_at(&mut self, forms: Forms) {
-        self.contact.forms = forms;
+    /// Builds the stages anew whose settings may change while contacts and reactions last; an error changes
+    /// nothing.
+    #[inline(never)]
+    pub fn adjust(&mut self, scene: &Scene) -> Result<(), SceneError> {
+        if scene.gestures.is_some() && !cfg!(feature = "gesture") {
+            return Err(Invalid { parameter: "gestures", must: LEFT_OUT }.into());
+        }
+        let gestures = scene.gestures.as_ref().map(Gestures::build).transpose()?;
+        (self.contact, self.gestures) = (scene.contact.build()?, gestures);
+        Ok(())
     }
 
     /// The stage that infers the intention.

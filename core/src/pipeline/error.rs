@@ -1,6 +1,7 @@
 //! Errors of a scene.
 
 use crate::format::{Invalid, InvalidRow};
+use crate::gesture::GestureError;
 use crate::intent::MapError;
 use core::fmt;
 
@@ -13,6 +14,8 @@ pub enum SceneError {
     Row(InvalidRow),
     /// The map is invalid.
     Map(MapError),
+    /// The recognition of gestures is invalid.
+    Gestures(GestureError),
 }
 
 impl fmt::Display for SceneError {
@@ -21,6 +24,7 @@ impl fmt::Display for SceneError {
             SceneError::Invalid(invalid) => invalid.fmt(f),
             SceneError::Row(row) => row.fmt(f),
             SceneError::Map(map) => write!(f, "intent.map: {map}"),
+            SceneError::Gestures(gestures) => gestures.fmt(f),
         }
     }
 }
@@ -42,5 +46,11 @@ impl From<InvalidRow> for SceneError {
 impl From<MapError> for SceneError {
     fn from(map: MapError) -> Self {
         SceneError::Map(map)
+    }
+}
+
+impl From<GestureError> for SceneError {
+    fn from(gestures: GestureError) -> Self {
+        SceneError::Gestures(gestures)
     }
 }

@@ -46,7 +46,7 @@ impl Pipeline {
         #[cfg(feature = "gesture")]
         let gesture = self.gestures.as_ref().and_then(|stage| {
             let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
-            let told = stage.process(&mut state.gesture, layout, &image, totals, self.certainty, now)?;
+            let told = stage.process(&mut state.gesture, layout, &image, totals, now)?;
             Some((told, stage.name(told.class)))
         });
         #[cfg(not(feature = "gesture"))]

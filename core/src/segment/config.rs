@@ -24,6 +24,9 @@ pub struct ContactConfig {
     /// Speed from which a contact slips, 1/16 cm/s. [`NO_SLIP`] turns slip off and saves the cycles of
     /// following the pattern inside contacts.
     pub slip_speed: u16,
+    /// Number of held contacts that have their form measured in a frame, in turn; 0: all. See
+    /// [`Forms`](crate::contact::Forms).
+    pub forms_in_frame: u8,
 }
 
 /// The [`slip_speed`](ContactConfig::slip_speed) of a scene without slip; the only one of a build without the
@@ -65,6 +68,14 @@ impl Default for ContactConfig {
     /// The velocity of a still finger of 2 x 2 taxels at 1000 counts with a noise of 3 counts stays below 0.3
     /// taxel/s, so 4 cm/s are clear of noise at 10 mm pitch, and below the stroke of a hand (about 10 cm/s).
     fn default() -> Self {
-        ContactConfig { low: 60, high: 120, min_area: 1, gate: 4, smoothing_ms: 40, slip_speed: SLIP }
+        ContactConfig {
+            low: 60,
+            high: 120,
+            min_area: 1,
+            gate: 4,
+            smoothing_ms: 40,
+            slip_speed: SLIP,
+            forms_in_frame: 1,
+        }
     }
 }

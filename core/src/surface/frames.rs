@@ -13,8 +13,8 @@ pub struct SurfaceState {
     told: Option<Micros>,
 }
 
-/// A link of the table by its name, its pose and its motion.
-pub type MovingPose = (LinkName, Pose, LinkMotion);
+/// A link of the table by its name, its pose and, if it is known, its motion.
+pub type LinkPose = (LinkName, Pose, Option<LinkMotion>);
 
 /// The links in the frame of the poses at a time.
 #[derive(Debug, Clone, Copy)]
@@ -29,41 +29,18 @@ impl SurfaceState {
         SurfaceState { poses: [None; LINKS], told: None }
     }
 
-    /// Takes poses of links that stand still from `at` on. A refused list changes nothing.
-    pub fn accept(
-        &mut self,
-        poses: &[(LinkName, Pose)],
-        table: &Table<'_>,
-        at: Micros,
-    ) -> Result<(), Invalid> {
-        self.take(poses.iter().map(|(link, pose)| (link, *pose, None)), table, at)
-    }
-
-    /// Takes poses of links at the time `at`, and how they move. A refused list changes nothing.
-    pub fn accept_moving(
-        &mut self,
-        poses: &[MovingPose],
-        table: &Table<'_>,
-        at: Micros,
-    ) -> Result<(), Invalid> {
-        self.take(poses.iter().map(|(link, pose, motion)| (link, *pose, Some(*motion))), table, at)
-    }
-
-    fn take<'a>(
-        &mut self,
-        poses: impl Iterator<Item = (&'a LinkName, Pose, Option<LinkMotion>)>,
-        table: &Table<'_>,
-        at: Micros,
-    ) -> Result<(), Invalid> {
+    /// Takes poses of links at the time `at`: they stand still from then on, or move as they say. A refused
+    /// list changes nothing.
+    pub fn accept(&mut self, poses: &[LinkPose], table: &Table<'_>, at: Micros) -> Result<(), Invalid> {
         let mut taken = self.poses;
         for (called, pose, motion) in poses {
             pose.check()?;
-            if let Some(motion) = &motion {
+            if let Some(motion) = motion {
                 motion.check()?;
             }
             let to = table.find_link(called).and_then(|link| taken.get_mut(link));
             let must = "must be a link of the surface";
-            *to.ok_or(Invalid { parameter: "pose.link", must })? = Some((pose, motion));
+            *to.ok_or(Invalid { parameter: "pose.link", must })? = Some((*pose, *motion));
         }
         *self = SurfaceState { poses: taken, told: Some(at) };
         Ok(())

@@ -23,7 +23,7 @@ mod table;
 mod taxel;
 mod uncertainty;
 
-pub use frames::{LinkFrames, MovingPose, SurfaceState};
+pub use frames::{LinkFrames, LinkPose, SurfaceState};
 pub use motion::{CARRIED_US, LinkMotion};
 pub use place::SurfacePoint;
 pub use pose::{Pose, Quaternion};

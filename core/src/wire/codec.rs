@@ -6,10 +6,11 @@
 //! | CRC-32/ISO-HDLC (zlib, Ethernet) | detects changes of the message | 4 bytes; a table of 1 KiB in flash |
 //! | COBS | no zero inside a frame, so that only its end is 0x00 | 1 byte, and 1 for each 254 |
 //!
-//! The CRC is checked over the bytes as received, before they are decoded. A message that leaves bytes over
-//! is an error. The length of a frame has a bound before it is written: [`frame_bound`].
+//! The CRC is checked over the bytes as received, before they are decoded. The length of a frame has a bound
+//! before it is written: [`frame_bound`].
 
 use super::error::WireError;
+use super::rest::Rest;
 use super::{cobs, writer};
 use crate::format::crc32;
 use core::ops::Range;
@@ -85,13 +86,11 @@ pub fn open(frame: &mut [u8]) -> Result<&[u8], WireError> {
     }
 }
 
-/// Decodes the bytes from [`open`] as a message, which may borrow from them.
+/// Decodes the bytes from [`open`] as a message, which may borrow from them. Fields that a later version has
+/// added are passed over; those that an earlier one did not have are 0, none or empty.
 pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, WireError> {
-    match postcard::take_from_bytes(bytes) {
-        Ok((message, [])) => Ok(message),
-        Ok(_) => Err(WireError::LeftOver),
-        Err(_) => Err(WireError::Message),
-    }
+    let mut fields = postcard::Deserializer::from_flavor(Rest(bytes));
+    T::deserialize(&mut fields).map_err(|_| WireError::Message)
 }
 
 #[cfg(test)]

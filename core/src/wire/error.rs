@@ -15,8 +15,6 @@ pub enum WireError {
     Crc,
     /// The CRC matches, but the bytes are no message of this type.
     Message,
-    /// There are bytes after the message.
-    LeftOver,
     /// The buffer of the caller is too small for the frame.
     NoRoom,
 }
@@ -29,7 +27,6 @@ impl fmt::Display for WireError {
             WireError::Cobs => "the frame is not valid COBS",
             WireError::Crc => "the CRC-32 of the frame does not fit its bytes",
             WireError::Message => "the frame is intact but holds no known message",
-            WireError::LeftOver => "the frame holds bytes after its message",
             WireError::NoRoom => "the buffer is too small for the frame",
         })
     }

@@ -1,5 +1,6 @@
 //! Reports: the messages from the board.
 
+use super::codec::decode;
 use crate::body::Placed;
 use crate::boot::Boot;
 use crate::fold::Doubt;
@@ -18,138 +19,87 @@ use serde::{Deserialize, Serialize};
 
 /// First bytes of a `Hello`.
 pub const MAGIC: [u8; 4] = *b"TAXL";
-/// Version of the protocol.
-pub const PROTOCOL: u16 = 1;
+/// Version of the protocol. Later messages and fields do not change it: see the [module](super).
+pub const PROTOCOL: u16 = 2;
 
-/// A message from the board; numbers as in the [module's](super) table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[allow(clippy::large_enum_variant)] // used where it is decoded, never stored
-pub enum Report<'a> {
+/// Declares the reports: for each its number, which is its urgency too, and when it is sent.
+macro_rules! reports {
+    ($($(#[$doc:meta])+ $constant:ident = $number:literal, $name:ident($body:ty), $when:literal;)+) => {
+        /// A message from the board.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        #[allow(clippy::large_enum_variant)] // used where it is decoded, never stored
+        pub enum Report<'a> {
+            $($(#[$doc])+ #[doc = concat!("Sent ", $when, ".")] $name($body),)+
+        }
+
+        /// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of
+        /// the body.
+        impl Report<'_> {
+            $(#[doc = concat!("Number of `", stringify!($name), "`.")] pub const $constant: u32 = $number;)+
+        }
+
+        /// Name of each report and when it is sent, by number.
+        pub const REPORTS: &[(&str, &str)] = &[$((stringify!($name), $when),)+];
+    };
+}
+
+// The numbers are those of the variants, and the order in which the board sends what is due: the first of them
+// first. A number is never used for anything else; a new report is appended.
+reports! {
     /// Identity and settings of the board.
     #[serde(borrow)]
-    Hello(Hello<'a>),
-    /// A conditioned image.
-    #[serde(borrow)]
-    Frame(Frame<'a>),
-    /// Contacts.
-    Contacts(ContactList),
-    /// Symbols.
-    Symbols(SymbolList),
-    /// Meaning of the touch.
-    Intent(IntentReport),
-    /// A reaction that began or ended.
-    Reaction(ReactionReport),
-    /// Counters of the board.
-    Health(Health),
-    /// A sentence for people.
-    #[serde(borrow)]
-    Log(Log<'a>),
+    HELLO = 0, Hello(Hello<'a>), "at the start, each second until `Start`, in answer to `Start`, and after a change";
     /// Answer to `Sync`.
-    Sync(SyncReport),
+    SYNC = 1, Sync(SyncReport), "in answer to `Sync`";
+    /// When a frame of the USB began.
+    START_OF_FRAME = 2, StartOfFrame(StartOfFrame), "after each answer to `Sync`, by a board on USB";
+    /// Findings about lines and inputs.
+    SELF_TEST = 3, SelfTest(SelfTestReport), "in answer to `Start` and `SelfTest`, and when a line breaks in use";
     /// Answer to a request.
     #[serde(borrow)]
-    Answer(Answer<'a>),
+    ANSWER = 4, Answer(Answer<'a>), "in answer to every request but `Sync`";
+    /// A reaction that began within a frame.
+    REFLEX = 5, Reflex(ReflexReport), "with the `Reaction` that began by reflex; always";
+    /// A reaction that began or ended.
+    REACTION = 6, Reaction(ReactionReport), "always";
+    /// Taught shapes.
+    SHAPES = 7, Shapes(ShapesReport), "when a gallery was taught or dropped, and in answer to `Start`";
+    /// Contacts.
+    CONTACTS = 8, Contacts(ContactList), "at the scene's rate; onsets, ends and changes of doubt always";
+    /// Symbols.
+    SYMBOLS = 9, Symbols(SymbolList), "when there is an event; a state per touched region";
+    /// Meaning of the touch.
+    INTENT = 10, Intent(IntentReport), "with each inference; changes of the leading intention always";
+    /// Recognised gesture.
+    GESTURE = 11, Gesture(GestureReport), "with each announced class, and at the end of a touch";
+    /// A sentence for people.
+    #[serde(borrow)]
+    LOG = 12, Log(Log<'a>), "when something is wrong";
+    /// Faulty taxels.
+    HEALTH_MAP = 13, HealthMap(HealthMap), "in answer to `Start`, and when it changes; in as many parts as needed";
+    /// Counters of the board.
+    HEALTH = 14, Health(Health), "each second";
+    /// Time spent on frames.
+    BUDGET = 15, Budget(Budget), "each second, or at the requested rate";
+    /// Temperature of the converter.
+    TEMPERATURE = 16, Temperature(Temperature), "each second, by a board with a thermometer";
+    /// Names of the surface's regions.
+    REGION_NAMES = 17, RegionNames(RegionNames), "before the first `Regions` after a `Start` or of another surface";
+    /// What each region of the surface feels.
+    REGIONS = 18, Regions(RegionsReport), "when a region of the surface changes, and each second";
+    /// What presses on the robot.
+    PRESSING = 19, Pressing(PressingReport), "at the scene's rate while something touches, and once after";
+    /// What the garment's folds are expected to press.
+    FOLDS = 20, Folds(FoldsReport), "ten times per second while a table of folds is in force";
+    /// A conditioned image.
+    #[serde(borrow)]
+    FRAME = 21, Frame(Frame<'a>), "at the scene's rate, when the link has room";
     /// Raw codes.
     #[serde(borrow)]
-    Raw(Raw<'a>),
-    /// Time spent on frames.
-    Budget(Budget),
-    /// Faulty taxels.
-    HealthMap(HealthMap),
-    /// Temperature of the converter.
-    Temperature(Temperature),
-    /// Findings about lines and inputs.
-    SelfTest(SelfTestReport),
-    /// Recognised gesture.
-    Gesture(GestureReport),
-    /// Taught shapes.
-    Shapes(ShapesReport),
-    /// A reaction that began within a frame.
-    Reflex(ReflexReport),
-    /// Confidence of the next gesture report.
-    Confidence(ConfidenceReport),
-    /// Cause of the last reset.
-    Boot(Boot),
-    /// Contacts that may be drift.
-    Unsure(UnsureReport),
-    /// Ages of the forms in the next list of contacts.
-    Forms(FormsReport),
-    /// What presses on the robot.
-    Pressing(PressingReport),
-    /// What the garment's folds are expected to press.
-    Folds(FoldsReport),
-    /// What is unknown of what presses.
-    Bounds(BoundsReport),
-    /// What each region of the surface feels.
-    Regions(RegionsReport),
-    /// Names of the surface's regions.
-    RegionNames(RegionNames),
-    /// When a frame of the USB began.
-    StartOfFrame(StartOfFrame),
+    RAW = 22, Raw(Raw<'a>), "at the requested rate, when the link has room";
 }
 
-/// Numbers of the variants. `(number, &body)` gives the postcard bytes of the variant without a move of the
-/// body.
-impl Report<'_> {
-    /// Number of `Hello`.
-    pub const HELLO: u32 = 0;
-    /// Number of `Frame`.
-    pub const FRAME: u32 = 1;
-    /// Number of `Contacts`.
-    pub const CONTACTS: u32 = 2;
-    /// Number of `Symbols`.
-    pub const SYMBOLS: u32 = 3;
-    /// Number of `Intent`.
-    pub const INTENT: u32 = 4;
-    /// Number of `Reaction`.
-    pub const REACTION: u32 = 5;
-    /// Number of `Health`.
-    pub const HEALTH: u32 = 6;
-    /// Number of `Log`.
-    pub const LOG: u32 = 7;
-    /// Number of `Sync`.
-    pub const SYNC: u32 = 8;
-    /// Number of `Answer`.
-    pub const ANSWER: u32 = 9;
-    /// Number of `Raw`.
-    pub const RAW: u32 = 10;
-    /// Number of `Budget`.
-    pub const BUDGET: u32 = 11;
-    /// Number of `HealthMap`.
-    pub const HEALTH_MAP: u32 = 12;
-    /// Number of `Temperature`.
-    pub const TEMPERATURE: u32 = 13;
-    /// Number of `SelfTest`.
-    pub const SELF_TEST: u32 = 14;
-    /// Number of `Gesture`.
-    pub const GESTURE: u32 = 15;
-    /// Number of `Shapes`.
-    pub const SHAPES: u32 = 16;
-    /// Number of `Reflex`.
-    pub const REFLEX: u32 = 17;
-    /// Number of `Confidence`.
-    pub const CONFIDENCE: u32 = 18;
-    /// Number of `Boot`.
-    pub const BOOT: u32 = 19;
-    /// Number of `Unsure`.
-    pub const UNSURE: u32 = 20;
-    /// Number of `Forms`.
-    pub const FORMS: u32 = 21;
-    /// Number of `Pressing`.
-    pub const PRESSING: u32 = 22;
-    /// Number of `Folds`.
-    pub const FOLDS: u32 = 23;
-    /// Number of `Bounds`.
-    pub const BOUNDS: u32 = 24;
-    /// Number of `Regions`.
-    pub const REGIONS: u32 = 25;
-    /// Number of `RegionNames`.
-    pub const REGION_NAMES: u32 = 26;
-    /// Number of `StartOfFrame`.
-    pub const START_OF_FRAME: u32 = 27;
-}
-
-/// Identity and settings of the board. This layout is frozen.
+/// Identity and settings of the board. Its first two fields are the same in all versions.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello<'a> {
     /// [`MAGIC`]
@@ -166,6 +116,18 @@ pub struct Hello<'a> {
     pub scene: &'a [u8],
     /// UTF-8: id, date, fit error of the calibration in force; empty without one: values are counts
     pub calibration: &'a [u8],
+    /// UTF-8: unique id of the board's chip; empty without one
+    pub chip: &'a [u8],
+    /// How the board started; none if it does not know
+    pub boot: Option<Boot>,
+}
+
+impl Hello<'_> {
+    /// The protocol of a `Hello` of any version, from the bytes of its body; none if it is not that of a board.
+    pub fn protocol_of(body: &[u8]) -> Option<u16> {
+        let (magic, rest) = body.split_first_chunk()?;
+        (*magic == MAGIC).then(|| decode(rest).ok())?
+    }
 }
 
 /// A conditioned image.
@@ -195,7 +157,7 @@ pub struct Raw<'a> {
 }
 
 /// Contacts of a frame.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ContactList {
     /// Number of the scan of the newest state.
     pub frame: u32,
@@ -205,6 +167,12 @@ pub struct ContactList {
     pub dropped: u16,
     /// Present contacts, and all that ended since the last list.
     pub contacts: Vec<Placed, LISTED>,
+    /// Ids of the contacts that may be drift of their baseline; no intention follows from them. See
+    /// [`unsure`](crate::unsure).
+    pub unsure: Vec<u32, CONTACTS>,
+    /// Ids of present contacts whose form is older than this frame, with its age in frames, which saturates at
+    /// 255; if the scene's stream has them.
+    pub form_ages: Vec<(u32, u8), CONTACTS>,
 }
 
 /// Greatest number of contacts, or events, of a list: all that can be present, and as many that have ended.
@@ -342,7 +310,7 @@ pub struct SelfTestReport {
     pub findings: Findings,
 }
 
-/// Recognised gesture, by the model that `SetGestures` has chosen.
+/// Recognised gesture, by the scene's model.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GestureReport {
     /// Number of the scan.
@@ -365,49 +333,13 @@ pub struct GestureReport {
     pub observed_ms: u32,
     /// True if the touch is over; then the result is for all of it.
     pub ended: bool,
+    /// Share of touches of that age and lead that are of that class; none if the model does not know it.
+    pub confidence: Option<Q15>,
 }
 
-/// Confidence of the [`GestureReport`] that follows, for the same frame and touch. Not sent if the model
-/// gives none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ConfidenceReport {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan.
-    pub time: Micros,
-    /// Number of the touch, from 1.
-    pub touch: u32,
-    /// Share of touches of that age and lead that are of that class.
-    pub confidence: Q15,
-}
-
-/// Contacts whose baseline is unsure: all of each may be drift, and no intention follows from it. See
-/// [`unsure`](crate::unsure).
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct UnsureReport {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan.
-    pub time: Micros,
-    /// Ids of the contacts that are unsure now; any other is sure, or has ended.
-    pub contacts: Vec<u32, CONTACTS>,
-}
-
-/// Ages of the forms of contacts, if [`Request::SetForms`](super::Request::SetForms) asked for them. Sent
-/// before the [`ContactList`] of that frame if one of the forms is older.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct FormsReport {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan.
-    pub time: Micros,
-    /// Ids of contacts whose form is older than this frame, with its age in frames; saturates at 255.
-    pub ages: Vec<(u32, u8), LISTED>,
-}
-
-/// What presses on the robot, if [`Request::SetPressing`](super::Request::SetPressing) asked for it: at its
-/// rate while something touches, and once when nothing does any more. See [`surface`](crate::surface).
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+/// What presses on the robot, at the rate of the scene's stream while something touches, and once when nothing
+/// does any more. See [`surface`](crate::surface).
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PressingReport {
     /// Number of the scan.
     pub frame: u32,
@@ -419,20 +351,12 @@ pub struct PressingReport {
     pub contacts: Vec<Landed, CONTACTS>,
     /// The links that something presses on.
     pub links: Vec<Wrench, LINKS>,
-}
-
-/// What is unknown of the next [`PressingReport`], which is of the same frame: of contacts, links and poses
-/// where something is. Not sent if nothing is unknown.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct BoundsReport {
-    /// Number of the scan.
-    pub frame: u32,
-    /// By contact, with its id.
-    pub contacts: Vec<(u32, Uncertainty), CONTACTS>,
-    /// By link, with its index in the table.
-    pub links: Vec<(u8, Uncertainty), LINKS>,
+    /// What is unknown of contacts, with their ids; of those of which something is.
+    pub contact_bounds: Vec<(u32, Uncertainty), CONTACTS>,
+    /// What is unknown of links, with their indices in the table; of those of which something is.
+    pub link_bounds: Vec<(u8, Uncertainty), LINKS>,
     /// The most by which places on a link are off in the frame of the poses, um; of links whose poses say it.
-    pub poses: Vec<(u8, u32), LINKS>,
+    pub pose_errors: Vec<(u8, u32), LINKS>,
 }
 
 /// What each region of the surface feels: when one of them changes, and once a second; from a board whose

@@ -4,6 +4,7 @@ use crate::board::{BoardAndHost, FINGER};
 use taxel_core::board::Job;
 use taxel_core::format::name;
 use taxel_core::garment::Garment;
+use taxel_core::gesture::GestureConfig;
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
@@ -67,10 +68,11 @@ fn set(bench: &mut BoardAndHost, scene: &Scene) {
 }
 
 #[test]
-fn another_stream_touches_nothing_else() {
+fn another_stream_and_other_gestures_touch_nothing_else() {
     let mut bench = guarding();
     let mut other = scene();
-    (other.stream.raw_hz, other.stream.frames_hz) = (10, 20);
+    (other.stream.frames_hz, other.stream.pressing_hz) = (20, 10);
+    (other.contact.forms_in_frame, other.gestures) = (3, Some(GestureConfig::default()));
     set(&mut bench, &other);
     assert_eq!((driven(&mut bench), told(&mut bench)), (vec![], vec![]));
     bench.scan();
@@ -78,12 +80,12 @@ fn another_stream_touches_nothing_else() {
     other.stream.key_ms = 0;
     let why = bench.answer(&Request::SetScene(&postcard::to_allocvec(&other).unwrap())).unwrap();
     assert_eq!(why, "scene: stream.key_ms must be 1 to 1000");
-    let mut raw = 0;
+    let mut images = 0;
     (0..100).for_each(|_| {
         bench.scan();
-        bench.drain(usize::MAX, |report| raw += usize::from(matches!(report, Report::Raw(_))));
+        bench.drain(usize::MAX, |report| images += usize::from(matches!(report, Report::Frame(_))));
     });
-    assert!((4..=6).contains(&raw), "{raw} in half a second");
+    assert!((9..=11).contains(&images), "{images} in half a second");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The bytes of every message, frozen: a changed byte is a changed wire.
 //!
-//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new variant adds a line; no
-//! line changes.
+//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new message adds a line, a new field
+//! bytes at the end of one.
 
 use heapless::Vec;
 use std::fmt::Write;
@@ -12,7 +12,6 @@ use taxel_core::contact::{Contact, Phase};
 use taxel_core::fold::{Doubt, JointAngle, Posture};
 use taxel_core::format::{Celsius, Fixed16, Fixed24, Micros, Q15, Turn, name};
 use taxel_core::garment::{Garment, Place, Rect};
-use taxel_core::gesture::{GestureConfig, ShippedModel};
 use taxel_core::health::TaxelHealth;
 use taxel_core::intent::{Feed, Leading, Outcome};
 use taxel_core::react::{Cause, Reaction};
@@ -142,6 +141,8 @@ fn hello() -> Hello<'static> {
         clock: &[3],
         scene: &[4, 5, 6],
         calibration: &[],
+        chip: b"E6614C311B7A8D2F",
+        boot: Some(Boot { cause: BootCause::Watchdog, resets: 3, aside: Aside::Resets }),
     }
 }
 
@@ -165,6 +166,7 @@ fn gesture() -> GestureReport {
         lead: 65_536,
         observed_ms: 1500,
         ended: true,
+        confidence: Some(Q15(24_576)),
     }
 }
 
@@ -179,12 +181,7 @@ fn intent() -> IntentReport {
     }
 }
 
-fn reports() -> [(&'static str, Report<'static>); 28] {
-    let (frame, time) = (FRAME, TIME);
-    let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
-    let reflex = ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) };
-    let confidence = ConfidenceReport { frame, time, touch: 3, confidence: Q15(24_576) };
-    let faulty = FaultyTaxels { first: 700, count: 2, health: TaxelHealth::Stuck };
+fn regions() -> RegionsReport {
     let region = RegionSymbol {
         phase: RegionPhase::Moving,
         way: BodyDirection::Down,
@@ -194,111 +191,104 @@ fn reports() -> [(&'static str, Report<'static>); 28] {
         class: Class(3),
         since: Micros(4_000_000_000),
     };
+    RegionsReport { frame: FRAME, time: TIME, regions: one(region) }
+}
+
+fn pressing() -> PressingReport {
     let uncertain = Uncertainty { saturated: 2, faulty: 1, less: 300, more: 70_000, off: 1_500 };
-    let map = HealthMap { time, first: 0, end: 2048, taxels: one(faulty) };
+    PressingReport {
+        frame: FRAME,
+        time: TIME,
+        posed: Some(Micros(70)),
+        contacts: [pushed(None), pushed(Some(based()))].into_iter().collect(),
+        links: one(wrench()),
+        contact_bounds: one((300, uncertain)),
+        link_bounds: one((1, uncertain)),
+        pose_errors: one((1, 4_500)),
+    }
+}
+
+fn folds() -> FoldsReport {
+    FoldsReport {
+        frame: FRAME,
+        time: TIME,
+        posed: Some(Micros(70)),
+        followed: true,
+        taxels: 300,
+        total: 70_000,
+        doubt: 9_000,
+        contacts: one(Doubt { id: 300, doubt: 150 }),
+    }
+}
+
+fn contacts() -> ContactList {
+    ContactList {
+        frame: FRAME,
+        time: TIME,
+        dropped: 1,
+        contacts: one(placed()),
+        unsure: one(7),
+        form_ages: one((7, 255)),
+    }
+}
+
+fn reports() -> [Report<'static>; 23] {
+    let (frame, time) = (FRAME, TIME);
+    let reaction = Reaction { index: 1, name: name("flinch"), active: true, value: -1 };
+    let faulty = FaultyTaxels { first: 700, count: 2, health: TaxelHealth::Stuck };
     [
-        ("Hello", Report::Hello(hello())),
-        ("Frame", Report::Frame(Frame { frame, time, base: Some(299), sum: 0xdead_beef, data: &[5, 1, 20] })),
-        ("Contacts", Report::Contacts(ContactList { frame, time, dropped: 1, contacts: one(placed()) })),
-        ("Symbols", Report::Symbols(symbols())),
-        ("Intent", Report::Intent(intent())),
-        ("Reaction", Report::Reaction(ReactionReport { frame, time, reaction })),
-        ("Health", Report::Health(health())),
-        ("Log", Report::Log(Log { time, level: Level::Warn, text: "pin 9" })),
-        ("Sync", Report::Sync(SyncReport { token: 9, received: time, sent: Micros(5_000_000_100) })),
-        ("Answer", Report::Answer(Answer { request: 2, refusal: Some("no") })),
-        ("Raw", Report::Raw(Raw { frame, time, data: &[0, 1, 2] })),
-        ("Budget", Report::Budget(budget())),
-        ("HealthMap", Report::HealthMap(map)),
-        ("Temperature", Report::Temperature(Temperature { time, celsius: Celsius(-1234) })),
-        ("SelfTest", Report::SelfTest(SelfTestReport { time, findings: findings() })),
-        ("Gesture", Report::Gesture(gesture())),
-        ("Shapes", Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) })),
-        ("Reflex", Report::Reflex(reflex)),
-        ("Confidence", Report::Confidence(confidence)),
-        ("Boot", Report::Boot(Boot { cause: BootCause::Watchdog, resets: 3, aside: Aside::Resets })),
-        ("Unsure", Report::Unsure(UnsureReport { frame, time, contacts: [3, 300].into_iter().collect() })),
-        (
-            "Forms",
-            Report::Forms(FormsReport { frame, time, ages: [(3, 1), (300, 255)].into_iter().collect() }),
-        ),
-        (
-            "Pressing",
-            Report::Pressing(PressingReport {
-                frame,
-                time,
-                posed: Some(Micros(70)),
-                contacts: [pushed(None), pushed(Some(based()))].into_iter().collect(),
-                links: [wrench()].into_iter().collect(),
-            }),
-        ),
-        (
-            "Folds",
-            Report::Folds(FoldsReport {
-                frame,
-                time,
-                posed: Some(Micros(70)),
-                followed: true,
-                taxels: 300,
-                total: 70_000,
-                doubt: 9_000,
-                contacts: one(Doubt { id: 300, doubt: 150 }),
-            }),
-        ),
-        (
-            "Bounds",
-            Report::Bounds(BoundsReport {
-                frame,
-                contacts: one((300, uncertain)),
-                links: one((1, uncertain)),
-                poses: one((1, 4_500)),
-            }),
-        ),
-        ("Regions", Report::Regions(RegionsReport { frame, time, regions: one(region) })),
-        (
-            "RegionNames",
-            Report::RegionNames(RegionNames {
-                names: one(LinkName::try_from("left forearm, outer").unwrap()),
-            }),
-        ),
-        ("StartOfFrame", Report::StartOfFrame(StartOfFrame { number: 2047, noticed: time, late_us: 20 })),
+        Report::Hello(hello()),
+        Report::Sync(SyncReport { token: 9, received: time, sent: Micros(5_000_000_100) }),
+        Report::StartOfFrame(StartOfFrame { number: 2047, noticed: time, late_us: 20 }),
+        Report::SelfTest(SelfTestReport { time, findings: findings() }),
+        Report::Answer(Answer { request: 2, refusal: Some("no") }),
+        Report::Reflex(ReflexReport { frame, time, index: 1, taxel: 700, value: 3_700, other: Some(684) }),
+        Report::Reaction(ReactionReport { frame, time, reaction }),
+        Report::Shapes(ShapesReport { prototypes: 20, names: one(name("ball")) }),
+        Report::Contacts(contacts()),
+        Report::Symbols(symbols()),
+        Report::Intent(intent()),
+        Report::Gesture(gesture()),
+        Report::Log(Log { time, level: Level::Warn, text: "pin 9" }),
+        Report::HealthMap(HealthMap { time, first: 0, end: 2048, taxels: one(faulty) }),
+        Report::Health(health()),
+        Report::Budget(budget()),
+        Report::Temperature(Temperature { time, celsius: Celsius(-1234) }),
+        Report::RegionNames(RegionNames { names: one(LinkName::try_from("left forearm, outer").unwrap()) }),
+        Report::Regions(regions()),
+        Report::Pressing(pressing()),
+        Report::Folds(folds()),
+        Report::Frame(Frame { frame, time, base: Some(299), sum: 0xdead_beef, data: &[5, 1, 20] }),
+        Report::Raw(Raw { frame, time, data: &[0, 1, 2] }),
     ]
 }
 
-fn requests() -> [(&'static str, Request<'static>); 27] {
+fn requests() -> [Request<'static>; 19] {
     let concept = name("warmth");
     let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
     let certificate =
         Certificate { id: 0xdead_beef, taxels: 2048, year: 2026, month: 11, day: 21, error: 125 };
     let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };
     [
-        ("SetGarment", Request::SetGarment(&[1, 2, 3])),
-        ("SetScene", Request::SetScene(&[4, 5])),
-        ("Tare", Request::Tare { frames: 300 }),
-        ("Start", Request::Start),
-        ("Stop", Request::Stop),
-        ("Sync", Request::Sync { token: 1_000_000 }),
-        ("Posture", Request::Posture(posture)),
-        ("Concept", Request::Concept { slot: 3, value: Q15(-16_384) }),
-        ("KeyFrame", Request::KeyFrame),
-        ("SelfTest", Request::SelfTest),
-        ("Save", Request::Save),
-        ("SetGain", Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() }),
-        ("Budget", Request::Budget { hz: 65_535 }),
-        ("Feed", Request::Feed(feed)),
-        ("SetGestures", Request::SetGestures(Some(GestureConfig::of(ShippedModel::Intent)))),
-        ("SetCalibration", Request::SetCalibration(certificate)),
-        ("SetShapes", Request::SetShapes(&[6, 7])),
-        ("AddShapes", Request::AddShapes(&[1, 0, 2])),
-        ("SetCertainty", Request::SetCertainty(800)),
-        ("ResetSettings", Request::ResetSettings { undo: true }),
-        ("SetForms", Request::SetForms { in_frame: 2, ages: true }),
-        ("SetRaw", Request::SetRaw { hz: 10 }),
-        ("SetSurface", Request::SetSurface(&[1, 2, 3])),
-        ("SetPoses", Request::SetPoses(&[6, 7])),
-        ("SetPressing", Request::SetPressing(20)),
-        ("SetFolds", Request::SetFolds(&[8, 9])),
-        ("MovePoses", Request::MovePoses(&[1, 2])),
+        Request::Start,
+        Request::Stop,
+        Request::Sync { token: 1_000_000 },
+        Request::KeyFrame,
+        Request::Stream { raw_hz: 10, budget_hz: 65_535 },
+        Request::SetGarment(&[1, 2, 3]),
+        Request::SetScene(&[4, 5]),
+        Request::SetTable(&[1, 2, 3]),
+        Request::SetShapes(&[6, 7]),
+        Request::AddShapes(&[1, 0, 2]),
+        Request::SetGain { first: 2000, gains: [4096, 5000].into_iter().collect() },
+        Request::SetCalibration(certificate),
+        Request::Tare { frames: 300 },
+        Request::SelfTest,
+        Request::Save,
+        Request::ResetSettings { undo: true },
+        Request::Posture(posture),
+        Request::SetPoses(&[6, 7]),
+        Request::Feed(feed),
     ]
 }
 
@@ -315,13 +305,14 @@ fn every_message_has_its_golden_bytes() {
     let mut line = |kind: &str, name: &str, bytes: &[u8]| {
         writeln!(table, "{kind} {name} {}", hex(bytes)).expect("a string takes all");
     };
-    for (number, (name, report)) in reports().iter().enumerate() {
+    assert_eq!((reports().len(), requests().len()), (REPORTS.len(), REQUESTS.len()));
+    for (number, (report, (name, _))) in reports().iter().zip(REPORTS).enumerate() {
         let bytes = postcard::to_allocvec(&(5u32, report)).expect("it fits");
         assert_eq!(bytes[..2], [5, number as u8], "seq, then the number of the variant");
         assert_eq!(decode::<(u32, Report)>(&bytes).expect("it is read again"), (5, report.clone()));
         line("report", name, &bytes);
     }
-    for (number, (name, request)) in requests().iter().enumerate() {
+    for (number, (request, name)) in requests().iter().zip(REQUESTS).enumerate() {
         let bytes = postcard::to_allocvec(request).expect("it fits");
         assert_eq!((bytes[0], request.number()), (number as u8, number as u8));
         assert_eq!(decode::<Request>(&bytes).expect("it is read again"), *request);
@@ -346,6 +337,47 @@ fn every_message_has_its_golden_bytes() {
         assert_eq!(new, old);
     }
     assert_eq!(table.lines().count(), golden.lines().count());
+}
+
+/// What a version 2.1 might add to a report: a number, an option and a list.
+const ADDED: &[u8] = &[7, 1, 9, 2, 5, 6];
+
+#[test]
+fn a_later_board_is_understood_and_so_is_an_earlier_one() {
+    for (report, (name, _)) in reports().into_iter().zip(REPORTS) {
+        let bytes = postcard::to_allocvec(&(5u32, &report)).expect("it fits");
+        assert_eq!(decode::<(u32, Report)>(&[&bytes, ADDED].concat()), Ok((5, report)), "{name}");
+    }
+    let bytes = postcard::to_allocvec(&(5u32, Report::Budget(budget()))).expect("it fits");
+    type Later = (u32, u32, Budget, u32, Option<u8>, Vec<u8, 4>);
+    let read = |bytes: &[u8]| {
+        decode::<Later>(bytes).map(|(_, _, known, spare, one, list)| (known, spare, one, list))
+    };
+    assert_eq!(read(&bytes), Ok((budget(), 0, None, Vec::new())));
+    let list = Vec::from_slice(&[5, 6]).expect("it fits");
+    assert_eq!(read(&[&bytes, ADDED].concat()), Ok((budget(), 7, Some(9), list)));
+}
+
+#[test]
+fn a_later_host_is_understood_and_so_is_an_earlier_one() {
+    for (request, name) in requests().into_iter().zip(REQUESTS) {
+        let bytes = postcard::to_allocvec(&request).expect("it fits");
+        assert_eq!(decode::<Request>(&[&bytes, ADDED].concat()), Ok(request), "{name}");
+    }
+    let tare = postcard::to_allocvec(&Request::Tare { frames: 300 }).expect("it fits");
+    assert_eq!(decode::<(u8, u16, Option<u8>)>(&tare), Ok((12, 300, None)));
+    // A request that this version does not know is none.
+    assert_eq!(decode::<Request>(&[200, 1]), Err(WireError::Message));
+}
+
+#[test]
+fn a_hello_of_any_version_says_which_it_is() {
+    let body = postcard::to_allocvec(&hello()).expect("it fits");
+    assert_eq!(Hello::protocol_of(&body), Some(PROTOCOL));
+    assert_eq!(Hello::protocol_of(b"TAXL\x81\x01 whatever follows"), Some(129));
+    for cut in [&b""[..], b"TAX", b"TAXI\x02"] {
+        assert_eq!(Hello::protocol_of(cut), None);
+    }
 }
 
 /// Words and keys of files that differ from the names in the code.

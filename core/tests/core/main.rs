@@ -15,6 +15,7 @@ mod hard;
 mod interlaced;
 mod moments;
 mod outputs;
+mod owners;
 mod peers;
 mod plain;
 mod random;

@@ -219,7 +219,7 @@ impl Judge {
             }
             92..94 => {
                 let hz = self.random.u16(..20);
-                self.ask(&Request::SetRaw { hz });
+                self.ask(&Request::Stream { raw_hz: hz, budget_hz: 1 });
             }
             _ => {}
         }

@@ -4,6 +4,7 @@
 use crate::board::{BoardAndHost, FINGER};
 use taxel_core::format::{Micros, Q15, name};
 use taxel_core::garment::Line;
+use taxel_core::intent::{Feed, Source};
 use taxel_core::react::{Cause, ReactionConfig};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
@@ -71,8 +72,13 @@ fn a_host_that_reads_slowly_is_told_how_each_reaction_stands() {
 
 #[test]
 fn what_a_host_fed_holds_until_it_says_nothing_for_three_seconds() {
-    let mut bench = guarding();
-    bench.ask(&Request::Concept { slot: 1, value: Q15(7) });
+    let mut scene = Scene::shipped();
+    let map = &mut scene.intent.as_mut().unwrap().map;
+    (map.inputs[0].source, map.inputs[0].low, map.inputs[0].high) = (Source::Host(1), -32_768, 32_768);
+    let concept = map.concepts[usize::from(map.inputs[0].concept)].clone();
+    let mut bench = BoardAndHost::new(scene);
+    let feed = Feed { concept, value: Q15(7), age_ms: 0, lasts_ms: 0, otherwise: Q15(0) };
+    assert_eq!(bench.answer(&Request::Feed(feed)), None);
     for _ in 0..20 {
         bench.now += 2_999_999;
         bench.ask(&Request::Sync { token: 1 });
@@ -92,7 +98,7 @@ fn raw_codes_that_are_asked_for_change_nothing_else() {
     let before = bench.board.setup().scene.clone();
     let mut rates = Vec::new();
     for hz in [10, 0] {
-        assert_eq!(bench.answer(&Request::SetRaw { hz }), None);
+        assert_eq!(bench.answer(&Request::Stream { raw_hz: hz, budget_hz: 1 }), None);
         let mut raw = 0;
         (0..100).for_each(|_| {
             bench.scan();

@@ -54,6 +54,7 @@ pub fn take() -> BoardParts {
     // Before USB, whose interrupts run from the flash.
     let number = serial_number::read(&mut flash);
     BoardParts {
+        chip: number.unwrap_or(""),
         lines: lines!(p:
             PIN_2 = 2,
             PIN_3 = 3,

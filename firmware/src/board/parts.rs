@@ -8,6 +8,8 @@ use embassy_rp::watchdog::Watchdog;
 
 /// Parts of a board, as its pins are assigned.
 pub struct BoardParts {
+    /// Unique id of the flash chip, in hexadecimal; empty without one.
+    pub chip: &'static str,
     /// Pins for select lines of garments and reactions of scenes, with their GPIO numbers.
     pub lines: [(u8, LinePin); LINES],
     /// The converter inputs from GPIO 26 on.

@@ -99,7 +99,8 @@ fn load_from<const TAXELS: usize>(
     flash: &mut SimFlash,
     range: std::ops::Range<u32>,
 ) -> Result<Option<HostSettings>, StoreError> {
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<TAXELS, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
     let found = Store::new(flash, range).unwrap().load(&mut board)?;
     let Settings { garment, scene, gain, baseline, calibration, .. } = board.settings();
@@ -209,7 +210,8 @@ fn a_part_that_does_not_fit_leaves_the_others() {
 
 /// Result of loading, garment of the board after it, and number of saves left.
 fn start(flash: &mut SimFlash) -> (Found, Garment, usize) {
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
     let found = Store::new(flash, range(64)).unwrap().load(&mut board).unwrap();
     let garment = board.settings().garment.clone();

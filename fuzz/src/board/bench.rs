@@ -13,7 +13,7 @@ use taxel_core::selftest::Findings;
 use taxel_store::{Found, Store};
 
 const INFO: BoardInfo =
-    BoardInfo { firmware: "fuzz", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    BoardInfo { firmware: "fuzz", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
 
 /// A board and all around it.
 pub struct Bench<const T: usize, const R: usize, const P: usize> {

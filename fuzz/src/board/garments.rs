@@ -2,6 +2,7 @@
 
 use taxel_core::acquire::Depth;
 use taxel_core::garment::Garment;
+use taxel_core::gesture::GestureConfig;
 use taxel_core::scene::Scene;
 
 /// A garment and what it is used for.
@@ -29,7 +30,8 @@ fn scene(which: u8) -> Scene {
         scene.plan.depth = Depth::Interlaced;
     }
     if which & 4 == 4 {
-        scene.stream.raw_hz = u16::MAX;
+        scene.stream.pressing_hz = u16::MAX;
+        scene.gestures = Some(GestureConfig::default());
     }
     scene
 }

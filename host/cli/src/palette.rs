@@ -69,13 +69,22 @@ pub fn pressure(value: u16, top: u16) -> Rgb {
     ramp(step(value, top))
 }
 
+/// The smallest end of the scale at or above a pressure, counts.
+pub fn end_for(greatest: u16) -> u16 {
+    ends(ENDS[0]).find(|end| *end >= greatest).unwrap_or(ENDS[1])
+}
+
 /// End of the scale of a still picture, counts: that at the beginning, so that a touch has the same colour as
 /// elsewhere, unless more than half of the pressed taxels lie beyond it.
 pub fn end_of(image: &[u16]) -> u16 {
     let above = |end: u16| image.iter().filter(|value| **value > end).count();
     let fits = |end: &u16| 2 * above(*end) <= above(0);
-    let ends = std::iter::successors(Some(START), |end| end.checked_mul(2).filter(|end| *end <= ENDS[1]));
-    ends.into_iter().find(fits).unwrap_or(ENDS[1])
+    ends(START).find(fits).unwrap_or(ENDS[1])
+}
+
+/// Ends of the scale from this one on.
+fn ends(from: u16) -> impl Iterator<Item = u16> {
+    std::iter::successors(Some(from), |end| end.checked_mul(2).filter(|end| *end <= ENDS[1]))
 }
 
 /// Interpolates from `a` (0) to `b` (1).
@@ -137,5 +146,6 @@ mod tests {
     fn a_still_picture_begins_like_a_live_one() {
         assert_eq!([end_of(&[]), end_of(&[0, 0, 7]), end_of(&[0, 100, 4000])], [START; 3]);
         assert_eq!([end_of(&[500, 900, 100]), end_of(&[u16::MAX])], [800, ENDS[1]]);
+        assert_eq!([0, 25, 26, 250, u16::MAX].map(end_for), [25, 25, 50, 400, ENDS[1]]);
     }
 }

@@ -19,11 +19,20 @@ create_exception!(taxel, BoardError, Error, "The board, or the link to it, is at
 pub fn raised(error: impl Into<anyhow::Error>) -> PyErr {
     let error = error.into();
     let sentence = words::sentence(error.as_ref());
-    match error.chain().find_map(|cause| cause.downcast_ref::<taxel::Error>()).map(taxel::Error::kind) {
+    match kind(&error) {
         Some(ErrorKind::Usage(_)) => UsageError::new_err(sentence),
         Some(ErrorKind::Source(error)) if error.blames_board() => BoardError::new_err(sentence),
         _ => Error::new_err(sentence),
     }
+}
+
+/// True if the board, or the link to it, is at fault.
+pub fn blames_board(error: &anyhow::Error) -> bool {
+    matches!(kind(error), Some(ErrorKind::Source(error)) if error.blames_board())
+}
+
+fn kind(error: &anyhow::Error) -> Option<&ErrorKind> {
+    error.chain().find_map(|cause| cause.downcast_ref::<taxel::Error>()).map(taxel::Error::kind)
 }
 
 /// An error of wrong use, for [`raised`].

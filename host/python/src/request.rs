@@ -4,7 +4,7 @@ use crate::error::argument;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 use std::path::Path;
-use taxel::client::Client;
+use taxel::client::{Client, SceneChange};
 use taxel::session::setting;
 use taxel::source::SceneFile;
 use taxel_core::fold::{JOINTS, JointAngle, Posture};
@@ -49,10 +49,12 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         "self_test" => Request::SelfTest,
         "save" => Request::Save,
         "reset_settings" => Request::ResetSettings { undo: values.flag("undo") },
-        "budget" => Request::Budget { hz: values.whole("hz", 0, 65_535)? as u16 },
-        "set_raw" => Request::SetRaw { hz: values.whole("hz", 0, 65_535)? as u16 },
+        "budget" => return Ok(client.stream_budget(values.whole("hz", 0, 65_535)? as u16)?),
+        "set_raw" => return Ok(client.stream_raw(values.whole("hz", 0, 65_535)? as u16)?),
         "set_forms" => {
-            Request::SetForms { in_frame: values.whole("in_frame", 0, 254)? as u8, ages: values.flag("ages") }
+            let forms = Some((values.whole("in_frame", 0, 254)? as u8, values.flag("ages")));
+            client.change_scene(SceneChange { forms, ..SceneChange::default() });
+            return Ok(());
         }
         "set_concept" => Request::Feed(feed(&values)?),
         "set_posture" => Request::Posture(posture(client, &values)?),
@@ -60,7 +62,10 @@ pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
         "set_body" => return Ok(setting::set_body(client, values.text("body"), values.text("garment"))?),
         "set_folds" => return Ok(setting::set_folds(client, Path::new(values.text("folds")))?),
         "set_poses" => return poses(client, &values),
-        "set_pressing" => Request::SetPressing(values.whole("hz", 0, 65_535)? as u16),
+        "set_pressing" => {
+            client.change_scene(SceneChange::pressing(values.whole("hz", 0, 65_535)? as u16));
+            return Ok(());
+        }
         "set_garment" => return Ok(setting::set_garment(client, values.text("garment"))?),
         "set_scene" => return Ok(setting::set_scene(client, &SceneFile::named(values.text("scene"))?)?),
         "set_gestures" => return gestures(client, &values),
@@ -142,16 +147,16 @@ fn poses(client: &mut Client, values: &Values) -> Result<()> {
 
 fn gestures(client: &mut Client, values: &Values) -> Result<()> {
     let model = match values.0["model"].as_str() {
-        None => return Ok(client.request(&Request::SetGestures(None))?),
+        None => {
+            client.change_scene(SceneChange { gestures: Some(None), ..SceneChange::default() });
+            return Ok(());
+        }
         Some("gestures") => ShippedModel::Gestures,
         Some("intent") => ShippedModel::Intent,
         Some(other) => bail!(argument(format!(
             "there is no gesture model {other}; known are gestures and intent, and None for no model"
         ))),
     };
-    let certainty = values.0["certainty"].as_f64();
-    if let Some(certainty) = certainty {
-        setting::set_certainty(client, certainty)?;
-    }
-    Ok(setting::set_gestures(client, model, values.0["gain"].as_f64(), certainty.is_some())?)
+    let [gain, certainty] = ["gain", "certainty"].map(|key| values.0[key].as_f64());
+    Ok(setting::set_gestures(client, model, gain, certainty)?)
 }

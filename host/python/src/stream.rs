@@ -1,10 +1,12 @@
 //! A board's stream: opened, iterated, asked.
 
-use crate::error::{argument, raised};
+use crate::error::{argument, blames_board, raised};
 use crate::event::{self, Fact, Teller};
 use crate::request;
+use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
+use std::ffi::CString;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -14,7 +16,11 @@ use taxel::client::{Event, ImageNews};
 use taxel::error::SourceError;
 use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn, setting};
 use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::tell::words;
 use taxel_core::format::Micros;
+
+/// Time between two attempts to open a board that is waited for.
+const TRY: Duration = Duration::from_millis(250);
 
 /// An open board: an iterator over its events.
 #[pyclass(frozen, subclass, module = "taxel")]
@@ -90,6 +96,7 @@ fn open(
     tare: Option<u16>,
     returns: Returns,
     posing: Option<Posing>,
+    raw: bool,
 ) -> anyhow::Result<Open> {
     let parsed: SourceSpec = spec.parse().map_err(|why| argument(format!("source {spec}: {why}")))?;
     let source = source::open(&parsed, &options)?;
@@ -106,12 +113,12 @@ fn open(
         anyhow::ensure!(listens, argument(format!("{spec}: the board of a recording takes no body")));
         setting::set_body(client, body, options.garment.as_deref().unwrap_or("reference"))?;
     }
+    if raw {
+        client.stream_raw(u16::MAX)?;
+    }
     client.start(tare)?;
     if options.body.is_some() {
-        client.request(&taxel_core::wire::Request::SetPressing(u16::MAX))?;
-    }
-    if options.raw {
-        client.request(&taxel_core::wire::Request::SetRaw { hz: u16::MAX })?;
+        client.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
     }
     posing.into_iter().for_each(|posing| session.pose_by(posing));
     let longest =
@@ -161,6 +168,11 @@ impl Stream {
     }
 }
 
+/// Warns whoever opens a stream.
+fn warn(py: Python<'_>, sentence: &str) -> PyResult<()> {
+    PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &CString::new(sentence)?, 2)
+}
+
 /// The robot that wears a body, if one is named.
 fn posing(
     body: Option<&str>,
@@ -184,7 +196,7 @@ impl Stream {
     #[new]
     #[pyo3(signature = (source, *, seed=None, garment=None, body=None, robot=None, motion=None, poses_hz=None,
                         realtime=false, repeat=false, frames=None, seconds=None, raw=false, tare=None,
-                        once=false))]
+                        wait=false, once=false))]
     #[allow(clippy::too_many_arguments)] // keywords in Python
     fn new(
         py: Python<'_>,
@@ -201,6 +213,7 @@ impl Stream {
         seconds: Option<f64>,
         raw: bool,
         tare: Option<u16>,
+        wait: bool,
         once: bool,
     ) -> PyResult<Stream> {
         if seconds.is_some_and(|seconds| !(0.0..=1e9).contains(&seconds)) {
@@ -212,7 +225,6 @@ impl Stream {
             repeat,
             frames,
             seconds,
-            raw,
             garment,
             body,
             ..SourceOptions::default()
@@ -220,9 +232,22 @@ impl Stream {
         let returns = if once { Returns::Never } else { Returns::Always };
         let opened = || {
             let posing = posing(options.body.as_deref(), robot.as_deref(), motion.as_deref(), poses_hz)?;
-            open(source, options, tare, returns, posing)
+            open(source, options.clone(), tare, returns, posing, raw)
         };
-        let open = py.detach(opened).map_err(raised)?;
+        let mut is_told = false;
+        let open = loop {
+            match py.detach(opened) {
+                Ok(open) => break open,
+                Err(error) if wait && blames_board(&error) => {
+                    if !std::mem::replace(&mut is_told, true) {
+                        warn(py, &format!("{}; waiting for it", words::sentence(error.as_ref())))?;
+                    }
+                }
+                Err(error) => return Err(raised(error)),
+            }
+            py.detach(|| std::thread::sleep(TRY));
+            py.check_signals()?;
+        };
         Ok(Stream { open: Mutex::new(Some(open)), asking: AtomicUsize::new(0) })
     }
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import taxel
 
-PERCEIVED = ["frame", "contacts", "symbols", "intent", "reaction", "unsure"]
+PERCEIVED = ["frame", "contacts", "symbols", "intent", "reaction"]
 SCENES = ["pat", "lash", "two-hands", "five"]
 
 

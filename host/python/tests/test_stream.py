@@ -7,6 +7,8 @@ import os
 import resource
 import signal
 import socket
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -103,7 +105,7 @@ def test_requests_are_answered() -> None:
         board.set_scene("rate_hz = 0\nstream = { contacts_hz = 20 }")
         board.save()
         answers = {event.request: event.refusal for event in board if isinstance(event, taxel.Answer)}
-    assert answers["set-forms"] is None and answers["set-scene"] is None and answers["save"] is None
+    assert answers["set-scene"] is None and answers["save"] is None
     assert answers["feed"] is not None, "the shipped map has no concept of this name"
 
 
@@ -149,6 +151,25 @@ def test_nothing_is_simulated_in_place_of_a_board(
     print(f"python: {opens}: told after {time.monotonic() - began:.1f} s")
 
 
+def test_a_board_that_is_waited_for_is_opened_once_it_is_there(recording: os.PathLike[str]) -> None:
+    server, source = silent_board()
+    server.close()
+    wire = b"".join(one.data for one in taxel.read(recording).messages("/taxel/wire"))
+
+    def plug() -> None:
+        time.sleep(1)
+        with socket.create_server(server_address(source)) as again:
+            relay(again, (wire, b""), 1)
+
+    threading.Thread(target=plug, daemon=True).start()
+    with pytest.warns(RuntimeWarning, match=r"cannot be reached.*; waiting for it"):
+        board = taxel.open(source, wait=True, seconds=1)
+    with board:
+        assert any(isinstance(event, taxel.Frame) for event in board)
+    with pytest.raises(taxel.UsageError):
+        taxel.open("sim:nope", wait=True)
+
+
 def test_what_is_simulated_says_so() -> None:
     with taxel.open("sim:pat", frames=1) as board:
         hello = next(event for event in board if isinstance(event, taxel.Hello))
@@ -185,6 +206,12 @@ def silent_board() -> tuple[socket.socket, str]:
     """A board on TCP that says nothing."""
     server = socket.create_server(("127.0.0.1", 0))
     return server, f"tcp:127.0.0.1:{server.getsockname()[1]}"
+
+
+def server_address(source: str) -> tuple[str, int]:
+    """The address of a source on TCP."""
+    _, host, port = source.split(":")
+    return host, int(port)
 
 
 def test_the_wait_lets_other_threads_run_and_ctrl_c_through() -> None:
@@ -299,6 +326,23 @@ def test_what_touches_a_lost_board_ends(recording: os.PathLike[str]) -> None:
             if isinstance(event, taxel.Lost):
                 break
     assert present and present <= ended and len(last) == 0
+
+
+def test_what_touches_a_lost_board_ends_in_its_recording(recording: os.PathLike[str], tmp_path: Path) -> None:
+    frames, count = touched(recording)
+    server, source = silent_board()
+    thread = threading.Thread(target=relay, args=(server, (b"".join(frames[:count]), b""), 1), daemon=True)
+    thread.start()
+    file = tmp_path / "lost.mcap"
+    words = [sys.executable, "-m", "taxel", "record", "--source", source, "-o", str(file)]
+    with server, subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as record:
+        assert record.stderr
+        assert any("is gone" in line for line in record.stderr)
+        record.send_signal(signal.SIGINT)
+        record.communicate(timeout=30)
+    lists = [event.contacts for event in taxel.read(file).contacts()]
+    lost = [event for event in taxel.read(file) if isinstance(event, taxel.Lost)]
+    assert any(len(one) for one in lists) and len(lists[-1]) == 0 and len(lost) == 1
 
 
 def test_another_board_is_an_error(recording: os.PathLike[str], tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import fields
 import pytest
@@ -86,6 +87,8 @@ def test_the_robot_says_who_is_missing(listener, robot):
 
 
 def test_the_robot_says_what_touches_mean_and_hears_what_is_told(listener, robot):
+    # Both boards are let go at a time, so that the meaning changes.
+    Path(robot).write_text(ROBOT.replace("sim:five", "sim:press"))
     meant = listener.hear(RobotIntent, "/robot_intent")
     vision = listener.node.create_publisher(Float64, "/taxel/told/vision", 10)
 

@@ -2,6 +2,7 @@
 
 use super::decode::{Address, Decoder};
 use super::error::ScriptError;
+use super::hand::SimHand;
 use super::hardware::{Bus, PINS, SimClock, SimDelay, SimPin, Timing};
 use super::pads;
 use super::script::Script;
@@ -57,6 +58,9 @@ impl Adc for SimAdc {
         }
         let taxel = self.address.and_then(|address| self.decoder.taxel(address, usize::from(index)));
         let now = self.bus.now_ns.get();
+        if !self.bus.acts.borrow().is_empty() {
+            self.bus.acts.take().into_iter().for_each(|act| self.world.act(act, now));
+        }
         self.bus.pass(self.conversion_ns);
         let line = self.lines.get_mut(usize::from(index)).ok_or(NoSuchInput(input))?;
         let settled = self.world.sample(line, taxel, self.bus.changed_ns.get(), now);
@@ -86,6 +90,8 @@ pub struct SimBoard {
     pub adc: SimAdc,
     /// Clock.
     pub clock: SimClock,
+    /// Hand that touches the garment meanwhile.
+    pub hand: SimHand,
 }
 
 impl SimBoard {
@@ -126,7 +132,8 @@ impl SimBoard {
             source_kohm: script.wiring.source_kohm,
             held: 0,
         };
-        Ok(SimBoard { lines, delay: SimDelay { bus: bus.clone(), timing }, adc, clock: SimClock { bus } })
+        let (delay, hand) = (SimDelay { bus: bus.clone(), timing }, SimHand { bus: bus.clone() });
+        Ok(SimBoard { lines, delay, adc, clock: SimClock { bus }, hand })
     }
 }
 

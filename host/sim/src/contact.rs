@@ -2,13 +2,32 @@
 
 use super::footprint::Footprint;
 use super::touch::Touch;
+use super::trace::Knot;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-/// A touch of the script, prepared for evaluation.
+/// A touch, prepared for evaluation.
 #[derive(Debug, Clone)]
 pub struct Contact {
     /// Distribution of its force.
-    pub footprint: Footprint,
+    pub footprint: Arc<Footprint>,
+    course: ContactCourse,
+}
+
+/// Place and force of a contact over time.
+#[derive(Debug, Clone)]
+enum ContactCourse {
+    Scripted(Scripted),
+    /// Along a path; the last knot lasts if the touch does.
+    Drawn {
+        path: Vec<Knot>,
+        lasts: bool,
+    },
+}
+
+/// A touch of a script.
+#[derive(Debug, Clone)]
+struct Scripted {
     centre: [f64; 2],
     velocity: [f64; 2],
     force_n: f64,
@@ -32,8 +51,7 @@ impl Contact {
         let hold = rise + ns(touch.hold_s);
         let once = hold * touch.levels.len() as u64 + ns(touch.fall_s);
         let peak = touch.levels.iter().enumerate().rev().max_by(|a, b| a.1.total_cmp(b.1));
-        Contact {
-            footprint: Footprint::build(touch.shape, touch.size(), touch.angle_deg, pitch_mm),
+        let course = ContactCourse::Scripted(Scripted {
             centre: touch.centre(pitch_mm),
             velocity: touch.velocity,
             force_n: touch.force_n,
@@ -44,34 +62,79 @@ impl Contact {
             period_ns: touch.period_s.map_or(once, ns).max(once).max(1),
             last: u64::from(touch.repeat.max(1) - 1),
             phases_ns: [rise, hold, once],
-        }
+        });
+        let footprint = Footprint::build(touch.shape, touch.size(), touch.angle_deg, pitch_mm);
+        Contact { footprint: Arc::new(footprint), course }
+    }
+
+    /// Contact along a path of ascending times. If it `lasts`, the place and the force of the last knot stay.
+    pub fn drawn(footprint: Arc<Footprint>, path: Vec<Knot>, lasts: bool) -> Contact {
+        Contact { footprint, course: ContactCourse::Drawn { path, lasts } }
     }
 
     /// First and last time of possible contact, ns.
     pub fn span_ns(&self) -> (u64, u64) {
-        (self.start_ns, self.start_ns + self.last * self.period_ns + self.phases_ns[2])
+        match &self.course {
+            ContactCourse::Scripted(touch) => {
+                (touch.start_ns, touch.start_ns + touch.last * touch.period_ns + touch.phases_ns[2])
+            }
+            ContactCourse::Drawn { path, lasts } => {
+                let end = path.last().filter(|_| !lasts).map_or(u64::MAX, |knot| knot.t_ns);
+                (path.first().map_or(u64::MAX, |knot| knot.t_ns), end)
+            }
+        }
     }
 
     /// Bounding box of the footprint's path: `[x_min, x_max, y_min, y_max]`, taxels of its panel.
     pub fn sweep(&self) -> [f64; 4] {
-        let way = self.velocity.map(|v| v * self.phases_ns[2] as f64 / 1e9);
         let reach = self.footprint.reach();
-        let side = |axis: usize, sign: f64| {
-            self.centre[axis] + (sign * way[axis]).max(0.0) * sign + sign * reach[axis]
-        };
-        [side(0, -1.0), side(0, 1.0), side(1, -1.0), side(1, 1.0)]
+        let [x, y] = [0, 1].map(|axis| {
+            let [low, high] = self.course.extent(axis);
+            [low - reach[axis], high + reach[axis]]
+        });
+        [x[0], x[1], y[0], y[1]]
     }
 
     /// Force on the taxel at `x`, `y` of the contact's panel at a time, N.
     pub fn newtons(&self, x: f32, y: f32, t_ns: u64) -> f32 {
-        let Some(phase_ns) = self.phase(t_ns) else { return 0.0 };
-        let t = phase_ns as f64 / 1e9;
-        let dx = f64::from(x) - self.centre[0] - self.velocity[0] * t;
-        let dy = f64::from(y) - self.centre[1] - self.velocity[1] * t;
-        let share = self.footprint.share(dx as f32, dy as f32);
-        if share == 0.0 { 0.0 } else { share * self.force_n(phase_ns) as f32 }
+        match &self.course {
+            ContactCourse::Scripted(touch) => {
+                let Some(phase_ns) = touch.phase(t_ns) else { return 0.0 };
+                let t = phase_ns as f64 / 1e9;
+                let dx = f64::from(x) - touch.centre[0] - touch.velocity[0] * t;
+                let dy = f64::from(y) - touch.centre[1] - touch.velocity[1] * t;
+                let share = self.footprint.share(dx as f32, dy as f32);
+                if share == 0.0 { 0.0 } else { share * touch.force_n(phase_ns) as f32 }
+            }
+            ContactCourse::Drawn { path, .. } => {
+                let Some(knot) = Knot::between(path, t_ns) else { return 0.0 };
+                let share = self
+                    .footprint
+                    .share((f64::from(x) - knot.at[0]) as f32, (f64::from(y) - knot.at[1]) as f32);
+                share * knot.force_n as f32
+            }
+        }
     }
+}
 
+impl ContactCourse {
+    /// Least and greatest position of the centre along an axis, taxels.
+    fn extent(&self, axis: usize) -> [f64; 2] {
+        match self {
+            ContactCourse::Scripted(touch) => {
+                let way = touch.velocity[axis] * touch.phases_ns[2] as f64 / 1e9;
+                [touch.centre[axis] + way.min(0.0), touch.centre[axis] + way.max(0.0)]
+            }
+            ContactCourse::Drawn { path, .. } => {
+                let first = path.first().map_or(0.0, |knot| knot.at[axis]);
+                path.iter()
+                    .fold([first; 2], |[low, high], knot| [low.min(knot.at[axis]), high.max(knot.at[axis])])
+            }
+        }
+    }
+}
+
+impl Scripted {
     /// Time since the onset of the current repetition; none between repetitions.
     fn phase(&self, t_ns: u64) -> Option<u64> {
         let since = t_ns.checked_sub(self.start_ns)?;
@@ -120,7 +183,8 @@ mod tests {
         )
         .unwrap();
         let contact = Contact::build(&touch, PITCH, 0.0);
-        let force = |ms: u64| contact.phase(ms * 1_000_000).map(|p| (contact.force_n(p) * 1e6).round() / 1e6);
+        let ContactCourse::Scripted(touch) = &contact.course else { panic!("scripted") };
+        let force = |ms: u64| touch.phase(ms * 1_000_000).map(|p| (touch.force_n(p) * 1e6).round() / 1e6);
         for onset in [200, 700] {
             let at = |ms: u64| force(onset + ms);
             assert_eq!([at(0), at(50), at(100), at(199)], [Some(0.0), Some(4.0), Some(8.0), Some(8.0)]);
@@ -137,7 +201,8 @@ mod tests {
         )
         .unwrap();
         let contact = Contact::build(&touch, PITCH, 0.04);
-        let force = |ms: u64| (contact.force_n(ms * 1_000_000) * 1e6).round() / 1e6;
+        let ContactCourse::Scripted(touch) = &contact.course else { panic!("scripted") };
+        let force = |ms: u64| (touch.force_n(ms * 1_000_000) * 1e6).round() / 1e6;
         assert_eq!([force(500), force(1500), force(2500)], [2.0 * 0.982, 20.0, 2.0 * 1.018]);
         assert_eq!(contact.span_ns().1, 3_050_000_000);
         let shares: Vec<f32> = (-3..=3).map(|x| contact.footprint.share(x as f32 + 0.5, 0.5)).collect();

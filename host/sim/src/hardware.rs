@@ -1,5 +1,6 @@
 //! Pins, delay and clock of the simulated board, on a common virtual time. Nothing sleeps.
 
+use super::act::Act;
 use super::pads::{self, Drive};
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType, OutputPin};
@@ -51,6 +52,8 @@ pub(super) struct Bus {
     pub now_ns: Cell<u64>,
     /// Time of the last change of a level.
     pub changed_ns: Cell<u64>,
+    /// What a hand has done since the last sample.
+    pub acts: RefCell<Vec<Act>>,
 }
 
 impl Bus {

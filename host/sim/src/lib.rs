@@ -22,6 +22,9 @@ mod rewire;
 mod touch;
 
 mod footprint;
+mod trace;
+
+mod act;
 mod script;
 mod sneak;
 mod wiring;
@@ -33,6 +36,7 @@ mod scenes;
 mod pressure;
 
 mod signal;
+mod tool;
 mod variants;
 
 mod chain;
@@ -41,6 +45,8 @@ mod drift;
 mod pads;
 
 mod hardware;
+
+mod hand;
 
 mod board;
 
@@ -55,12 +61,15 @@ pub use drift::{Course, Drifting, Patch};
 pub use error::ScriptError;
 pub use flash::{Cut, FlashError, SimFlash};
 pub use footprint::Footprint;
+pub use hand::SimHand;
 pub use hardware::{PINS, SimClock, SimDelay, SimPin, Timing};
 pub use pressure::Pressure;
 pub use rewire::rewire;
 pub use scan::SimScan;
 pub use scenes::{SceneInfo, list, names, shipped, text};
-pub use script::{Converter, Faults, Idle, Joint, Noisy, Script, Sensor, Stuck, WiringEffects};
+pub use script::{Converter, Faults, Idle, Joint, Noisy, Script, Sensor, Stuck, WiringEffects, posture};
 pub use signal::{COUNTS_PER_NEWTON, FULL_SCALE, World};
+pub use tool::{TOOLS, Tool};
 pub use touch::{Shape, Size, Touch};
+pub use trace::{Knot, Trace};
 pub use variants::{lacking, largest, refit, scale_force, scale_rate, vary};

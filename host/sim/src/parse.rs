@@ -3,6 +3,7 @@
 use super::error::ScriptError;
 use super::script::{Joint, Script};
 use super::touch::Touch;
+use super::trace::Trace;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
@@ -10,6 +11,10 @@ use std::str::FromStr;
 const LONGEST_S: f64 = 86_400.0;
 /// Largest footprint, mm.
 const LARGEST_MM: f64 = 1_000.0;
+/// Greatest force, N.
+const MOST_N: f64 = 10_000.0;
+/// Places on a panel, taxels or mm.
+const PLACES: RangeInclusive<f64> = -1e5..=1e5;
 /// Largest count: far above a converter's range, small enough for an `f32`.
 const MOST_COUNTS: f64 = 1e6;
 
@@ -45,6 +50,9 @@ impl Script {
         for (index, touch) in self.touches.iter().enumerate() {
             check_touch(touch).map_err(|error| error.inside(format_args!("touch {}", index + 1)))?;
         }
+        for (index, trace) in self.traces.iter().enumerate() {
+            check_trace(trace).map_err(|error| error.inside(format_args!("trace {}", index + 1)))?;
+        }
         for (index, joint) in self.joints.iter().enumerate() {
             check_joint(joint).map_err(|error| error.inside(format_args!("joint {}", index + 1)))?;
         }
@@ -53,10 +61,10 @@ impl Script {
 }
 
 fn check_touch(touch: &Touch) -> Result<(), ScriptError> {
-    within("force_n", touch.force_n, 0.0..=10_000.0)?;
+    within("force_n", touch.force_n, 0.0..=MOST_N)?;
     for (key, point) in [("at", touch.at), ("at_mm", touch.at_mm)] {
         for value in point.into_iter().flatten() {
-            within(key, value, -1e5..=1e5)?;
+            within(key, value, PLACES)?;
         }
     }
     if touch.at.is_some() == touch.at_mm.is_some() {
@@ -92,6 +100,24 @@ fn check_touch(touch: &Touch) -> Result<(), ScriptError> {
     }
     within("repeat", touch.end_s(), 0.0..=LONGEST_S)
         .map_err(|error| error.inside("the last repetition ends too late"))
+}
+
+fn check_trace(trace: &Trace) -> Result<(), ScriptError> {
+    for size in trace.size() {
+        within("size_mm", size, 1.0..=LARGEST_MM)?;
+    }
+    within("angle_deg", trace.angle_deg, -360.0..=360.0)?;
+    for [t, x, y, force] in &trace.path {
+        within("path", *t, 0.0..=LONGEST_S)?;
+        within("path", *x, PLACES)?;
+        within("path", *y, PLACES)?;
+        within("path", *force, 0.0..=MOST_N)?;
+    }
+    let knots = trace.knots();
+    if knots.is_empty() || !knots.is_sorted_by(|one, next| one.t_ns < next.t_ns) {
+        return Err(ScriptError::value("path", "`path` must list [t, x, y, N] with ascending times"));
+    }
+    Ok(())
 }
 
 fn check_joint(joint: &Joint) -> Result<(), ScriptError> {
@@ -154,5 +180,19 @@ mod tests {
         assert_eq!(of("at_mm = [1, 2]"), "touch 1: give either `at` or `at_mm`");
         assert!(of("repeat = 2\nperiod_s = 0.01").contains("`period_s` must be at least"));
         assert!(of("repeat = 4000000000").contains("the last repetition ends too late"));
+    }
+
+    #[test]
+    fn paths_are_checked() {
+        let of = |path: &str| {
+            error(&format!("duration_s = 1\n[[trace]]\npanel = \"back\"\nshape = \"palm\"\npath = {path}\n"))
+        };
+        let order = "trace 1: `path` must list [t, x, y, N] with ascending times";
+        assert_eq!([of("[]"), of("[[1, 2, 3, 4], [1, 2, 3, 4]]")], [order, order]);
+        assert_eq!(of("[[-1, 2, 3, 4]]"), "trace 1: `path` is -1, it must be 0 to 86400");
+        assert_eq!(of("[[1, 2, nan, 4]]"), "trace 1: `path` is NaN, it must be -100000 to 100000");
+        assert_eq!(of("[[1, 2, 3, 20000]]"), "trace 1: `path` is 20000, it must be 0 to 10000");
+        let short = "duration_s = 1\n[[trace]]\npanel = \"back\"\nshape = \"palm\"\npath = [[1, 2, 3]]\n";
+        assert!(short.parse::<Script>().unwrap_err().to_string().contains("invalid length 3"));
     }
 }

@@ -2,8 +2,10 @@
 
 use super::contact::Contact;
 use super::error::ScriptError;
-use super::footprint::is_too_fine;
+use super::footprint::{Footprint, is_too_fine};
 use super::script::Script;
+use super::touch::{Shape, Touch};
+use super::trace::{Knot, Trace};
 use std::sync::Arc;
 use taxel_core::garment::{Area, Layout, Transform};
 
@@ -15,6 +17,8 @@ const MOST_IMAGES: usize = 64;
 /// The contacts of a scene, sorted by the panels that they reach.
 #[derive(Debug, Clone)]
 pub struct Pressure {
+    layout: Arc<Layout>,
+    hysteresis: f64,
     panels: Vec<Vec<Image>>,
 }
 
@@ -22,6 +26,7 @@ pub struct Pressure {
 /// up in the coordinates of the panel on which the contact began.
 #[derive(Debug, Clone)]
 struct Image {
+    rank: Rank,
     first_ns: u64,
     last_ns: u64,
     /// Taxels of this panel within reach, ends included: `[x_min, x_max, y_min, y_max]`.
@@ -30,32 +35,91 @@ struct Image {
     contact: Arc<Contact>,
 }
 
+/// Order in which forces are added, that of a script's file, so that a drawn touch gives the same sums while it
+/// is drawn and when it is played.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    Touch(u64),
+    Trace(u64),
+}
+
 impl Pressure {
     /// Contacts of a valid script on a garment.
     pub fn build(script: &Script, layout: &Layout) -> Result<Pressure, ScriptError> {
-        let mut pressure = Pressure { panels: vec![Vec::new(); layout.areas().len()] };
-        let place = |index: usize| format!("in script {}: touch {}", script.name, index + 1);
+        let panels = vec![Vec::new(); layout.areas().len()];
+        let mut pressure =
+            Pressure { layout: Arc::new(layout.clone()), hysteresis: script.sensor.hysteresis, panels };
         for (index, touch) in script.touches.iter().enumerate() {
-            let areas = || layout.areas().iter();
-            let home = areas().position(|a| a.name == touch.panel.as_str()).ok_or_else(|| {
-                let names: Vec<_> = areas().map(|a| a.name.as_str()).collect();
-                let text = format!("`panel` is \"{}\", the garment has {}", touch.panel, names.join(", "));
-                ScriptError::value("panel", text).inside(place(index))
-            })?;
-            let pitch = layout.areas().get(home).map_or([USUAL_PITCH_MM; 2], pitch_mm);
-            let ([length, width], [x, y]) = (touch.size(), pitch);
-            if is_too_fine(touch.shape, touch.size(), touch.angle_deg, pitch) {
-                let text =
-                    format!("`size_mm` is {length} x {width} mm, too large for taxels of {x} x {y} mm");
-                return Err(ScriptError::value("size_mm", text).inside(place(index)));
-            }
-            pressure.add(Arc::new(Contact::build(touch, pitch, script.sensor.hysteresis)), home, layout);
+            let place = || format!("in script {}: touch {}", script.name, index + 1);
+            pressure.touch(index as u64, touch).map_err(|error| error.inside(place()))?;
+        }
+        for (index, trace) in script.traces.iter().enumerate() {
+            let place = || format!("in script {}: trace {}", script.name, index + 1);
+            pressure.trace(index as u64, trace, false).map_err(|error| error.inside(place()))?;
         }
         Ok(pressure)
     }
 
+    /// Adds a touch. Numbers ascend.
+    pub fn touch(&mut self, number: u64, touch: &Touch) -> Result<(), ScriptError> {
+        let (home, pitch) = self.home(&touch.panel, touch.shape, touch.size(), touch.angle_deg)?;
+        let contact = Contact::build(touch, pitch, self.hysteresis);
+        self.add(Rank::Touch(number), Arc::new(contact), home);
+        Ok(())
+    }
+
+    /// Adds a touch along a path, whose last place and force stay if it `lasts`. Numbers ascend.
+    pub fn trace(&mut self, number: u64, trace: &Trace, lasts: bool) -> Result<(), ScriptError> {
+        let (home, pitch) = self.home(&trace.panel, trace.shape, trace.size(), trace.angle_deg)?;
+        let footprint = Footprint::build(trace.shape, trace.size(), trace.angle_deg, pitch);
+        let contact = Contact::drawn(Arc::new(footprint), trace.knots(), lasts);
+        self.add(Rank::Trace(number), Arc::new(contact), home);
+        Ok(())
+    }
+
+    /// Replaces the path of a touch that lasts.
+    pub fn draw(&mut self, number: u64, path: Vec<Knot>, lasts: bool) {
+        let rank = Rank::Trace(number);
+        let own = |image: &&Image| image.rank == rank && image.to_home == Transform::IDENTITY;
+        let mut all = self.panels.iter().enumerate();
+        let found =
+            all.find_map(|(home, images)| Some((home, images.iter().find(own)?.contact.footprint.clone())));
+        let Some((home, footprint)) = found else { return };
+        self.panels.iter_mut().for_each(|images| images.retain(|image| image.rank != rank));
+        self.add(rank, Arc::new(Contact::drawn(footprint, path, lasts)), home);
+    }
+
+    /// Forgets what has ended by a time.
+    pub fn forget(&mut self, t_ns: u64) {
+        self.panels.iter_mut().for_each(|images| images.retain(|image| image.last_ns > t_ns));
+    }
+
+    /// Index and pitch (mm) of the panel of an object.
+    fn home(
+        &self,
+        panel: &str,
+        shape: Shape,
+        size_mm: [f64; 2],
+        angle_deg: f64,
+    ) -> Result<(usize, [f64; 2]), ScriptError> {
+        let areas = self.layout.areas();
+        let Some((home, area)) = areas.iter().enumerate().find(|(_, area)| area.name == panel) else {
+            let names: Vec<_> = areas.iter().map(|a| a.name.as_str()).collect();
+            let text = format!("`panel` is \"{panel}\", the garment has {}", names.join(", "));
+            return Err(ScriptError::value("panel", text));
+        };
+        let pitch = pitch_mm(area);
+        let ([length, width], [x, y]) = (size_mm, pitch);
+        if is_too_fine(shape, size_mm, angle_deg, pitch) {
+            let text = format!("`size_mm` is {length} x {width} mm, too large for taxels of {x} x {y} mm");
+            return Err(ScriptError::value("size_mm", text));
+        }
+        Ok((home, pitch))
+    }
+
     /// Adds the images of a contact on its panel and across seams, as far as it reaches.
-    fn add(&mut self, contact: Arc<Contact>, home: usize, layout: &Layout) {
+    fn add(&mut self, rank: Rank, contact: Arc<Contact>, home: usize) {
+        let (layout, panels) = (&self.layout, &mut self.panels);
         let (first_ns, last_ns) = contact.span_ns();
         let mut seen = vec![(home, Transform::IDENTITY)];
         let mut next = 0;
@@ -63,8 +127,10 @@ impl Pressure {
             next += 1;
             let Some(area) = layout.areas().get(panel) else { continue };
             let Some(sweep) = sweep_on(area, &contact.sweep(), &to_home) else { continue };
-            if let Some(images) = self.panels.get_mut(panel) {
-                images.push(Image { first_ns, last_ns, sweep, to_home, contact: contact.clone() });
+            if let Some(images) = panels.get_mut(panel) {
+                let at = images.partition_point(|image| image.rank <= rank);
+                images
+                    .insert(at, Image { rank, first_ns, last_ns, sweep, to_home, contact: contact.clone() });
             }
             for joint in layout.joints() {
                 let (a, b) = (usize::from(joint.a), usize::from(joint.b));

@@ -257,7 +257,8 @@ mod tests {
 
     /// Durations (us) and codes of some frames of a plan.
     fn scan(garment: &Garment, script: &Script, plan: &Plan, frames: usize) -> Vec<(u32, Vec<u16>)> {
-        let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(garment, script, script.seed).unwrap();
+        let SimBoard { mut lines, delay, adc, clock, .. } =
+            SimBoard::new(garment, script, script.seed).unwrap();
         let mut scan = SimScan::new(&mut lines, delay, adc, &clock);
         let mut frame = || {
             let scan = block_on(scan.scan(&circuit(garment), plan)).unwrap();
@@ -320,7 +321,7 @@ mod tests {
         );
         let garment = Garment::reference();
         let circuit = circuit(&garment);
-        let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
+        let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(&garment, &script, 1).unwrap();
         let mut scan = SimScan::new(&mut lines, delay.clone(), adc, &clock);
         let scene = Scene::shipped().interlaced(Agree::Two);
         let layout = Layout::build(&garment, TAXELS, FULL_SCALE).unwrap();
@@ -368,7 +369,7 @@ mod tests {
         for (fault, seen) in [("", false), ("[faults]\npins = [{ pin = 8, fault = \"stuck-high\" }]\n", true)]
         {
             let script = script(fault);
-            let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
+            let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(&garment, &script, 1).unwrap();
             let mut scan = SimScan::new(&mut lines, delay, adc, &clock);
             let misled = (0..8).any(|_| {
                 block_on(scan.scan(&circuit(&garment), &Plan::default())).unwrap();

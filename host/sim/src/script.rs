@@ -4,6 +4,7 @@
 //! panel if they have no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first taxel.
 
 use super::touch::Touch;
+use super::trace::Trace;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use taxel_core::selftest::PinFault;
@@ -56,6 +57,9 @@ pub struct Script {
     /// The touches.
     #[serde(default, rename = "touch")]
     pub touches: Vec<Touch>,
+    /// Touches that follow a path.
+    #[serde(default, rename = "trace")]
+    pub traces: Vec<Trace>,
     /// Movements of the robot's joints.
     #[serde(default, rename = "joint")]
     pub joints: Vec<Joint>,
@@ -218,10 +222,31 @@ impl Joint {
 }
 
 impl Script {
-    /// The angles of the robot's joints at a time (s), degrees.
+    /// The angles of the robot's joints at a time (s), degrees: see [`posture`].
     pub fn posture(&self, t_s: f64) -> impl Iterator<Item = (&str, f64)> {
-        self.joints.iter().map(move |j| (j.name.as_str(), j.angle_deg(t_s)))
+        posture(&self.joints, t_s)
     }
+
+    /// The same garment, which nothing touches and no joint bends.
+    pub fn untouched(&self) -> Script {
+        let (touches, traces, joints) = (Vec::new(), Vec::new(), Vec::new());
+        Script { touches, traces, joints, ..self.clone() }
+    }
+
+    /// True if nothing happens.
+    pub fn is_empty(&self) -> bool {
+        self.touches.is_empty() && self.traces.is_empty() && self.joints.is_empty()
+    }
+}
+
+/// The angles of joints at a time (s), degrees. Of a joint's movements the one that began last counts; before all
+/// of them, the first.
+pub fn posture(movements: &[Joint], t_s: f64) -> impl Iterator<Item = (&str, f64)> {
+    let rank = move |joint: &Joint| if joint.start_s <= t_s { joint.start_s } else { -1.0 - joint.start_s };
+    let counts = move |joint: &&Joint| {
+        movements.iter().all(|other| other.name != joint.name || rank(other) <= rank(joint))
+    };
+    movements.iter().filter(counts).map(move |joint| (joint.name.as_str(), joint.angle_deg(t_s)))
 }
 
 fn reference() -> String {

@@ -1,5 +1,6 @@
 //! From newtons to codes: the converter's code of a taxel at a time.
 
+use super::act::Act;
 use super::decode::Decoder;
 use super::error::ScriptError;
 use super::noise::{UNIT_NOISE_RMS, unit_noise};
@@ -129,6 +130,20 @@ impl World {
             }
         }
         Ok(())
+    }
+
+    /// What a hand does from a time on.
+    pub(super) fn act(&mut self, act: Act, t_ns: u64) {
+        self.pressure.forget(t_ns);
+        // What has no place on the garment presses nothing: whoever plays it has checked it.
+        let _ = match act {
+            Act::Touch(number, touch) => self.pressure.touch(number, &touch),
+            Act::Trace { number, trace, lasts } => self.pressure.trace(number, &trace, lasts),
+            Act::Draw { number, path, lasts } => {
+                self.pressure.draw(number, path, lasts);
+                Ok(())
+            }
+        };
     }
 
     /// Number of taxels.

@@ -60,11 +60,7 @@ impl Touch {
 
     /// Length and width of the footprint, mm.
     pub fn size(&self) -> [f64; 2] {
-        match self.size_mm {
-            Some(Size::Round(d)) => [d, d],
-            Some(Size::Both(size)) => size,
-            None => self.shape.usual_mm(),
-        }
+        Size::of(self.size_mm, self.shape)
     }
 
     /// Initial centre in taxels of a panel with this pitch (mm).
@@ -122,6 +118,17 @@ pub enum Size {
     Round(f64),
     /// Length and width, mm.
     Both([f64; 2]),
+}
+
+impl Size {
+    /// Length and width, mm, of an object; by default its shape's usual ones.
+    pub(super) fn of(size: Option<Size>, shape: Shape) -> [f64; 2] {
+        match size {
+            Some(Size::Round(d)) => [d, d],
+            Some(Size::Both(size)) => size,
+            None => shape.usual_mm(),
+        }
+    }
 }
 
 fn edge_s() -> f64 {

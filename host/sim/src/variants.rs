@@ -4,6 +4,7 @@ use super::footprint::reach_mm;
 use super::pressure::pitch_mm;
 use super::script::Script;
 use super::touch::Touch;
+use super::trace::Trace;
 use fastrand::Rng;
 use taxel_core::garment::{Area, Layout};
 
@@ -19,13 +20,19 @@ pub fn vary(script: &Script, layout: Option<&Layout>, seed: u64) -> Script {
     variant.seed = seed;
     if let Some(layout) = layout {
         let step = rng.usize(..layout.areas().len().max(1));
+        let next = |panel: &str| {
+            let home = layout.areas().iter().position(|area| area.name == panel).unwrap_or(0);
+            layout.areas().get((home + step) % layout.areas().len().max(1))
+        };
         for touch in &mut variant.touches {
-            let home = layout.areas().iter().position(|a| a.name == touch.panel.as_str()).unwrap_or(0);
-            let Some(area) = layout.areas().get((home + step) % layout.areas().len().max(1)) else {
-                continue;
-            };
+            let Some(area) = next(&touch.panel) else { continue };
             touch.panel = area.name.as_str().into();
             place(touch, area, [rng.f64(), rng.f64()]);
+        }
+        for trace in &mut variant.traces {
+            let Some(area) = next(&trace.panel) else { continue };
+            trace.panel = area.name.as_str().into();
+            place_trace(trace, area, [rng.f64(), rng.f64()]);
         }
     }
     variant
@@ -37,6 +44,9 @@ pub fn scale_force(script: &Script, factor: f64) -> Script {
     for touch in &mut scaled.touches {
         touch.force_n *= factor;
     }
+    for [_, _, _, force] in scaled.traces.iter_mut().flat_map(|trace| &mut trace.path) {
+        *force *= factor;
+    }
     scaled
 }
 
@@ -45,6 +55,7 @@ pub fn scale_force(script: &Script, factor: f64) -> Script {
 pub fn scale_rate(script: &Script, factor: f64) -> Script {
     let mut scaled = script.clone();
     let starts = script.touches.iter().map(|t| t.start_s).chain(script.joints.iter().map(|j| j.start_s));
+    let starts = starts.chain(script.traces.iter().flat_map(|trace| &trace.path).map(|[t, ..]| *t));
     let first = starts.fold(f64::INFINITY, f64::min).min(script.duration_s);
     let later = |t: f64| first + (t - first) / factor;
     scaled.duration_s = later(script.duration_s);
@@ -57,6 +68,9 @@ pub fn scale_rate(script: &Script, factor: f64) -> Script {
         // Rounding must not make the period shorter than the touch.
         touch.period_s = touch.period_s.map(|period| (period / factor).max(touch.once_s()));
     }
+    for [t, ..] in scaled.traces.iter_mut().flat_map(|trace| &mut trace.path) {
+        *t = later(*t);
+    }
     for joint in &mut scaled.joints {
         joint.start_s = later(joint.start_s);
         joint.rise_s /= factor;
@@ -66,30 +80,48 @@ pub fn scale_rate(script: &Script, factor: f64) -> Script {
     scaled
 }
 
-/// The script, made for the garment `from`, on the garment `to`. Touches on a missing panel move to the largest panel, to the same relative
-/// place in width and height, with the same size and speed in mm.
+/// The script, made for the garment `from`, on the garment `to`. Touches on a missing panel move to the largest
+/// panel, to the same relative place in width and height, with the same size and speed in mm.
 pub fn refit(script: &Script, from: &Layout, to: &Layout) -> Script {
     let mut fitted = script.clone();
-    let (old, layout) = (from, to);
-    let Some(to) = largest(layout) else { return fitted };
-    for touch in fitted.touches.iter_mut().filter(|touch| !has(layout, &touch.panel)) {
-        let Some(from) = old.areas().iter().find(|area| area.name == touch.panel.as_str()) else { continue };
-        let (old_mm, new_mm) = (pitch_mm(from), pitch_mm(to));
-        let at = touch.centre(old_mm);
-        let sizes = [(from.columns, to.columns), (from.rows, to.rows)];
-        // The panel extends half a taxel beyond its first and its last centre.
-        let part = |axis: usize| (at[axis] + 0.5) / f64::from(sizes[axis].0);
-        let place = |axis: usize| (part(axis) * f64::from(sizes[axis].1) - 0.5) * new_mm[axis];
-        touch.panel = to.name.as_str().into();
-        (touch.at, touch.at_mm) = (None, Some([place(0), place(1)]));
+    let Some(panel) = largest(to) else { return fitted };
+    let home = |name: &str| from.areas().iter().find(|area| area.name == name).filter(|_| !has(to, name));
+    for touch in &mut fitted.touches {
+        let Some(home) = home(&touch.panel) else { continue };
+        let (old_mm, new_mm) = (pitch_mm(home), pitch_mm(panel));
+        let at = moved(touch.centre(old_mm), home, panel);
+        touch.panel = panel.name.as_str().into();
+        (touch.at, touch.at_mm) = (None, Some([at[0] * new_mm[0], at[1] * new_mm[1]]));
         touch.velocity = [0, 1].map(|axis| touch.velocity[axis] * old_mm[axis] / new_mm[axis]);
+    }
+    for trace in &mut fitted.traces {
+        let (Some(home), Some([_, x, y, _])) = (home(&trace.panel), trace.path.first().copied()) else {
+            continue;
+        };
+        let (old_mm, new_mm) = (pitch_mm(home), pitch_mm(panel));
+        let at = moved([x, y], home, panel);
+        trace.panel = panel.name.as_str().into();
+        for knot in &mut trace.path {
+            let way = [knot[1] - x, knot[2] - y];
+            let way = [0, 1].map(|axis| way[axis] * old_mm[axis] / new_mm[axis]);
+            (knot[1], knot[2]) = (at[0] + way[0], at[1] + way[1]);
+        }
     }
     fitted
 }
 
+/// The same relative place on another panel, taxels.
+fn moved(at: [f64; 2], from: &Area, to: &Area) -> [f64; 2] {
+    let sizes = [(from.columns, to.columns), (from.rows, to.rows)];
+    // The panel extends half a taxel beyond its first and its last centre.
+    [0, 1].map(|axis| (at[axis] + 0.5) / f64::from(sizes[axis].0) * f64::from(sizes[axis].1) - 0.5)
+}
+
 /// Panels used by a script but missing in a garment, each once.
 pub fn lacking(script: &Script, layout: &Layout) -> Vec<String> {
-    let mut panels: Vec<String> = script.touches.iter().map(|touch| touch.panel.clone()).collect();
+    let traced = script.traces.iter().map(|trace| trace.panel.clone());
+    let mut panels: Vec<String> =
+        script.touches.iter().map(|touch| touch.panel.clone()).chain(traced).collect();
     panels.retain(|panel| !has(layout, panel));
     panels.sort();
     panels.dedup();
@@ -127,6 +159,21 @@ fn place(touch: &mut Touch, area: &Area, part: [f64; 2]) {
     }
     touch.at_mm = None;
     touch.at = Some(at);
+}
+
+/// Moves a trace like a touch; its path keeps its form in taxels.
+fn place_trace(trace: &mut Trace, area: &Area, part: [f64; 2]) {
+    let pitch = pitch_mm(area);
+    let reach = reach_mm(trace.shape, trace.size().map(|s| s / 2.0), trace.angle_deg);
+    for (axis, (count, part)) in [area.columns, area.rows].into_iter().zip(part).enumerate() {
+        let places = || trace.path.iter().map(|knot| knot[axis + 1]);
+        let (least, most) =
+            (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
+        let reach = reach[axis] / pitch[axis];
+        let (low, high) = (reach - 0.5 - least, f64::from(count) - 0.5 - reach - most);
+        let shift = if low < high { low + part * (high - low) } else { (low + high) / 2.0 };
+        trace.path.iter_mut().for_each(|knot| knot[axis + 1] += shift);
+    }
 }
 
 #[cfg(test)]
@@ -196,6 +243,22 @@ mod tests {
         assert!(script.touches.iter().all(|t| t.panel == "mat"));
         assert_eq!((lacking(&hands, &layout).len(), lacking(&script, &layout).len()), (2, 0));
         World::build(&script, &Garment::mat()).unwrap();
+        let drawn = "duration_s = 1\n[[trace]]\npanel = \"back\"\nshape = \"palm\"\n\
+            path = [[0.2, 7.5, 15.5, 0], [0.6, 9.5, 14.5, 8]]";
+        let drawn: Script = drawn.parse().unwrap();
+        assert_eq!(lacking(&drawn, &layout), ["back"]);
+        let trace = refit(&drawn, &reference(), &layout).traces.remove(0);
+        assert_eq!(
+            (trace.panel.as_str(), trace.path),
+            ("mat", vec![[0.2, 15.5, 31.5, 0.0], [0.6, 17.9, 30.5, 8.0]])
+        );
+        let varied = vary(&drawn, Some(&reference()), 3);
+        varied.check().unwrap();
+        let garment = Garment::reference();
+        let world = World::build(&varied, &garment).unwrap();
+        let [t_s, _, _, force] = varied.traces[0].path[1];
+        let felt: f32 = (0..2048).map(|taxel| world.newtons(taxel, (t_s * 1e9) as u64 - 1)).sum();
+        assert!((f64::from(felt) / force - 1.0).abs() < 0.02 && force != 8.0, "{felt} of {force}");
         // The middle stays the middle, and the speed in mm stays the same.
         let stroke = "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [7.5, 15.5]\nvelocity = [5, 6]\nstart_s = 0.2".parse::<Script>();
         let touch = refit(&stroke.unwrap(), &reference(), &layout).touches.remove(0);

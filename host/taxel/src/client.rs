@@ -22,6 +22,7 @@ pub mod clock;
 mod counts;
 mod event;
 pub mod growths;
+mod held;
 mod identity;
 mod known;
 mod life;
@@ -31,6 +32,7 @@ pub mod passed;
 mod picture;
 mod requests;
 mod restart;
+mod scene_change;
 mod syncs;
 mod time;
 mod wanted;
@@ -43,32 +45,32 @@ pub use event::{Event, ImageNews};
 pub use identity::Identity;
 pub use known::leads;
 pub use requests::{request_name, scene_bytes};
+pub use scene_change::SceneChange;
 pub use worn::{SIMULATED, Worn, is_simulated};
 
 use crate::client::growths::Growths;
 use crate::tell::words::printable;
+use held::{Beside, HeldRequest};
 use life::Life;
 use ongoing::Ongoing;
 use picture::Picture;
 use std::collections::{BTreeMap, VecDeque};
 use syncs::Syncs;
 use taxel_core::body::Placed;
-use taxel_core::boot::Boot;
 use taxel_core::contact::Phase;
 use taxel_core::format::Celsius;
 use taxel_core::health::TaxelHealth;
+use taxel_core::scene::Scene;
 use taxel_core::symbol::RegionState;
 use taxel_core::wire::{
-    Answer, BoundsReport, Budget, ConfidenceReport, ContactList, FormsReport, Frame, GestureReport, Health,
-    HealthMap, Hello, IntentReport, Raw, Receiver, Report, Request, SelfTestReport, ShapesReport, WireError,
-    decode, decode_image,
+    Answer, Budget, ContactList, Frame, GestureReport, Health, HealthMap, Hello, IntentReport, REPORTS, Raw,
+    Receiver, Report, Request, SelfTestReport, ShapesReport, WireError, decode, decode_image,
 };
-use wanted::Sets;
 
 /// Longest frame from a board.
 const LONGEST_REPORT: usize = 8192;
 /// Number of the request that brings a piece of a table.
-const SET_SURFACE: u8 = Request::SetSurface(&[]).number();
+const SET_TABLE: u8 = Request::SetTable(&[]).number();
 /// Most ids of released contacts kept: those of 16 full lists.
 const RELEASED: usize = 1024;
 /// Most events of the host's own that wait.
@@ -92,7 +94,10 @@ pub struct Client {
     is_own: bool,
     requests: Vec<u8>,
     /// Requests held back until the board has answered others.
-    held: VecDeque<(Vec<u8>, Option<Sets>)>,
+    held: VecDeque<HeldRequest>,
+    beside: Beside,
+    /// Scene of the board until its `Hello`, if it is known.
+    expected: Option<Scene>,
     counts: Counts,
     syncs: Syncs,
     streaming: bool,
@@ -115,16 +120,12 @@ pub struct Client {
     intention: Option<IntentReport>,
     /// Last report with the announced intention in the lead.
     led: Option<IntentReport>,
-    /// Confidence of the gesture reported last, or of the next one.
-    confidence: Option<ConfidenceReport>,
     /// Gesture reported last.
     gesture: Option<GestureReport>,
     /// Ids of contacts that may be drift.
     unsure: Vec<u32>,
-    /// The ages of forms were requested.
-    ages_asked: bool,
-    /// Last report of the ages.
-    forms: Option<FormsReport>,
+    /// Ages of the forms that are older than the latest list of contacts, by their ids.
+    form_ages: Vec<(u32, u8)>,
     /// Frame of the latest list of contacts.
     contacts_of: u32,
     health: Option<Health>,
@@ -132,11 +133,8 @@ pub struct Client {
     celsius: Option<Celsius>,
     ill: BTreeMap<u16, TaxelHealth>,
     self_test: Option<SelfTestReport>,
-    boot: Option<Boot>,
     /// Classes taught to the board; empty while the built-in base is in use.
     shapes: Vec<String>,
-    /// What is unknown of what presses.
-    bounds: Option<BoundsReport>,
     /// Names of the surface's regions.
     surface_regions: Vec<String>,
 }
@@ -162,6 +160,8 @@ impl Client {
             // Terminates a partial frame that the board may have received before.
             requests: vec![0],
             held: VecDeque::new(),
+            beside: Beside::default(),
+            expected: None,
             counts: Counts::default(),
             syncs: Syncs::default(),
             streaming: false,
@@ -180,20 +180,16 @@ impl Client {
             regions: Vec::new(),
             intention: None,
             led: None,
-            confidence: None,
             gesture: None,
             unsure: Vec::new(),
-            ages_asked: false,
-            forms: None,
+            form_ages: Vec::new(),
             contacts_of: 0,
             health: None,
             budget: None,
             celsius: None,
             ill: BTreeMap::new(),
             self_test: None,
-            boot: None,
             shapes: Vec::new(),
-            bounds: None,
             surface_regions: Vec::new(),
         }
     }
@@ -285,7 +281,7 @@ impl Client {
         if self.counts.sequence(seq) {
             self.stepped_back();
         }
-        let (number, _) = postcard::take_from_bytes::<u32>(rest).map_err(|_| WireError::Message)?;
+        let (number, body) = postcard::take_from_bytes::<u32>(rest).map_err(|_| WireError::Message)?;
         if self.life.reopened && number != Report::HELLO {
             // Another board may be at the link now: what it says belongs to nothing.
             self.line.clear();
@@ -297,9 +293,20 @@ impl Client {
             self.understood(true);
             return Ok(Some(self.take_frame(&frame)));
         }
+        if number as usize >= REPORTS.len() {
+            // A later version's: it is counted, and says nothing here.
+            self.understood(true);
+            return Ok(None);
+        }
+        if number == Report::HELLO
+            && let Some(Err(why)) = Hello::protocol_of(body).map(Worn::speaks)
+        {
+            // Whatever else it holds is not this protocol's.
+            self.understood(false);
+            return Ok(Some(Event::Unusable(why)));
+        }
         let report: Report<'_> = decode(rest)?;
-        // A board reports the cause of its start along with its `Hello`.
-        self.understood(!matches!(report, Report::Hello(_) | Report::Boot(_)));
+        self.understood(number != Report::HELLO);
         Ok(self.take(report))
     }
 
@@ -317,7 +324,7 @@ impl Client {
         // Its contacts are counted anew.
         self.ongoing = Ongoing::default();
         self.ill.clear();
-        (self.self_test, self.boot) = (None, None);
+        self.self_test = None;
     }
 
     /// No event, if the report belongs to the next one.
@@ -337,26 +344,10 @@ impl Client {
                 self.gesture = Some(report.clone());
                 Event::Gesture(report)
             }
-            Report::Confidence(report) => {
-                self.confidence = Some(report);
-                Event::Confidence(report)
-            }
-            Report::Unsure(report) => {
-                self.unsure = report.contacts.to_vec();
-                Event::Unsure(Box::new(report))
-            }
-            Report::Forms(report) => {
-                self.forms = Some(report.clone());
-                Event::Forms(Box::new(report))
-            }
             Report::Pressing(mut report) => {
                 report.links.iter_mut().for_each(|wrench| cleaned::name(&mut wrench.name));
                 self.ongoing.pressing(&report);
                 Event::Pressing(Box::new(report))
-            }
-            Report::Bounds(bounds) => {
-                self.bounds = Some(bounds);
-                return None;
             }
             Report::RegionNames(names) => {
                 let names = names.names.iter().map(|name| printable(name).into_owned());
@@ -398,10 +389,6 @@ impl Client {
                 self.celsius = Some(temperature.celsius);
                 Event::Temperature(temperature)
             }
-            Report::Boot(boot) => {
-                self.boot = Some(boot);
-                Event::Boot(boot)
-            }
             Report::SelfTest(report) => {
                 self.self_test = Some(report.clone());
                 Event::SelfTest(report)
@@ -432,9 +419,9 @@ impl Client {
     fn take_answer(&mut self, answer: &Answer<'_>) -> Event {
         let refusal = answer.refusal.map(|why| printable(why).into_owned());
         self.answered(answer.request, refusal.as_deref());
-        if refusal.is_some() && answer.request == SET_SURFACE {
+        if refusal.is_some() && answer.request == SET_TABLE {
             // The pieces that follow would be refused, too.
-            self.held.retain(|(_, sets)| !sets.as_ref().is_some_and(Sets::is_piece));
+            self.held.retain(|held| !held.is_piece());
         }
         Event::Answer { request: answer.request, refusal }
     }
@@ -449,6 +436,10 @@ impl Client {
                 }
                 if self.worn.as_ref().is_none_or(|before| before.garment != worn.garment) {
                     self.forget();
+                }
+                if self.concepts() != worn.concepts() {
+                    // Activations belong to the concepts of the scene before.
+                    (self.intention, self.led) = (None, None);
                 }
                 self.worn = Some(worn);
                 Event::Hello
@@ -490,7 +481,10 @@ impl Client {
         self.released.drain(..self.released.len().saturating_sub(RELEASED));
         self.contacts = here;
         self.contacts_of = list.frame;
-        Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone }
+        self.form_ages = list.form_ages.to_vec();
+        let before = std::mem::replace(&mut self.unsure, list.unsure.to_vec());
+        let doubted = self.unsure.iter().copied().filter(|id| !before.contains(id)).collect();
+        Event::Contacts { frame: list.frame, time: list.time, dropped: list.dropped, released: gone, doubted }
     }
 
     fn take_map(&mut self, map: &HealthMap) -> Event {

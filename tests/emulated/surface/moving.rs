@@ -123,8 +123,9 @@ fn a_robot_that_moves_is_felt_in_its_base_and_not_where_it_folds() {
     let mut board = storing(("moving.bin", "usb"), &tables, (&codes, 1));
     let mut scene = Scene::shipped();
     scene.condition.track_baseline = false;
+    scene.stream.pressing_hz = u16::MAX;
     let scene = postcard::to_allocvec(&scene).unwrap();
-    let requests = [Request::SetPressing(u16::MAX), Request::Start, Request::SetScene(&scene)];
+    let requests = [Request::Start, Request::SetScene(&scene)];
     let course = Course { tables: &tables, requests: &requests, codes: &codes, dwell: 1 };
     let tell = |us: u64| (!SILENT.contains(&us)).then(|| moving.told(us));
     let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Pressing", "Folds"];

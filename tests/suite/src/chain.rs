@@ -42,6 +42,7 @@ impl Chain {
     pub fn bare() -> Chain {
         let info = BoardInfo {
             firmware: "bench",
+            chip: "",
             pins: Pins::ANY,
             full_scale: FULL_SCALE,
             link_bytes_per_s: u32::MAX,

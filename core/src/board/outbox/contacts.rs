@@ -5,7 +5,8 @@ use crate::body::Placed;
 use crate::contact::{Contact, Phase};
 use crate::format::Micros;
 use crate::pipeline::CONTACTS;
-use crate::wire::{Health, LISTED};
+use crate::unsure::UnsureState;
+use crate::wire::{Each, Health, LISTED};
 use heapless::Vec;
 use serde::ser::{Serialize, SerializeSeq, SerializeStruct, Serializer};
 
@@ -145,7 +146,7 @@ impl ContactQueue {
     }
 
     /// The present contacts that have a place in the list.
-    pub fn listed<'a>(&self, present: &'a [Placed]) -> impl Iterator<Item = &'a Placed> + use<'a> {
+    fn listed<'a>(&self, present: &'a [Placed]) -> impl Iterator<Item = &'a Placed> + Clone + use<'a> {
         present.iter().take(self.listed.into())
     }
 
@@ -204,20 +205,42 @@ type Listed<'a> = (&'a Placed, Option<Begun>);
 
 /// A [`ContactList`](crate::wire::ContactList) of what waits and of the table's present contacts.
 pub(super) struct List<'a> {
-    pub queue: &'a ContactQueue,
-    pub present: &'a [Placed],
+    queue: &'a ContactQueue,
+    present: &'a [Placed],
+    unsure: &'a UnsureState<CONTACTS>,
+    /// Ages of the forms of the present contacts; empty if they are not told.
+    ages: &'a [u8],
+}
+
+impl<'a> List<'a> {
+    pub fn of(
+        queue: &'a ContactQueue,
+        present: &'a [Placed],
+        unsure: &'a UnsureState<CONTACTS>,
+        ages: &'a [u8],
+    ) -> List<'a> {
+        List { queue, present, unsure, ages }
+    }
 }
 
 impl Serialize for List<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let List { queue, present } = self;
+        let List { queue, present, unsure, ages } = self;
         let mut entries = Vec::new();
         queue.list(present, &mut entries);
-        let mut list = serializer.serialize_struct("ContactList", 4)?;
+        let mut list = serializer.serialize_struct("ContactList", 6)?;
         list.serialize_field("frame", &queue.frame)?;
         list.serialize_field("time", &queue.time)?;
         list.serialize_field("dropped", &queue.dropped)?;
         list.serialize_field("contacts", &Entries(&entries))?;
+        let id = |placed: &Placed| placed.contact.id;
+        let doubted = queue.listed(present).enumerate().filter(|(index, _)| unsure.is_unsure(*index));
+        let aged = queue.listed(present).zip(ages.iter()).filter(|(_, age)| **age > 0);
+        // Most lists have neither, and a reader takes what is missing as empty.
+        if doubted.clone().next().is_some() || aged.clone().next().is_some() {
+            list.serialize_field("unsure", &Each(doubted.map(|(_, placed)| id(placed))))?;
+            list.serialize_field("form_ages", &Each(aged.map(|(placed, age)| (id(placed), *age))))?;
+        }
         list.end()
     }
 }
@@ -305,9 +328,12 @@ mod tests {
                 time: Micros(frame.into()),
                 dropped: 0,
                 contacts: list.iter().cloned().collect(),
+                unsure: Vec::new(),
+                form_ages: Vec::new(),
             };
-            let told = List { queue: &queue, present: &present };
-            assert_eq!(postcard::to_allocvec(&told).unwrap(), postcard::to_allocvec(&copy).unwrap());
+            let unsure = UnsureState::default();
+            let told = postcard::to_allocvec(&List::of(&queue, &present, &unsure, &[])).unwrap();
+            assert_eq!([&told[..], &[0, 0]].concat(), postcard::to_allocvec(&copy).unwrap());
             waited = if queue.waits { waited + 1 } else { 0 };
             if rng.u8(..6) == 0 {
                 (queue.waits, waited) = (false, 0);

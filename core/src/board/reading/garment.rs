@@ -7,7 +7,7 @@ use crate::garment::{Garment, Group};
 /// Decodes a garment from postcard, in the order of its fields. After an error `to` holds the fields read so
 /// far.
 #[inline(never)]
-pub(in crate::board) fn garment(bytes: &[u8], to: &mut Garment) -> Result<(), Refusal> {
+pub(crate) fn garment(bytes: &[u8], to: &mut Garment) -> Result<(), Refusal> {
     let from = &mut Unread { what: "garment", bytes };
     from.put("name", &mut to.name)?;
     group(from, ["wiring.block.coding", "wiring.block.lines"], &mut to.wiring.block)?;

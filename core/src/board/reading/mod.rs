@@ -8,31 +8,17 @@ pub(super) use garment::garment;
 pub(super) use scene::scene;
 
 use super::refusal::Refusal;
-use crate::wire::{WireError, decode};
 use heapless::Vec;
 use serde::Deserialize;
 
 /// Decodes a large value, called `what` in the error. Own frame: its stack is free again on return.
 #[inline(never)]
 pub(super) fn value<'a, T: Deserialize<'a>>(what: &str, bytes: &'a [u8]) -> Result<T, Refusal> {
-    decode(bytes).map_err(|error| unreadable(what, bytes, error == WireError::LeftOver))
-}
-
-/// Decodes a list in place, called `what` in the error.
-#[inline(never)]
-pub(super) fn list<'a, T: Deserialize<'a>, const N: usize>(
-    what: &str,
-    bytes: &'a [u8],
-    to: &mut Vec<T, N>,
-) -> Result<(), Refusal> {
-    let refuse = |_| unreadable(what, bytes, false);
-    let (count, mut rest) = postcard::take_from_bytes::<u32>(bytes).map_err(refuse)?;
-    for _ in 0..count {
-        let (value, others) = postcard::take_from_bytes(rest).map_err(refuse)?;
-        to.push(value).map_err(|_| unreadable(what, bytes, false))?;
-        rest = others;
+    match postcard::take_from_bytes(bytes) {
+        Ok((value, [])) => Ok(value),
+        Ok(_) => Err(unreadable(what, bytes, true)),
+        Err(_) => Err(unreadable(what, bytes, false)),
     }
-    if rest.is_empty() { Ok(()) } else { Err(unreadable(what, bytes, true)) }
 }
 
 /// Refusal of bytes that cannot be read, or of those after the end of what was read.

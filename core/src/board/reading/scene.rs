@@ -9,7 +9,7 @@ use crate::scene::Scene;
 /// Decodes a scene from postcard, in the order of its fields. After an error `to` holds the fields read so
 /// far.
 #[inline(never)]
-pub(in crate::board) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
+pub(crate) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusal> {
     let from = &mut Unread { what: "scene", bytes };
     from.put("name", &mut to.name)?;
     from.put("plan", &mut to.plan)?;
@@ -17,6 +17,7 @@ pub(in crate::board) fn scene(bytes: &[u8], to: &mut Scene) -> Result<(), Refusa
     from.put("condition", &mut to.condition)?;
     from.put("contact", &mut to.contact)?;
     from.put("shape", &mut to.shape)?;
+    from.put("gestures", &mut to.gestures)?;
     from.put("symbol", &mut to.symbol)?;
     to.intent = None;
     if from.next("intent")? {

@@ -20,7 +20,7 @@ fn says_hello_until_started_and_in_answer_to_start() {
         bench.scan();
         bench.drain(usize::MAX, |report| {
             let Report::Hello(hello) = report else { panic!("{report:?} before Start") };
-            assert_eq!((hello.magic, hello.protocol, hello.firmware), (*b"TAXL", 1, &b"test 1.0"[..]));
+            assert_eq!((hello.magic, hello.protocol, hello.firmware), (*b"TAXL", 2, &b"test 1.0"[..]));
             assert_eq!(wire::decode::<Garment>(hello.garment).unwrap(), Garment::block());
             assert_eq!(wire::decode::<Scene>(hello.scene).unwrap(), Scene::shipped());
             hellos += 1;
@@ -31,6 +31,25 @@ fn says_hello_until_started_and_in_answer_to_start() {
     let mut first = Vec::new();
     bench.drain(usize::MAX, |report| first.push(format!("{report:?}")));
     assert!(first[0].starts_with("Hello") && first[1].starts_with("Answer"), "{first:?}");
+}
+
+#[test]
+fn a_scene_that_is_set_is_said_before_the_answer_to_whoever_listens() {
+    let mut bench = BoardAndHost::new(Scene::shipped());
+    bench.ask(&Request::Start);
+    bench.drain(usize::MAX, |_| ());
+    let mut scene = Scene { name: name("other"), ..Scene::shipped() };
+    for change in ["scene", "stream"] {
+        scene.stream.contacts_hz = if change == "stream" { 7 } else { scene.stream.contacts_hz };
+        bench.ask(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
+        let (mut said, mut answered) = (None, None);
+        bench.drain(usize::MAX, |report| match report {
+            Report::Hello(hello) => said = Some(wire::decode::<Scene>(hello.scene).unwrap()),
+            Report::Answer(answer) => answered = said.is_some().then_some(answer.refusal.is_none()),
+            _ => {}
+        });
+        assert_eq!((said.as_ref(), answered), (Some(&scene), Some(true)), "another {change}");
+    }
 }
 
 #[test]
@@ -51,9 +70,6 @@ fn every_wrong_request_is_refused_with_its_reason() {
     assert_eq!(why, "scene: contact.high must not be below contact.low");
     assert!(bench.answer(&Request::SetScene(&scene[..9])).is_some());
     assert!(bench.answer(&Request::Tare { frames: 0 }).is_some());
-    assert!(bench.answer(&Request::Concept { slot: 8, value: Q15(0) }).is_some());
-    assert!(bench.answer(&Request::Concept { slot: 0, value: Q15(32769) }).is_some());
-    assert_eq!(bench.answer(&Request::Concept { slot: 0, value: Q15(-32768) }), None);
     let concept = name("joy");
     let feed = Feed { concept, value: Q15(0), age_ms: 0, lasts_ms: 9, otherwise: Q15(0) };
     let why = bench.answer(&Request::Feed(feed)).unwrap();
@@ -155,7 +171,7 @@ fn a_tare_is_answered_when_it_is_done() {
         });
         bench.scan();
     }
-    assert_eq!(answers, [(4, 2, true)]);
+    assert_eq!(answers, [(4, 12, true)]);
     assert!(!bench.board.state().is_touched());
 }
 

@@ -44,9 +44,10 @@ fn frames_decode_to_the_image_of_the_board_alone_or_from_their_base() {
 /// A key frame takes longer to encode, so it avoids the frames that measure the form of a large contact.
 #[test]
 fn a_key_frame_is_one_that_measures_little() {
-    let mut bench = BoardAndHost::new(Scene::shipped());
+    let mut scene = Scene::shipped();
+    scene.stream.form_ages = true;
+    let mut bench = BoardAndHost::new(scene);
     bench.ask(&Request::Start);
-    bench.ask(&Request::SetForms { in_frame: 1, ages: true });
     bench.drain(usize::MAX, |_| ());
     let large: Vec<usize> = (0..64).filter(|taxel| taxel % 16 < 5).collect();
     let (mut keys, mut measured) = (Vec::new(), Vec::new());
@@ -58,7 +59,7 @@ fn a_key_frame_is_one_that_measures_little() {
         let mut old = false;
         bench.drain(usize::MAX, |report| match report {
             // The large contact lies first, so its id is 1.
-            Report::Forms(forms) => old = forms.ages.iter().any(|(contact, _)| *contact == 1),
+            Report::Contacts(list) => old = list.form_ages.iter().any(|(contact, _)| *contact == 1),
             Report::Frame(frame) if frame.base.is_none() => keys.push((step, now)),
             _ => {}
         });

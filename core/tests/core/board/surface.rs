@@ -6,9 +6,10 @@ use taxel_core::board::TableKind;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::surface::{
-    BodyDirection, LinkMotion, LinkName, ONE, Pose, RegionPhase, TaxelRecord, table_bytes, write_table,
+    BodyDirection, LinkMotion, LinkName, LinkPose, ONE, Pose, RegionPhase, TaxelRecord, table_bytes,
+    write_table,
 };
-use taxel_core::wire::{PressingReport, RegionsReport, Report, Request, TABLE_PIECE};
+use taxel_core::wire::{Poses, PressingReport, RegionsReport, Report, Request, TABLE_PIECE};
 
 /// Units of a table in a pitch: 10.01 mm.
 const PITCH: i16 = 164;
@@ -53,18 +54,64 @@ impl BoardAndHost {
         }
         reports
     }
+
+    /// Asks for so many reports a second of what presses on the robot.
+    fn ask_for_pressing(&mut self, hz: u16) -> Option<String> {
+        let scene = self.scene_with(hz);
+        self.answer(&Request::SetScene(&scene))
+    }
+
+    fn scene_with(&self, pressing_hz: u16) -> Vec<u8> {
+        let mut scene = self.board.setup().scene.clone();
+        scene.stream.pressing_hz = pressing_hz;
+        postcard::to_allocvec(&scene).unwrap()
+    }
+
+    /// Sends the pose of a link.
+    fn pose(&mut self, at: Option<u64>, link: LinkPose) -> Option<String> {
+        self.answer(&Request::SetPoses(&poses(at, link)))
+    }
+}
+
+fn poses(at: Option<u64>, link: LinkPose) -> Vec<u8> {
+    let poses = Poses { at: at.map(Micros), links: [link].into_iter().collect() };
+    postcard::to_allocvec(&poses).unwrap()
+}
+
+/// With another rate what was told is told anew: an end that waited for the link is not dropped, and without a rate
+/// nothing presses any more.
+#[test]
+fn the_end_of_a_press_is_told_when_the_rate_changes() {
+    for (still, hz) in [(0, u16::MAX), (0, 20), (1000, 0)] {
+        let mut bench = streaming();
+        bench.board.recall_table(TableKind::Surface, Some(flat().leak()));
+        assert_eq!(bench.ask_for_pressing(u16::MAX), None);
+        bench.press(&FINGER, 1000);
+        assert_eq!(bench.pressing(6).last().unwrap().contacts.len(), 1);
+        bench.press(&FINGER, still);
+        // The link takes nothing meanwhile.
+        (0..20).for_each(|_| bench.scan());
+        let scene = bench.scene_with(hz);
+        bench.ask(&Request::SetScene(&scene));
+        let mut left = None;
+        bench.drain(usize::MAX, |report| {
+            if let Report::Pressing(report) = report {
+                left = Some(report.contacts.len());
+            }
+        });
+        assert_eq!(left, Some(0), "{still} counts, then {hz} Hz");
+    }
 }
 
 #[test]
 fn a_table_in_pieces_is_put_in_force_and_presses_are_told() {
     let mut bench = streaming();
     let none = Some("no surface is in force".to_string());
-    assert_eq!(bench.answer(&Request::SetPressing(9)), none);
     assert_eq!(bench.answer(&Request::SetPoses(&[0])), none);
     let table = flat();
     assert_eq!(bench.send_table(TableKind::Surface, &table), vec![None; table.len().div_ceil(TABLE_PIECE)]);
     assert_eq!(bench.board.surface().unwrap().link(0), Some("hand"));
-    assert_eq!(bench.answer(&Request::SetPressing(u16::MAX)), None);
+    assert_eq!(bench.ask_for_pressing(u16::MAX), None);
     assert_eq!(bench.pressing(5), [], "nothing touches");
 
     bench.press(&FINGER, 1000);
@@ -91,7 +138,7 @@ fn a_table_in_pieces_is_put_in_force_and_presses_are_told() {
     let turn = [0, 0, 759_250_125, 759_250_125];
     let pose = Pose { at: [0, 0, 1_000_000], turn };
     let hand = LinkName::try_from("hand").unwrap();
-    let poses = postcard::to_allocvec(&[(hand, pose)][..]).unwrap();
+    let poses = poses(None, (hand, pose, None));
     assert_eq!(
         bench.answer(&Request::SetPoses(&poses[..9])).unwrap(),
         "poses: these 9 bytes are none that this board can hold"
@@ -205,44 +252,37 @@ fn every_region_always_has_a_state() {
     let pose = Pose { at: [0; 3], turn: [0, 0, 759_250_125, 759_250_125] };
     let hand = LinkName::try_from("hand").unwrap();
     let still = LinkMotion { error: 700, ..LinkMotion::default() };
-    let poses = postcard::to_allocvec(&(Micros(bench.now), &[(hand.clone(), pose, still)][..])).unwrap();
-    assert_eq!(bench.answer(&Request::MovePoses(&poses)), None);
-    let poses = postcard::to_allocvec(&[(hand, pose)][..]).unwrap();
-    assert_eq!(bench.answer(&Request::SetPoses(&poses)), None);
+    assert_eq!(bench.pose(Some(bench.now), (hand.clone(), pose, Some(still))), None);
+    assert_eq!(bench.pose(None, (hand, pose, None)), None);
     assert_eq!(moving(&slide(&mut bench), 0), [BodyDirection::Left]);
 }
 
 /// Poses of links that move say how far off a place may be, and are forgotten after 0.2 s.
 #[test]
-fn bounds_are_told_before_what_they_bound() {
+fn bounds_are_told_with_what_they_bound() {
     let mut bench = streaming();
     bench.board.recall_table(TableKind::Surface, Some(Box::leak(flat().into_boxed_slice())));
-    assert_eq!(bench.answer(&Request::SetPressing(u16::MAX)), None);
+    assert_eq!(bench.ask_for_pressing(u16::MAX), None);
     let hand = LinkName::try_from("hand").unwrap();
     let motion =
         LinkMotion { velocity: [1_000_000, 0, 0], error: 700, drift: 10_000, ..LinkMotion::default() };
     let pose = Pose { at: [0; 3], turn: [0, 0, 0, 1 << 30] };
     let told = bench.now;
-    let poses = postcard::to_allocvec(&(Micros(told), &[(hand, pose, motion)][..])).unwrap();
-    assert_eq!(bench.answer(&Request::MovePoses(&poses)), None);
+    assert_eq!(bench.pose(Some(told), (hand, pose, Some(motion))), None);
     bench.press(&FINGER, 1000);
-    let mut bounds = None;
     let mut judged = 0;
     for _ in 0..60 {
         bench.scan();
         let now = bench.now;
-        bench.drain(usize::MAX, |report| match report {
-            Report::Bounds(report) => bounds = Some(report.clone()),
-            Report::Pressing(report) => {
+        bench.drain(usize::MAX, |report| {
+            if let Report::Pressing(report) = report {
                 let age = now - told;
                 let base = report.contacts.first().and_then(|contact| contact.base);
                 let Some(base) = base else {
                     return assert!(report.contacts.is_empty() || age > 200_000);
                 };
                 assert!(age <= 200_000 && report.posed == Some(Micros(told)));
-                let bounds = bounds.take().expect("bounds come first");
-                assert_eq!(bounds.frame, report.frame);
-                let [(0, off)] = bounds.poses[..] else { panic!("{bounds:?}") };
+                let [(0, off)] = report.pose_errors[..] else { panic!("{report:?}") };
                 let want = 700 + age / 100;
                 assert!((want..want + 70).contains(&u64::from(off)), "{off} {want}");
                 // A metre a second.
@@ -250,7 +290,6 @@ fn bounds_are_told_before_what_they_bound() {
                 assert!((i64::from(at) - age as i64).abs() < 5, "{at} {age}");
                 judged += 1;
             }
-            _ => {}
         });
     }
     assert!(judged > 30, "{judged}");

@@ -7,10 +7,10 @@ use taxel_core::format::Micros;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request, TABLE_PIECE, TablePiece};
 
-fn pieces(table: &[u8]) -> Vec<Vec<u8>> {
+fn pieces(kind: TableKind, table: &[u8]) -> Vec<Vec<u8>> {
     let piece = |(index, bytes)| {
         let (length, offset) = (table.len() as u32, (TABLE_PIECE * index) as u32);
-        postcard::to_allocvec(&TablePiece { length, offset, bytes }).unwrap()
+        postcard::to_allocvec(&TablePiece { kind, length, offset, bytes }).unwrap()
     };
     table.chunks(TABLE_PIECE).enumerate().map(piece).collect()
 }
@@ -20,7 +20,7 @@ impl BoardAndHost {
     fn table_answers(&mut self) -> Vec<Option<String>> {
         let mut answers = Vec::new();
         self.drain(usize::MAX, |report| match report {
-            Report::Answer(answer) if [22, 25].contains(&answer.request) => {
+            Report::Answer(answer) if answer.request == Request::SetTable(&[]).number() => {
                 answers.push(answer.refusal.map(str::to_string))
             }
             _ => {}
@@ -44,11 +44,8 @@ impl BoardAndHost {
     pub fn send_table(&mut self, kind: TableKind, table: &[u8]) -> Vec<Option<String>> {
         let mut flash: Vec<u8> = Vec::new();
         let mut answers = Vec::new();
-        for request in pieces(table) {
-            self.ask(&match kind {
-                TableKind::Surface => Request::SetSurface(&request),
-                TableKind::Folds => Request::SetFolds(&request),
-            });
+        for request in pieces(kind, table) {
+            self.ask(&Request::SetTable(&request));
             let refused = self.table_answers();
             if !refused.is_empty() {
                 return refused;
@@ -88,8 +85,9 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     let table = flat();
     let length = table.len() as u32;
     let ask = |bench: &mut BoardAndHost, length, offset, bytes: &[u8]| {
-        let piece = postcard::to_allocvec(&TablePiece { length, offset, bytes }).unwrap();
-        bench.answer(&Request::SetSurface(&piece)).expect("it is refused")
+        let piece =
+            postcard::to_allocvec(&TablePiece { kind: TableKind::Surface, length, offset, bytes }).unwrap();
+        bench.answer(&Request::SetTable(&piece)).expect("it is refused")
     };
     let next = |at: u32| format!("the next piece is the one from byte {at} on");
     assert_eq!(ask(&mut bench, length, 256, &table[256..512]), next(0));
@@ -97,7 +95,7 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     let most = TableKind::Surface.bytes() as u32 + 1;
     let room = format!("the table has {most} bytes, and there is room for {}", most - 1);
     assert_eq!(ask(&mut bench, most, 0, &table[..256]), room);
-    bench.ask(&Request::SetSurface(&pieces(&table)[0]));
+    bench.ask(&Request::SetTable(&pieces(TableKind::Surface, &table)[0]));
     assert_eq!(ask(&mut bench, length, 256, &table[256..512]), "the last piece is not stored yet");
     bench.until_stored();
     bench.board.step(Micros(bench.now), Input::TableStored(Ok(None)), &mut ());
@@ -105,7 +103,7 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     assert_eq!(ask(&mut bench, length, 512, &table[512..768]), next(256));
     assert_eq!(ask(&mut bench, length - 1, 256, &table[256..512]), next(256));
     // A piece that the flash did not take ends the table.
-    bench.ask(&Request::SetSurface(&pieces(&table)[1]));
+    bench.ask(&Request::SetTable(&pieces(TableKind::Surface, &table)[1]));
     bench.until_stored();
     bench.board.step(Micros(bench.now), Input::TableStored(Err("the flash is worn")), &mut ());
     assert_eq!(bench.table_answers(), [Some("the flash is worn".to_string())]);
@@ -134,7 +132,7 @@ fn a_table_that_is_wrong_leaves_the_one_in_force() {
     bench.press(&FINGER, 0);
     (0..400).for_each(|_| bench.scan());
     // None, from now on.
-    bench.ask(&Request::SetSurface(&[0, 0, 0]));
+    bench.ask(&Request::SetTable(&[0, 0, 0, 0]));
     assert_eq!(bench.until_stored(), Job::KeepTable(TableKind::Surface));
     bench.board.step(Micros(bench.now), Input::TableKept(TableKind::Surface, Ok(())), &mut ());
     assert_eq!((bench.table_answers(), bench.board.surface().is_none()), (vec![None], true));

@@ -1,7 +1,7 @@
 //! Whose form is looked at: that of the new ones, and of one of the others in turn.
 
 use crate::hard::rig::ContactRig;
-use taxel_core::contact::{Contact, Forms};
+use taxel_core::contact::{Contact, ContactConfig};
 
 /// Bars along the rows (1 x 4) or the columns (4 x 1), 12 columns apart.
 fn bars(rig: &mut ContactRig, upright: &[bool]) {
@@ -45,7 +45,7 @@ fn a_form_is_as_old_as_there_are_contacts_at_most() {
 fn as_many_forms_are_looked_at_as_are_asked_for() {
     for (in_frame, oldest) in [(0, 0), (1, 4), (2, 2), (3, 1), (5, 0), (200, 0)] {
         let mut rig = ContactRig::mat();
-        rig.stage.forms = Forms::of(in_frame);
+        rig.stage = ContactConfig { forms_in_frame: in_frame, ..*rig.stage.config() }.build().unwrap();
         for row in [4, 14, 24, 34, 44] {
             rig.fill([row, row], [4, 7], 400);
         }

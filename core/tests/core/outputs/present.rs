@@ -100,7 +100,6 @@ impl Rig {
             rig.bench.board.recall_table(TableKind::Surface, Some(&SURFACE[..]));
         }
         rig.ask(&Request::Start);
-        rig.ask(&Request::SetPressing(u16::MAX));
         rig
     }
 
@@ -128,6 +127,13 @@ impl Rig {
             _ => {}
         }
         self.agree();
+    }
+
+    /// Sends the scene with a change that ends nothing.
+    fn adjust(&mut self, change: impl FnOnce(&mut Scene)) {
+        let mut scene = self.scene.clone();
+        change(&mut scene);
+        self.ask(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
     }
 
     fn agree(&mut self) {
@@ -180,25 +186,26 @@ impl Rig {
                 self.ask(&Request::SetScene(&scene));
             }
             75..80 => {
-                let mut scene = self.scene.clone();
-                scene.stream.symbols = self.random.bool();
-                scene.stream.intent = self.random.bool();
-                self.ask(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
+                let (symbols, intent) = (self.random.bool(), self.random.bool());
+                self.adjust(|scene| (scene.stream.symbols, scene.stream.intent) = (symbols, intent));
             }
             80..84 => self.ask(&Request::Start),
             84..87 => self.ask(&Request::Stop),
             87..90 => self.ask(&Request::Tare { frames: 2 }),
             90 => self.ask(&Request::SetGain { first: 16, gains: [9_000; 3].into_iter().collect() }),
             91 => self.ask(&Request::SetShapes(&[])),
-            92 => self.ask(&Request::SetGestures(chance.then(GestureConfig::default))),
-            93 => self.ask(&Request::SetForms { in_frame: 2, ages: chance }),
-            94 => self.ask(&Request::SetRaw { hz }),
+            92 => self.adjust(|scene| scene.gestures = chance.then(GestureConfig::default)),
+            93 => self.adjust(|scene| {
+                (scene.contact.forms_in_frame, scene.stream.form_ages) = (2, chance);
+            }),
+            94 => self.ask(&Request::Stream { raw_hz: hz, budget_hz: hz }),
             95 => self.ask(&Request::KeyFrame),
             96 => self.ask(&Request::SelfTest),
             97 => {
                 let table = chance.then_some(&SURFACE[..]);
                 self.bench.board.recall_table(TableKind::Surface, table);
-                self.ask(&Request::SetPressing(u16::MAX));
+                let hz = self.random.choice([0, u16::MAX]).unwrap();
+                self.adjust(|scene| scene.stream.pressing_hz = hz);
             }
             _ => self.ask(&Request::Sync { token: 1 }),
         }
@@ -221,6 +228,7 @@ fn scene(random: &mut fastrand::Rng) -> Scene {
     scene.friendliness.clear();
     (scene.stream.symbols, scene.stream.intent) = (random.bool(), random.bool());
     scene.stream.contacts_hz = random.choice([0, 20, u16::MAX]).unwrap();
+    scene.stream.pressing_hz = u16::MAX;
     scene.contact.high = random.choice([200, 600]).unwrap();
     if random.bool() {
         scene.intent = None;

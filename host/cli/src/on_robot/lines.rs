@@ -53,3 +53,25 @@ pub struct PoseOfLink {
     /// Rotation: a quaternion x, y, z, w of length 1.
     pub turn: [f64; 4],
 }
+
+/// What the robot looks like.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("figure")))]
+#[serde(tag = "type", rename = "figure")]
+pub struct FigureLine<'a> {
+    /// The links that have a shape.
+    pub links: Vec<FigureLink<'a>>,
+}
+
+/// The shape of a link as triangles.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FigureLink<'a> {
+    /// Name of the link.
+    pub name: &'a str,
+    /// Corners in the frame of the link, m.
+    pub points: Vec<[f64; 3]>,
+    /// Triangles: numbers of their corners, counter-clockwise as seen from outside.
+    pub triangles: &'a [[usize; 3]],
+}

@@ -3,11 +3,11 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `lines.rs` | places and poses as JSON |
+//! | `lines.rs` | places, poses and shapes as JSON |
 //! | `wearer.rs` | the robot, its posture, and the garment on it |
 
 mod lines;
 mod wearer;
 
-pub use lines::{BodyLine, BodyLink, PoseOfLink, PosesLine};
+pub use lines::{BodyLine, BodyLink, FigureLine, FigureLink, PoseOfLink, PosesLine};
 pub use wearer::Wearer;

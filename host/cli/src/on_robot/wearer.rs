@@ -1,10 +1,11 @@
 //! A robot, its posture, and the garment on it.
 
-use super::lines::{BodyLine, BodyLink, PoseOfLink, PosesLine};
+use super::lines::{BodyLine, BodyLink, FigureLine, FigureLink, PoseOfLink, PosesLine};
 use crate::fault::Blame;
 use anyhow::Result;
 use std::path::Path;
 use std::sync::Arc;
+use taxel::body::mesh::{self, Figure};
 use taxel::body::robot::{self, Robot, RobotLink};
 use taxel::body::{self, Pose, ReadBody, RobotSurface, Surface, TaxelPlace};
 use taxel::client::{Client, Worn};
@@ -21,6 +22,8 @@ const FRESH: u64 = 150_000;
 pub struct Wearer {
     body: ReadBody,
     robot: Option<Arc<Robot>>,
+    /// What the robot looks like.
+    figure: Figure,
     /// Positions of the robot's joints, rad or m; empty without a robot.
     posture: Vec<f64>,
     worn: Option<GarmentOn>,
@@ -45,9 +48,10 @@ impl Wearer {
     /// Reads a body, and a robot and the positions of its joints (`elbow=30deg`); the others rest.
     pub fn read(body: &str, robot: Option<&str>, joints: &str) -> Result<Wearer> {
         let body = body::read(body)?;
+        let figure = robot.map(|robot| mesh::figure(robot, &[])).transpose()?.unwrap_or_default();
         let robot = robot.map(robot::read).transpose()?.map(Arc::new);
         let posture = robot.as_ref().map(|robot| robot.posture_of(joints)).transpose().usage()?;
-        Ok(Wearer { body, robot, posture: posture.unwrap_or_default(), worn: None, told: None })
+        Ok(Wearer { body, robot, figure, posture: posture.unwrap_or_default(), worn: None, told: None })
     }
 
     /// The posture in which these joints have moved, rad or m, and the others not; none without a robot. Joints
@@ -146,6 +150,25 @@ impl Wearer {
         Some(PosesLine { links: robot.links().iter().enumerate().filter_map(pose).collect() })
     }
 
+    /// What the robot looks like; none if that is not known.
+    pub fn figure(&self) -> Option<FigureLine<'_>> {
+        fn link((name, mesh): &(String, mesh::Mesh)) -> FigureLink<'_> {
+            let points = mesh.points().iter().map(|point| rounded(*point)).collect();
+            FigureLink { name, points, triangles: mesh.triangles() }
+        }
+        let links = &self.figure.links;
+        (!links.is_empty()).then(|| FigureLine { links: links.iter().map(link).collect() })
+    }
+
+    /// Why a link has no shape although the robot's file gives it one, and how many others have none; none if all are
+    /// there.
+    pub fn lacks(&self) -> Option<String> {
+        let [first, others @ ..] = self.figure.lacks.as_slice() else { return None };
+        let more =
+            if others.is_empty() { String::new() } else { format!("; and {} more links", others.len()) };
+        Some(format!("not all of the robot is drawn: {first}{more}"))
+    }
+
     /// Takes a report of the board.
     pub fn take(&mut self, report: &PressingReport) {
         self.told = Some(Box::new(report.clone()));
@@ -156,7 +179,7 @@ impl Wearer {
     pub fn pressing<'a>(&'a self, client: &Client, time: Micros) -> Option<PressingLine<'a>> {
         let worn = self.worn.as_ref()?;
         match &self.told {
-            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(client, report)),
+            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(report)),
             _ => computed_pressing(client, time, &worn.layout, &worn.surface),
         }
     }

@@ -28,6 +28,7 @@ const scene = {
 /** @type {import("../view/page/on-robot.js").BodyScene | null} */
 const onRobot = told.body && {
   body: told.body,
+  figure: told.figure,
   poses: told.poses?.links ?? null,
   panels: garment.panels,
   image: told.image,

@@ -1,7 +1,7 @@
 //! Modules of the page as one script, for a page that loads no files.
 
 /// Modules in the order of their imports.
-const MODULES: [(&str, &str); 14] = [
+const MODULES: [(&str, &str); 16] = [
     ("dom", include_str!("../view/page/dom.js")),
     ("colours", include_str!("../view/page/colours.js")),
     ("garment", include_str!("../view/page/garment.js")),
@@ -13,7 +13,9 @@ const MODULES: [(&str, &str); 14] = [
     ("drawing", include_str!("../view/page/drawing.js")),
     ("orbit", include_str!("../view/page/orbit.js")),
     ("relief", include_str!("../view/page/relief.js")),
+    ("figure", include_str!("../view/page/figure.js")),
     ("cloth", include_str!("../view/page/cloth.js")),
+    ("robot-marks", include_str!("../view/page/robot-marks.js")),
     ("on-robot", include_str!("../view/page/on-robot.js")),
     ("frozen", include_str!("frozen.js")),
 ];

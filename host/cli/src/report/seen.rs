@@ -5,6 +5,7 @@ use super::series::Series;
 use crate::folding::{Folding, FoldingLine};
 use crate::on_robot::Wearer;
 use crate::watch::narrate::Narrator;
+use crate::watch::shape::shape;
 use anyhow::Result;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -37,11 +38,9 @@ pub struct Seen {
     /// Total of each panel over time, counts.
     pub(super) totals: Series,
     /// The strongest and the present contacts, each at its greatest total, with its last duration.
-    pub(super) contacts: BTreeMap<u32, Placed>,
+    pub(super) contacts: BTreeMap<u32, SeenContact>,
     /// Number of contacts.
     pub(super) touches: u64,
-    /// Names of their shapes.
-    pub(super) shapes: BTreeMap<u8, String>,
     /// Activation of each concept over time, -1 ..= 1.
     pub(super) activations: Series,
     pub(super) concepts: Vec<String>,
@@ -57,6 +56,14 @@ pub struct Seen {
     /// Damage of a recording.
     pub skipped: Skipped,
     narrator: Narrator,
+}
+
+/// A contact at its greatest total.
+#[derive(Debug)]
+pub(super) struct SeenContact {
+    pub placed: Placed,
+    /// Its shape in words.
+    pub shape: String,
 }
 
 /// An image and its contacts.
@@ -85,7 +92,6 @@ impl Seen {
             totals: Series::default(),
             contacts: BTreeMap::new(),
             touches: 0,
-            shapes: BTreeMap::new(),
             activations: Series::default(),
             concepts: Vec::new(),
             sentences: Vec::new(),
@@ -141,14 +147,14 @@ impl Seen {
         }
     }
 
-    fn contact(&mut self, placed: &Placed) {
+    fn contact(&mut self, client: &Client, placed: &Placed) {
         let known = self.contacts.len();
-        let kept = self.contacts.entry(placed.contact.id).or_insert_with(|| placed.clone());
-        let duration = placed.contact.duration_ms;
-        if placed.contact.total > kept.contact.total {
-            *kept = placed.clone();
+        let seen = || SeenContact { placed: placed.clone(), shape: shape(client, placed) };
+        let kept = self.contacts.entry(placed.contact.id).or_insert_with(seen);
+        if placed.contact.total > kept.placed.contact.total {
+            *kept = seen();
         }
-        kept.contact.duration_ms = duration;
+        kept.placed.contact.duration_ms = placed.contact.duration_ms;
         self.touches += (self.contacts.len() - known) as u64;
     }
 
@@ -157,11 +163,11 @@ impl Seen {
         if self.contacts.len() < 4 * LISTED {
             return;
         }
-        let mut totals: Vec<u32> = self.contacts.values().map(|placed| placed.contact.total).collect();
+        let mut totals: Vec<u32> = self.contacts.values().map(|seen| seen.placed.contact.total).collect();
         totals.sort_unstable_by_key(|total| std::cmp::Reverse(*total));
         let least = totals[LISTED - 1];
-        self.contacts.retain(|id, placed| {
-            placed.contact.total >= least || present.iter().any(|placed| placed.contact.id == *id)
+        self.contacts.retain(|id, seen| {
+            seen.placed.contact.total >= least || present.iter().any(|placed| placed.contact.id == *id)
         });
     }
 }
@@ -190,9 +196,7 @@ impl Show<anyhow::Error> for Seen {
             Event::Frame { time, image: ImageNews::Whole, .. } => self.image(client, time.0),
             Event::Contacts { released, .. } => {
                 for placed in client.contacts().iter().chain(released) {
-                    let class = placed.shape.class;
-                    self.shapes.entry(class.0).or_insert_with(|| client.shape_name(class));
-                    self.contact(placed);
+                    self.contact(client, placed);
                 }
                 self.forget_weak(client.contacts());
             }

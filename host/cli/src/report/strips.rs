@@ -80,12 +80,13 @@ impl Strip<'_> {
 
     fn axes(&self, svg: &mut String, low: f64, top: f64, y: &dyn Fn(f64) -> f64) -> Result {
         let [left, _, right, bottom] = FRAME;
-        for part in 0..=4 {
-            let value = low + (top - low) * f64::from(part) / 4.0;
+        let values: Vec<f64> = (0..=4).map(|part| low + (top - low) * f64::from(part) / 4.0).collect();
+        let digits = decimals(&values);
+        for value in values {
             let at = y(value);
             writeln!(
                 svg,
-                "<path class=\"grid\" d=\"M{left} {at:.1}H{right}\"/><text class=\"mark\" x=\"{:.0}\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>",
+                "<path class=\"grid\" d=\"M{left} {at:.1}H{right}\"/><text class=\"mark\" x=\"{:.0}\" y=\"{:.1}\" text-anchor=\"end\">{value:.digits$}</text>",
                 left - 6.0,
                 at + 3.5
             )?;
@@ -118,9 +119,35 @@ impl Strip<'_> {
     }
 }
 
+/// Least number of decimals, at most 6, that write all values exactly.
+fn decimals(values: &[f64]) -> usize {
+    let is_exact = |digits: &usize| {
+        let mut scaled = values.iter().map(|value| value * 10f64.powi(*digits as i32));
+        scaled.all(|value| (value - value.round()).abs() < 1e-6)
+    };
+    (0..6).find(is_exact).unwrap_or(6)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn marks_of_an_axis_are_short_and_differ() {
+        for (greatest, wanted) in [
+            (0.28, ["0.000", "0.075", "0.150", "0.225", "0.300"]),
+            (0.19, ["0.00", "0.05", "0.10", "0.15", "0.20"]),
+            (7.7, ["0", "2", "4", "6", "8"]),
+            (4095.0, ["0", "1250", "2500", "3750", "5000"]),
+        ] {
+            let (names, points) = (vec!["chest"], vec![(0, vec![0.0]), (1_000_000, vec![greatest])]);
+            let strip = Strip { names, points, label: "N", steps: false, span: [0, 1_000_000] };
+            let drawn = strip.draw();
+            let marks: Vec<_> = drawn.split("text-anchor=\"end\">").skip(1).take(5).collect();
+            let marks: Vec<_> = marks.iter().filter_map(|text| text.split('<').next()).collect();
+            assert_eq!(marks, wanted);
+        }
+    }
 
     #[test]
     fn a_strip_of_any_times_has_an_end() {

@@ -52,6 +52,7 @@ fn data(seen: &Seen, top: u16) -> Value {
         "unit": unit.unit(),
         "per_count": unit.value(1.0),
         "body": seen.wearer.as_ref().and_then(Wearer::body),
+        "figure": seen.wearer.as_ref().and_then(Wearer::figure),
         "poses": seen.wearer.as_ref().and_then(Wearer::poses),
         "pressing": seen.top.pressing,
         "folding": seen.top.folding,

@@ -1,9 +1,8 @@
 //! Contacts, events and health as tables.
 
-use super::seen::{LISTED, Seen};
+use super::seen::{LISTED, Seen, SeenContact};
 use super::svg::escaped;
 use std::fmt::Write;
-use taxel_core::body::Placed;
 
 /// The contacts, each at its greatest total, in order of onset.
 pub fn contacts(seen: &Seen) -> String {
@@ -11,16 +10,16 @@ pub fn contacts(seen: &Seen) -> String {
         return "<p>Nothing touched the garment.</p>\n".into();
     }
     let mut strongest: Vec<_> = seen.contacts.values().collect();
-    strongest.sort_by_key(|placed| std::cmp::Reverse(placed.contact.total));
+    strongest.sort_by_key(|contact| std::cmp::Reverse(contact.placed.contact.total));
     strongest.truncate(LISTED);
-    strongest.sort_by_key(|placed| placed.contact.id);
+    strongest.sort_by_key(|contact| contact.placed.contact.id);
     let unit = seen.scale().unit();
     let mut html = format!(
         "<table><tr><th>contact</th><th>panel</th><th>onset, s</th><th>duration, s</th><th>total, {unit}</th>\
          <th>peak, {unit}</th><th>at row, column</th><th>area, taxels</th><th>centroid x, y</th>\
          <th>azimuth</th><th>shape</th></tr>\n",
     );
-    strongest.iter().for_each(|placed| row(seen, placed, &mut html));
+    strongest.iter().for_each(|contact| row(seen, contact, &mut html));
     html += "</table>\n";
     if seen.touches > LISTED as u64 {
         // Writing to a string cannot fail.
@@ -29,7 +28,7 @@ pub fn contacts(seen: &Seen) -> String {
     html
 }
 
-fn row(seen: &Seen, placed: &Placed, html: &mut String) {
+fn row(seen: &Seen, SeenContact { placed, shape }: &SeenContact, html: &mut String) {
     let contact = &placed.contact;
     let panel = seen.areas().get(usize::from(contact.panel)).map_or("", |area| area.name.as_str());
     let azimuth =
@@ -49,7 +48,7 @@ fn row(seen: &Seen, placed: &Placed, html: &mut String) {
         contact.area,
         contact.x.to_f64(),
         contact.y.to_f64(),
-        escaped(seen.shapes.get(&placed.shape.class.0).map_or("", String::as_str)),
+        escaped(shape),
     );
 }
 

@@ -76,17 +76,10 @@ impl Links {
     }
 
     /// Publishes a report of the board. `base` is the frame of the robot's base, or empty.
-    pub fn report(
-        &self,
-        node: &mut RosNode,
-        client: &Client,
-        report: &PressingReport,
-        us: u64,
-        base: &str,
-    ) -> Result<()> {
+    pub fn report(&self, node: &mut RosNode, report: &PressingReport, us: u64, base: &str) -> Result<()> {
         // The board may have a body that nobody has named here.
         let Some(surface) = self.surface() else { return Ok(()) };
-        node.publish(&PRESSING, "", pressing::pressing(us, client, report, base, self.per_newton))?;
+        node.publish(&PRESSING, "", pressing::pressing(us, report, base, self.per_newton))?;
         let topic = self.topic();
         for link in surface.links() {
             let part = topic_part(link);

@@ -26,7 +26,7 @@ use taxel_core::wire::Request;
 /// Time between two diagnostics of a lost board.
 const PERIOD: Duration = Duration::from_secs(1);
 /// Number of the request that tells the board poses.
-const MOVE_POSES: u8 = Request::MovePoses(&[]).number();
+const SET_POSES: u8 = Request::SetPoses(&[]).number();
 
 /// Publishes a board's stream, and passes on what comes for the board.
 pub struct RosShow {
@@ -96,7 +96,7 @@ impl RosShow {
                 let message = own::contacts(node.board(), us, client, list_of, released, on);
                 node.publish(&CONTACTS, "", message)
             }
-            Event::Pressing(report) => self.links.report(node, client, report, us, &self.base),
+            Event::Pressing(report) => self.links.report(node, report, us, &self.base),
             Event::Regions(report) => self.links.regions(node, client, report, us),
             Event::Symbols(list) => node.publish(&SYMBOLS, "", own::symbols(us, client, list)),
             Event::Reaction(report) => node.publish(&REACTIONS, "", own::reaction(us, report)),
@@ -122,7 +122,7 @@ impl RosShow {
                 if *request == Request::Posture(Posture::default()).number() {
                     self.postures.answered(node, client, refusal.is_none())?;
                 }
-                if let (MOVE_POSES, Some(why)) = (*request, refusal) {
+                if let (SET_POSES, Some(why)) = (*request, refusal) {
                     node.log(LogLevel::Warn, &format!("the board refuses poses: {why}"));
                 }
                 Ok(())
@@ -163,6 +163,10 @@ impl Show<anyhow::Error> for RosShow {
             }
         }
         Ok(())
+    }
+
+    fn tells_remarks(&self) -> bool {
+        true
     }
 
     fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {

@@ -32,6 +32,9 @@ impl Head {
         let lasts = |at: Micros| time.0.wrapping_sub(at.0) <= LASTS;
         self.is_over = !touches && self.touched.is_some_and(lasts);
         let felt = Felt::of(client, counts_per_newton);
+        if let Some(told) = self.felt.as_mut().filter(|_| self.is_over) {
+            told.what.clone_from(&told.peak);
+        }
         match &mut self.felt {
             Some(_) if self.is_over && client.leading() == Leading::None => {}
             Some(told) if self.is_over => told.meaning = felt.meaning,
@@ -64,5 +67,49 @@ impl Head {
         if client.worn().is_some() {
             put(x, &format!("   {now}, {}{newtons}", basis.as_str()), Style::new());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::watch::{LiveArgs, watch};
+    use taxel::client::Event;
+    use taxel::session::Show;
+    use taxel::source::{SourceOptions, SourceSpec, open};
+
+    /// Greatest force of the first touch, and the force that is told once it has ended, N.
+    #[derive(Default)]
+    struct FirstTouch {
+        counts_per_newton: Option<f32>,
+        head: Head,
+        most: f64,
+        ended: Option<f64>,
+    }
+
+    impl Show<anyhow::Error> for FirstTouch {
+        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+            let Event::Frame { time, .. } = event else { return Ok(()) };
+            self.head.take(client, *time, self.counts_per_newton);
+            let what = self.head.felt.as_ref().and_then(|felt| felt.what.split(" N").next());
+            let force = what.and_then(|what| what.rsplit(' ').next()?.parse::<f64>().ok());
+            match (force, self.head.is_over, self.ended) {
+                (Some(force), false, None) => self.most = self.most.max(force),
+                (Some(force), true, None) => self.ended = Some(force),
+                _ => {}
+            }
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_touch_that_has_ended_is_told_with_its_greatest_force() {
+        let spec: SourceSpec = "sim:pat".parse().unwrap();
+        let source = open(&spec, &SourceOptions::default()).unwrap();
+        let counts_per_newton = source.counts_per_newton;
+        let mut first = FirstTouch { counts_per_newton, ..FirstTouch::default() };
+        watch(&LiveArgs::of(spec), source, &mut first).unwrap();
+        assert_eq!(first.ended, Some(first.most));
+        assert!(first.most > 5.0, "{} N", first.most);
     }
 }

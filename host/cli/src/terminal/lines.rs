@@ -72,6 +72,10 @@ impl<W: Write> Show<anyhow::Error> for Lines<W> {
         true
     }
 
+    fn tells_remarks(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, _: &mut Client) -> Result<bool> {
         self.out.flush()?;
         Ok(true)

@@ -6,6 +6,7 @@ mod lines;
 mod map;
 mod panes;
 pub mod ramp;
+mod scale;
 mod screen;
 mod svg;
 mod taxel;

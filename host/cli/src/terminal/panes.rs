@@ -3,6 +3,7 @@
 use super::ramp::color;
 use crate::palette::{FEELING, Rgb, intention as colour_of};
 use crate::watch::narrate::force;
+use crate::watch::shape::shape;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
@@ -41,7 +42,7 @@ pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>)
     let axis = contact.azimuth.map_or("   -".into(), |a| format!("{:3.0}°", a.to_radians().to_degrees()));
     let speed = client.layout().map_or(0, |layout| placed.speed(layout)) / 10;
     let region = client.region_name(placed.region);
-    let shape = client.shape_name(placed.shape.class);
+    let shape = shape(client, placed);
     let force = match counts_per_newton {
         Some(_) => force(contact.total, counts_per_newton),
         None => contact.total.to_string(),

@@ -71,6 +71,10 @@ impl Show<anyhow::Error> for Screen {
         true
     }
 
+    fn tells_remarks(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         let mut go_on = true;
         while event::poll(Duration::ZERO)? {

@@ -56,7 +56,7 @@ impl<W: Write> Show<anyhow::Error> for TaxelLines<W> {
         match event {
             Event::Hello => {
                 self.taxel = self.place.taxel(client)?;
-                self.raw = client.worn().is_some_and(|worn| worn.scene.stream.raw_hz > 0);
+                self.raw = client.raw_hz() > 0;
             }
             Event::Frame { frame, time, .. } => {
                 self.late()?;

@@ -5,7 +5,8 @@ use super::head::Head;
 use super::map::Grid;
 use super::panes;
 use super::ramp::{GLYPHS, Paint, color};
-use crate::palette::{ENDS, START, STEPS, ramp};
+use super::scale::PressureScale;
+use crate::palette::{STEPS, ramp};
 use crate::watch::Basis;
 use crate::watch::narrate::{Narrator, force};
 use crate::watch::rate::Rate;
@@ -39,7 +40,7 @@ pub struct View {
     rate: Rate,
     head: Head,
     curve: Curve,
-    top: u16,
+    scale: PressureScale,
     /// Half of the last round trip to the board.
     pub latency: Option<Duration>,
     paint: Paint,
@@ -59,7 +60,7 @@ impl View {
             rate: Rate::default(),
             head: Head::default(),
             curve: Curve::default(),
-            top: START,
+            scale: PressureScale::new(),
             latency: None,
             paint: Paint::Colours,
             lost: None,
@@ -79,6 +80,9 @@ impl View {
                 self.rate.add(*time);
                 self.head.take(client, *time, self.narrator.counts_per_newton);
                 self.curve.add(client, *time);
+                if let (Some((_, image)), Some(worn)) = (client.image(), client.worn()) {
+                    self.scale.follow(image, worn.scene.contact.low);
+                }
             }
             Event::Lost { why, .. } => {
                 self.lost = Some(why.clone());
@@ -113,12 +117,13 @@ impl View {
         };
     }
 
-    /// Doubles or halves the end of the scale.
+    /// Doubles or halves the end of the scale that is shown, which then stays.
     pub fn zoom(&mut self, up: bool) {
-        self.top = if up { self.top.saturating_mul(2) } else { self.top / 2 }.clamp(ENDS[0], ENDS[1]);
         if let Some((_, view)) = self.paused.as_deref_mut() {
-            view.top = self.top;
+            self.scale = view.scale;
+            view.scale.zoom(up);
         }
+        self.scale.zoom(up);
     }
 
     /// Draws everything.
@@ -178,7 +183,7 @@ impl View {
     /// Draws the maps. Returns their width.
     fn maps(&self, client: &Client, space: Rect, buffer: &mut Buffer) -> u16 {
         let Some(grid) = client.layout().and_then(|layout| Grid::fit(layout, space)) else { return 0 };
-        grid.draw(client, (self.top, self.paint), space, buffer);
+        grid.draw(client, (self.scale.top(), self.paint), space, buffer);
         grid.width()
     }
 
@@ -273,9 +278,10 @@ impl View {
             x += 1;
         }
         let left = usize::from(space.right().saturating_sub(x));
+        let top = self.scale.top();
         let end = match self.narrator.counts_per_newton {
-            Some(counts) => format!(" {:.2} N on a taxel", f32::from(self.top) / counts),
-            None => format!(" {} counts", self.top),
+            Some(counts) => format!(" {:.2} N on a taxel", f32::from(top) / counts),
+            None => format!(" {top} counts"),
         };
         buffer.set_stringn(x, y, end, left, Style::new());
     }
@@ -347,8 +353,8 @@ mod tests {
         let heavy = |picture: &[String]| {
             ['*', '#', '%', '@'].map(|glyph| count(picture, glyph)).iter().sum::<usize>()
         };
-        assert!(heavy(&pressed) > heavy(&rest) + 10, "{pressed:#?}");
-        assert!(pressed[39].contains(".:-=+o*#%@ 0.20 N on a taxel"), "{}", pressed[39]);
+        assert!(heavy(&pressed) > heavy(&rest) + 5, "{pressed:#?}");
+        assert!(pressed[39].contains(".:-=+o*#%@ 1.60 N on a taxel"), "{}", pressed[39]);
     }
 
     #[test]
@@ -360,7 +366,7 @@ mod tests {
         };
         let rest = heavy(&seat.picture());
         seat.until(400_000);
-        assert!(heavy(&seat.picture()) > rest + 10);
+        assert!(heavy(&seat.picture()) > rest + 5);
         let touches = |picture: &[String]| {
             ["  1 chest ", "A touch on the chest"].map(|part| picture.concat().contains(part))
         };

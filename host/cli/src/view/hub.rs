@@ -1,6 +1,8 @@
 //! Connects the board's thread with the threads of the pages.
 
-use super::lines::{LogLine, NoneLine};
+use super::hand::PageHand;
+use super::kept_log::KeptLog;
+use super::lines::NoneLine;
 use super::mailbox::Mailbox;
 use super::message::{self, PageWish};
 use super::order::Order;
@@ -23,8 +25,6 @@ use taxel_core::wire::PressingReport;
 
 /// Most pages at a time.
 pub const PAGES: usize = 16;
-/// Log lines kept for a new page: more than those of half a minute.
-const LOG: usize = 512;
 /// Recordings sent at a time: each takes as much memory as the bytes kept of the board.
 const TRANSFERS: usize = 3;
 /// Most tares queued: one in progress, and another.
@@ -46,9 +46,13 @@ pub struct PageHub {
 #[derive(Default)]
 struct PageShared {
     pages: Vec<Arc<Mailbox>>,
+    /// Number of the next page.
+    next: u64,
+    /// Presses the garment; none unless the board is simulated.
+    hand: Option<PageHand>,
     /// The newest message of each kind.
     known: BTreeMap<&'static str, Arc<str>>,
-    log: VecDeque<Said>,
+    log: KeptLog,
     circuit: Option<Box<Circuit>>,
     counts_per_newton: Option<f32>,
     /// The map of the scene.
@@ -99,6 +103,8 @@ impl PageHub {
             None => self.forget("body"),
         }
         wearer.poses().iter().for_each(|poses| self.state("poses", poses));
+        wearer.figure().iter().for_each(|figure| self.state("figure", figure));
+        wearer.lacks().into_iter().for_each(|why| self.say(&Said::note(why)));
         fits
     }
 
@@ -125,11 +131,10 @@ impl PageHub {
         if shared.pages.len() >= PAGES {
             return None;
         }
-        let page = Arc::new(Mailbox::default());
+        let page = Arc::new(Mailbox::numbered(shared.next));
+        shared.next += 1;
         shared.known.iter().for_each(|(kind, line)| page.state(kind, line.clone()));
-        if !shared.log.is_empty() {
-            page.state("log", text(&LogLine { said: shared.log.iter().map(Said::message).collect() }));
-        }
+        shared.log.message().iter().for_each(|log| page.state("log", text(log)));
         shared.shown.iter().for_each(|shot| page.shot(shot));
         shared.pages.push(page.clone());
         Some(page)
@@ -138,7 +143,26 @@ impl PageHub {
     /// Removes a page.
     pub fn leave(&self, page: &Arc<Mailbox>) {
         page.close();
-        self.lock().pages.retain(|other| !Arc::ptr_eq(other, page));
+        let mut shared = self.lock();
+        shared.pages.retain(|other| !Arc::ptr_eq(other, page));
+        shared.hand.iter().for_each(|hand| hand.leave(page.number()));
+    }
+
+    /// Lets pages press the garment.
+    pub fn hand(&self, hand: PageHand) {
+        self.lock().hand = Some(hand);
+    }
+
+    /// Tells pages how the hand is, if that has changed.
+    pub fn tell_hand(&self) {
+        let news = self.lock().hand.as_mut().and_then(PageHand::news);
+        news.iter().for_each(|line| self.state("hand", line));
+    }
+
+    /// The script's file of what was pressed; none if nothing can be.
+    pub fn touches(&self) -> Option<Result<String>> {
+        let hand = self.lock().hand.clone();
+        hand.map(|hand| hand.script())
     }
 
     /// Number of open pages.
@@ -168,10 +192,7 @@ impl PageHub {
         let line = text(&said.message());
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.line(line.clone()));
-        shared.log.push_back(said.clone());
-        while shared.log.len() > LOG {
-            shared.log.pop_front();
-        }
+        shared.log.push(said.clone());
     }
 
     /// Sends an image to all pages.
@@ -243,6 +264,20 @@ impl PageHub {
                 drop(shared);
                 let why = map.and_then(|map| message::why(&map, of.as_deref(), &concepts));
                 page.state("why", why.map_or_else(|| text(&NoneLine { of: "why" }), |why| text(&why)));
+            }
+            PageWish::Press(finger) => {
+                shared.hand.iter().for_each(|hand| hand.press(page.number(), finger.clone()))
+            }
+            PageWish::Release(finger) => {
+                shared.hand.iter().for_each(|hand| hand.release(page.number(), finger))
+            }
+            PageWish::Hand(order) => shared.hand.iter().for_each(|hand| hand.order(order)),
+            PageWish::Script(name) => {
+                let hand = shared.hand.clone();
+                drop(shared);
+                if let Some(Err(error)) = hand.map(|hand| hand.play(&name)) {
+                    self.say(&Said::note(format!("{name} is not played: {error:#}")));
+                }
             }
             PageWish::Player(order) => self.order(order),
         }
@@ -339,12 +374,13 @@ mod tests {
         let hub = PageHub::default();
         hub.state("link", &json!(1));
         hub.state("link", &json!(2));
-        (0..600).for_each(|n| hub.say(&Said::note(n.to_string())));
+        let said = |n: u64| Said { time_us: Some(n * 1_000_000), ..Said::note(n.to_string()) };
+        (0..600).for_each(|n| hub.say(&said(n)));
         let page = hub.join().unwrap();
         assert_eq!(page.next(), Parcel::Line("2".into()));
         let Parcel::Line(line) = page.next() else { panic!("no line") };
         let said = serde_json::from_str::<serde_json::Value>(&line).unwrap()["said"].take();
-        assert_eq!((said[0]["said"].as_str(), said.as_array().unwrap().len()), (Some("88"), LOG));
+        assert_eq!((said[0]["said"].as_str(), said.as_array().unwrap().len()), (Some("88"), 512));
         hub.leave(&page);
         assert_eq!(page.next(), Parcel::Closed);
         let many: Vec<_> = std::iter::from_fn(|| hub.join()).take(2 * PAGES).collect();

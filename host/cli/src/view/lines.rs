@@ -99,6 +99,8 @@ pub struct PageFrame<'a> {
     pub line: FrameLine<'a>,
     /// What is felt, for people.
     pub felt: Felt,
+    /// Shape of each contact for people: `touch` unless the recogniser is sure of it.
+    pub shapes: Vec<String>,
     /// Of a recording: time since its beginning, us.
     #[cfg_attr(feature = "schema", schemars(with = "u64"))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -321,6 +323,46 @@ pub struct ImageHead {
     replaced: u64,
     /// Samples and lines that were dropped, because the page did not read.
     missed: u64,
+}
+
+/// What can press the garment of a simulated board.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("hand")))]
+#[serde(tag = "type", rename = "hand")]
+pub struct HandLine {
+    /// The tools.
+    pub tools: Vec<ToolLine>,
+    /// The scripts that can be played.
+    pub scripts: Vec<ScriptLine>,
+    /// Name of the script that plays; null if none does.
+    pub playing: Option<String>,
+    /// Number of touches by hand that are kept: they can be played again and saved.
+    pub touches: usize,
+}
+
+/// A tool.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ToolLine {
+    /// Name.
+    pub name: &'static str,
+    /// Length and width, mm.
+    pub size_mm: [f64; 2],
+    /// Force of a short press, N.
+    pub force_n: f64,
+    /// Most that a long press comes to, N.
+    pub most_n: f64,
+}
+
+/// A script of touches.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ScriptLine {
+    /// Name.
+    pub name: String,
+    /// Title.
+    pub title: String,
 }
 
 #[cfg(test)]

@@ -27,7 +27,11 @@ pub enum Parcel {
 
 /// The queue of one page.
 #[derive(Debug, Default)]
-pub struct Mailbox(Shared<PageQueue>);
+pub struct Mailbox {
+    queue: Shared<PageQueue>,
+    /// Number of the page.
+    number: u64,
+}
 
 #[derive(Debug, Default)]
 struct PageQueue {
@@ -49,14 +53,24 @@ struct PageQueue {
 }
 
 impl Mailbox {
+    /// The queue of the page of this number.
+    pub fn numbered(number: u64) -> Mailbox {
+        Mailbox { number, ..Mailbox::default() }
+    }
+
+    /// Number of the page among those of its board.
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
     /// Queues a message that replaces the last one of its kind.
     pub fn state(&self, kind: &'static str, line: Arc<str>) {
-        self.0.change(|waiting| _ = waiting.states.insert(kind, line));
+        self.queue.change(|waiting| _ = waiting.states.insert(kind, line));
     }
 
     /// Queues a line of the log.
     pub fn line(&self, line: Arc<str>) {
-        self.0.change(|waiting| {
+        self.queue.change(|waiting| {
             waiting.lines.push_back(line);
             while waiting.lines.len() > LINES {
                 waiting.lines.pop_front();
@@ -67,12 +81,12 @@ impl Mailbox {
 
     /// Queues an image.
     pub fn shot(&self, shot: &Shot) {
-        self.0.change(|waiting| waiting.take(shot));
+        self.queue.change(|waiting| waiting.take(shot));
     }
 
     /// Discards the queued image.
     pub fn forget_images(&self) {
-        let mut waiting = self.0.lock();
+        let mut waiting = self.queue.lock();
         waiting.shot = None;
         waiting.highest.fill(0);
         waiting.samples.clear();
@@ -80,37 +94,37 @@ impl Mailbox {
 
     /// Takes a queued text message.
     pub fn line_now(&self) -> Option<Parcel> {
-        self.0.lock().line().map(Parcel::Line)
+        self.queue.lock().line().map(Parcel::Line)
     }
 
     /// True if the page is closed.
     pub fn is_closed(&self) -> bool {
-        self.0.lock().closed
+        self.queue.lock().closed
     }
 
     /// Takes the queued image at once.
     pub fn take(&self) -> Option<Parcel> {
-        self.0.lock().image()
+        self.queue.lock().image()
     }
 
     /// Sets the taxel under the pointer.
     pub fn hover(&self, taxel: Option<u16>) {
-        self.0.lock().hovered = taxel;
+        self.queue.lock().hovered = taxel;
     }
 
     /// See [`Mailbox::hover`].
     pub fn hovered(&self) -> Option<u16> {
-        self.0.lock().hovered
+        self.queue.lock().hovered
     }
 
     /// Closes the queue.
     pub fn close(&self) {
-        self.0.change(|waiting| waiting.closed = true);
+        self.queue.change(|waiting| waiting.closed = true);
     }
 
     /// Waits for the next message: lines at once, images when due.
     pub fn next(&self) -> Parcel {
-        let mut waiting = self.0.lock();
+        let mut waiting = self.queue.lock();
         loop {
             let now = Instant::now();
             if let Some(parcel) = waiting.due(now) {
@@ -121,7 +135,7 @@ impl Mailbox {
                 (Some(_), Some(sent)) => (sent + PERIOD).saturating_duration_since(now),
                 _ => longest,
             };
-            waiting = self.0.wait(waiting, rest.min(longest));
+            waiting = self.queue.wait(waiting, rest.min(longest));
         }
     }
 }
@@ -210,7 +224,7 @@ mod tests {
             mailbox.line(format!("line {number}").into());
             mailbox.state("health", format!("{number}").into());
         }
-        let waiting = mailbox.0.lock();
+        let waiting = mailbox.queue.lock();
         assert_eq!((waiting.lines.len(), waiting.samples.len(), waiting.states.len()), (LINES, SAMPLES, 1));
         assert_eq!(waiting.missed, 2 * 10_000 - (LINES + SAMPLES) as u64);
         assert_eq!(waiting.replaced, 9_999);

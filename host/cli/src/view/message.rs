@@ -13,7 +13,9 @@
 //! | 2 n | the greatest pressure of each since the last image sent |
 //!
 //! A page sends `{"hover": taxel}` (or null), `{"tare": frames}`, and `{"why": {"of": concept, "concepts":
-//! activations}}`, which is answered by `why`. If it shows a recording, it sends
+//! activations}}`, which is answered by `why`. If its board is simulated, it sends `{"press": ..}` ([`FingerWish`]),
+//! `{"release": finger}`, `{"script": name}` and `{"hand": "again"}` or `"clear"`, and is told `hand`. If it shows a
+//! recording, it sends
 //! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range":
 //! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
 //! not finite, a speed of 0 or less, and a step of 0; a time beyond the recording becomes its end.
@@ -25,6 +27,7 @@ use super::lines::{
 use super::order::Order;
 use super::shot::Shot;
 use crate::palette;
+use crate::watch::shape::shape;
 use crate::watch::{Basis, Felt};
 use serde::Deserialize;
 use std::time::Duration;
@@ -132,6 +135,7 @@ pub fn frame<'a>(
     Some(PageFrame {
         line: FrameLine { intent, ..line },
         felt: Felt::of(client, counts_per_newton),
+        shapes: client.contacts().iter().map(|placed| shape(client, placed)).collect(),
         at_us: None,
         seeks: None,
         pressing: None,
@@ -179,6 +183,9 @@ pub fn link(client: &Client, rate: f64, latency: Option<Duration>, pages: usize)
     }
 }
 
+/// Fingers of a page: two hands.
+pub const FINGERS: u8 = 10;
+
 /// A request of a page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -195,9 +202,47 @@ pub enum PageWish {
         /// Activation of each concept of the map, -1 to 1, in the order of the map.
         concepts: Vec<f64>,
     },
+    /// A finger presses the garment of a simulated board, or moves on it.
+    Press(FingerWish),
+    /// A finger lifts, 0 to 9.
+    Release(u8),
+    /// A script of touches is played once.
+    Script(String),
+    /// What was pressed is played again, or forgotten.
+    Hand(HandOrder),
     /// An order to the player of a recording.
     #[serde(untagged)]
     Player(Order),
+}
+
+/// What a finger does.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FingerWish {
+    /// Number of the finger, 0 to 9.
+    pub finger: u8,
+    /// Name of the tool.
+    pub tool: String,
+    /// Index of the panel.
+    pub panel: u8,
+    /// Centre, taxels of the panel: along the columns, along the rows.
+    pub at: [f64; 2],
+    /// Force, N: 0 to 200.
+    pub force_n: f64,
+    /// Direction of the tool's length, degrees from +x towards +y.
+    #[serde(default)]
+    pub angle_deg: f64,
+}
+
+/// What happens to what was pressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum HandOrder {
+    /// It is played again.
+    Again,
+    /// It is forgotten.
+    Clear,
 }
 
 /// Parses a message of a page; none if it is unknown.
@@ -206,6 +251,8 @@ pub fn wish(text: &str) -> Option<PageWish> {
     let known = match &wish {
         PageWish::Hover(_) => true,
         PageWish::Tare(frames) => (1..=4096).contains(frames),
+        PageWish::Press(FingerWish { finger, .. }) | PageWish::Release(finger) => *finger < FINGERS,
+        PageWish::Script(_) | PageWish::Hand(_) => true,
         PageWish::Why { concepts, .. } => concepts.iter().all(|value| (-1.0..=1.0).contains(value)),
         PageWish::Player(order) => order.is_sound(),
     };
@@ -247,6 +294,14 @@ mod tests {
         ] {
             assert_eq!(wish(nonsense), None, "{nonsense}");
         }
+        let press = r#"{"press": {"finger": 0, "tool": "palm", "panel": 1, "at": [7.5, 11], "force_n": 8}}"#;
+        let Some(PageWish::Press(finger)) = wish(press) else { panic!("{press}") };
+        assert_eq!((finger.tool.as_str(), finger.at, finger.angle_deg), ("palm", [7.5, 11.0], 0.0));
+        assert_eq!(wish(&press.replace("0,", "10,")), None);
+        assert_eq!(wish(r#"{"release": 9}"#), Some(PageWish::Release(9)));
+        assert_eq!(wish(r#"{"release": 10}"#), None);
+        assert_eq!(wish(r#"{"hand": "again"}"#), Some(PageWish::Hand(HandOrder::Again)));
+        assert_eq!(wish(r#"{"script": "pat"}"#), Some(PageWish::Script("pat".into())));
         for nonsense in ["", "{}", "[]", r#"{"hover": -1}"#, r#"{"hover": 1e9}"#, r#"{"tare": 0}"#, "7"] {
             assert_eq!(wish(nonsense), None, "{nonsense}");
         }

@@ -7,8 +7,10 @@
 
 mod assets;
 pub mod browser;
+mod hand;
 mod hub;
 mod hubs;
+mod kept_log;
 mod line_kind;
 mod lines;
 mod mailbox;
@@ -30,6 +32,7 @@ mod tape;
 mod transfer;
 mod viewer;
 
+pub use hand::PageHand;
 pub use hub::PageHub;
 pub use hubs::PageHubs;
 pub use line_kind::LineKind;

@@ -3,7 +3,6 @@
 use anyhow::Result;
 use std::time::{Duration, Instant};
 use taxel::client::Client;
-use taxel_core::wire::Request;
 
 /// Raw codes per second: enough to read a number.
 const RATE: u16 = 10;
@@ -21,16 +20,18 @@ pub struct RawCodes {
 impl RawCodes {
     /// Starts or stops raw codes as needed.
     pub fn tend(&mut self, client: &mut Client, looked_at: bool, now: Instant) -> Result<()> {
-        let Some(worn) = client.worn() else { return Ok(()) };
-        let comes = worn.scene.stream.raw_hz > 0;
+        if client.worn().is_none() {
+            return Ok(());
+        }
         if looked_at {
             self.since = None;
-            if !comes && !std::mem::replace(&mut self.asked, true) {
-                client.request(&Request::SetRaw { hz: RATE })?;
+            if client.raw_hz() == 0 {
+                self.asked = true;
+                client.stream_raw(RATE)?;
             }
         } else if self.asked && now.saturating_duration_since(*self.since.get_or_insert(now)) >= REST {
             self.asked = false;
-            client.request(&Request::SetRaw { hz: 0 })?;
+            client.stream_raw(0)?;
         }
         Ok(())
     }

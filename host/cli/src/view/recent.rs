@@ -161,6 +161,8 @@ mod tests {
             clock: empty,
             scene: empty,
             calibration: empty,
+            chip: empty,
+            boot: None,
         };
         Report::Hello(said)
     }

@@ -1,12 +1,12 @@
 //! The JSON schemas of the messages between the program and a page.
 
 use super::lines::{
-    EndLine, GlowLine, ImageHead, LinkLine, LogLine, NoneLine, OverviewLine, PageHello, PinsLine, PlayerLine,
-    RobotIntentLine, RobotLine, SayLine, TaxelLine, WhyLine,
+    EndLine, GlowLine, HandLine, ImageHead, LinkLine, LogLine, NoneLine, OverviewLine, PageHello, PinsLine,
+    PlayerLine, RobotIntentLine, RobotLine, SayLine, TaxelLine, WhyLine,
 };
 use super::message::PageWish;
 use crate::folding::FoldingLine;
-use crate::on_robot::{BodyLine, PosesLine};
+use crate::on_robot::{BodyLine, FigureLine, PosesLine};
 use serde_json::Value;
 use taxel::json::lines::{BudgetLine, HealthLine, HealthMapLine, LostLine};
 use taxel::json::schema::of;
@@ -22,6 +22,7 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("ImageHead", of::<ImageHead>()),
         ("BodyLine", of::<BodyLine<'static>>()),
         ("PosesLine", of::<PosesLine<'static>>()),
+        ("FigureLine", of::<FigureLine<'static>>()),
         ("FoldingLine", of::<FoldingLine>()),
         ("GlowLine", of::<GlowLine>()),
         ("PinsLine", of::<PinsLine>()),
@@ -31,6 +32,7 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("LogLine", of::<LogLine<'static>>()),
         ("WhyLine", of::<WhyLine>()),
         ("EndLine", of::<EndLine>()),
+        ("HandLine", of::<HandLine>()),
         ("NoneLine", of::<NoneLine>()),
         ("PlayerLine", of::<PlayerLine>()),
         ("OverviewLine", of::<OverviewLine<'static>>()),

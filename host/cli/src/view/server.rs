@@ -54,6 +54,17 @@ fn connection(mut stream: TcpStream, guest: &Guest, hubs: &PageHubs) -> std::io:
             Some(_transfer) => recording(stream, path, hub),
             None => http::refuse(&mut stream, BUSY),
         },
+        ("/touches.toml", None) => match hub.touches() {
+            Some(Ok(text)) => {
+                let name = "Content-Disposition: attachment; filename=\"touches.toml\"\r\n";
+                http::answer(&mut Hurry::new(stream), "application/toml", name, text.as_bytes())
+            }
+            Some(Err(error)) => {
+                hub.say(&Said::note(format!("the touches could not be saved: {error:#}")));
+                http::refuse(&mut stream, MISSING)
+            }
+            None => http::refuse(&mut stream, MISSING),
+        },
         (path, None) => match assets::find(path) {
             Some(asset) => http::answer(&mut Hurry::new(stream), asset.kind, "", asset.bytes),
             None => http::refuse(&mut stream, MISSING),

@@ -1,5 +1,6 @@
 //! Passes a board's stream to the pages.
 
+use super::hand::PageHand;
 use super::hub::PageHub;
 use super::lines::{EndLine, PageFrame};
 use super::message;
@@ -51,6 +52,7 @@ impl Viewer {
     /// A viewer of a source.
     pub fn new(source: &Source, hub: Arc<PageHub>) -> Viewer {
         let now = Instant::now();
+        source.hand.iter().for_each(|hand| hub.hand(PageHand::new(hand.clone())));
         Viewer {
             hub,
             label: source.label.clone(),
@@ -189,6 +191,7 @@ impl Show<anyhow::Error> for Viewer {
         }
         if now.saturating_duration_since(self.told) >= LINK {
             self.told = now;
+            self.hub.tell_hand();
             self.link(client);
         }
         Ok(true)

@@ -203,6 +203,9 @@ pub struct LiveArgs {
     /// The board may refuse the body, and reports of what presses on it: whoever watches can do without.
     #[arg(skip)]
     pub body_may_fail: bool,
+    /// Raw codes are asked for.
+    #[arg(skip)]
+    pub raw: bool,
     /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
@@ -229,6 +232,7 @@ impl LiveArgs {
             force: Overwrite::default(),
             taxel: None,
             body_may_fail: false,
+            raw: false,
             realtime: false,
             svg: None,
         }

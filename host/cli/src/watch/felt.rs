@@ -11,6 +11,8 @@ use taxel_core::intent::Leading;
 pub struct Felt {
     /// The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`.
     pub what: String,
+    /// The same with the greatest force of the strongest touch so far: told once it has ended.
+    pub peak: String,
     /// The announced intention, or why none is; empty while nothing touches.
     pub meaning: &'static str,
 }
@@ -21,15 +23,18 @@ impl Felt {
         let contacts = client.contacts();
         let Some(strongest) = contacts.iter().max_by_key(|placed| placed.contact.total) else {
             let leading = Some(client.leading()).filter(|leading| *leading != Leading::None);
-            return Felt { what: "nothing touches".into(), meaning: leading.map_or("", Leading::as_str) };
+            let [what, peak] = [(); 2].map(|()| "nothing touches".into());
+            return Felt { what, peak, meaning: leading.map_or("", Leading::as_str) };
         };
         let others = match contacts.len() - 1 {
             0 => String::new(),
             others => format!(", and {others} more"),
         };
         let (noun, place) = (noun(client, strongest), client.region_name(strongest.region));
-        let force = round(strongest.contact.total, counts_per_newton);
-        Felt { what: format!("{noun} on the {place}, {force}{others}"), meaning: meaning(client, strongest) }
+        let told = |total| format!("{noun} on the {place}, {}{others}", round(total, counts_per_newton));
+        let total = strongest.contact.total;
+        let peak = told(client.greatest_force(strongest.contact.id).unwrap_or(total));
+        Felt { what: told(total), peak, meaning: meaning(client, strongest) }
     }
 
     /// The sentence.

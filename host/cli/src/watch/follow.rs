@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, ImageNews, request_name};
+use taxel::client::{Client, Event, ImageNews, SceneChange, request_name};
 use taxel::error::SourceError;
 use taxel::files::calibrate::Calibration;
 use taxel::files::output::{Begun, Output};
@@ -33,8 +33,15 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     let mut session = Session::new(source, returns);
     let (client, source) = session.parts();
     prepare(client, &args.board, source)?;
+    if args.raw && source.listens {
+        client.request_codes()?;
+    }
     let mut joints = args.board.joint_states.as_deref().map(JointStates::open).transpose()?;
-    let mut asked = if source.listens { Asked::of(&client.queued(), args) } else { Asked::default() };
+    let mut asked = if source.listens { Asked::of(client, args) } else { Asked::default() };
+    // A board without raw codes tells the pressure of the taxel all the same.
+    if args.taxel.is_some() && source.listens {
+        client.request_codes()?;
+    }
     let mut limits = Limits::of(args);
     args.board.posing()?.into_iter().for_each(|posing| session.pose_by(posing));
     let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
@@ -49,6 +56,9 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
         limits.look(&mut session)?;
         while let Some(event) = session.next_event() {
             tell(session.client(), &event);
+            if !show.tells_remarks() {
+                event.remark().iter().for_each(|remark| eprintln!("{remark}"));
+            }
             show.event(session.client(), &event)?;
             if let Event::Other { why } = &event
                 && (save.is_some() || !show.follows_another())
@@ -136,9 +146,6 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
     if let Some(scene) = &args.scene {
         setting::set_scene(client, &SceneFile::read(scene)?)?;
     }
-    if let Some(in_frame) = args.forms {
-        client.request(&Request::SetForms { in_frame, ages: true })?;
-    }
     for feed in &args.feed {
         client.request(&Request::Feed(feed.clone()))?;
     }
@@ -153,17 +160,20 @@ fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()>
         setting::set_folds(client, folds)?;
     }
     client.start(args.tare.unwrap_or(source.tare))?;
+    // What changes the board's scene waits for its `Hello`, which follows the start.
+    let pressing_hz = args.pressing.or(args.body.as_ref().map(|_| u16::MAX));
+    let forms = args.forms.map(|in_frame| (in_frame, true));
+    if pressing_hz.is_some() || forms.is_some() {
+        client.change_scene(SceneChange { forms, pressing_hz, ..SceneChange::default() });
+    }
     if let Some(model) = args.gestures {
         gesture_model::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
     }
     if let Some(base) = &args.shapes {
         teach(client, &Base::open(base)?)?;
     }
-    if let Some(hz) = args.pressing.or(args.body.as_ref().map(|_| u16::MAX)) {
-        client.request(&Request::SetPressing(hz))?;
-    }
     if let Some(hz) = args.budget {
-        client.request(&Request::Budget { hz })?;
+        client.stream_budget(hz)?;
     }
     Ok(())
 }

@@ -26,8 +26,5 @@ pub fn recognise(
         GestureModel::Gestures => ShippedModel::Gestures,
         GestureModel::Intent => ShippedModel::Intent,
     };
-    if let Some(certainty) = certainty {
-        setting::set_certainty(client, certainty).context("--gesture-certainty")?;
-    }
-    setting::set_gestures(client, model, gain, certainty.is_some()).context("--gestures")
+    setting::set_gestures(client, model, gain, certainty).context("--gestures")
 }

@@ -14,6 +14,7 @@ mod overwrite;
 mod place;
 pub mod rate;
 pub mod raw;
+pub mod shape;
 pub mod stop;
 
 pub use args::{BoardArgs, LiveArgs, seconds};

@@ -1,13 +1,20 @@
 //! Events as sentences, for the plain lines and for the log in the terminal.
 
+use super::shape::is_sure;
+use std::collections::BTreeMap;
 use taxel::client::{Client, Event, Worn, request_name};
 use taxel::tell::starts;
+use taxel_core::body::Placed;
 use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
+use taxel_core::shape::Class;
 use taxel_core::surface::{BodyDirection, RegionPhase, RegionSymbol};
 use taxel_core::symbol::{Extent, Symbol};
-use taxel_core::wire::{GestureReport, RegionsReport};
+use taxel_core::wire::{GestureReport, RegionsReport, Request, SymbolList};
+
+/// Number of the request for a tare.
+const TARE: u8 = Request::Tare { frames: 0 }.number();
 
 /// Turns events into sentences.
 #[derive(Debug, Clone)]
@@ -19,12 +26,15 @@ pub struct Narrator {
     garbage: bool,
     /// Phases and ways of the surface's regions.
     regions: Vec<(RegionPhase, BodyDirection)>,
+    /// Shapes of present and just released contacts of which the recogniser was sure.
+    shapes: BTreeMap<u32, Class>,
 }
 
 impl Narrator {
     /// A narrator; with counts per newton, forces are told in newtons.
     pub fn new(counts_per_newton: Option<f32>) -> Narrator {
-        Narrator { counts_per_newton, leading: Leading::None, garbage: false, regions: Vec::new() }
+        let (regions, shapes) = (Vec::new(), BTreeMap::new());
+        Narrator { counts_per_newton, leading: Leading::None, garbage: false, regions, shapes }
     }
 
     /// Returns the lines for an event, if it deserves any.
@@ -40,10 +50,32 @@ impl Narrator {
             }
             return vec![format!("{} intention: {}", seconds(report.time), report.leading.as_str())];
         }
-        if let Event::Regions(report) = event {
-            return self.regions(client, report);
+        match event {
+            Event::Regions(report) => self.regions(client, report),
+            Event::Symbols(list) => self.symbols(client, list),
+            Event::Contacts { released, .. } => {
+                self.look(client, released);
+                Vec::new()
+            }
+            event => sentences(client, event),
         }
-        sentences(client, event, self.counts_per_newton)
+    }
+
+    /// Remembers the shapes of present and just released contacts.
+    fn look(&mut self, client: &Client, released: &[Placed]) {
+        let all = || client.contacts().iter().chain(released);
+        self.shapes.retain(|id, _| all().any(|placed| placed.contact.id == *id));
+        let sure = all().filter(|placed| is_sure(client, placed));
+        self.shapes.extend(sure.map(|placed| (placed.contact.id, placed.shape.class)));
+    }
+
+    /// Lines for onsets and releases.
+    fn symbols(&self, client: &Client, list: &SymbolList) -> Vec<String> {
+        let line = |symbol: &Symbol| {
+            let is_sure = self.shapes.get(&symbol.contact) == Some(&symbol.words.class);
+            format!("{} {}", seconds(list.time), said(client, symbol, is_sure, self.counts_per_newton))
+        };
+        list.events.iter().filter(|symbol| symbol.phase != Phase::Held).map(line).collect()
     }
 
     /// Lines for the regions that feel something else than before.
@@ -55,7 +87,7 @@ impl Narrator {
             **now != before.get(*number).copied().unwrap_or((RegionPhase::Free, BodyDirection::None))
         });
         let line = |(number, (_, region)): (usize, (_, &RegionSymbol))| {
-            let says = felt(client, region)?;
+            let says = felt(region)?;
             Some(format!("{} {}: {says}", seconds(report.time), client.surface_region(number)))
         };
         changed.filter_map(line).collect()
@@ -68,24 +100,21 @@ pub fn seconds(time: Micros) -> String {
 }
 
 /// Sentences that do not depend on earlier events.
-fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<String> {
+fn sentences(client: &Client, event: &Event) -> Vec<String> {
     match event {
-        Event::Hello => client.worn().map(hello).into_iter().collect(),
-        Event::Unusable(why) => vec![format!("refused: {why}")],
-        Event::Boot(boot) => starts::remark(boot).into_iter().collect(),
-        Event::Symbols(list) => {
-            let line =
-                |symbol: &Symbol| format!("{} {}", seconds(list.time), said(client, symbol, per_newton));
-            list.events.iter().filter(|e| e.phase != Phase::Held).map(line).collect()
+        Event::Hello => {
+            let remark = client.boot().as_ref().and_then(starts::remark);
+            client.worn().map(hello).into_iter().chain(remark).collect()
         }
+        Event::Unusable(why) => vec![format!("refused: {why}")],
         Event::Shapes { names, prototypes } if *prototypes > 0 => {
             vec![format!("shapes: taught {} by {prototypes} prototypes", names.join(", "))]
         }
-        Event::Unsure(report) if !report.contacts.is_empty() => {
-            let ids: Vec<String> = report.contacts.iter().map(u32::to_string).collect();
+        Event::Contacts { time, doubted, .. } if !doubted.is_empty() => {
+            let ids: Vec<String> = doubted.iter().map(u32::to_string).collect();
             vec![format!(
                 "{} baseline unsure: contact {} may be drift of the garment, so no intention follows from it",
-                seconds(report.time),
+                seconds(*time),
                 ids.join(", ")
             )]
         }
@@ -105,7 +134,7 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
         Event::Answer { request, refusal: Some(why) } => {
             vec![format!("refused: {}: {why}", request_name(*request))]
         }
-        Event::Answer { request: 2, refusal: None } => vec!["tare: done".into()],
+        Event::Answer { request: TARE, refusal: None } => vec!["tare: done".into()],
         Event::Refused(error) => vec![format!("refused: {error}")],
         Event::Lost { why: text, .. } => vec![format!("lost: {text}")],
         Event::Back { how: text, .. } => vec![format!("back: {text}")],
@@ -115,12 +144,11 @@ fn sentences(client: &Client, event: &Event, per_newton: Option<f32>) -> Vec<Str
 }
 
 /// What a region feels; none if it is free again.
-fn felt(client: &Client, region: &RegionSymbol) -> Option<String> {
+fn felt(region: &RegionSymbol) -> Option<String> {
     Some(match region.phase {
         RegionPhase::Free => return None,
         RegionPhase::Onset => {
-            let words = [region.strength.as_str(), region.extent.as_str()];
-            format!("touched ({}, {})", words.join(" "), client.shape_name(region.class))
+            format!("touched ({} {})", region.strength.as_str(), region.extent.as_str())
         }
         RegionPhase::Held => "held".into(),
         RegionPhase::Moving => format!("moves {}", direction(region.way)),
@@ -154,19 +182,20 @@ fn gesture(client: &Client, report: &GestureReport) -> String {
     let (time, panel, name) = (seconds(report.time), client.panel_name(report.panel), &report.name);
     let observed = f64::from(report.observed_ms) / 1e3;
     let verb = if report.ended { "was" } else { "looks like" };
-    let sure = client.confidence(report).map(|share| format!("{:.0} % sure after ", 100.0 * share.to_f64()));
+    let sure = report.confidence.map(|share| format!("{:.0} % sure after ", 100.0 * share.to_f64()));
     let sure = sure.unwrap_or_default();
     format!("{time} touch {} of the {panel} {verb}: {name} ({sure}{observed:.1} s)", report.touch)
 }
 
-/// Describes an onset or a release.
-fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> String {
+/// Describes an onset or a release, with the shape if the recogniser was sure of it.
+fn said(client: &Client, symbol: &Symbol, is_sure: bool, counts_per_newton: Option<f32>) -> String {
     let region = client.region_name(symbol.region);
     if symbol.phase != Phase::Released {
         return format!("contact {} on the {region} begins", symbol.contact);
     }
     let strength = symbol.words.strength.as_str();
     let extent = symbol.words.extent.as_str();
+    let shape = if is_sure { format!(", {}", client.shape_name(symbol.words.class)) } else { String::new() };
     let moving = if symbol.words.moving { ", sliding" } else { "" };
     let feels = match client.hardness(symbol.contact).map(Hardness::of) {
         None | Some(Hardness::Firm) => String::new(),
@@ -175,9 +204,8 @@ fn said(client: &Client, symbol: &Symbol, counts_per_newton: Option<f32>) -> Str
     // A saturated taxel gives only a lower bound.
     let bound = if symbol.words.extent == Extent::Sharp { "at least" } else { "at most" };
     format!(
-        "contact {} on the {region} ends: {strength}, {extent}, {}{moving}, {} ms, {bound} {}{feels}",
+        "contact {} on the {region} ends: {strength}, {extent}{shape}{moving}, {} ms, {bound} {}{feels}",
         symbol.contact,
-        client.shape_name(symbol.words.class),
         symbol.duration_ms,
         force(symbol.peak_total, counts_per_newton)
     )
@@ -194,7 +222,10 @@ pub fn force(total: u32, counts_per_newton: Option<f32>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel_core::shape::Class;
+    use crate::watch::{LiveArgs, watch};
+    use taxel::session::Show;
+    use taxel::source::{SourceOptions, SourceSpec, open};
+    use taxel_core::shape::Base;
     use taxel_core::symbol::{Span, Strength, Words};
 
     #[test]
@@ -204,17 +235,43 @@ mod tests {
             let words = Words { strength, extent, span, moving: false, class: Class(0) };
             let (phase, region) = (Phase::Released, 0);
             let symbol = Symbol { contact: 7, phase, region, words, peak_total: 4_800, duration_ms: 900 };
-            said(&Client::new(), &symbol, Some(1_000.0))
+            said(&Client::new(), &symbol, false, Some(1_000.0))
         };
-        assert!(
-            line(Extent::Sharp).ends_with("sharp, unknown, 900 ms, at least 4.8 N"),
-            "{}",
-            line(Extent::Sharp)
-        );
-        assert!(
-            line(Extent::Point).ends_with("point, unknown, 900 ms, at most 4.8 N"),
-            "{}",
-            line(Extent::Point)
-        );
+        let ends = |extent, end: &str| assert!(line(extent).ends_with(end), "{}", line(extent));
+        ends(Extent::Sharp, "sharp, 900 ms, at least 4.8 N");
+        ends(Extent::Point, "point, 900 ms, at most 4.8 N");
+    }
+
+    /// A narrator, and what it has told.
+    struct Heard(Narrator, String);
+
+    impl Show<anyhow::Error> for Heard {
+        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+            self.0.tell(client, event).iter().for_each(|line| self.1 += &format!("{line}\n"));
+            Ok(())
+        }
+    }
+
+    /// The lines of a script, to a board with this base of shapes.
+    fn lines(script: &str, shapes: Option<&str>) -> String {
+        let spec: SourceSpec = script.parse().unwrap();
+        let source = open(&spec, &SourceOptions::default()).unwrap();
+        let mut heard = Heard(Narrator::new(None), String::new());
+        let mut args = LiveArgs::of(spec);
+        args.board.shapes = shapes.map(Into::into);
+        watch(&args, source, &mut heard).unwrap();
+        heard.1
+    }
+
+    #[test]
+    fn a_shape_is_told_only_where_the_recogniser_is_sure() {
+        // The built-in base takes a palm, a ball and a box for rectangles, and is never in doubt.
+        for script in ["sim:pat", "sim:ball", "sim:box"] {
+            let told = lines(script, None);
+            assert!(told.contains(" ends: "), "{told}");
+            assert!(!Base::BUILT_IN.names.iter().any(|name| told.contains(name)), "{told}");
+        }
+        let taught = lines("sim:box", Some("drawn"));
+        assert!(taught.contains(", rectangle, "), "{taught}");
     }
 }

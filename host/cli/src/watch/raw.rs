@@ -68,6 +68,7 @@ impl RawBoard {
         }
         board.borrowed = true;
         board.use_for(&raw_scene())?;
+        board.ask(&Request::Stream { raw_hz: u16::MAX, budget_hz: 1 })?;
         Ok(board)
     }
 
@@ -98,6 +99,7 @@ impl RawBoard {
 
     /// Restores the board's own scene; garment and gains stay.
     pub fn give_back(&mut self) -> Result<()> {
+        self.ask(&Request::Stream { raw_hz: 0, budget_hz: 1 })?;
         self.use_for(&self.scene.clone())?;
         self.borrowed = false;
         Ok(())
@@ -197,17 +199,11 @@ impl Drop for RawBoard {
     }
 }
 
-/// Scene with raw codes, as many as the link takes. It names no region, because the garment may not have it.
+/// Scene that leaves the link to raw codes. It names no region, because the garment may not have it.
 fn raw_scene() -> Scene {
     let shipped = Scene::shipped();
-    let stream = StreamConfig {
-        frames_hz: 0,
-        contacts_hz: 0,
-        symbols: false,
-        intent: false,
-        raw_hz: u16::MAX,
-        ..shipped.stream
-    };
+    let stream =
+        StreamConfig { frames_hz: 0, contacts_hz: 0, symbols: false, intent: false, ..shipped.stream };
     let mut scene = Scene { stream, intent: None, shape: None, ..shipped };
     scene.friendliness.clear();
     scene.react.clear();

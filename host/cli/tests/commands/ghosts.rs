@@ -45,7 +45,8 @@ fn codes(conductance: &[[f64; COLUMNS]; ROWS]) -> Vec<Code> {
 fn contacts(pressed: &[(usize, usize, f64)]) -> Vec<Placed> {
     let mut scene = Scene::shipped();
     scene.condition.filter = taxel_core::condition::Filter::Off;
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), scene).unwrap());
     for request in [Request::Start, Request::Tare { frames: 4 }] {
         let mut wire = [0; 64];

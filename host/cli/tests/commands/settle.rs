@@ -51,7 +51,7 @@ impl Scanner for Lines {
         garment.wiring.settle_ns = settle_ns;
         let wiring = format!("[wiring]\nsource_kohm = {}\nline_pf = {LINE_PF}\n", self.source_kohm);
         let script = scripts::parse(&(self.script.clone() + &wiring), "things.toml")?;
-        let SimBoard { mut lines, delay, adc, clock } =
+        let SimBoard { mut lines, delay, adc, clock, .. } =
             SimBoard::with_timing(&garment, &script, script.seed, self.timing)?;
         clock.advance_to(self.now_us);
         let layout = Layout::build(&garment, 2048, 4095)?;

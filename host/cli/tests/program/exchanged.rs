@@ -1,4 +1,6 @@
-//! A board that is lost, and another one that answers in its place: what each kind of loop says and does.
+//! A board that is lost, and another one that answers in its place: what is told, shown and recorded.
+
+mod table;
 
 use super::called::file;
 use super::socket::Socket;
@@ -130,27 +132,4 @@ fn with_rotate_another_board_is_in_another_file() {
     assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
     assert_eq!([garments(&path), garments(&second)], [["reference"], ["block-4x16"]]);
     assert_eq!([messages(&path, "other").len(), messages(&second, "other").len()], [1, 0]);
-}
-
-#[test]
-fn whatever_writes_or_judges_ends_with_another_board() {
-    let saved = free("exchanged.taxel");
-    let loops: [&[&str]; 3] = [
-        &["live", "--json", "--save", saved.to_str().unwrap()],
-        &["health", "--frames", "100000"],
-        &["doctor", "--seconds", "1000"],
-    ];
-    let running = loops.map(|words| {
-        let socket = Socket::new("reference");
-        let source = format!("tcp:{}", socket.address);
-        (start(&[words, &["--source", &source]].concat()), socket)
-    });
-    for (program, socket) in &running {
-        socket.await_client();
-        assert!(program.id() > 0);
-        socket.plug(Some("block-4x16"));
-    }
-    for (program, socket) in running {
-        is_refused(&program.wait_with_output().unwrap(), &socket.address);
-    }
 }

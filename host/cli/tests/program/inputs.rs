@@ -1,8 +1,8 @@
 //! Every command reads through `input`: what is no file is refused in a sentence, and nobody waits for it.
 
-use crate::outputs::{Folder, sources};
+use crate::outputs::{Folder, modules};
+#[cfg(unix)]
 use std::fs;
-use std::path::Path;
 
 /// Modules that read without it, and what.
 const ALLOWED: [(&str, &str); 6] = [
@@ -18,18 +18,7 @@ const READS: [&str; 3] = ["File::open(", "fs::read(", "fs::read_to_string("];
 
 #[test]
 fn no_other_module_opens_files() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    let mut all = Vec::new();
-    ["cli/src", "sim/src", "taxel/src", "python/src"].iter().for_each(|of| sources(&root.join(of), &mut all));
-    assert!(all.len() > 100, "{} files", all.len());
-    for path in all {
-        let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
-        if name.ends_with("tests.rs") || ALLOWED.iter().any(|(allowed, _)| name.starts_with(allowed)) {
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap();
-        // Unit tests are at the end of a module.
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    for (name, code) in modules(&["cli/src", "sim/src", "taxel/src", "python/src"], &ALLOWED) {
         let is_code = |line: &&str| !line.trim_start().starts_with("//");
         for line in code.lines().filter(is_code) {
             assert!(!READS.iter().any(|call| line.contains(call)), "{name} reads by itself: {line}");

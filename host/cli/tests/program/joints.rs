@@ -103,7 +103,7 @@ fn joints_come_on_the_standard_input() {
     let done = run(&[&["live"][..], &ROBOT, &more].concat(), &input);
     let told = String::from_utf8(done.stdout).unwrap();
     let posed =
-        told.lines().filter(|line| line.contains("\"request\":\"move-poses\",\"refusal\":null")).count();
+        told.lines().filter(|line| line.contains("\"request\":\"set-poses\",\"refusal\":null")).count();
     assert!(done.status.success() && (2..100).contains(&posed), "{posed}");
 }
 

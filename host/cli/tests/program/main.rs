@@ -31,6 +31,8 @@ mod own_garment;
 mod page_types;
 #[cfg(all(unix, feature = "port-table"))]
 mod plugged;
+#[cfg(all(unix, feature = "port-table"))]
+mod pressed;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
 mod record_view;

@@ -27,8 +27,28 @@ const WRITES: [&str; 11] = [
     "fs::set_permissions",
 ];
 
+/// Name and code, without unit tests, of each module in these folders below `host`; of none whose name begins like one of
+/// `left_out`.
+pub fn modules(folders: &[&str], left_out: &[(&str, &str)]) -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut all = Vec::new();
+    folders.iter().for_each(|folder| sources(&root.join(folder), &mut all));
+    assert!(all.len() > 100, "{} files", all.len());
+    let mut modules = Vec::new();
+    for path in all {
+        let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
+        if name.ends_with("tests.rs") || left_out.iter().any(|(begin, _)| name.starts_with(begin)) {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        // Unit tests are at the end of a module.
+        modules.push((name, text.split("#[cfg(test)]").next().unwrap_or_default().into()));
+    }
+    modules
+}
+
 /// Source files below a folder.
-pub fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
@@ -41,18 +61,7 @@ pub fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 
 #[test]
 fn no_other_module_writes_files() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    let mut all = Vec::new();
-    ["cli/src", "sim/src", "taxel/src"].iter().for_each(|folder| sources(&root.join(folder), &mut all));
-    assert!(all.len() > 100, "{} files", all.len());
-    for path in all {
-        let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
-        if name.ends_with("tests.rs") || ALLOWED.iter().any(|(allowed, _)| name.starts_with(allowed)) {
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap();
-        // Unit tests are at the end of a module.
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    for (name, code) in modules(&["cli/src", "sim/src", "taxel/src"], &ALLOWED) {
         for call in WRITES {
             // `RecordingFile::create` does not create a file by itself.
             let calls = |line: &str| line.contains(call) && !line.contains("RecordingFile::create");

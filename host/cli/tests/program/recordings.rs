@@ -140,7 +140,7 @@ fn memory(args: &[&str]) -> u64 {
 fn memory_does_not_grow_with_the_recording() {
     let [short, long] =
         // Even the short one takes long enough to be sampled after its largest chunk.
-        [("short.mcap", 120), ("long.mcap", 300)].map(|(name, seconds)| recorded(name, seconds, false));
+        [("short.mcap", 60), ("long.mcap", 150)].map(|(name, seconds)| recorded(name, seconds, false));
     let [npz, csv, page] = ["memory.npz", "memory.csv", "memory.html"].map(file);
     let runs = |path: &Path| -> Vec<u64> {
         let path = text(path);
@@ -158,8 +158,8 @@ fn memory_does_not_grow_with_the_recording() {
     let short = [runs(&short), runs(&short), runs(&short)].into_iter().reduce(most).unwrap();
     let long = runs(&long);
     for (what, (short, long)) in ["info", "npz", "csv", "report"].iter().zip(short.iter().zip(&long)) {
-        println!("{what}: {:.1} MB of 120 s, {:.1} MB of 300 s", *short as f64 / 1e6, *long as f64 / 1e6);
-        // 35,000 more frames: their images would be 140 MB, their contacts 18 MB.
+        println!("{what}: {:.1} MB of 60 s, {:.1} MB of 150 s", *short as f64 / 1e6, *long as f64 / 1e6);
+        // 17,600 more frames: their images would be 72 MB, their contacts 9 MB.
         assert!(*short > 1 << 20 && *long < short + (4 << 20), "{what}: {short} and {long} bytes");
     }
 }

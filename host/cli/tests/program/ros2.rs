@@ -1,6 +1,7 @@
 //! `taxel ros2` from outside; what it publishes is tested with ROS (`cargo xtask ros2`).
 
 mod calls;
+mod lost;
 mod peer;
 mod quality;
 

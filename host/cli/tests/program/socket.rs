@@ -3,8 +3,11 @@
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use taxel::source::{self, SourceOptions};
+
+/// Longest wait for a program that follows a board.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A place behind TCP into which a simulated board of any garment can be plugged; each connection finds it just
 /// after power-up.
@@ -43,7 +46,9 @@ impl Socket {
 
     /// Waits until the board that is plugged in has sent enough to be known.
     pub fn await_client(&self) {
+        let until = Instant::now() + PATIENCE;
         while self.plugged.lock().unwrap().sent < 50_000 {
+            assert!(Instant::now() < until, "nobody follows the board");
             std::thread::sleep(Duration::from_millis(5));
         }
     }

@@ -333,6 +333,10 @@ fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
     // A page that comes late sees it, too, and so do the images from before.
     let mut late = self::page(port);
     line(&mut late, "body", |_| true);
+    let figure = line(&mut late, "figure", |_| true);
+    let shape = figure["links"].as_array().unwrap().iter().find(|link| link["name"] == "torso").unwrap();
+    let count = |key: &str| shape[key].as_array().unwrap().len();
+    assert!(count("points") > 40 && count("triangles") > 80, "{shape}");
     line(&mut late, "poses", |_| true);
     let Told::Image { head, .. } =
         std::iter::repeat_with(|| next(&mut late)).find(|told| matches!(told, Told::Image { .. })).unwrap()

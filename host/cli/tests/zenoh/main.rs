@@ -1,6 +1,10 @@
 //! Boards between programs, over Zenoh, from outside.
 
+#[path = "../program/socket.rs"]
+mod socket;
+
 use serde_json::{Value, json};
+use socket::Socket;
 use std::io::{BufRead, BufReader};
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
@@ -35,7 +39,8 @@ struct Serving(Child);
 impl Serving {
     /// Starts it, and waits until it says that it offers boards.
     fn start(folder: &Path, args: &[&str]) -> Serving {
-        let mut child = taxel(folder, args).stdout(Stdio::piped()).spawn().unwrap();
+        let errors = std::fs::File::create(folder.join("errors.txt")).unwrap();
+        let mut child = taxel(folder, args).stdout(Stdio::piped()).stderr(errors).spawn().unwrap();
         let mut line = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
         assert!(line.contains("(Ctrl-C ends)"), "{line}");
@@ -77,6 +82,37 @@ fn a_board_is_followed_by_another_program_and_offered_once() {
     let unknown = run(&folder, &["live", "--source", "zenoh:arm/right@client.json5"]);
     assert_eq!(unknown.status.code(), Some(3));
     assert!(said(&unknown).contains("zenoh:arm/right: nobody in the network offers this board"));
+}
+
+#[test]
+fn a_lost_board_is_told_to_its_viewers_and_another_one_ends_the_offer() {
+    let (folder, socket) = (network("lost"), Socket::new("block-4x16"));
+    let source = format!("tcp:{}", socket.address);
+    let args = ["serve", "--source", &source, "--name", "arm/left", "--zenoh", "router.json5"];
+    let mut serving = Serving::start(&folder, &args);
+    let args = ["live", "--source", "zenoh:arm/left@client.json5", "--json", "--wait"];
+    let viewer = taxel(&folder, &args).stdout(Stdio::piped()).spawn().unwrap();
+    let mut viewer = Serving(viewer);
+    let mut lines = BufReader::new(viewer.0.stdout.take().unwrap()).lines();
+    let mut lists = std::iter::from_fn(|| {
+        let line = lines.find(|line| {
+            let line = line.as_ref().unwrap();
+            line.contains("\"type\":\"contacts\"") || line.contains("\"type\":\"lost\"")
+        });
+        Some(serde_json::from_str::<Value>(&line?.unwrap()).unwrap())
+    });
+    let touches = |line: &Value| line["contacts"].as_array().is_some_and(|all| !all.is_empty());
+    assert!(lists.any(|line| touches(&line)), "it presses");
+    socket.plug(None);
+    let ended: Vec<Value> = lists.by_ref().take_while(|line| line["type"] == "contacts").collect();
+    let last = ended.last().unwrap();
+    assert!(!touches(last) && !last["released"].as_array().unwrap().is_empty(), "{last}");
+    socket.plug(Some("mat-64x32"));
+    let status = serving.0.wait().unwrap();
+    let errors = std::fs::read_to_string(folder.join("errors.txt")).unwrap();
+    let why = "answers with another board: it wears the garment mat-64x32, not block-4x16";
+    assert_eq!((status.code(), errors.contains(&format!("{source} is gone: "))), (Some(3), true), "{errors}");
+    assert!(errors.contains(&format!("error: {source} {why}")), "{errors}");
 }
 
 #[test]

@@ -146,11 +146,47 @@ def test_nothing_is_simulated_in_place_of_a_board(tmp_path: Path, monkeypatch: p
         _ = touch.panels
 
 
+def recorded(file: Path, *words: str) -> bytes:
+    """What a pressed board sends in two seconds."""
+    record = ["record", "--source", "sim:press", "--seconds", "2", *words, "-o", str(file)]
+    subprocess.run([sys.executable, "-m", "taxel", *record], check=True, capture_output=True)
+    return b"".join(one.data for one in taxel.read(file).messages("/taxel/wire"))
+
+
+def test_another_board_is_no_touch(tmp_path: Path) -> None:
+    wires = [recorded(tmp_path / "press.mcap"), recorded(tmp_path / "other.mcap", "--garment", "block-4x16")]
+    server = socket.create_server(("127.0.0.1", 0))
+    cut, told = threading.Event(), threading.Event()
+
+    def boards() -> None:
+        for wire, until in zip(wires, (cut, told), strict=True):
+            link, _ = server.accept()
+            with link:
+                link.sendall(wire)
+                until.wait(30)
+
+    threading.Thread(target=boards, daemon=True).start()
+    touch = Touch(lambda: taxel.open(f"tcp:127.0.0.1:{server.getsockname()[1]}"))
+    with server, touch:
+        assert touch.observe().window.images > 0
+        cut.set()
+        until, why = time.monotonic() + 20, ""
+        while "another board" not in why:
+            assert time.monotonic() < until, f"it goes on: {why}"
+            time.sleep(0.01)
+            try:
+                seen = touch.observe()
+                assert seen.window.values.shape[1] == 2048
+            except taxel.BoardError as error:
+                why = str(error)
+        assert why.endswith("it wears the garment block-4x16, not reference")
+        with pytest.raises(taxel.BoardError, match="another board"):
+            touch.observe()
+        told.set()
+
+
 def test_a_lost_board_is_no_touch(tmp_path: Path) -> None:
-    file = tmp_path / "press.mcap"
-    words = ["record", "--source", "sim:press", "--seconds", "2", "-o", str(file)]
-    subprocess.run([sys.executable, "-m", "taxel", *words], check=True, capture_output=True)
-    wire = b"".join(one.data for one in taxel.read(file).messages("/taxel/wire"))
+    wire = recorded(tmp_path / "press.mcap")
     server = socket.create_server(("127.0.0.1", 0))
     cut, seen, mended = threading.Event(), threading.Event(), threading.Event()
 

@@ -32,13 +32,10 @@ from ._taxel import (
     Back,
     BoardError,
     BoardState,
-    Boot,
     Budget,
-    Confidence,
     Contacts,
     Error,
     Event,
-    Forms,
     Frame,
     Gesture,
     Health,
@@ -62,7 +59,6 @@ from ._taxel import (
     Symbols,
     Sync,
     Temperature,
-    Unsure,
     Unusable,
     UsageError,
     __version__,
@@ -76,13 +72,10 @@ __all__ = [
     "Board",
     "BoardError",
     "BoardState",
-    "Boot",
     "Budget",
-    "Confidence",
     "Contacts",
     "Error",
     "Event",
-    "Forms",
     "Frame",
     "Gesture",
     "Health",
@@ -113,7 +106,6 @@ __all__ = [
     "Symbols",
     "Sync",
     "Temperature",
-    "Unsure",
     "Unusable",
     "UsageError",
     "__version__",
@@ -268,6 +260,7 @@ def open(
     seconds: float | None = None,
     raw: bool = False,
     tare: int | None = None,
+    wait: bool = False,
     once: bool = False,
 ) -> Stream:
     """Opens a board, and iterates over its events.
@@ -292,6 +285,8 @@ def open(
       10 s, ``frames`` is an error (``BoardError``), and ``seconds`` are over
     - ``raw``: also the raw codes of every scan
     - ``tare``: frames of the baseline at the start; by default those that a simulated scene wants, else 0
+    - ``wait``: wait for a board that cannot be opened yet, instead of raising ``BoardError``; a ``RuntimeWarning`` says
+      why it is waited for, and Ctrl-C ends the wait
     - ``once``: end with an error when the board is lost, instead of waiting for it
 
     >>> import taxel
@@ -315,6 +310,7 @@ def open(
         seconds=seconds,
         raw=raw,
         tare=tare,
+        wait=wait,
         once=once,
     )
 

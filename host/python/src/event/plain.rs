@@ -31,14 +31,10 @@ macro_rules! classes {
 
 classes! {
     "hello" => Hello, "Garment, scene and firmware of the board.";
-    "boot" => Boot, "Cause of the board's start.";
     "unusable" => Unusable, "A `Hello` that this version cannot use; `why` says why.";
     "symbols" => Symbols, "Words for each contact, and the state of each region.";
     "intent" => Intent, "The announced intention, `intent[\"leading\"]`, and the activation of each concept.";
     "gesture" => Gesture, "The gesture of a touch.";
-    "confidence" => Confidence, "Confidence of the gesture that follows.";
-    "unsure" => Unsure, "Ids of the contacts that may be drift.";
-    "forms" => Forms, "Ages of the forms of contacts.";
     "pressing" => Pressing, "What presses on the robot: contacts on links, and the force on each link.";
     "folds" => Folds, "What the garment's folds are expected to press.";
     "regions" => Regions, "What each region of the robot's surface feels.";

@@ -4,6 +4,7 @@
 use super::wanted::Wish;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
+use taxel_core::wire::Request;
 
 /// Time after which an unanswered request is repeated; that of a tare is longer, because the board answers
 /// when it is done.
@@ -12,7 +13,7 @@ const TARE_PATIENCE: Duration = Duration::from_secs(90);
 /// Attempts for each request.
 const TRIES: u8 = 3;
 /// Request number of `Tare`.
-const TARE: u8 = 2;
+const TARE: u8 = Request::Tare { frames: 0 }.number();
 /// Request number in the answer to an unreadable request.
 const UNREADABLE: u8 = 255;
 
@@ -124,7 +125,6 @@ impl Again {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taxel_core::wire::Request;
 
     fn wish(number: u8) -> Wish {
         Wish { number, frame: vec![number, 0] }
@@ -158,14 +158,13 @@ mod tests {
 
     #[test]
     fn a_tare_that_is_refused_ends_nothing() {
-        assert_eq!(Request::Tare { frames: 1 }.number(), TARE);
         let mut again = Again::default();
-        again.begin([wish(0), wish(TARE), wish(12)].into());
-        for (number, refusal) in [(0, None), (TARE, Some("touched")), (12, None)] {
+        again.begin([wish(0), wish(TARE), wish(4)].into());
+        for (number, refusal) in [(0, None), (TARE, Some("touched")), (4, None)] {
             assert!(again.due().is_some());
             again.answered(number, refusal);
         }
-        assert_eq!(again.ended(), Some(Restored::Done { set: vec![0, 12], untared: Some("touched".into()) }));
+        assert_eq!(again.ended(), Some(Restored::Done { set: vec![0, 4], untared: Some("touched".into()) }));
     }
 
     #[test]

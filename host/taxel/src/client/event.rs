@@ -2,22 +2,19 @@
 
 use std::time::Duration;
 use taxel_core::body::Placed;
-use taxel_core::boot::Boot;
 use taxel_core::format::Micros;
 use taxel_core::wire::{
-    Budget, ConfidenceReport, FoldsReport, FormsReport, GestureReport, Health, IntentReport, Level,
-    PressingReport, ReactionReport, ReflexReport, RegionsReport, SelfTestReport, StartOfFrame, SymbolList,
-    SyncReport, Temperature, UnsureReport, WireError,
+    Budget, FoldsReport, GestureReport, Health, IntentReport, Level, PressingReport, ReactionReport,
+    ReflexReport, RegionsReport, SelfTestReport, StartOfFrame, SymbolList, SyncReport, Temperature,
+    WireError,
 };
 
 /// An event; persistent state is found in the [`Client`](super::Client).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Event {
-    /// Garment and scene were received.
+    /// Garment, scene and the cause of the board's start were received.
     Hello,
-    /// Cause of the board's start, sent after the `Hello`.
-    Boot(Boot),
     /// A `Hello` that this program cannot use, and why.
     Unusable(String),
     /// A conditioned image.
@@ -41,19 +38,15 @@ pub enum Event {
         dropped: u16,
         /// Released contacts.
         released: Vec<Placed>,
+        /// Ids of the contacts that may be drift since this list; those that may be now are in the client.
+        doubted: Vec<u32>,
     },
     /// Symbols of contacts.
     Symbols(Box<SymbolList>),
     /// Intention of the touch.
     Intent(Box<IntentReport>),
-    /// Gesture of a touch; its confidence is in the client.
+    /// Gesture of a touch.
     Gesture(GestureReport),
-    /// Confidence of the next gesture report.
-    Confidence(ConfidenceReport),
-    /// Contacts that may be drift; they are in the client, too.
-    Unsure(Box<UnsureReport>),
-    /// Ages of the forms of the next contacts; they are in the client, too.
-    Forms(Box<FormsReport>),
     /// What presses on the robot.
     Pressing(Box<PressingReport>),
     /// What the garment's folds are expected to press.

@@ -26,4 +26,9 @@ impl Growths {
         let (growth, panel) = self.0.get(&contact)?;
         growth.hardness(layout.areas().get(usize::from(*panel))?.cell_mm2)
     }
+
+    /// Greatest force of a contact since its onset, counts; none if the contact is unknown.
+    pub fn greatest_force(&self, contact: u32) -> Option<u32> {
+        self.0.get(&contact).map(|(growth, _)| growth.greatest_force())
+    }
 }

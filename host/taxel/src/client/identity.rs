@@ -9,8 +9,8 @@ const GARMENTS: usize = 32;
 /// What a board is recognised by when it answers again: after its link was open anew, and after it has restarted.
 ///
 /// - What is stated, a serial number on USB or a garment, must agree.
-/// - A serial number, where the link had one before and has one now, decides alone: the board may have been dressed
-///   otherwise meanwhile.
+/// - The id of its chip, which it says on every link, or else the serial number of its link on USB decides alone, where
+///   it had one before and has one now: the board may have been dressed otherwise meanwhile.
 /// - Else the name of its firmware must be the same, without its version, and its garment one that it has worn since it
 ///   was met, or was sent: the one that it had first, to which it returns if it restarts; that of `--garment`; any that
 ///   another program has dressed it with under our eyes. A garment that nobody has seen on it is another board's.
@@ -19,6 +19,8 @@ const GARMENTS: usize = 32;
 #[derive(Debug, Default, Clone)]
 pub struct Identity {
     usb_serial: Option<String>,
+    /// Id of the chip; none before the board was met, or if it has none.
+    chip: Option<String>,
     /// The stated garment.
     garment: Option<Garment>,
     /// Name of the firmware; none before the board was met.
@@ -44,9 +46,10 @@ impl Identity {
         self.garment.is_some()
     }
 
-    /// How a board with this serial number on USB differs; none if it is the one.
+    /// How a board differs, on a link with this serial number on USB; none if it is the one.
     pub fn differs(&self, usb_serial: Option<&str>, worn: &Worn) -> Option<String> {
-        let serials = self.usb_serial.as_deref().zip(usb_serial);
+        let chips = self.chip.as_deref().zip(chip(worn));
+        let serials = chips.or(self.usb_serial.as_deref().zip(usb_serial));
         if let Some((known, found)) = serials.filter(|(known, found)| known != found) {
             return Some(format!("its serial number is {found}, not {known}"));
         }
@@ -65,6 +68,7 @@ impl Identity {
     /// Learns from a `Hello` of the board.
     pub(super) fn learn(&mut self, usb_serial: Option<&str>, worn: &Worn) {
         self.usb_serial = self.usb_serial.take().or_else(|| usb_serial.map(String::from));
+        self.chip = self.chip.take().or_else(|| chip(worn).map(String::from));
         self.firmware.get_or_insert_with(|| firmware(worn).into());
         self.learn_garment(&worn.garment);
     }
@@ -81,6 +85,10 @@ impl Identity {
         }
         self.garments.push(garment.clone());
     }
+}
+
+fn chip(worn: &Worn) -> Option<&str> {
+    Some(worn.chip.as_str()).filter(|chip| !chip.is_empty())
 }
 
 fn firmware(worn: &Worn) -> &str {

@@ -9,9 +9,7 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::intent::Leading;
 use taxel_core::shape::{Base, Class};
 use taxel_core::symbol::RegionState;
-use taxel_core::wire::{
-    BoundsReport, Budget, ConfidenceReport, GestureReport, Health, IntentReport, SelfTestReport,
-};
+use taxel_core::wire::{Budget, GestureReport, Health, IntentReport, SelfTestReport};
 
 impl Client {
     /// Counters of the connection.
@@ -68,33 +66,25 @@ impl Client {
         self.growths.hardness(contact, self.layout()?)
     }
 
+    /// Greatest force of a present or just released contact since its onset, counts; none if the contact is unknown.
+    pub fn greatest_force(&self, contact: u32) -> Option<u32> {
+        self.growths.greatest_force(contact)
+    }
+
     /// True if the contact may be drift of its baseline; no intention follows from it.
     pub fn is_unsure(&self, contact: u32) -> bool {
         self.unsure.contains(&contact)
     }
 
-    /// Age of a contact's form in frames, 255 for at least that; none unless the ages were requested.
+    /// Age of a contact's form in frames, 255 for at least that; none unless the scene's stream has them.
     pub fn form_age(&self, contact: u32) -> Option<u8> {
-        let told = self.forms.as_ref().filter(|report| report.frame == self.contacts_of);
-        let age = told.and_then(|report| report.ages.iter().find(|(id, _)| *id == contact));
-        self.ages_asked.then(|| age.map_or(0, |(_, age)| *age))
-    }
-
-    /// What is unknown of what presses in a frame; none if nothing is.
-    pub fn bounds(&self, frame: u32) -> Option<&BoundsReport> {
-        self.bounds.as_ref().filter(|bounds| bounds.frame == frame)
+        let age = self.form_ages.iter().find(|(id, _)| *id == contact).map_or(0, |(_, age)| *age);
+        self.worn.as_ref()?.scene.stream.form_ages.then_some(age)
     }
 
     /// Name of a region of the robot's surface, by its number; empty if it is not known.
     pub fn surface_region(&self, region: usize) -> &str {
         self.surface_regions.get(region).map_or("", String::as_str)
-    }
-
-    /// The most by which a place in the base is off in a frame, m, because joints are not known exactly and
-    /// move on; none if nobody knows.
-    pub fn pose_error(&self, frame: u32) -> Option<f64> {
-        let errors = self.bounds(frame)?.poses.iter().map(|(_, um)| f64::from(*um) * 1e-6);
-        errors.reduce(f64::max)
     }
 
     /// Ids of the contacts released with the last frame; at most the last 1,024.
@@ -132,12 +122,6 @@ impl Client {
         all
     }
 
-    /// Confidence of the gesture just reported; none if the board does not know it.
-    pub fn confidence(&self, gesture: &GestureReport) -> Option<Q15> {
-        let of_it = |told: &&ConfidenceReport| (told.frame, told.touch) == (gesture.frame, gesture.touch);
-        self.confidence.as_ref().filter(of_it).map(|told| told.confidence)
-    }
-
     /// Gesture that the touch of a panel looks like; none if it was not recognised, or is over.
     pub fn gesture(&self, panel: u8) -> Option<&GestureReport> {
         self.gesture.as_ref().filter(|report| report.panel == panel && !report.ended)
@@ -155,7 +139,12 @@ impl Client {
 
     /// Cause of the board's start; none if not reported.
     pub fn boot(&self) -> Option<Boot> {
-        self.boot
+        self.worn.as_ref()?.boot
+    }
+
+    /// True if the board recognises shapes that it was taught, not those of its built-in base.
+    pub fn is_taught(&self) -> bool {
+        !self.shapes.is_empty()
     }
 
     /// Name of a class of the board's base of shapes.

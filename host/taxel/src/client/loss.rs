@@ -26,7 +26,7 @@ impl Client {
         }
         if !released.is_empty() {
             self.growths.feel(&[], &released);
-            self.say(Event::Contacts { frame, time, dropped: 0, released });
+            self.say(Event::Contacts { frame, time, dropped: 0, released, doubted: Vec::new() });
         }
         let ends = self.ongoing.end(ids, frame, time);
         ends.into_iter().for_each(|event| self.say(event));
@@ -38,8 +38,8 @@ impl Client {
             let none = IntentReport { frame, time, leading, outcome, steps: 0, concepts };
             self.say(Event::Intent(Box::new(none)));
         }
-        (self.picture, self.led, self.confidence, self.gesture) = Default::default();
-        (self.forms, self.bounds) = Default::default();
+        (self.picture, self.led, self.gesture) = Default::default();
+        self.form_ages.clear();
         [&mut self.released, &mut self.unsure].into_iter().for_each(Vec::clear);
         self.regions.clear();
         self.raw.clear();

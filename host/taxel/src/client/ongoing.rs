@@ -86,14 +86,8 @@ impl Ongoing {
             events.push(Event::Regions(Box::new(report)));
         }
         if presses {
-            let (contacts, links) = Default::default();
-            events.push(Event::Pressing(Box::new(PressingReport {
-                frame,
-                time,
-                posed: None,
-                contacts,
-                links,
-            })));
+            let nothing = PressingReport { frame, time, ..PressingReport::default() };
+            events.push(Event::Pressing(Box::new(nothing)));
         }
         let ends = reactions.into_iter().map(|reaction| Reaction { active: false, ..reaction });
         events.extend(ends.map(|reaction| Event::Reaction(ReactionReport { frame, time, reaction })));

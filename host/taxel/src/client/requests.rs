@@ -1,10 +1,13 @@
 //! Requests to the board.
 
-use super::Client;
+use super::held::{Beside, HeldRequest};
+use super::scene_change::SceneChange;
 use super::wanted::Sets;
+use super::{Client, Event};
 use crate::error::{Context, Result, SettingError};
+use std::sync::LazyLock;
 use taxel_core::scene::Scene;
-use taxel_core::wire::{LONGEST_REQUEST, Request, WireError, encode, frame_bound};
+use taxel_core::wire::{LONGEST_REQUEST, Level, REQUESTS, Request, WireError, encode, frame_bound, open};
 
 /// Encodes a scene for `SetScene`. Error if it is too long for a request.
 pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
@@ -21,38 +24,25 @@ pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Name of a request, by its number.
+/// The request for a scene as a frame of the wire.
+fn scene_frame(scene: &Scene) -> Result<(Vec<u8>, Option<Sets>)> {
+    let bytes = scene_bytes(scene)?;
+    let request = Request::SetScene(&bytes);
+    let mut frame = [0; frame_bound(LONGEST_REQUEST)];
+    let frame = encode(&request, &mut frame)?;
+    Ok((frame.to_vec(), Sets::of(&request, frame)))
+}
+
+/// Name of a request, by its number: `set-scene`.
 pub fn request_name(number: u8) -> &'static str {
-    const NAMES: [&str; 27] = [
-        "set-garment",
-        "set-scene",
-        "tare",
-        "start",
-        "stop",
-        "sync",
-        "posture",
-        "concept",
-        "key-frame",
-        "self-test",
-        "save",
-        "set-gain",
-        "budget",
-        "feed",
-        "set-gestures",
-        "set-calibration",
-        "set-shapes",
-        "add-shapes",
-        "set-certainty",
-        "reset-settings",
-        "set-forms",
-        "set-raw",
-        "set-surface",
-        "set-poses",
-        "set-pressing",
-        "set-folds",
-        "move-poses",
-    ];
-    NAMES.get(usize::from(number)).copied().unwrap_or("unreadable request")
+    static NAMES: LazyLock<Vec<String>> = LazyLock::new(|| REQUESTS.iter().copied().map(hyphened).collect());
+    NAMES.get(usize::from(number)).map_or("unreadable request", String::as_str)
+}
+
+/// `SetScene` as `set-scene`.
+fn hyphened(name: &str) -> String {
+    let hyphen = |(at, letter): &(usize, char)| (*at > 0 && letter.is_uppercase()).then_some('-');
+    name.char_indices().flat_map(|it| hyphen(&it).into_iter().chain(it.1.to_lowercase())).collect()
 }
 
 /// Requests.
@@ -69,28 +59,80 @@ impl Client {
     pub fn request(&mut self, request: &Request<'_>) -> Result<(), WireError> {
         let mut frame = [0; frame_bound(LONGEST_REQUEST)];
         let frame = encode(request, &mut frame)?;
-        if let Request::SetForms { ages, .. } = request {
-            self.ages_asked = *ages;
+        if let Request::Stream { raw_hz, budget_hz } = request {
+            self.beside = Beside { raw_hz: *raw_hz, budget_hz: *budget_hz };
         }
         if matches!(request, Request::Sync { .. } | Request::KeyFrame) {
             // This request does not depend on queued ones.
             self.requests.extend_from_slice(frame);
             return Ok(());
         }
-        self.held.push_back((frame.to_vec(), Sets::of(request, frame)));
+        self.held.push_back(HeldRequest::Frame(frame.to_vec(), Sets::of(request, frame)));
         self.release();
         Ok(())
+    }
+
+    /// Sets the scene that the board is known to begin with.
+    pub(crate) fn expect(&mut self, scene: Option<Scene>) {
+        self.expected = scene;
+    }
+
+    /// Queues a change of the board's scene, which waits for the first `Hello` unless the scene is known.
+    pub fn change_scene(&mut self, change: SceneChange) {
+        self.held.push_back(HeldRequest::Change(change));
+        self.release();
+    }
+
+    /// Requests so many frames of raw codes per second; 65535: with every scan.
+    pub fn stream_raw(&mut self, hz: u16) -> Result<(), WireError> {
+        self.request(&Request::Stream { raw_hz: hz, budget_hz: self.beside.budget_hz })
+    }
+
+    /// Requests so many `Budget` reports per second; 65535: with every scan.
+    pub fn stream_budget(&mut self, hz: u16) -> Result<(), WireError> {
+        self.request(&Request::Stream { raw_hz: self.beside.raw_hz, budget_hz: hz })
+    }
+
+    /// Frames of raw codes per second that were requested.
+    pub fn raw_hz(&self) -> u16 {
+        self.beside.raw_hz
     }
 
     /// Sends held requests in order, while the board has answers to spare and is not being restored. A garment waits
     /// for the first `Hello`: the one that the board has by itself is what it is recognised by after a restart.
     pub(super) fn release(&mut self) {
         while !self.is_restoring()
-            && let Some((frame, sets)) = self.held.pop_front_if(|(_, sets)| {
-                let is_early = self.worn.is_none() && sets.as_ref().is_some_and(Sets::is_garment);
-                sets.is_none() || self.life.wanted.takes_more() && !is_early
-            })
+            && let Some(held) = self.held.front()
         {
+            let takes_more = self.life.wanted.takes_more();
+            let (frame, sets) = match held {
+                HeldRequest::Frame(frame, None) => (frame.clone(), None),
+                HeldRequest::Frame(_, Some(sets))
+                    if !takes_more || self.worn.is_none() && sets.is_garment() =>
+                {
+                    break;
+                }
+                HeldRequest::Frame(frame, Some(sets)) => (frame.clone(), Some(sets.clone())),
+                HeldRequest::Change(change) => {
+                    let told =
+                        || self.worn.as_ref().map(|worn| &worn.scene).or(self.expected.as_ref()).cloned();
+                    let Some(mut scene) = self.life.wanted.asked_scene().or_else(told) else { break };
+                    if !takes_more {
+                        break;
+                    }
+                    change.apply(&mut scene);
+                    match scene_frame(&scene) {
+                        Ok((frame, sets)) => (frame, sets),
+                        Err(why) => {
+                            self.held.pop_front();
+                            let time = self.board_time().unwrap_or_default();
+                            self.say(Event::Note { time, level: Level::Error, text: why.to_string() });
+                            continue;
+                        }
+                    }
+                }
+            };
+            self.held.pop_front();
             self.requests.extend(frame);
             let Some(sets) = sets else { continue };
             sets.garment().iter().for_each(|garment| self.identity.learn_garment(garment));
@@ -103,26 +145,36 @@ impl Client {
         Ok(self.request(&Request::SetScene(&scene_bytes(scene)?))?)
     }
 
-    /// Requests the raw codes of every frame, if none are received. Returns whether it did; false before the
-    /// first `Hello`.
+    /// Requests the raw codes of every frame, unless some are requested already. Returns whether it did.
     pub fn request_codes(&mut self) -> Result<bool, WireError> {
-        let asks = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.raw_hz == 0);
+        let asks = self.raw_hz() == 0;
         if asks {
-            self.request(&Request::SetRaw { hz: u16::MAX })?;
+            self.stream_raw(u16::MAX)?;
         }
         Ok(asks)
     }
 
     /// True while a table of the surface is on its way to the board: it knows no links for poses yet.
     pub fn is_storing_table(&self) -> bool {
-        let held = self.held.iter().any(|(_, sets)| sets.as_ref().is_some_and(Sets::is_piece));
-        held || self.life.wanted.awaits_piece()
+        self.held.iter().any(HeldRequest::is_piece) || self.life.wanted.awaits_piece()
     }
 
-    /// Bytes to be sent to the board, including requests held back.
+    /// Bytes to be sent to the board, including requests held back but for changes of the scene.
     pub fn queued(&self) -> Vec<u8> {
-        let held = self.held.iter().flat_map(|(frame, _)| frame);
-        self.requests.iter().chain(held).copied().collect()
+        let frame = |held: &'_ HeldRequest| match held {
+            HeldRequest::Frame(frame, _) => frame.clone(),
+            HeldRequest::Change(_) => Vec::new(),
+        };
+        self.requests.iter().copied().chain(self.held.iter().flat_map(frame)).collect()
+    }
+
+    /// Numbers of the requests that the board has not been sent yet.
+    pub fn queued_numbers(&self) -> Vec<u8> {
+        let queued = self.queued();
+        let number = |frame: &[u8]| open(&mut frame.to_vec()).ok()?.first().copied();
+        let changes = self.held.iter().filter(|held| matches!(held, HeldRequest::Change(_)));
+        let changes = changes.map(|_| Request::SetScene(&[]).number());
+        queued.split(|byte| *byte == 0).filter_map(number).chain(changes).collect()
     }
 
     /// Takes the bytes to be sent to the board.
@@ -142,15 +194,31 @@ impl Client {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use taxel_core::wire::decode;
 
     #[test]
-    fn the_last_request_has_the_last_name() {
-        // Numbers are those of the variants on the wire; new ones are only appended.
-        let number = |request: &Request<'_>| postcard::to_allocvec(request).unwrap()[0];
-        assert_eq!(request_name(number(&Request::SetFolds(&[]))), "set-folds");
-        let last = number(&Request::MovePoses(&[]));
-        assert_eq!(request_name(last), "move-poses");
-        assert_eq!(request_name(last + 1), "unreadable request");
-        assert!(postcard::from_bytes::<Request<'_>>(&[last + 1, 0]).is_err(), "a request has no name");
+    fn requests_are_named_by_their_numbers() {
+        assert_eq!(request_name(Request::Start.number()), "start");
+        assert_eq!(request_name(Request::SetTable(&[]).number()), "set-table");
+        assert_eq!(request_name(REQUESTS.len() as u8), "unreadable request");
+    }
+
+    #[test]
+    fn a_change_of_the_scene_waits_for_it_and_changes_the_one_asked_for_last() {
+        let mut client = Client::new();
+        client.change_scene(SceneChange::pressing(7));
+        let numbers = client.queued_numbers();
+        assert_eq!((client.take_requests(), numbers), (vec![0], vec![Request::SetScene(&[]).number()]));
+        // The scene that is asked for behind it is known without a `Hello`.
+        let mut client = Client::new();
+        client.use_for(&Scene::scaled(255)).unwrap();
+        client.change_scene(SceneChange { forms: Some((0, true)), ..SceneChange::default() });
+        client.change_scene(SceneChange::pressing(7));
+        let sent = client.take_requests();
+        let mut last = sent.split(|byte| *byte == 0).rfind(|frame| !frame.is_empty()).unwrap().to_vec();
+        let Request::SetScene(bytes) = decode(open(&mut last).unwrap()).unwrap() else { panic!() };
+        let scene: Scene = decode(bytes).unwrap();
+        assert_eq!((scene.stream.pressing_hz, scene.contact.forms_in_frame), (7, 0));
+        assert_eq!(scene.contact.high, Scene::scaled(255).contact.high);
     }
 }

@@ -115,7 +115,7 @@ impl Client {
         self.forget();
         self.shapes.clear();
         self.syncs.restart();
-        (self.surface_regions, self.held, self.identity) = Default::default();
+        (self.surface_regions, self.held, self.beside, self.identity) = Default::default();
         (self.health, self.budget, self.celsius) = (None, None, None);
         let was_asked = std::mem::take(&mut self.life).reopened;
         if !was_asked {

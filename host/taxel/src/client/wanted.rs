@@ -3,14 +3,15 @@
 use super::{Worn, cleaned};
 use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
+use taxel_core::condition::Certificate;
 use taxel_core::format::Name;
 use taxel_core::garment::Garment;
 use taxel_core::intent::Feed;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, decode, encode, frame_bound};
 
-/// Request number of `SetCalibration`.
-const CALIBRATION: u8 = 15;
+/// A calibration, for the number of its request.
+const UNNAMED: Certificate = Certificate { id: 0, taxels: 0, year: 0, month: 0, day: 0, error: 0 };
 /// Most requests awaiting answers: a board queues eight answers and drops further ones.
 const WINDOW: usize = 4;
 /// Most unanswered requests remembered; beyond that, the oldest is assumed to be done.
@@ -27,20 +28,14 @@ enum Key {
     Calibration,
     /// Head of a base, and each of its parts.
     Shapes(usize),
-    Certainty,
-    Gestures,
-    Forms,
-    Raw,
-    Pressing,
     /// A piece of a table, which the board keeps.
     Table,
-    /// Of this slot.
-    Concept(u8),
     /// Of this concept.
     Feed(Name),
     Start,
+    /// What is streamed beside the scene.
+    Stream,
     Tare,
-    Budget,
 }
 
 /// A remembered request.
@@ -111,6 +106,12 @@ impl Wanted {
         garment.is_none_or(|garment| garment == worn.garment) && scene.is_none_or(|scene| scene == worn.scene)
     }
 
+    /// The scene requested last, unless the board has answered that.
+    pub fn asked_scene(&self) -> Option<Scene> {
+        let (_, setting, _) = self.asked.iter().rfind(|(key, ..)| *key == Key::Scene)?;
+        decode(&setting.body).ok()
+    }
+
     /// Handles the answer to the request with this number; a refused setting is forgotten.
     pub fn answered(&mut self, number: u8, is_done: bool) {
         let at = self.asked.iter().position(|(_, setting, _)| setting.number == number);
@@ -172,7 +173,7 @@ impl Wanted {
             Request::SetScene(&[]).number(),
             Request::Tare { frames: 0 }.number(),
             Request::SetGain { first: 0, gains: Default::default() }.number(),
-            CALIBRATION,
+            Request::SetCalibration(UNNAMED).number(),
         ];
         let mut all = self.all();
         all.retain(|wish| open.contains(&wish.number) || !proven.contains(&wish.number));
@@ -198,16 +199,10 @@ impl Sets {
             Request::SetShapes(bytes) => (Key::Shapes(0), bytes.is_empty()),
             // Its position among the parts is known once it is confirmed.
             Request::AddShapes(_) => (Key::Shapes(1), false),
-            Request::SetCertainty(_) => (Key::Certainty, false),
-            Request::SetGestures(config) => (Key::Gestures, config.is_none()),
-            Request::SetForms { .. } => (Key::Forms, false),
-            Request::SetRaw { hz } => (Key::Raw, *hz == 0),
-            Request::SetPressing(hz) => (Key::Pressing, *hz == 0),
-            Request::SetSurface(_) | Request::SetFolds(_) => (Key::Table, true),
-            Request::Concept { slot, .. } => (Key::Concept(*slot), false),
+            Request::SetTable(_) => (Key::Table, true),
+            Request::Stream { .. } => (Key::Stream, false),
             Request::Feed(feed) => (Key::Feed(feed.concept.clone()), false),
             Request::Tare { .. } => (Key::Tare, false),
-            Request::Budget { .. } => (Key::Budget, false),
             // These have no lasting effect; a posture is sent again by whoever measures it.
             _ => return None,
         };
@@ -264,7 +259,6 @@ fn encoded(request: &Request<'_>) -> Option<Vec<u8>> {
 mod tests {
     use super::*;
     use taxel_core::format::{Q15, name};
-    use taxel_core::gesture::GestureConfig;
     use taxel_core::wire::open;
 
     fn ask(wanted: &mut Wanted, request: &Request<'_>) {
@@ -302,26 +296,27 @@ mod tests {
             Request::SetShapes(&[1]),
             Request::AddShapes(&[2]),
             Request::AddShapes(&[3]),
-            Request::SetGestures(Some(GestureConfig::default())),
+            Request::Stream { raw_hz: 3, budget_hz: 1 },
         ] {
             ask(&mut wanted, &request);
             wanted.answered(request.number(), true);
         }
-        assert_eq!(numbers(&mut wanted), [11, 11, 16, 17, 17, 14, start, 2]);
+        assert_eq!(numbers(&mut wanted), [10, 10, 8, 9, 9, start, 4, 12]);
         for (request, is_done) in [
             (Request::SetScene(&[9]), false),
-            (Request::SetGestures(None), true),
+            (Request::Stream { raw_hz: 0, budget_hz: 1 }, true),
             (Request::SetShapes(&[]), true),
             (Request::SetGarment(&[9]), true),
         ] {
             ask(&mut wanted, &request);
             wanted.answered(request.number(), is_done);
         }
-        assert_eq!(numbers(&mut wanted), [0, start], "a garment undoes gains and tare");
+        assert_eq!(numbers(&mut wanted), [5, start, 4], "a garment undoes gains and tare");
         // Unanswered requests count as sent.
         ask(&mut wanted, &Request::SetScene(&[7]));
-        ask(&mut wanted, &Request::Budget { hz: 3 });
-        assert_eq!(wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>(), [1, start, 12]);
-        assert_eq!(wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>(), [start, 12]);
+        let unproven =
+            |wanted: &mut Wanted| wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>();
+        assert_eq!(unproven(&mut wanted), [6, start, 4]);
+        assert_eq!(unproven(&mut wanted), [start, 4]);
     }
 }

@@ -2,6 +2,8 @@
 
 use super::cleaned;
 use crate::tell::words::printable;
+use std::cmp::Ordering;
+use taxel_core::boot::Boot;
 use taxel_core::format::{Micros, Name};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::pipeline::Pipeline;
@@ -21,6 +23,8 @@ pub fn is_simulated(firmware: &str) -> bool {
 pub struct Worn {
     /// Name and version of the firmware.
     pub firmware: String,
+    /// Unique id of the board's chip; empty if it has none, as a simulated board.
+    pub chip: String,
     /// The garment.
     pub garment: Garment,
     /// Its geometry.
@@ -31,6 +35,8 @@ pub struct Worn {
     pub calibration: String,
     /// The board's time of the `Hello`.
     pub clock: Micros,
+    /// Cause of the board's start; none if it does not know.
+    pub boot: Option<Boot>,
 }
 
 impl Worn {
@@ -44,17 +50,22 @@ impl Worn {
         self.scene.intent.as_ref().map_or(&[], |intent| intent.map.concepts.as_slice())
     }
 
+    /// Says why a board of this protocol is not understood.
+    pub(super) fn speaks(protocol: u16) -> Result<(), String> {
+        let how = match protocol.cmp(&PROTOCOL) {
+            Ordering::Equal => return Ok(()),
+            Ordering::Less => "flash the firmware of this version (`taxel flash`)",
+            Ordering::Greater => "update this program",
+        };
+        Err(format!("the board speaks protocol {protocol}, this program {PROTOCOL}: {how}"))
+    }
+
     /// Decodes a `Hello`, or says why not.
     pub fn read(hello: &Hello<'_>) -> Result<Worn, String> {
         if hello.magic != MAGIC {
             return Err("the Hello of something that is not a taxel board".into());
         }
-        if hello.protocol != PROTOCOL {
-            return Err(format!(
-                "the board speaks protocol {}, this program {PROTOCOL}: update the older of the two",
-                hello.protocol
-            ));
-        }
+        Worn::speaks(hello.protocol)?;
         let text = |bytes: &[u8]| printable(&String::from_utf8_lossy(bytes)).into_owned();
         let mut garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
         cleaned::garment(&mut garment);
@@ -67,9 +78,11 @@ impl Worn {
         Pipeline::build(&scene, &layout).map_err(|e| format!("scene in Hello: {e}"))?;
         Ok(Worn {
             firmware: text(hello.firmware),
+            chip: text(hello.chip),
             layout,
             scene,
             calibration: text(hello.calibration),
+            boot: hello.boot,
             clock: decode(hello.clock).map_err(|e| format!("clock in Hello: {e}"))?,
             garment,
         })

@@ -59,7 +59,7 @@ impl SettingError {
         match self {
             SettingError::Key { key, .. } => Some(key.clone()),
             SettingError::Scene(error) | SettingError::Setup(SetupError::Scene(error)) => of_scene(error),
-            SettingError::Gestures(GestureError::Invalid(invalid)) => Some(invalid.parameter.into()),
+            SettingError::Gestures(error) => of_gestures(error),
             SettingError::Script(error) => error.key().map(String::from),
             _ => None,
         }
@@ -74,5 +74,13 @@ fn of_scene(error: &SceneError) -> Option<String> {
             Some(format!("{}[{}]{dot}{}", row.list, row.index, row.invalid.parameter))
         }
         SceneError::Map(_) => Some("intent.map".into()),
+        SceneError::Gestures(error) => of_gestures(error),
+    }
+}
+
+fn of_gestures(error: &GestureError) -> Option<String> {
+    match error {
+        GestureError::Invalid(invalid) => Some(invalid.parameter.into()),
+        GestureError::Model(_) => Some("gestures.model".into()),
     }
 }

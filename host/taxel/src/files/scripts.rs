@@ -3,11 +3,11 @@
 
 use super::{garments, input};
 use crate::error::{Context, Result, SettingError, UsageError};
+use crate::sim::{self, FULL_SCALE, Pressure, Script};
 use crate::tell::words;
-use std::path::Path;
-use taxel_core::garment::Garment;
-
-use crate::sim::{self, Script};
+use std::path::{Path, absolute};
+use taxel_core::garment::{Garment, Layout};
+use toml::{Table, Value};
 
 /// Reads a script; `file` names it in errors, and its stem the script if the text does not. Paths in it are
 /// relative to the file's folder.
@@ -42,6 +42,53 @@ pub fn garment(script: &Script) -> Result<Garment> {
         .with_context(|| format!("in script {}: `garment`", script.name))
 }
 
+/// A garment's name, or its path in a form that holds in every folder.
+pub fn lasting_path(garment: &str) -> Result<String> {
+    match Path::new(garment).extension() {
+        Some(_) => Ok(absolute(garment)?.display().to_string()),
+        None => Ok(garment.into()),
+    }
+}
+
+/// The script on a garment: what touches a panel that this lacks touches its largest one. Error if a touch still
+/// has no place.
+pub fn fit(script: Script, layout: &Layout) -> Result<Script> {
+    // A script whose garment cannot be loaded keeps its places.
+    let home =
+        garment(&script).ok().and_then(|home| Layout::build(&home, usize::from(u16::MAX), FULL_SCALE).ok());
+    let script = match home {
+        Some(home) => sim::refit(&script, &home, layout),
+        None => script,
+    };
+    Pressure::build(&script, layout)?;
+    Ok(script)
+}
+
+/// A script that says nothing but what it must.
+const PLAIN: &str =
+    "duration_s = 1\n[[touch]]\npanel = \"\"\nshape = \"palm\"\nforce_n = 0\nat = [0, 0]\nstart_s = 0";
+/// What it must say.
+const SAID: [&str; 6] = ["duration_s", "panel", "shape", "force_n", "at", "start_s"];
+
+/// The text of a script's file, without what holds by default. Error for a number that TOML cannot hold.
+pub fn text(script: &Script) -> Result<String> {
+    let usual = Table::try_from(PLAIN.parse::<Script>()?)?;
+    let usual_touch = usual.get("touch").and_then(|touches| touches.get(0)).and_then(Value::as_table);
+    let shorten = |table: &mut Table, usual: &Table| {
+        table.retain(|key, value| SAID.contains(&key) || usual.get(key) != Some(value));
+    };
+    let mut all = Table::try_from(script)?;
+    shorten(&mut all, &usual);
+    for key in ["touch", "trace"] {
+        let touches = all.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten();
+        for (touch, usual) in touches.filter_map(Value::as_table_mut).zip(usual_touch.into_iter().cycle()) {
+            shorten(touch, usual);
+        }
+    }
+    all.retain(|_, value| value.as_array().is_none_or(|items| !items.is_empty()));
+    Ok(toml::to_string(&all)?)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,6 +100,21 @@ mod tests {
     }
 
     const TOUCH: &str = "duration_s = 1\n[[touch]]\npanel = \"back\"\nshape = \"palm\"\nforce_n = 8\nat = [8, 16]\nstart_s = 0.2\n";
+
+    #[test]
+    fn a_script_is_written_in_a_few_words_and_read_again() {
+        let trace = "[[trace]]\npanel = \"back\"\nshape = \"palm\"\npath = [[0.2, 7.5, 11.0, 0.0], [0.216, 7.5, 11.0, 8.0]]\n";
+        let script = parse(&format!("{TOUCH}{trace}"), "").unwrap();
+        let written = text(&script).unwrap();
+        assert_eq!(written.lines().count(), 13, "{written}");
+        assert_eq!(written.lines().next(), Some("duration_s = 1.0"));
+        assert!(written.contains("path = [[0.2, 7.5, 11.0, 0.0], [0.216, 7.5, 11.0, 8.0]]"), "{written}");
+        for name in sim::names() {
+            let script = load(name).unwrap();
+            let again = parse(&text(&script).unwrap(), "").unwrap();
+            assert_eq!(Script { folder: script.folder.clone(), ..again }, script);
+        }
+    }
 
     #[test]
     fn a_script_without_a_name_is_named_after_its_file() {

@@ -6,18 +6,18 @@
 
 use super::contact::ContactLine;
 use super::lines::{
-    AnswerLine, BackLine, BootLine, ConfidenceLine, ContactsLine, DoubtLine, FoldsLine, FormAge, FormsLine,
-    FrameLine, GestureLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine,
-    LostLine, OtherLine, PinFaultLine, RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine,
-    RegionsLine, SelfTestLine, ShapesLine, StartOfFrameLine, SurfaceRegionLine, SymbolLine, SymbolsLine,
-    SyncLine, TemperatureLine, UnsureLine, UnusableLine, WordsLine,
+    AnswerLine, BackLine, ContactsLine, DoubtLine, FoldsLine, FrameLine, GestureLine, HealthMapLine,
+    HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, LostLine, OtherLine, PinFaultLine,
+    RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, RegionsLine, SelfTestLine, ShapesLine,
+    StartLine, StartOfFrameLine, SurfaceRegionLine, SymbolLine, SymbolsLine, SyncLine, TemperatureLine,
+    UnusableLine, WordsLine,
 };
 use super::meaning::MeaningOfTouch;
 use super::pressing;
 use crate::client::{Client, Event, ImageNews, request_name};
 use serde_json::Value;
 use taxel_core::body::Placed;
-use taxel_core::format::{Micros, Name};
+use taxel_core::format::{Micros, Name, Q15};
 use taxel_core::intent::Outcome;
 use taxel_core::surface::RegionSymbol;
 use taxel_core::symbol::Symbol;
@@ -36,14 +36,11 @@ pub fn message(client: &Client, event: &Event) -> Value {
 pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
     Some(match event {
         Event::Hello => JsonLine::Hello(hello(client)?),
-        Event::Boot(boot) => {
-            JsonLine::Boot(BootLine { cause: boot.cause, resets: boot.resets, aside: boot.aside })
-        }
         Event::Unusable(why) => JsonLine::Unusable(UnusableLine { why }),
         Event::Frame { frame, time, alone, image } => {
             JsonLine::Frame(self::frame(client, *frame, *time, *alone, *image == ImageNews::Whole))
         }
-        Event::Contacts { frame, time, dropped, released } => JsonLine::Contacts(ContactsLine {
+        Event::Contacts { frame, time, dropped, released, .. } => JsonLine::Contacts(ContactsLine {
             frame: *frame,
             time_us: time.0,
             contacts: contacts(client, client.contacts()),
@@ -53,23 +50,7 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
         Event::Symbols(list) => JsonLine::Symbols(symbols(client, list)),
         Event::Intent(report) => JsonLine::Intent(intent(client, report)),
         Event::Gesture(report) => JsonLine::Gesture(gesture(client, report)),
-        Event::Confidence(report) => JsonLine::Confidence(ConfidenceLine {
-            frame: report.frame,
-            time_us: report.time.0,
-            touch: report.touch,
-            confidence: report.confidence.to_f64(),
-        }),
-        Event::Unsure(report) => JsonLine::Unsure(UnsureLine {
-            frame: report.frame,
-            time_us: report.time.0,
-            contacts: &report.contacts,
-        }),
-        Event::Forms(report) => {
-            let age = |(contact, age): &(u32, u8)| FormAge { contact: *contact, age: *age };
-            let ages = report.ages.iter().map(age).collect();
-            JsonLine::Forms(FormsLine { frame: report.frame, time_us: report.time.0, ages })
-        }
-        Event::Pressing(report) => JsonLine::Pressing(pressing::line(client, report)),
+        Event::Pressing(report) => JsonLine::Pressing(pressing::line(report)),
         Event::Folds(report) => JsonLine::Folds(FoldsLine {
             frame: report.frame,
             time_us: report.time.0,
@@ -146,10 +127,12 @@ fn hello(client: &Client) -> Option<HelloLine<'_>> {
     Some(HelloLine {
         time_us: worn.clock.0,
         firmware: &worn.firmware,
+        chip: &worn.chip,
         simulated: worn.is_simulated(),
         garment: worn.garment.name.as_str(),
         scene: worn.scene.name.as_str(),
         calibration: &worn.calibration,
+        boot: worn.boot.map(|boot| StartLine { cause: boot.cause, resets: boot.resets, aside: boot.aside }),
         taxels: worn.layout.taxels(),
         regions: regions.iter().map(Name::as_str).collect(),
         panels: panels.collect(),
@@ -256,7 +239,7 @@ fn gesture<'a>(client: &'a Client, report: &'a GestureReport) -> GestureLine<'a>
         lead: f64::from(report.lead) / f64::from(1 << 18),
         observed_ms: report.observed_ms,
         ended: report.ended,
-        confidence: client.confidence(report).map(|confidence| confidence.to_f64()),
+        confidence: report.confidence.map(Q15::to_f64),
     }
 }
 

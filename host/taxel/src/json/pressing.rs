@@ -9,28 +9,27 @@ use taxel_core::contact::Contact;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Layout, Place};
 use taxel_core::surface::{Landed, Micrometres, ONE, Uncertainty, UnitVector, Wrench};
-use taxel_core::wire::{BoundsReport, PressingReport};
+use taxel_core::wire::PressingReport;
 
-/// The message of a report that the client has just taken.
-pub fn line<'a>(client: &Client, report: &'a PressingReport) -> PressingLine<'a> {
+/// The message of a report.
+pub fn line(report: &PressingReport) -> PressingLine<'_> {
     let name =
         |link: u8| report.links.iter().find(|wrench| wrench.link == link).map_or("", |w| w.name.as_str());
-    let bounds = client.bounds(report.frame);
     let contact = |landed: &Landed| LandedLine {
         id: landed.id,
         link: name(landed.spot.link),
         own: push(landed.spot.at, landed.spot.normal, landed.force),
         base: landed.base.map(|base| push(base.at, base.normal, base.force)),
-        uncertain: bounds.and_then(|it| uncertain(&it.contacts, &landed.id)),
+        uncertain: uncertain(&report.contact_bounds, &landed.id),
     };
     PressingLine {
         frame: report.frame,
         time_us: report.time.0,
         posed_us: report.posed.map(|time| time.0),
         pose_age_us: report.posed.map(|time| report.time.0.wrapping_sub(time.0) as i64),
-        pose_error_m: client.pose_error(report.frame).filter(|_| report.posed.is_some()),
+        pose_error_m: pose_error(report),
         contacts: report.contacts.iter().map(contact).collect(),
-        links: report.links.iter().map(|it| wrench(it, bounds)).collect(),
+        links: report.links.iter().map(|it| wrench(it, report)).collect(),
     }
 }
 
@@ -98,15 +97,22 @@ fn force_of(contact: &Contact, layout: &Layout, surface: &Surface, image: &[u16]
     if total > 0.0 { force * (f64::from(contact.total) / total) } else { DVec3::ZERO }
 }
 
-fn wrench<'a>(wrench: &'a Wrench, bounds: Option<&BoundsReport>) -> WrenchLine<'a> {
+fn wrench<'a>(wrench: &'a Wrench, report: &PressingReport) -> WrenchLine<'a> {
     WrenchLine {
         link: &wrench.name,
         force: wrench.force,
         moment: wrench.moment.map(|moment| moment as f64 / 1000.0),
         pressed: wrench.pressed,
         center_m: metres(wrench.center),
-        uncertain: bounds.and_then(|it| uncertain(&it.links, &wrench.link)),
+        uncertain: uncertain(&report.link_bounds, &wrench.link),
     }
+}
+
+/// The most by which a place in the base is off, m, because joints are not known exactly and move on; none if
+/// nobody knows.
+pub fn pose_error(report: &PressingReport) -> Option<f64> {
+    report.posed?;
+    report.pose_errors.iter().map(|(_, um)| f64::from(*um) * 1e-6).reduce(f64::max)
 }
 
 /// What is unknown of a contact or of a link.

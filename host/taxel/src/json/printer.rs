@@ -74,6 +74,10 @@ impl<W: Write, E: From<Error>> Show<E> for MessagePrinter<W> {
         true
     }
 
+    fn tells_remarks(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, _: &mut Client) -> Result<bool, E> {
         self.out.flush().map_err(Error::from)?;
         Ok(true)

@@ -1,11 +1,12 @@
 //! Cuts a board's bytes into whole frames of the wire, and tells images apart.
 
 use super::stamp::PieceKind;
+use taxel_core::wire::Report;
 
 /// Longest frame; what is longer is none, and is passed on in parts.
 const LONGEST: usize = 16 * 1024;
 /// Numbers of the reports that hold an image or raw codes.
-const IMAGES: [u8; 2] = [1, 10];
+const IMAGES: [u8; 2] = [Report::FRAME as u8, Report::RAW as u8];
 
 /// Cuts bytes, which come in any split, behind each 0x00. No byte is added, changed or left out: empty frames
 /// go with the next one.

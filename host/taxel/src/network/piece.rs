@@ -37,6 +37,7 @@ impl WirePiece {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use taxel_core::wire::Report;
 
     #[test]
     fn only_what_a_program_sends_is_read() {
@@ -55,7 +56,7 @@ mod tests {
         ] {
             assert_eq!(read(attachment, bytes), Err(why), "{bytes:?}");
         }
-        let image = [3, 7, 1, 0];
+        let image = [3, 7, Report::FRAME as u8, 0];
         assert_eq!(read(&stamp, &image), Err("it holds an image"));
         let stamp = PieceStamp { publisher: 5, main: 0, images: 1 }.to_bytes();
         assert!(WirePiece::read(PieceKind::Image, &stamp, &image).is_ok());

@@ -201,6 +201,10 @@ impl<E: From<Error>> Show<E> for BoardOffer {
         Ok(self.done(done)?)
     }
 
+    fn tells_remarks(&self) -> bool {
+        true
+    }
+
     fn idle(&mut self, client: &mut Client) -> Result<bool, E> {
         self.asks.hand_over(client, self.token.is_some());
         self.done(Ok(()))?;

@@ -9,14 +9,9 @@ use crate::recording::{Filler, FullChunk};
 use crate::session::JointPositions;
 use serde::Serialize;
 use taxel_core::fold::{JointAngle, Posture};
-use taxel_core::format::{Micros, Name};
-use taxel_core::surface::{LINKS, LinkName, MovingPose, Pose};
-use taxel_core::wire::{self, Request};
-
-/// What `SetPoses` holds.
-type SentPoses = heapless::Vec<(LinkName, Pose), LINKS>;
-/// What `MovePoses` holds beside the time.
-type MovingPoses = heapless::Vec<MovingPose, LINKS>;
+use taxel_core::format::Name;
+use taxel_core::surface::LinkPose;
+use taxel_core::wire::{self, Poses, Request};
 
 /// The messages of a board in a recording: its topics, and the chunks that they fill.
 #[derive(Debug)]
@@ -75,14 +70,8 @@ impl BoardMessages {
                 }
                 // What cannot be decoded are a program's own bytes, which the board refuses.
                 Ok(Request::SetPoses(poses)) => {
-                    let told = wire::decode::<SentPoses>(poses).ok();
-                    told.map_or(Ok(()), |poses| self.poses(&poses, stamp))?;
-                }
-                Ok(Request::MovePoses(poses)) => {
-                    let told = wire::decode::<(Micros, MovingPoses)>(poses).ok();
-                    let poses = told.map(|(_, poses)| poses.into_iter().map(|(link, pose, _)| (link, pose)));
-                    let poses = poses.map(Iterator::collect::<Vec<_>>);
-                    poses.map_or(Ok(()), |poses| self.poses(&poses, stamp))?;
+                    let told = wire::decode::<Poses>(poses).ok();
+                    told.map_or(Ok(()), |poses| self.poses(&poses.links, stamp))?;
                 }
                 _ => {}
             }
@@ -97,8 +86,8 @@ impl BoardMessages {
     }
 
     /// Adds poses sent to the board.
-    fn poses(&mut self, poses: &[(LinkName, Pose)], stamp: Stamp) -> Result<()> {
-        let links = poses.iter().map(|(name, pose)| LinkPoseLine {
+    fn poses(&mut self, poses: &[LinkPose], stamp: Stamp) -> Result<()> {
+        let links = poses.iter().map(|(name, pose, _)| LinkPoseLine {
             link: name.as_str(),
             at_m: pose.at.map(|um| f64::from(um) * 1e-6),
             turn: pose.turn.map(|part| f64::from(part) / f64::from(1 << 30)),

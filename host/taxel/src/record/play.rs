@@ -2,7 +2,7 @@
 
 use crate::client::{Client, Event};
 use crate::error::Result;
-use crate::recording::{BoardRecording, Skipped, WireReader};
+use crate::recording::{BoardRecording, LinkRecord, Skipped, WireReader};
 use mcap::records::MessageHeader;
 
 /// A recording being played.
@@ -10,12 +10,14 @@ use mcap::records::MessageHeader;
 pub struct Play {
     wire: WireReader,
     client: Client,
+    /// Times of the last message.
+    header: Option<MessageHeader>,
 }
 
 impl Play {
     /// Opens the recording of a board.
     pub fn open(recording: &BoardRecording) -> Result<Play> {
-        Ok(Play { wire: WireReader::open(recording)?, client: Client::new() })
+        Ok(Play { wire: WireReader::open(recording)?, client: Client::new(), header: None })
     }
 
     /// The client after the last event.
@@ -33,14 +35,23 @@ impl Play {
         self.wire.passed()
     }
 
-    /// Next event with its times (ns: `log_time` is the host's, `publish_time` the board's); none at the end.
+    /// Next event with its times (ns: `log_time` is the host's, `publish_time` the board's); none at the end. What was
+    /// present when the board was lost ends then, as it did when that was recorded.
     pub fn next_event(&mut self) -> Result<Option<(MessageHeader, Event)>> {
-        while let Some(message) = self.wire.next_frame()? {
-            // A message of this channel is one frame of the wire, which its last byte completes.
-            if let Some(event) = self.client.push_all(message.data).1 {
-                return Ok(Some((message.header, event)));
+        loop {
+            let mut event = self.client.next_event(&[]).1;
+            if event.is_none() {
+                let Some((header, record)) = self.wire.next_record()? else { return Ok(None) };
+                self.header = Some(header);
+                match record {
+                    // A message of this channel is one frame of the wire, which its last byte completes.
+                    LinkRecord::Frame(bytes) => event = self.client.next_event(bytes).1,
+                    LinkRecord::Gap(mark) => mark.apply(&mut self.client),
+                }
+            }
+            if let Some(found) = self.header.zip(event) {
+                return Ok(Some(found));
             }
         }
-        Ok(None)
     }
 }

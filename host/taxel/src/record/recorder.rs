@@ -234,7 +234,7 @@ impl Recorder {
     /// Error if the board refuses raw codes.
     fn answered(&mut self, event: &Event) -> Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
-        let is_ours = [(Request::SetRaw { hz: 0 }).number(), UNREADABLE].contains(request);
+        let is_ours = [(Request::Stream { raw_hz: 0, budget_hz: 0 }).number(), UNREADABLE].contains(request);
         if !is_ours || !std::mem::take(&mut self.waits_for_raw) {
             return Ok(());
         }
@@ -306,6 +306,10 @@ impl<E: From<Error>> Show<E> for Recorder {
         self.plan.rotate.is_some()
     }
 
+    fn tells_remarks(&self) -> bool {
+        true
+    }
+
     fn asked(&mut self, client: &Client, bytes: &[u8]) -> Result<(), E> {
         let Some(file) = self.file.as_mut().filter(|_| !bytes.is_empty()) else { return Ok(()) };
         let stamp = self.stamps.now(client);
@@ -321,7 +325,7 @@ impl<E: From<Error>> Show<E> for Recorder {
     }
 
     fn idle(&mut self, client: &mut Client) -> Result<bool, E> {
-        if client.worn().is_some() && std::mem::take(&mut self.plan.raw) {
+        if std::mem::take(&mut self.plan.raw) {
             self.waits_for_raw = client.request_codes().map_err(Error::from)?;
         }
         let done = self.keep();

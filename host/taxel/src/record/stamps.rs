@@ -133,17 +133,13 @@ pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
         Event::Budget(budget) => budget.time,
         Event::Temperature(temperature) => temperature.time,
         Event::Gesture(report) => report.time,
-        Event::Confidence(report) => report.time,
-        Event::Unsure(report) => report.time,
-        Event::Forms(report) => report.time,
         Event::Pressing(report) => report.time,
         Event::Folds(report) => report.time,
         Event::Regions(report) => report.time,
         Event::SelfTest(report) => report.time,
         Event::Sync(report) => report.sent,
         Event::StartOfFrame(start) => start.noticed,
-        Event::Boot(_)
-        | Event::Shapes { .. }
+        Event::Shapes { .. }
         | Event::Unusable(_)
         | Event::Answer { .. }
         | Event::Refused(_)

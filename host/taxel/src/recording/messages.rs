@@ -31,8 +31,8 @@ pub struct Message<'a> {
 pub struct Messages {
     records: Records,
     path: PathBuf,
-    /// The only topic to read; none for all.
-    only: Option<String>,
+    /// The only topics to read; empty for all.
+    only: Vec<String>,
     /// Name of the wanted attachment, and the first one of that name once it was passed.
     wanted: Option<String>,
     attached: Option<Vec<u8>>,
@@ -52,7 +52,7 @@ impl Messages {
         Ok(Messages {
             records: Records::open(path)?,
             path: path.into(),
-            only: None,
+            only: Vec::new(),
             wanted: None,
             attached: None,
             channels: BTreeMap::new(),
@@ -64,10 +64,15 @@ impl Messages {
         })
     }
 
-    /// Opens a file for one topic. Chunks without it, by the file's index, are neither read nor looked at for
-    /// damage.
+    /// Opens a file for one topic; see [`Messages::of_topics`].
     pub fn of_topic(path: &Path, topic: &str) -> Result<Messages> {
-        let mut messages = Messages { only: Some(topic.into()), ..Messages::open(path)? };
+        Messages::of_topics(path, &[topic.into()])
+    }
+
+    /// Opens a file for some topics. Chunks without them, by the file's index, are neither read nor looked at for
+    /// damage.
+    pub fn of_topics(path: &Path, topics: &[String]) -> Result<Messages> {
+        let mut messages = Messages { only: topics.to_vec(), ..Messages::open(path)? };
         if let Some(summary) = summary(path)? {
             messages.channels = summary.channels;
             messages.are_all_known = true;
@@ -106,6 +111,15 @@ impl Messages {
         Ok(found.map(|(header, data)| Message { header, data: &self.plain[data] }))
     }
 
+    /// Next message as its header, its topic (empty if that is not declared) and its data; none at the end. Error if
+    /// the disk cannot be read.
+    pub(super) fn next_with_topic(&mut self) -> Result<Option<(MessageHeader, &str, &[u8])>> {
+        let found = self.find().with_context(|| format!("{} cannot be read", self.path.display()))?;
+        Ok(found.map(|(header, data)| {
+            (header, self.topic(header.channel_id).unwrap_or_default(), &self.plain[data])
+        }))
+    }
+
     fn find(&mut self) -> Result<Option<(MessageHeader, Range<usize>)>> {
         loop {
             if let Some(found) = self.inside() {
@@ -127,7 +141,8 @@ impl Messages {
                 op::MESSAGE => {
                     let Some(header) = message(record.body) else { continue };
                     let topic = self.channels.get(&header.channel_id).map(|channel| channel.topic.as_str());
-                    if self.only.is_none() || self.only.as_deref() == topic {
+                    let is_wanted = |topic| self.only.iter().any(|only| only == topic);
+                    if self.only.is_empty() || topic.is_some_and(is_wanted) {
                         return Some((header, self.next - record.body.len() + MESSAGE..self.next));
                     }
                 }
@@ -189,10 +204,12 @@ impl Messages {
         Ok(())
     }
 
-    /// True if a chunk is left out: it holds nothing of the only topic, by the index that follows it. Moves to
+    /// True if a chunk is left out: it holds nothing of the only topics, by the index that follows it. Moves to
     /// the chunk's end if so.
     fn leaves_out(&mut self, head: Head) -> Result<bool> {
-        let Some(only) = self.only.as_ref().filter(|_| self.are_all_known) else { return Ok(false) };
+        if self.only.is_empty() || !self.are_all_known {
+            return Ok(false);
+        }
         let mut is_of_others = false;
         self.records.go_to(head.end())?;
         while let Some(index) = self.records.next_head()? {
@@ -201,7 +218,7 @@ impl Messages {
             }
             let channel = <[u8; 2]>::try_from(self.records.rest(2)?).ok().map(u16::from_le_bytes);
             let topic = channel.and_then(|id| self.channels.get(&id)).map(|channel| &channel.topic);
-            is_of_others = topic.is_some_and(|topic| topic != only);
+            is_of_others = topic.is_some_and(|topic| !self.only.contains(topic));
             if !is_of_others {
                 break;
             }

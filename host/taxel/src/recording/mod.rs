@@ -6,6 +6,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `library.rs` | the name in a file's header, and the wire of its frames |
 //! | `store.rs` | what a recording is written to: a file that can be truncated |
 //! | `append.rs` | one record as bytes |
 //! | `chunk.rs` | messages of a second, compressed, with their index |
@@ -28,7 +29,8 @@
 //! | `scan.rs`, `found.rs` | contents of a file, by a scan |
 //! | `board_names.rs` | names of what a recording holds of one board of a robot |
 //! | `board_recording.rs` | a file of one board, or a board of a robot's file |
-//! | `wire_reader.rs` | the frames of the wire of a board |
+//! | `wire_reader.rs` | the frames of the wire of a board, and the gaps between them |
+//! | `gap_mark.rs` | begin and end of such a gap |
 //! | `renumber.rs` | numbers of the messages in such frames |
 //! | `repair.rs` | rewrites a damaged or truncated file |
 
@@ -43,6 +45,8 @@ mod damage;
 mod ending;
 mod filler;
 mod found;
+mod gap_mark;
+mod library;
 mod lz4;
 mod messages;
 mod overview;
@@ -69,6 +73,7 @@ pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
 pub use filler::Filler;
+pub use gap_mark::{GapMark, gap_marks};
 pub use messages::{Message, Messages};
 pub use overview::Overview;
 pub use records::{Head, Inside, RawRecord, Records};
@@ -78,5 +83,5 @@ pub use salvage::Unreadable;
 pub use scan::{Scan, scan};
 pub use store::Store;
 pub use summary::{Summary, chunk_indexes, footer, summary};
-pub use wire_reader::{HELLO, WireReader};
+pub use wire_reader::{HELLO, LinkRecord, WireReader};
 pub use writer::{Format, Writer};

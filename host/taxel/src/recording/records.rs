@@ -1,12 +1,18 @@
 //! Iterates over the records of a recording up to the last intact one. One buffer serves them all.
 
 use super::append::HEAD;
+use super::library::foreign_wire;
+use super::texts::parse_record;
 use crate::error::{Context, RecordingError, Result};
 use crate::files::input;
 use mcap::MAGIC;
+use mcap::records::{Record, op};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
+
+/// Longest header that is looked at.
+const LONGEST_HEADER: u64 = 1 << 16;
 
 /// Head of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,7 +81,24 @@ impl Records {
         if input.read_exact(&mut magic).is_err() || magic != MAGIC {
             return Err(RecordingError::NotMcap { path: path.into() }.into());
         }
-        Ok(Records { input, offset: MAGIC.len() as u64, length, body: Vec::new() })
+        let mut records = Records { input, offset: MAGIC.len() as u64, length, body: Vec::new() };
+        if let Some(why) = records.library()?.and_then(|library| foreign_wire(&library)) {
+            return Err(RecordingError::Unsupported(format!("{}: {why}", path.display())).into());
+        }
+        Ok(records)
+    }
+
+    /// Name of the library in the header; none if it cannot be read. The position is unchanged.
+    fn library(&mut self) -> Result<Option<String>> {
+        let start = self.offset;
+        let header = self.next_short(LONGEST_HEADER)?.filter(|record| record.op == op::HEADER);
+        let record = header.and_then(|record| parse_record(record.op, record.body).ok());
+        let library = match record {
+            Some(Record::Header(header)) => Some(header.library),
+            _ => None,
+        };
+        self.go_to(start)?;
+        Ok(library)
     }
 
     /// Opens a file at the record with this offset.

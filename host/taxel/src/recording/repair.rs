@@ -7,6 +7,7 @@ use super::append::{append, sized};
 use super::chunk::{Closed, Index};
 use super::contents::Contents;
 use super::ending::Ending;
+use super::library::library;
 use super::salvage::{Kind, Opened, Piece, Walk, WalkStep};
 use super::scan::Scan;
 use crate::error::Result;
@@ -61,8 +62,7 @@ struct Rebuilt<'a, W> {
 impl<W: Write> Rebuilt<'_, W> {
     fn begin(&mut self, scan: &Scan) -> Result<()> {
         self.put(MAGIC)?;
-        let library = concat!("taxel ", env!("CARGO_PKG_VERSION"));
-        let lost = || Header { profile: String::new(), library: library.into() };
+        let lost = || Header { profile: String::new(), library: library() };
         self.record(op::HEADER, &scan.header.clone().unwrap_or_else(lost), &[])?;
         if scan.foreign > 0 && !scan.damage.is_empty() {
             // A channel from a lost chunk may be needed by a chunk that cannot be read here.

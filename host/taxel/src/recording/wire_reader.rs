@@ -1,7 +1,8 @@
-//! Reads the board's frames of the wire from a recording.
+//! Reads a board's link from a recording: its frames of the wire, and the gaps between them.
 
 use super::board_names::WIRE;
 use super::board_recording::BoardRecording;
+use super::gap_mark::{BACK, GapMark, LOST};
 use super::lost;
 use crate::error::Result;
 use crate::recording::{Message, Messages, Skipped};
@@ -11,10 +12,21 @@ use mcap::records::MessageHeader;
 /// and the chunk that holds it may be damaged.
 pub const HELLO: &str = "hello.taxel-wire";
 
-/// Iterates over the frames. If the initial `Hello` is lost, the attached one comes first.
+/// A message about a board's link.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LinkRecord<'a> {
+    /// A frame of the wire; empty in place of a message that cannot be read.
+    Frame(&'a [u8]),
+    /// Begin or end of a gap.
+    Gap(GapMark),
+}
+
+/// Iterates over the messages. If the initial `Hello` is lost, the attached one comes first.
 #[derive(Debug)]
 pub struct WireReader {
     messages: Messages,
+    /// Topic of the frames.
+    wire: String,
     begun: bool,
     /// The first frame, which follows the restored `Hello`.
     first: Option<(MessageHeader, Vec<u8>)>,
@@ -25,9 +37,10 @@ pub struct WireReader {
 impl WireReader {
     /// Opens the recording of a board.
     pub fn open(recording: &BoardRecording) -> Result<WireReader> {
-        let messages = Messages::of_topic(&recording.path, &recording.topic(WIRE))?
-            .wanting(&recording.attachment(HELLO));
-        Ok(WireReader { messages, begun: false, first: None, given: Vec::new() })
+        let topics = [WIRE, LOST, BACK].map(|topic| recording.topic(topic));
+        let messages = Messages::of_topics(&recording.path, &topics)?.wanting(&recording.attachment(HELLO));
+        let [wire, ..] = topics;
+        Ok(WireReader { messages, wire, begun: false, first: None, given: Vec::new() })
     }
 
     /// Damage passed over so far.
@@ -40,22 +53,37 @@ impl WireReader {
         self.messages.passed()
     }
 
-    /// Next frame with its times (ns: `log_time` is the host's, `publish_time` the board's); none at the end.
-    pub fn next_frame(&mut self) -> Result<Option<Message<'_>>> {
+    /// Next message with its times (ns: `log_time` is the host's, `publish_time` the board's); none at the end.
+    pub fn next_record(&mut self) -> Result<Option<(MessageHeader, LinkRecord<'_>)>> {
         if !std::mem::replace(&mut self.begun, true) {
             return self.begin();
         }
-        let Some((header, frame)) = self.first.take() else { return self.messages.next_message() };
-        self.given = frame;
-        Ok(Some(Message { header, data: &self.given }))
+        if let Some((header, frame)) = self.first.take() {
+            self.given = frame;
+            return Ok(Some((header, LinkRecord::Frame(&self.given))));
+        }
+        let Some((header, topic, data)) = self.messages.next_with_topic()? else { return Ok(None) };
+        let record = if topic == self.wire {
+            LinkRecord::Frame(data)
+        } else {
+            serde_json::from_slice(data).map_or(LinkRecord::Frame(&[]), LinkRecord::Gap)
+        };
+        Ok(Some((header, record)))
     }
 
-    fn begin(&mut self) -> Result<Option<Message<'_>>> {
-        let Some(Message { header, data }) = self.messages.next_message()? else { return Ok(None) };
-        self.given = data.to_vec();
+    /// The first frame, after the attached `Hello` if the file's own is lost. Nothing was present before it: gaps do
+    /// not count.
+    fn begin(&mut self) -> Result<Option<(MessageHeader, LinkRecord<'_>)>> {
+        let header = loop {
+            let Some(Message { header, data }) = self.messages.next_message()? else { return Ok(None) };
+            self.given = data.to_vec();
+            if self.messages.topic(header.channel_id).is_some_and(|topic| topic == self.wire) {
+                break header;
+            }
+        };
         if let Some(hello) = self.messages.attached().and_then(|hello| lost(hello, &self.given)) {
             self.first = Some((header, std::mem::replace(&mut self.given, hello)));
         }
-        Ok(Some(Message { header, data: &self.given }))
+        Ok(Some((header, LinkRecord::Frame(&self.given))))
     }
 }

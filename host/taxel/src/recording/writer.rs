@@ -9,6 +9,7 @@ use super::chunk::FullChunk;
 use super::contents::Contents;
 use super::ending::Ending;
 use super::filler::Filler;
+use super::library::library;
 use super::store::Store;
 use super::written::Written;
 use crate::error::{Error, Result};
@@ -61,8 +62,7 @@ impl<S: Store> Writer<S> {
             messages: Filler::default(),
         };
         let mut out = MAGIC.to_vec();
-        let library = concat!("taxel ", env!("CARGO_PKG_VERSION")).into();
-        append(&mut out, op::HEADER, &Header { profile: profile.into(), library }, &[])?;
+        append(&mut out, op::HEADER, &Header { profile: profile.into(), library: library() }, &[])?;
         writer.put(&out)?;
         Ok(writer)
     }

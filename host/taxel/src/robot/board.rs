@@ -3,14 +3,13 @@
 use super::recognise::recognised;
 use crate::body::posture::Motion;
 use crate::body::{self, robot::Robot};
-use crate::client::{Client, Identity};
+use crate::client::{Client, Identity, SceneChange};
 use crate::error::Result;
 use crate::files::calibrate::Calibration;
 use crate::session::{POSES_HZ, Posing, setting};
 use crate::source::{self, SceneFile, Source, SourceOptions, SourceSpec};
 use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
-use taxel_core::wire::Request;
 
 /// A board of a robot.
 #[derive(Debug, Clone)]
@@ -104,7 +103,7 @@ impl RobotBoard {
         }
         client.start(self.tare.unwrap_or(source.tare))?;
         if self.body.is_some() {
-            client.request(&Request::SetPressing(u16::MAX))?;
+            client.change_scene(SceneChange::pressing(u16::MAX));
         }
         Ok(())
     }

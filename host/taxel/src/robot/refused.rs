@@ -2,7 +2,7 @@
 
 use crate::client::{Client, Event, request_name};
 use crate::error::SourceError;
-use taxel_core::wire::{self, Request};
+use taxel_core::wire::Request;
 
 /// Requests that the board must accept and has not answered yet.
 #[derive(Debug, Default)]
@@ -12,9 +12,7 @@ impl Required {
     /// The requests that are queued, except a tare: a garment that is touched refuses it, and goes on with
     /// the baseline that it has.
     pub fn of(client: &Client) -> Required {
-        let queued = client.queued();
-        let number = |frame: &[u8]| wire::open(&mut frame.to_vec()).ok()?.first().copied();
-        let numbers = queued.split(|byte| *byte == 0).filter_map(number);
+        let numbers = client.queued_numbers().into_iter();
         Required(numbers.filter(|number| *number != Request::Tare { frames: 0 }.number()).collect())
     }
 

@@ -5,6 +5,7 @@ use super::cdr::Cdr;
 use super::messages::{self, cloud};
 use crate::body::{Surface, TaxelPlace};
 use crate::client::Client;
+use crate::json::pose_error;
 use taxel_core::format::Micros;
 use taxel_core::garment::Area;
 use taxel_core::surface::{InBase, Landed, Micrometres, ONE, Uncertainty, UnitVector, Wrench};
@@ -15,17 +16,9 @@ const FIELDS: [&str; 7] = ["x", "y", "z", "normal_x", "normal_y", "normal_z", "p
 
 /// `taxel_msgs/msg/Pressing`: `base` is the frame of the robot's base, if there is a robot. Forces are
 /// newtons with counts per newton, else counts.
-pub fn pressing(
-    us: u64,
-    client: &Client,
-    report: &PressingReport,
-    base: &str,
-    per_newton: Option<f32>,
-) -> Vec<u8> {
+pub fn pressing(us: u64, report: &PressingReport, base: &str, per_newton: Option<f32>) -> Vec<u8> {
     let scale = scale(per_newton);
     let age = |posed: Micros| report.time.0.wrapping_sub(posed.0) as i64 as f64 * 1e-6;
-    let error = client.pose_error(report.frame).filter(|_| report.posed.is_some());
-    let bounds = client.bounds(report.frame);
     let name =
         |link: u8| report.links.iter().find(|one| one.link == link).map_or("", |one| one.name.as_str());
     Cdr::default()
@@ -34,14 +27,14 @@ pub fn pressing(
         .u32(report.frame)
         .u8(per_newton.is_some().into())
         .f64(report.posed.map_or(f64::NAN, age))
-        .f64(error.unwrap_or(f64::NAN))
+        .f64(pose_error(report).unwrap_or(f64::NAN))
         .list(&report.contacts, |cdr, contact| {
             let cdr = landed(cdr, contact, name(contact.spot.link), scale);
-            uncertain(cdr, bounds.map(|bounds| &bounds.contacts[..]), &contact.id, scale)
+            uncertain(cdr, &report.contact_bounds, &contact.id, scale)
         })
         .list(&report.links, |cdr, link| {
             let cdr = link_wrench(cdr, link, scale);
-            uncertain(cdr, bounds.map(|bounds| &bounds.links[..]), &link.link, scale)
+            uncertain(cdr, &report.link_bounds, &link.link, scale)
         })
         .finish()
 }
@@ -75,8 +68,8 @@ fn link_wrench(cdr: Cdr, wrench: &Wrench, scale: f64) -> Cdr {
 }
 
 /// `taxel_msgs/msg/Uncertain` of a contact or of a link.
-fn uncertain<T: PartialEq>(cdr: Cdr, all: Option<&[(T, Uncertainty)]>, of: &T, scale: f64) -> Cdr {
-    let told = all.unwrap_or_default().iter().find(|(named, _)| named == of);
+fn uncertain<T: PartialEq>(cdr: Cdr, all: &[(T, Uncertainty)], of: &T, scale: f64) -> Cdr {
+    let told = all.iter().find(|(named, _)| named == of);
     let Uncertainty { saturated, faulty, less, more, off } =
         told.map_or_else(Default::default, |(_, it)| *it);
     let [less, more] = [less, more].map(|counts| f64::from(counts) / scale);

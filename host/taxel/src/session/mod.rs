@@ -149,6 +149,7 @@ impl Session {
         let now = Instant::now();
         let mut client = Client::new();
         client.linked(&source.label, source.usb_serial.as_deref());
+        client.expect(source.scene.clone());
         Session {
             source,
             client,
@@ -289,6 +290,7 @@ impl Session {
         sent(&self.client, &requests)?;
         self.outgoing.add(&requests);
         let exchanged = self.exchange();
+        self.source.port.gap().into_iter().for_each(|mark| mark.apply(&mut self.client));
         if let Some(news) = self.source.port.news() {
             let text = format!("{}: {news}", self.source.label);
             self.say(Level::Info, text);

@@ -27,8 +27,8 @@ const REFUSED: Duration = Duration::from_secs(1);
 const SILENT: Duration = Duration::from_millis(200);
 /// Most by which positions may be stamped before or after now, us.
 const APART_US: u128 = 10_000_000;
-/// Number of `MovePoses`.
-const MOVE_POSES: u8 = Request::MovePoses(&[]).number();
+/// Number of `SetPoses`.
+const SET_POSES: u8 = Request::SetPoses(&[]).number();
 
 /// Positions of joints, at a time.
 #[derive(Debug, Clone, PartialEq)]
@@ -205,7 +205,7 @@ impl Posing {
 
     /// Handles an event.
     pub(super) fn event(&mut self, event: &Event) {
-        if let Event::Answer { request: MOVE_POSES, refusal } = event {
+        if let Event::Answer { request: SET_POSES, refusal } = event {
             self.asked = None;
             self.refused = refusal.is_some().then(Instant::now);
         }

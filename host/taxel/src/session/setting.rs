@@ -1,7 +1,7 @@
 //! Garments, scenes and models of the user, queued as requests to a board.
 
 use crate::body;
-use crate::client::Client;
+use crate::client::{Client, SceneChange};
 use crate::error::{Context, Result, SettingError, UsageError};
 use crate::files::{folds, garments};
 use crate::source::SceneFile;
@@ -10,10 +10,10 @@ use std::path::Path;
 use taxel_core::board::TableKind;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
-use taxel_core::gesture::{Certainty, GestureConfig, GestureError, Gestures, ShippedModel};
+use taxel_core::gesture::{GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
-use taxel_core::surface::{LINKS, LinkMotion, LinkName, MovingPose, Pose};
-use taxel_core::wire::{Request, TABLE_PIECE, TablePiece};
+use taxel_core::surface::LinkMotion;
+use taxel_core::wire::{Poses, Request, TABLE_PIECE, TablePiece};
 
 /// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
 /// the board checks its own pins and capacity.
@@ -62,12 +62,8 @@ fn send_table(client: &mut Client, kind: TableKind, table: &[u8]) -> Result<()> 
     for index in 0..table.len().div_ceil(TABLE_PIECE).max(1) {
         let offset = index * TABLE_PIECE;
         let bytes = &table[offset..table.len().min(offset + TABLE_PIECE)];
-        let piece = TablePiece { length, offset: offset as u32, bytes };
-        let piece = postcard::to_allocvec(&piece)?;
-        client.request(&match kind {
-            TableKind::Surface => Request::SetSurface(&piece),
-            TableKind::Folds => Request::SetFolds(&piece),
-        })?;
+        let piece = TablePiece { kind, length, offset: offset as u32, bytes };
+        client.request(&Request::SetTable(&postcard::to_allocvec(&piece)?))?;
     }
     Ok(())
 }
@@ -78,14 +74,8 @@ pub fn set_poses<'a>(
     client: &mut Client,
     poses: impl IntoIterator<Item = (&'a str, [f64; 3], [f64; 4])>,
 ) -> Result<()> {
-    let mut told: heapless::Vec<(LinkName, Pose), LINKS> = heapless::Vec::new();
-    for (link, at, turn) in poses {
-        let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
-        let called = link.try_into().map_err(|_| wrong("its name is longer than 40 bytes"))?;
-        let pose = body::Pose::from_arrays(at, turn).for_board().map_err(wrong)?;
-        told.push((called, pose)).map_err(|_| wrong("a body has at most 8 links"))?;
-    }
-    Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
+    let still = |(link, at, turn)| (link, body::Pose::from_arrays(at, turn), None);
+    send_poses(client, None, poses.into_iter().map(still))
 }
 
 /// Queues poses of links of the board's body at the board's time `at`, by name, in the frame in which
@@ -95,14 +85,23 @@ pub fn move_poses<'a>(
     at: Micros,
     poses: impl IntoIterator<Item = (&'a str, (body::Pose, LinkMotion))>,
 ) -> Result<()> {
-    let mut told: heapless::Vec<MovingPose, LINKS> = heapless::Vec::new();
-    for (link, (pose, motion)) in poses {
+    let moving = |(link, (pose, motion))| (link, pose, Some(motion));
+    send_poses(client, Some(at), poses.into_iter().map(moving))
+}
+
+fn send_poses<'a>(
+    client: &mut Client,
+    at: Option<Micros>,
+    poses: impl Iterator<Item = (&'a str, body::Pose, Option<LinkMotion>)>,
+) -> Result<()> {
+    let mut told = Poses { at, links: heapless::Vec::new() };
+    for (link, pose, motion) in poses {
         let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
         let called = link.try_into().map_err(|_| wrong("its name is longer than 40 bytes"))?;
         let pose = pose.for_board().map_err(wrong)?;
-        told.push((called, pose, motion)).map_err(|_| wrong("a body has at most 8 links"))?;
+        told.links.push((called, pose, motion)).map_err(|_| wrong("a body has at most 8 links"))?;
     }
-    Ok(client.request(&Request::MovePoses(&postcard::to_allocvec(&(at, told))?))?)
+    Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
 }
 
 /// Queues `SetScene` for a scene's file.
@@ -117,33 +116,29 @@ pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
     client.use_for(&file.scene).with_context(place)
 }
 
-/// Queues the confidence, 0 to 0.999, that the announcement of a gesture needs.
-pub fn set_certainty(client: &mut Client, share: f64) -> Result<()> {
-    // Negative, or NaN: a value that is refused.
-    let thousandths = if share >= 0.0 { (share * 1000.0).round() as u16 } else { u16::MAX };
-    Certainty::of(thousandths).map_err(|error| of_caller(error.into()))?;
-    Ok(client.request(&Request::SetCertainty(thousandths))?)
-}
-
-/// Queues `SetGestures` for a model in the board's firmware: its own settings except for the gain, a factor
-/// from the garment's counts to those that the model was trained on. If `by_certainty`, a class is announced
-/// as soon as its confidence suffices, without a minimum time in the lead.
+/// Queues the recognition of gestures by a model in the board's firmware: its own settings except for the gain, a
+/// factor from the garment's counts to those that the model was trained on, and the confidence, 0 to 0.999, that an
+/// announcement needs. With a confidence, a class is announced as soon as it is reached, without a minimum time in
+/// the lead.
 pub fn set_gestures(
     client: &mut Client,
     model: ShippedModel,
     gain: Option<f64>,
-    by_certainty: bool,
+    certainty: Option<f64>,
 ) -> Result<()> {
     let mut config = GestureConfig::of(model);
     if let Some(gain) = gain {
         // Out of range, or NaN: a value that is refused.
         config.gain = (gain * 256.0).round() as u16;
     }
-    if by_certainty {
+    if let Some(share) = certainty {
+        // Negative, or NaN: a value that is refused.
+        config.certainty = if share >= 0.0 { (share * 1000.0).round() as u16 } else { u16::MAX };
         (config.decide_ms, config.onset_ms) = (100, 0);
     }
     Gestures::build(&config).map_err(of_caller)?;
-    Ok(client.request(&Request::SetGestures(Some(config)))?)
+    client.change_scene(SceneChange { gestures: Some(Some(config)), ..SceneChange::default() });
+    Ok(())
 }
 
 /// An error of the arguments, not of a file.

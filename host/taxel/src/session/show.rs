@@ -16,6 +16,11 @@ pub trait Show<E = Error> {
         false
     }
 
+    /// True if it tells [remarks](Event::remark) itself. Else the program that drives it prints them.
+    fn tells_remarks(&self) -> bool {
+        false
+    }
+
     /// Called before these bytes are sent to the board.
     fn asked(&mut self, _client: &Client, _bytes: &[u8]) -> Result<(), E> {
         Ok(())

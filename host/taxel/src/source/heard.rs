@@ -1,6 +1,7 @@
 //! A port from which bytes were read already.
 
 use super::Port;
+use crate::recording::GapMark;
 use std::io;
 use std::time::Duration;
 
@@ -43,6 +44,10 @@ impl Port for Heard {
 
     fn keeps(&self) -> Duration {
         self.port.keeps()
+    }
+
+    fn gap(&mut self) -> Option<GapMark> {
+        self.port.gap()
     }
 
     fn news(&mut self) -> Option<String> {

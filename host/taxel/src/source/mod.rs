@@ -4,6 +4,7 @@
 mod auto;
 mod emulator;
 mod file;
+mod hand;
 mod heard;
 mod pipe;
 #[cfg(feature = "port-table")]
@@ -19,10 +20,12 @@ mod sim;
 mod spec;
 mod stranger;
 mod tcp;
+mod touching;
 mod usb;
 #[cfg(feature = "zenoh")]
 mod zenoh;
 
+pub use hand::{FingerPress, HAND_ORDERS, Hand};
 pub(crate) use heard::Heard;
 pub use ports::Ports;
 pub use replay::Speed;
@@ -36,6 +39,7 @@ pub use usb::{PortKind, listed as ports};
 use crate::error::Result;
 #[cfg(not(feature = "zenoh"))]
 use crate::error::UsageError;
+use crate::recording::GapMark;
 use crate::sim::Script;
 use crate::tell::verbose;
 use std::io;
@@ -60,6 +64,10 @@ pub trait Port: Send {
     fn keeps(&self) -> Duration {
         Duration::ZERO
     }
+    /// Begin or end of a gap that a recording holds, once: it precedes the bytes that are read next.
+    fn gap(&mut self) -> Option<GapMark> {
+        None
+    }
     /// What has become known of the link, to be told at once.
     fn news(&mut self) -> Option<String> {
         None
@@ -79,12 +87,12 @@ pub struct SourceOptions {
     pub realtime: bool,
     /// Repeat a simulation's script.
     pub repeat: bool,
+    /// With `repeat`: begin it only once nobody has touched the garment for ten seconds.
+    pub waits: bool,
     /// Images that are awaited; a simulation lasts that long.
     pub frames: Option<u64>,
     /// Seconds of board time that are awaited.
     pub seconds: Option<f64>,
-    /// A simulation sends raw codes with every frame.
-    pub raw: bool,
     /// Garment of a simulated board, a preset or a TOML file, instead of its script's.
     pub garment: Option<String>,
     /// Body that a simulated board has in its flash from the start, a preset or a TOML file.
@@ -116,6 +124,8 @@ pub struct Source {
     pub wears_asked: bool,
     /// Its board already has the requested body.
     pub has_body: bool,
+    /// Scene that the board begins with, if it is known: that of a simulated one.
+    pub scene: Option<taxel_core::scene::Scene>,
     /// Its board already has the requested table of folds.
     pub has_folds: bool,
     /// Serial number on USB of its board, or of the probe before it; none if its link has none.
@@ -124,6 +134,8 @@ pub struct Source {
     pub others: Vec<String>,
     /// It has a board that receives requests; false for recordings.
     pub listens: bool,
+    /// Touches the garment of its board; none unless that is simulated.
+    pub hand: Option<Hand>,
     /// Opens it again when it is lost; none if it ends for good.
     pub returns: Option<Box<Return>>,
 }
@@ -139,10 +151,12 @@ impl Source {
             counts_per_newton: None,
             wears_asked: false,
             has_body: false,
+            scene: None,
             has_folds: false,
             usb_serial: None,
             others: Vec::new(),
             listens: true,
+            hand: None,
             returns: None,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{Port, Source, SourceOptions};
 use crate::error::{Context, RecordingError, Result};
-use crate::recording::{BoardRecording, WIRE, WireReader};
+use crate::recording::{BoardRecording, GapMark, LinkRecord, WIRE, WireReader};
 use crate::tell::progress::{Progress, Unit};
 use std::fmt;
 use std::io::{self, IsTerminal};
@@ -63,7 +63,8 @@ pub fn open(recording: &BoardRecording, speed: Speed, options: &SourceOptions) -
     let wire = WireReader::open(recording)?;
     let progress = || Progress::of(format!("playing {recording}"), Unit::Bytes, Some(wire.passed()[1]));
     let progress = (!io::stdout().is_terminal()).then(progress);
-    let replay = Player { wire, speed, began: None, next: Vec::new(), due: None, progress };
+    let replay =
+        Player { wire, speed, began: None, next: Vec::new(), gap: None, due: None, passed: None, progress };
     let label = format!("replay:{recording}");
     Ok(Source { counts_per_newton: scale, listens: false, ..Source::new(label, replay) })
 }
@@ -75,24 +76,30 @@ struct Player {
     speed: Option<f64>,
     /// When the first message was played, and its log time, ns.
     began: Option<(Instant, u64)>,
-    /// Pending bytes, and when they are due.
+    /// Pending bytes, or a gap's begin or end, and when they are due.
     next: Vec<u8>,
+    gap: Option<GapMark>,
     due: Option<Instant>,
+    /// A gap's begin or end that was reached.
+    passed: Option<GapMark>,
     /// None if the replay is displayed.
     progress: Option<Progress>,
 }
 
 impl Player {
-    /// Loads the bytes of the next message. Returns false at the end.
+    /// Loads the next message. Returns false at the end.
     fn fetch(&mut self) -> Result<bool> {
-        if let Some(message) = self.wire.next_frame()? {
-            let time = message.header.log_time;
+        if let Some((header, record)) = self.wire.next_record()? {
+            let time = header.log_time;
             let (start, first) = *self.began.get_or_insert_with(|| (Instant::now(), time));
             let passed = Duration::from_nanos(time.saturating_sub(first));
             self.due = self.speed.and_then(|speed| {
                 start.checked_add(Duration::try_from_secs_f64(passed.as_secs_f64() / speed).ok()?)
             });
-            self.next.extend_from_slice(message.data);
+            match record {
+                LinkRecord::Frame(bytes) => self.next.extend_from_slice(bytes),
+                LinkRecord::Gap(mark) => self.gap = Some(mark),
+            }
             if let Some(progress) = &mut self.progress {
                 progress.at(self.wire.passed()[0]);
             }
@@ -107,6 +114,7 @@ impl Port for Player {
         let mut count = 0;
         loop {
             if self.next.is_empty()
+                && self.gap.is_none()
                 && !self.fetch().context("the recording ends").map_err(io::Error::other)?
             {
                 return Ok((count > 0).then_some(count));
@@ -118,6 +126,12 @@ impl Port for Player {
                 }
                 return Ok(Some(count));
             }
+            if self.gap.is_some() {
+                if count == 0 {
+                    self.passed = self.gap.take();
+                }
+                return Ok(Some(count));
+            }
             let taken = self.next.len().min(buffer.len() - count);
             buffer[count..count + taken].copy_from_slice(&self.next[..taken]);
             self.next.drain(..taken);
@@ -126,6 +140,10 @@ impl Port for Player {
                 return Ok(Some(count));
             }
         }
+    }
+
+    fn gap(&mut self) -> Option<GapMark> {
+        self.passed.take()
     }
 
     fn remark(&self) -> Option<String> {

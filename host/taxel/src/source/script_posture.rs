@@ -1,7 +1,8 @@
 //! The joints of a script, told to the simulated board as a robot's program tells them to a real one.
 
 use super::pipe::BoardEnd;
-use crate::sim::Script;
+use super::touching::Touching;
+use crate::sim::{Joint, SimClock, posture};
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::Name;
 use taxel_core::run::Link;
@@ -14,8 +15,8 @@ const PERIOD_US: u64 = 20_000;
 const LONGEST: usize = frame_bound(128);
 
 /// The postures of a script, and the scene that says how its joints are numbered.
-pub(super) struct ScriptPosture<'a> {
-    script: &'a Script,
+pub(super) struct ScriptPosture {
+    movements: Vec<Joint>,
     /// The joints of the board's scene.
     joints: Vec<Name>,
     /// What the host has sent of a request that is not complete.
@@ -28,17 +29,29 @@ pub(super) struct ScriptPosture<'a> {
     is_overruled: bool,
 }
 
-impl<'a> ScriptPosture<'a> {
-    /// The postures of this script, for a board with this scene.
-    pub fn new(script: &'a Script, scene: &Scene) -> ScriptPosture<'a> {
+impl ScriptPosture {
+    /// No postures yet, for a board with this scene.
+    pub fn new(scene: &Scene) -> ScriptPosture {
         let joints = scene.joints.to_vec();
-        let (request, posture) = (Vec::new(), Vec::new());
-        ScriptPosture { script, joints, request, posture, due_us: 0, is_overruled: false }
+        let (movements, request, posture) = (Vec::new(), Vec::new(), Vec::new());
+        ScriptPosture { movements, joints, request, posture, due_us: 0, is_overruled: false }
     }
 
-    /// The script begins anew.
-    pub fn begin(&mut self) {
+    /// A script with these movements begins.
+    pub fn begin(&mut self, movements: &[Joint]) {
+        self.movements = movements.to_vec();
         self.due_us = 0;
+    }
+
+    /// Further movements: of each joint the newest is kept, until the next has begun.
+    fn extend(&mut self, movements: Vec<Joint>) {
+        let newer: Vec<_> = self.movements.iter().map(|joint| joint.name.clone()).collect();
+        let mut at = 0..;
+        self.movements.retain(|_| {
+            let at = at.next().unwrap_or(0);
+            newer.get(at).is_some_and(|name| !newer[at + 1..].contains(name))
+        });
+        self.movements.extend(movements);
     }
 
     /// The board has another scene.
@@ -56,7 +69,8 @@ impl<'a> ScriptPosture<'a> {
             let joint = self.joints.iter().position(|joint| joint == name)? as u8;
             Some(JointAngle { joint, centidegrees: (100.0 * degrees.clamp(-180.0, 180.0)).round() as i16 })
         };
-        let joints: Vec<JointAngle> = self.script.posture(now_us as f64 / 1e6).filter_map(joint).collect();
+        let joints: Vec<JointAngle> =
+            posture(&self.movements, now_us as f64 / 1e6).filter_map(joint).collect();
         let joints = heapless::Vec::from_slice(&joints).ok().filter(|joints| !joints.is_empty())?;
         let mut frame = [0; LONGEST];
         Some(encode(&Request::Posture(Posture { joints }), &mut frame).ok()?.to_vec())
@@ -82,28 +96,39 @@ impl<'a> ScriptPosture<'a> {
     }
 }
 
-/// The board's end of the link, on which postures come between the host's requests.
-pub(super) struct TellingEnd<'a, 'b> {
+/// The board's end of the link, on which postures come between the host's requests, and what touches the garment
+/// is looked after.
+pub(super) struct TellingEnd<'a> {
     link: &'a BoardEnd,
-    told: &'a mut ScriptPosture<'b>,
-    /// Time of the script, us.
-    now_us: &'a dyn Fn() -> u64,
+    told: &'a mut ScriptPosture,
+    touching: Touching<'a>,
+    clock: SimClock,
 }
 
-impl<'a, 'b> TellingEnd<'a, 'b> {
-    pub fn new(link: &'a BoardEnd, told: &'a mut ScriptPosture<'b>, now_us: &'a dyn Fn() -> u64) -> Self {
-        TellingEnd { link, told, now_us }
+impl<'a> TellingEnd<'a> {
+    pub fn new(
+        link: &'a BoardEnd,
+        told: &'a mut ScriptPosture,
+        touching: Touching<'a>,
+        clock: SimClock,
+    ) -> Self {
+        TellingEnd { link, told, touching, clock }
     }
 }
 
-impl Link for TellingEnd<'_, '_> {
+impl Link for TellingEnd<'_> {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize {
-        if self.told.script.joints.is_empty() {
+        let now_ns = self.clock.now_ns();
+        let begin = self.touching.act(now_ns);
+        if !begin.is_empty() {
+            self.told.extend(begin);
+        }
+        if self.told.movements.is_empty() {
             return self.link.try_read(buffer);
         }
         if self.told.posture.is_empty()
             && self.told.request.is_empty()
-            && let Some(posture) = self.told.due((self.now_us)())
+            && let Some(posture) = self.told.due(now_ns / 1000)
         {
             self.link.tell(&posture);
             self.told.posture = posture;
@@ -127,11 +152,14 @@ impl Link for TellingEnd<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::super::Port;
+    use super::super::hand::Hand;
     use super::super::pipe::pipe;
+    use super::super::touching::Rounds;
     use super::*;
     use crate::files::scripts;
-    use std::cell::Cell;
+    use crate::sim::SimBoard;
     use taxel_core::format::name;
+    use taxel_core::garment::{Garment, Layout};
     use taxel_core::scene::Scene;
 
     /// The requests on a wire, without their ends.
@@ -139,7 +167,7 @@ mod tests {
         bytes.split(|byte| *byte == 0).filter(|it| !it.is_empty()).map(<[u8]>::to_vec).collect()
     }
 
-    fn read(end: &mut TellingEnd<'_, '_>) -> Vec<u8> {
+    fn read(end: &mut TellingEnd<'_>) -> Vec<u8> {
         let (mut all, mut buffer) = (Vec::new(), [0; 7]);
         loop {
             let count = end.try_read(&mut buffer);
@@ -156,17 +184,21 @@ mod tests {
         let mut scene = Scene::shipped();
         scene.joints = [name("waist"), name("left_elbow")].into_iter().collect();
         let (mut host, board) = pipe();
-        let mut told = ScriptPosture::new(&script, &Scene::shipped());
-        let now = Cell::new(750_000);
-        let time = || now.get();
-        let mut end = TellingEnd::new(&board, &mut told, &time);
+        let garment = Garment::reference();
+        let SimBoard { clock, hand: sim_hand, .. } = SimBoard::new(&garment, &script, 1).unwrap();
+        let hand = Hand::new(script.untouched(), Layout::build(&garment, 2048, 4095).unwrap());
+        let mut told = ScriptPosture::new(&Scene::shipped());
+        told.begin(&script.joints);
+        let touching = Touching::new(&hand, sim_hand, &script, Rounds::One);
+        let mut end = TellingEnd::new(&board, &mut told, touching, clock.clone());
+        clock.advance_to(750_000);
         let mut wire = [0; 4096];
         let bytes = postcard::to_allocvec(&scene).unwrap();
         let frame = encode(&Request::SetScene(&bytes), &mut wire).unwrap().to_vec();
         let (start, rest) = frame.split_at(frame.len() / 2);
         host.write(start).unwrap();
         let first = read(&mut end);
-        now.set(770_000);
+        clock.advance_to(770_000);
         // A request is not interrupted.
         host.write(rest).unwrap();
         let second = read(&mut end);
@@ -194,9 +226,9 @@ mod tests {
         // Once the host tells a posture, the script's are none.
         let own = encode(&Request::Posture(Posture::default()), &mut wire).unwrap().to_vec();
         host.write(&own).unwrap();
-        now.set(790_000);
+        clock.advance_to(790_000);
         assert_eq!(requests(&read(&mut end)).len(), 2);
-        now.set(990_000);
+        clock.advance_to(990_000);
         assert!(read(&mut end).is_empty());
     }
 }

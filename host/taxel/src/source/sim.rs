@@ -1,12 +1,14 @@
 //! The simulated board as a source: runs the core's loop in a thread, on virtual time.
 
+use super::hand::Hand;
 use super::pipe::{BoardEnd, pipe};
 use super::script_posture::{ScriptPosture, TellingEnd};
+use super::touching::{Rounds, Touching};
 use super::{Source, SourceOptions, scene_of};
 use crate::body;
 use crate::client::SIMULATED;
 use crate::error::{Context, Error, Result, SourceError};
-use crate::files::{self, garments, scripts};
+use crate::files::{self, garments, input, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use std::ops::Range;
 use std::path::Path;
@@ -43,7 +45,8 @@ struct Playing {
     folds: Option<&'static [u8]>,
     seed: u64,
     realtime: bool,
-    repeat: bool,
+    rounds: Rounds,
+    hand: Hand,
     end_us: u64,
 }
 
@@ -62,17 +65,26 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
             (script, garment)
         }
     };
-    if options.raw {
-        board_scene.stream.raw_hz = u16::MAX;
-    }
     let surface = options.body.as_ref().map(|body| surface(body, &garment)).transpose()?;
     let folds = options.folds.as_ref().map(|file| folds(file, &garment)).transpose()?;
     let tare = script.tare_frames.min(4096) as u16;
+    let rounds = match (options.repeat, options.waits) {
+        (false, _) => Rounds::One,
+        (true, false) => Rounds::Many,
+        (true, true) => Rounds::Later,
+    };
+    let seed = options.seed.unwrap_or(script.seed);
+    let worn = options.garment.clone().unwrap_or(input::beside(&script.folder, &script.garment));
+    let layout = Layout::build(&garment, TAXELS, FULL_SCALE).with_context(|| label.clone())?;
+    let hand =
+        Hand::new(Script { seed, garment: scripts::lasting_path(&worn)?, ..script.untouched() }, layout);
+    let scene = Some(board_scene.clone());
     let play = Playing {
-        seed: options.seed.unwrap_or(script.seed),
+        seed,
         realtime: options.realtime,
-        repeat: options.repeat,
-        end_us: end_us(script.duration_s, options),
+        rounds,
+        hand: hand.clone(),
+        end_us: if rounds == Rounds::One { end_us(script.duration_s, options) } else { u64::MAX },
         garment,
         scene: board_scene,
         surface,
@@ -104,7 +116,9 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         counts_per_newton: Some(COUNTS_PER_NEWTON),
         wears_asked: options.garment.is_some(),
         has_body: options.body.is_some(),
+        scene,
         has_folds: options.folds.is_some(),
+        hand: Some(hand),
         ..Source::new(label, host)
     })
 }
@@ -143,10 +157,7 @@ fn fitted(
             largest.name
         );
     }
-    // A script whose garment cannot be loaded keeps its places.
-    let home = scripts::garment(&script).ok();
-    let home = home.and_then(|home| Layout::build(&home, usize::from(u16::MAX), FULL_SCALE).ok());
-    let script = home.map_or_else(|| script.clone(), |home| sim::refit(&script, &home, &layout));
+    let script = scripts::fit(script, &layout)?;
     for row in &mut scene.react {
         if let Some(line) = row.output.filter(|line| circuit.lines().contains(&line.pin)) {
             eprintln!(
@@ -173,6 +184,7 @@ pub fn info(garment: &Garment) -> BoardInfo {
         garment.blocks.iter().fold(0, |mask, b| mask | 1u64.checked_shl(b.input.into()).unwrap_or(0));
     BoardInfo {
         firmware: SIMULATED,
+        chip: "",
         pins: Pins { outputs: !inputs, inputs, ..Pins::ANY },
         full_scale: FULL_SCALE,
         link_bytes_per_s: LINK,
@@ -205,45 +217,41 @@ impl Playing {
         Ok(())
     }
 
-    /// Plays the script once, or round after round with the board's time running on.
+    /// Runs the board until it is lost, or the script that is played once has ended.
     fn all(&self, board: &mut Shipped, link: BoardEnd) {
-        let mut offset_us = 0;
         let mut origin = Instant::now();
         let mut flash = SimFlash::new(tables_start(TableKind::Folds) + tables_bytes(TableKind::Folds));
-        let mut posture = ScriptPosture::new(&self.script, &self.scene);
-        // The inputs have been checked, so every round builds the same board.
-        while let Ok(simulated) = SimBoard::new(&self.garment, &self.script, self.seed) {
-            let SimBoard { mut lines, delay, adc, clock } = simulated;
-            let script_clock = clock.clone();
-            let script_us = || script_clock.now().0;
-            let clock = Shifted { clock, offset_us };
+        let mut posture = ScriptPosture::new(&self.scene);
+        let idle = self.script.untouched();
+        let script = if self.rounds == Rounds::Later { &idle } else { &self.script };
+        let mut now = Micros(0);
+        // The inputs have been checked, so the board is built again after each restart.
+        while let Ok(simulated) = SimBoard::new(&self.garment, script, self.seed) {
+            let SimBoard { mut lines, delay, adc, clock, hand } = simulated;
             let mut platform = Virtual {
                 clock: clock.clone(),
-                end: Micros(offset_us + self.end_us),
+                end: Micros(self.end_us),
                 link: &link,
                 flash: &mut flash,
                 restarts: false,
                 origin: self.realtime.then_some(&mut origin),
             };
             let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
-            posture.begin();
-            let mut end = TellingEnd::new(&link, &mut posture, &script_us);
+            posture.begin(&script.joints);
+            let touching = Touching::new(&self.hand, hand, &self.script, self.rounds);
+            let mut end = TellingEnd::new(&link, &mut posture, touching, clock.clone());
             block_on(run(&mut scan, &mut end, &mut platform, board));
-            offset_us = clock.now().0;
-            if platform.restarts && self.restart(board, &mut flash).is_ok() {
-                posture.follow(&board.setup().scene);
-                // Both its clock and the script restart.
-                offset_us = 0;
-                origin = Instant::now();
-                continue;
-            }
-            if link.is_alone() || !self.repeat {
+            now = clock.now();
+            if !platform.restarts || self.restart(board, &mut flash).is_err() {
                 break;
             }
+            // Both its clock and the script restart.
+            posture.follow(&board.setup().scene);
+            origin = Instant::now();
         }
         // Messages of the last frame.
         loop {
-            let count = (&link).try_write(board.pending(Micros(offset_us), &mut ()));
+            let count = (&link).try_write(board.pending(now, &mut ()));
             board.sent(count);
             if count == 0 {
                 return;
@@ -274,22 +282,9 @@ fn bytes_of(flash: &SimFlash, table: Range<u32>) -> &[u8] {
     flash.bytes().get(table.start as usize..table.end as usize).unwrap_or(&[])
 }
 
-/// The simulated clock, shifted.
-#[derive(Debug, Clone)]
-struct Shifted {
-    clock: SimClock,
-    offset_us: u64,
-}
-
-impl Clock for Shifted {
-    fn now(&self) -> Micros {
-        Micros(self.clock.now().0 + self.offset_us)
-    }
-}
-
 /// The simulated board apart from its pins.
 struct Virtual<'a> {
-    clock: Shifted,
+    clock: SimClock,
     end: Micros,
     link: &'a BoardEnd,
     /// Keeps saved settings as long as the simulation runs.
@@ -354,6 +349,6 @@ impl Platform for Virtual<'_> {
 
     async fn idle(&mut self, until: Micros) {
         let next = until.0.min(self.now().0 + 1000);
-        self.clock.clock.advance_to(next.saturating_sub(self.clock.offset_us));
+        self.clock.advance_to(next);
     }
 }

@@ -82,7 +82,8 @@ fn what_is_wrong_is_said_in_one_sentence() {
 
 #[test]
 fn a_bad_base_is_refused_by_the_board_in_one_sentence() {
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Board::<64, 32>::new(info, Garment::block(), Scene::shipped()).unwrap());
     let mut ask = |request: &Request<'_>| {
         let mut wire = [0; 4096];

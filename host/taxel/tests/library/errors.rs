@@ -179,7 +179,10 @@ fn an_invalid_map_names_its_version_its_key_or_its_concept() {
 fn an_invalid_setting_names_its_parameter() {
     let of = |result: Result<(), Error>| failed(result).kind().parameter().unwrap_or_default();
     let mut client = Client::new();
-    assert_eq!(of(setting::set_certainty(&mut client, 2.0)), "gestures.certainty");
+    assert_eq!(
+        of(setting::set_gestures(&mut client, taxel_core::gesture::ShippedModel::Intent, None, Some(2.0))),
+        "gestures.certainty"
+    );
     let scene = SceneFile::named("contact = { low = 0 }").unwrap();
     assert_eq!(of(setting::set_scene(&mut client, &scene)), "contact.low");
     assert_eq!(of(SceneFile::named("contact = { lo = 3 }").map(drop)), "contact.lo");

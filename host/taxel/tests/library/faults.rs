@@ -10,7 +10,7 @@ use taxel_core::selftest::{Examine, Fault, Findings, PinFault};
 pub fn examine(garment: &Garment, script: &Script) -> Findings {
     let layout = Layout::build(garment, 2048, 4095).unwrap();
     let circuit = Circuit::build(garment, &layout, Pins::ANY).unwrap();
-    let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(garment, script, script.seed).unwrap();
+    let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(garment, script, script.seed).unwrap();
     let mut scan = MuxScan::<_, _, _, _, PINS, 2048>::new(&mut lines, delay, adc, clock.clone());
     let findings = scan.examine(&circuit).unwrap();
     assert!(clock.now_ns() < 12_000_000, "{} ns", clock.now_ns());

@@ -2,7 +2,7 @@
 
 use crate::random::Noise;
 use taxel::body::{self, Body, DVec3, Surface, wrenches};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, SceneChange};
 use taxel::session::setting;
 use taxel::stepped::Stepped;
 use taxel_core::condition::{Image, Rows};
@@ -12,7 +12,7 @@ use taxel_core::garment::{Garment, Layout};
 use taxel_core::health::{FaultyTaxel, TaxelHealth};
 use taxel_core::scene::Scene;
 use taxel_core::surface::{
-    CARRIED_US, Landed, LinkFrames, LinkMotion, LinkName, ONE, Pose, Pressing, SurfaceState, Table,
+    CARRIED_US, Landed, LinkFrames, LinkMotion, LinkName, LinkPose, ONE, Pose, Pressing, SurfaceState, Table,
     TaxelLimits, Wrench, table_bytes,
 };
 use taxel_core::wire::Request;
@@ -196,8 +196,9 @@ fn contacts_in_the_base_frame_are_within_a_tenth_of_a_millimetre() {
                 .map(|_| ([0; 3].map(|_| random.below(4_000_001) as i32 - 2_000_000), rotation(&mut random)))
                 .collect();
             let told = poses.iter().zip(worn.surface.links());
-            let told: Vec<(LinkName, Pose)> =
-                told.map(|((at, (turn, _)), link)| (called(link), Pose { at: *at, turn: *turn })).collect();
+            let told: Vec<LinkPose> = told
+                .map(|((at, (turn, _)), link)| (called(link), Pose { at: *at, turn: *turn }, None))
+                .collect();
             state.accept(&told, &Table::view(&worn.table).unwrap(), Micros(7)).unwrap();
             assert_eq!(state.told(), Some(Micros(7)));
             let (pressing, contacts) = felt(&worn, &values, &state.at(Micros(7)));
@@ -233,7 +234,7 @@ fn links_that_move_are_carried_on() {
         let motion = LinkMotion { velocity, spin, error: 500, drift: 3_000, acceleration: 2_000_000 };
         let mut state = SurfaceState::new();
         let told = Micros(1_000_000);
-        state.accept_moving(&[(called("base"), Pose { at, turn }, motion)], &table, told).unwrap();
+        state.accept(&[(called("base"), Pose { at, turn }, Some(motion))], &table, told).unwrap();
         let us = random.below(2 * u64::from(CARRIED_US) + 1) as i64 - i64::from(CARRIED_US);
         let frames = state.at(Micros(told.0.wrapping_add_signed(us)));
         let seconds = us as f64 * 1e-6;
@@ -362,11 +363,12 @@ fn a_pose_that_is_none_is_refused() {
         (Pose { turn: [one, 0, 0, one], ..good }, "base", "pose.turn must be a quaternion of length 1"),
         (good, "elbow", "pose.link must be a link of the surface"),
     ] {
-        let refused =
-            state.accept(&[(called("base"), good), (called(link), pose)], &table, Micros(1)).unwrap_err();
+        let refused = state
+            .accept(&[(called("base"), good, None), (called(link), pose, None)], &table, Micros(1))
+            .unwrap_err();
         assert_eq!((refused.to_string().as_str(), &state), (why, &SurfaceState::new()));
     }
-    state.accept(&[(called("base"), good)], &table, Micros(1)).unwrap();
+    state.accept(&[(called("base"), good, None)], &table, Micros(1)).unwrap();
 }
 
 /// A body is sent to a board piece by piece, and the board tells what presses where.
@@ -391,7 +393,7 @@ fn a_board_takes_a_body_and_tells_what_presses_on_it() {
         }
     };
     setting::set_body(board.client(), "reference", "reference").unwrap();
-    board.client().request(&Request::SetPressing(u16::MAX)).unwrap();
+    board.client().change_scene(SceneChange::pressing(u16::MAX));
     board.client().request(&Request::Tare { frames: 16 }).unwrap();
     steps(&mut board, &codes, 250);
     let turn = [0.0, 0.0, 0.5f64.sqrt(), 0.5f64.sqrt()];
@@ -401,7 +403,7 @@ fn a_board_takes_a_body_and_tells_what_presses_on_it() {
         codes[taxel] += 500;
     }
     steps(&mut board, &codes, 10);
-    let surface = Request::SetSurface(&[]).number();
+    let surface = Request::SetTable(&[]).number();
     let pieces = table_bytes(2048).div_ceil(256);
     assert_eq!(answers.iter().filter(|(request, _)| *request == surface).count(), pieces);
     assert!(answers.iter().all(|(_, refusal)| refusal.is_none()), "{answers:?}");

@@ -8,7 +8,6 @@ use taxel::json::{MessagePrinter, Replay, message};
 use taxel::record::{Stamp, json_message};
 use taxel::session::{Session, Show};
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel_core::boot::{Aside, Boot, BootCause};
 use taxel_core::format::{Celsius, Micros, Q15, name};
 use taxel_core::react::Reaction;
 use taxel_core::selftest::{Fault, Findings, PinFault};
@@ -16,9 +15,8 @@ use taxel_core::surface::{
     BodyDirection, InBase, Landed, LinkName, RegionPhase, RegionSymbol, SurfacePoint, Wrench,
 };
 use taxel_core::wire::{
-    Budget, ConfidenceReport, FormsReport, GestureReport, Health, Level, PressingReport, ReactionReport,
-    ReflexReport, RegionsReport, SelfTestReport, StartOfFrame, SyncReport, Temperature, UnsureReport,
-    WireError,
+    Budget, GestureReport, Health, Level, PressingReport, ReactionReport, ReflexReport, RegionsReport,
+    SelfTestReport, StartOfFrame, SyncReport, Temperature, WireError,
 };
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/library/golden/lines.txt");
@@ -48,8 +46,8 @@ fn keep(lines: &mut Lines, place: &str, text: &str) {
 /// What a scene's board reports: as lines, printed with pixels, recorded; and its codes processed again.
 fn simulate(scene: &str, lines: &mut Lines) {
     let spec: SourceSpec = format!("sim:{scene}").parse().unwrap();
-    let options = SourceOptions { raw: true, ..SourceOptions::default() };
-    let mut session = Session::over(source::open(&spec, &options).unwrap()).unwrap();
+    let mut session = Session::over(source::open(&spec, &SourceOptions::default()).unwrap()).unwrap();
+    session.parts().0.stream_raw(u16::MAX).unwrap();
     let mut replay: Option<Replay> = None;
     while let Some(event) = session.wait().unwrap() {
         let client = session.client();
@@ -93,6 +91,7 @@ pub fn pressing() -> PressingReport {
         posed: Some(Micros(70)),
         contacts: [landed(7, None), landed(8, Some(base))].into_iter().collect(),
         links: [wrench].into_iter().collect(),
+        ..PressingReport::default()
     }
 }
 
@@ -112,12 +111,10 @@ fn others(client: &Client, lines: &mut Lines) {
         lead: 123_456,
         observed_ms: 900,
         ended: true,
+        confidence: Some(Q15(23_456)),
     };
     let reaction = Reaction { index: 2, name: name("retreat"), active: true, value: -7 };
     let reflex = ReflexReport { frame: 9, time: TIME, index: 1, taxel: 77, value: 900, other: Some(78) };
-    let confidence = ConfidenceReport { frame: 9, time: TIME, touch: 3, confidence: Q15(23_456) };
-    let unsure = UnsureReport { frame: 9, time: TIME, contacts: heapless::Vec::from_slice(&[4, 5]).unwrap() };
-    let ages = heapless::Vec::from_slice(&[(4, 7), (5, 255)]).unwrap();
     let region = RegionSymbol {
         phase: RegionPhase::Moving,
         way: BodyDirection::Down,
@@ -128,9 +125,6 @@ fn others(client: &Client, lines: &mut Lines) {
     let all = [
         Event::Unusable("protocol 2".into()),
         Event::Gesture(gesture),
-        Event::Confidence(confidence),
-        Event::Unsure(Box::new(unsure)),
-        Event::Forms(Box::new(FormsReport { frame: 9, time: TIME, ages })),
         Event::Pressing(Box::new(pressing())),
         Event::Regions(Box::new(RegionsReport {
             frame: 9,
@@ -144,7 +138,6 @@ fn others(client: &Client, lines: &mut Lines) {
         Event::Budget(Budget { frame: 9, time: TIME, frames: 20, encode_us: 31, ..Budget::default() }),
         Event::Temperature(Temperature { time: TIME, celsius: Celsius(3_333) }),
         Event::SelfTest(SelfTestReport { time: TIME, findings }),
-        Event::Boot(Boot { cause: BootCause::Watchdog, resets: 2, aside: Aside::Resets }),
         Event::Log { time: TIME, level: Level::Warn, text: "a \"word\"\n".into() },
         Event::Lost { why: "usb is gone".into(), since_us: 1_700_000_000_000_000 },
         Event::Back { how: "usb is back".into(), after: Duration::from_millis(1500) },

@@ -11,6 +11,7 @@ mod errors;
 mod faults;
 mod fcm;
 mod folds;
+mod hand;
 mod health;
 mod landed;
 mod lines;
@@ -37,4 +38,5 @@ mod timed_line;
 mod touch;
 #[cfg(feature = "schema")]
 mod validator;
+mod versions;
 mod watchdog;

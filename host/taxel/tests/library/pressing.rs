@@ -7,7 +7,7 @@ use taxel::error::Error;
 use taxel::json::computed_pressing;
 use taxel::session::{Returns, Session, Turn};
 use taxel::source::{self, SourceOptions};
-use taxel_core::wire::{PressingReport, Request};
+use taxel_core::wire::PressingReport;
 
 /// A contact: its link, its place (m) and its force (counts).
 type Push = (String, DVec3, DVec3);
@@ -52,7 +52,7 @@ fn the_host_computes_what_a_board_says() {
     let mut session = Session::new(source, Returns::Never);
     let tare = session.source().tare;
     session.parts().0.start(tare).unwrap();
-    session.parts().0.request(&Request::SetPressing(u16::MAX)).unwrap();
+    session.parts().0.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
     let mut both = Both::default();
     while session.turn(&mut |_, _| Ok::<(), Error>(())).unwrap() != Turn::End {
         while let Some(event) = session.next_event() {

@@ -302,7 +302,7 @@ fn after_a_failed_line_every_line_is_driven_anew() {
 fn scanned(script: &Script, garment: &Garment, frames: usize) -> Vec<u16> {
     let circuit = circuit(garment);
     let taxels = Layout::build(garment, 2048, 4095).unwrap().taxels();
-    let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(garment, script, script.seed).unwrap();
+    let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(garment, script, script.seed).unwrap();
     let mut scan = MuxScan::<_, _, _, _, PINS, 2048>::new(&mut lines, delay, adc, clock.clone());
     let mut codes = Vec::new();
     for frame in 0..frames {
@@ -344,7 +344,7 @@ fn the_scan_reads_what_the_scene_holds() {
 fn a_scan_of_the_reference_garment_takes_5120_us() {
     let garment = Garment::reference();
     let script = load("idle").unwrap();
-    let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
+    let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(&garment, &script, 1).unwrap();
     let mut scan = MuxScan::<_, _, _, _, PINS, 2048>::new(&mut lines, delay, adc, clock);
     let circuit = circuit(&garment);
     assert_eq!(block_on(scan.scan(&circuit, &Plan::default())).unwrap().report.duration_us, 5_120);

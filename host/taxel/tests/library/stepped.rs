@@ -10,13 +10,13 @@ use taxel::stepped::Stepped;
 use taxel_core::format::Micros;
 
 /// Events that depend on codes and time alone.
-const PERCEIVED: [&str; 6] = ["frame", "contacts", "symbols", "intent", "reaction", "unsure"];
+const PERCEIVED: [&str; 5] = ["frame", "contacts", "symbols", "intent", "reaction"];
 
 /// Lines of a simulated scene, and the codes of its scans.
 fn simulated(scene: &str) -> (Vec<Value>, Vec<(Micros, Vec<u16>)>) {
     let spec: SourceSpec = format!("sim:{scene}").parse().unwrap();
-    let options = SourceOptions { raw: true, ..SourceOptions::default() };
-    let mut session = Session::over(source::open(&spec, &options).unwrap()).unwrap();
+    let mut session = Session::over(source::open(&spec, &SourceOptions::default()).unwrap()).unwrap();
+    session.parts().0.stream_raw(u16::MAX).unwrap();
     let (mut lines, mut scans) = (Vec::new(), Vec::new());
     while let Some(event) = session.wait().unwrap() {
         lines.push(message(session.client(), &event));

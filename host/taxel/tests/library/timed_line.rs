@@ -14,7 +14,7 @@ use taxel_core::wire::StartOfFrame;
 /// The host's time when the simulation begins, us.
 pub const EPOCH: f64 = 1.8e15;
 const INFO: BoardInfo =
-    BoardInfo { firmware: "test", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
+    BoardInfo { firmware: "test", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 92_160 };
 
 /// A board's clock: fast by `ppm`, and by up to `wander_ppm` more or less in the course of `period_s`.
 #[derive(Debug, Clone, Copy)]

@@ -52,7 +52,7 @@ fn the_longest_scans_and_self_tests_feed_the_watchdog_as_they_go() {
         let plan = Plan { depth, ..Plan::default() };
         check_duration(&circuit, &plan).unwrap();
         let script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
-        let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(&garment, &script, 1).unwrap();
+        let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(&garment, &script, 1).unwrap();
         let watch = Watched { clock, fed: Cell::new(Micros(0)), longest_us: Cell::new(0) };
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, &watch);
         let (frame_us, step_us) = watched(&watch, || {

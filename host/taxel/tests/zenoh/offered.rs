@@ -1,6 +1,6 @@
 //! What a board sends arrives unchanged, in its order, and only where somebody listens.
 
-use crate::stage::{Network, Offered, place, wait_for};
+use crate::stage::{Network, Offered, place, state, wait_for};
 use std::sync::mpsc;
 use std::time::Duration;
 use taxel::client::{Event, ImageNews};
@@ -85,9 +85,7 @@ fn state_and_health_are_there_for_other_programs() {
     let mut viewer = network.view();
     wait_for(&mut viewer, "an image", |event| matches!(event, Event::Frame { image: ImageNews::Whole, .. }));
     let other = network.other();
-    let reply = other.get(place().state()).wait().unwrap().recv().unwrap();
-    let state = reply.result().unwrap().payload().try_to_string().unwrap().into_owned();
-    let state: serde_json::Value = serde_json::from_str(&state).unwrap();
+    let state = state(&other);
     assert_eq!(
         (&state["robot"], &state["board"], &state["live"]),
         (&"arm".into(), &"left".into(), &true.into())

@@ -23,7 +23,7 @@ fn a_request_of_one_viewer_is_done_and_answered() {
         );
         assert_eq!(answer, Event::Answer { request: tare.number(), refusal: None });
     }
-    let refused = Request::SetCertainty(5000);
+    let refused = Request::Tare { frames: 5000 };
     viewers[1].request(&refused).unwrap();
     wait_for(
         &mut viewers[1],

@@ -1,7 +1,7 @@
 //! A board that a thread offers, in a network of its own on this machine.
 
 use crate::rig::{Rig, source};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -64,6 +64,12 @@ impl Network {
     pub fn other(&self) -> zenoh::Session {
         zenoh::open(zenoh::Config::from_file(&self.client).unwrap()).wait().unwrap()
     }
+}
+
+/// State of the offered board, as another program is told.
+pub fn state(other: &zenoh::Session) -> Value {
+    let reply = other.get(place().state()).wait().unwrap().recv().unwrap();
+    serde_json::from_slice(&reply.result().unwrap().payload().to_bytes()).unwrap()
 }
 
 /// Folder for files of these tests.

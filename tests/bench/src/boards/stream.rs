@@ -12,7 +12,7 @@ use taxel_core::wire::{self, Report};
 const TWO: &str = include_str!("two.toml");
 
 /// Messages that answer requests: whoever plays the stream answers its own.
-const ANSWERS: [u32; 4] = [Report::SYNC, Report::ANSWER, Report::BOOT, Report::START_OF_FRAME];
+const ANSWERS: [u32; 3] = [Report::SYNC, Report::ANSWER, Report::START_OF_FRAME];
 
 /// The messages of a board.
 #[derive(Debug, Default)]

@@ -288,7 +288,10 @@ impl Case {
 
     /// Inputs in order; the last scans are the measured ones.
     pub fn steps(&self) -> Result<Vec<Step>> {
-        let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&self.scene)];
+        let mut scene = self.scene.clone();
+        scene.gestures = self.variant.gestures();
+        scene.stream.pressing_hz = if self.variant == Variant::Pressing { u16::MAX } else { 0 };
+        let [garment, scene] = [postcard::to_allocvec(&self.garment), postcard::to_allocvec(&scene)];
         let (garment, scene) = (garment?, scene?);
         let ask = |request: &Request<'_>| {
             let mut wire = [0; frame_bound(LONGEST_REQUEST)];
@@ -299,8 +302,6 @@ impl Case {
             Request::Stop,
             Request::SetGarment(&garment),
             Request::SetScene(&scene),
-            Request::SetGestures(self.variant.gestures()),
-            Request::SetPressing(if self.variant == Variant::Pressing { u16::MAX } else { 0 }),
             Request::Tare { frames: TARE },
         ]
         .iter()

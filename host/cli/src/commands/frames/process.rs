@@ -11,7 +11,6 @@ use taxel::files::arrays::{self, Frames};
 use taxel::json::Replay;
 use taxel::learn::doubts;
 use taxel::tell::progress::{Progress, Unit};
-use taxel_core::contact::Forms;
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -77,8 +76,9 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
         None => Garment::recorded(frames.rows, frames.columns),
     };
     let place = || format!("{}{}", args.file.display(), array_of(name));
-    let mut replay = Replay::new(&garment, &Scene::scaled(args.full_scale), top).with_context(place)?;
-    replay.pipeline.look_at(Forms::of(args.forms));
+    let mut scene = Scene::scaled(args.full_scale);
+    scene.contact.forms_in_frame = args.forms;
+    let mut replay = Replay::new(&garment, &scene, top).with_context(place)?;
     let taxels = usize::from(frames.rows) * usize::from(frames.columns);
     if taxels != replay.layout.taxels() {
         bail!(

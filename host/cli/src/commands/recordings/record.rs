@@ -90,7 +90,6 @@ pub fn run(args: RecordArgs) -> Result<()> {
         realtime: args.realtime,
         frames: args.frames,
         seconds: args.seconds,
-        raw: args.raw,
         ..SourceOptions::default()
     };
     let (source, calibration) = args.board.open(options)?;
@@ -114,7 +113,8 @@ pub fn run(args: RecordArgs) -> Result<()> {
     let label = source.label.clone();
     let unlimited = args.frames.is_none() && args.seconds.is_none();
     recorder.expect(args.seconds.unwrap_or(0.0));
-    let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
+    let watched =
+        LiveArgs { frames: args.frames, seconds: args.seconds, raw: args.raw, ..LiveArgs::on(args.board) };
     let pages = pages.map(|pages| pages.open(&source, origin, args.open)).transpose()?;
     let done = match pages {
         Some((viewer, hub)) => {

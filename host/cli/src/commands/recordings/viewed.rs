@@ -29,6 +29,10 @@ impl Show<anyhow::Error> for ViewedRecorder<'_> {
         self.recorder.event(client, event)
     }
 
+    fn tells_remarks(&self) -> bool {
+        true
+    }
+
     fn follows_another(&self) -> bool {
         Show::<anyhow::Error>::follows_another(&*self.recorder)
     }

@@ -19,7 +19,6 @@ pub fn run(args: LiveArgs, bare: bool) -> Result<()> {
         repeat: terminal && !bounded,
         frames: args.frames,
         seconds: args.seconds,
-        raw: args.taxel.is_some(),
         ..SourceOptions::default()
     };
     let (source, calibration) = args.board.open_to_show(options, bare || is_seen)?;

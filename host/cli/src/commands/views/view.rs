@@ -18,6 +18,9 @@ use taxel::source::{SourceOptions, SourceSpec, Speed};
 /// Default port, unless it is taken: T, A, X, L on a telephone keypad.
 const PORT: u16 = 8295;
 
+/// Preset of a garment's body, and of the robot that wears it.
+const REFERENCE: &str = "reference";
+
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ViewArgs {
@@ -76,11 +79,17 @@ pub fn run(args: ViewArgs) -> Result<()> {
     }
     let wearer = args.wearer()?;
     let listener = bind(args.port)?;
-    let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
+    // Who came to press is not disturbed, unless a script was asked for.
+    let waits = args.board.source.is_none();
+    let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
     let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
+    // The garment that is played where nothing was named is worn by a robot, too.
+    let unnamed = waits && source.hand.is_some() && args.board.garment.is_none();
+    let reference = || Wearer::read(REFERENCE, Some(REFERENCE), "");
+    let wearer = if unnamed && wearer.is_none() { Some(reference()?) } else { wearer };
     wearer.into_iter().for_each(|wearer| hub.wear(wearer));
     announce(&source.label, listener, hub.clone(), args.open)?;
     let folding = args.board.folds.as_deref().map(Folding::read).transpose()?;

@@ -1,6 +1,7 @@
 // The view of the robot's body: the garments of all its boards on its links or, where nobody said how the board's own
 // lies, that by regions.
 
+import { onCloth, onPanels, plotCloth, plotPanel, pointOf } from "./aim.js";
 import { make } from "./dom.js";
 import { placeOf } from "./garment.js";
 import { OnRobot } from "./on-robot.js";
@@ -65,9 +66,35 @@ export class Body {
     this.plain.hidden = isKnown;
     this.robot.classList.toggle("whole", parts.length > 1);
     this.last = isKnown
-      ? () => this.onRobot.draw(this.scene(garment, parts, settings))
+      ? () => this.onRobot.draw({ ...this.scene(garment, parts, settings), figure: store.states.figure ?? null })
       : () => this.regions.draw(store, settings);
     this.last();
+  }
+
+  /** @param {[number, number]} point of the page */
+  aim(point) {
+    const { garment, regions, onRobot } = this;
+    if (!garment) return null;
+    if (this.robot.hidden) return onPanels(regions.drawn(), point);
+    for (const { seen } of onRobot.aspects) {
+      const spot = onRobot.cloth && onCloth(garment, onRobot.stage, { ...onRobot.cloth, seen }, point);
+      if (spot) return spot;
+    }
+    return null;
+  }
+
+  /** @param {import("./types.d.ts").Panel} panel */
+  plot(panel) {
+    if (this.robot.hidden) return plotPanel(this.regions.drawn(), panel);
+    const { aspects, cloth, stage, standing } = this.onRobot;
+    return plotCloth(panel, stage, (taxel) => {
+      const corner = cloth?.taxels.indexOf(taxel) ?? -1;
+      const normal = standing?.normals.subarray(3 * corner, 3 * corner + 3) ?? [];
+      const facesIt = (/** @type {import("./on-robot.js").Aspect} */ { viewer }) =>
+        viewer.reduce((sum, part, axis) => sum + part * (normal[axis] ?? 0), 0) > 0;
+      const aspect = aspects.find(facesIt);
+      return corner < 0 || !aspect ? null : pointOf(aspect.seen, corner);
+    });
   }
 
   /**
@@ -99,7 +126,7 @@ export class Body {
    * @param {Garment} garment
    * @param {Part[]} parts
    * @param {Settings} settings
-   * @returns {BodyScene}
+   * @returns {Omit<BodyScene, "figure">}
    */
   scene(garment, parts, settings) {
     const { place } = this.hover;

@@ -2,6 +2,8 @@
 // red it is. Scenes are in millimetres as the camera sees them: x to the right of whoever looks at the robot's front,
 // y towards them, z up. A robot's own axes are those of a URDF: x forward, y to the left, z up, in metres.
 
+import { NONE } from "./figure.js";
+
 /**
  * @typedef {import("./types.d.ts").Panel} Panel
  * @typedef {import("./types.d.ts").Triple} Triple
@@ -249,8 +251,8 @@ function grow({ least, most }, point) {
   }
 }
 
-/** Share of the ramp that stands for a pressure that is not known: it is grey. */
-const UNKNOWN = -1;
+/** Shares of the ramp that stand for a pressure that is not known, and for the robot itself: they are grey. */
+const [UNKNOWN, ROBOT] = [-1, -2];
 
 /** Numbers of a corner in what `shade` and `light` fill, as in a relief: nothing, share of the ramp, and light. */
 export const STRIDE = 3;
@@ -265,8 +267,9 @@ export const STRIDE = 3;
  */
 export function shade(data, { taxels }, image, top, unknown = null) {
   for (let at = 0; at < taxels.length; at += 1) {
-    const taxel = taxels[at] ?? 0;
-    data[STRIDE * at + 1] = unknown?.[taxel] ? UNKNOWN : Math.min(1, (image[taxel] ?? 0) / top);
+    const taxel = taxels[at] ?? NONE;
+    const share = taxel === NONE ? ROBOT : Math.min(1, (image[taxel] ?? 0) / top);
+    data[STRIDE * at + 1] = unknown?.[taxel] ? UNKNOWN : share;
   }
 }
 

@@ -13,6 +13,8 @@ export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions:
 
 /** Where it is not known what presses: no colour of the ramp. */
 export const GREY = 0.45;
+/** The robot that wears the garment. */
+export const ROBOT = 0.72;
 
 /**
  * Takes the palette.

@@ -24,7 +24,7 @@ export function contacts(table, count, store) {
     const cells = [
       touch.region,
       force(garment, touch.total),
-      shape(touch),
+      shown?.head.frame.shapes[at] ?? "",
       String(touch.area),
       `${touch.slip ? "slips " : ""}${speed.toFixed(0)}`,
       String(touch.id),
@@ -32,15 +32,3 @@ export function contacts(table, count, store) {
     cells.forEach((text, column) => say(row.cells[column] ?? row.insertCell(), text));
   });
 }
-
-/** Share of the votes from which a shape is named: below, another is about as likely. */
-const SURE = 0.75;
-/** Least number of taxels that have a shape: fewer are round or rectangular by chance. */
-const SHAPED = 12;
-
-/**
- * The shape of a contact; nothing if that is uncertain.
- * @param {Pick<import("./types.d.ts").Contact, "shape" | "confidence" | "area" | "unsure">} contact
- */
-export const shape = ({ shape, confidence, area, unsure }) =>
-  unsure || shape === "unknown" || confidence < SURE || area < SHAPED ? "" : shape;

@@ -3,17 +3,20 @@
 import { palette } from "./colours.js";
 import { $, forgetColours, make, one } from "./dom.js";
 import { Follow } from "./follow.js";
+import { KEYS as HAND_KEYS } from "./hand.js";
 import { KEYS as RECORDED_KEYS } from "./recorder.js";
 import { toggleUnit } from "./units.js";
 
 /** Name, label and key of each view. */
 const VIEWS = /** @type {const} */ ([
-  ["panels", "Panels", "1"],
+  ["garment", "Garment", "1"],
   ["surface", "3-D", "2"],
   ["body", "Body", "3"],
   ["map", "Map", "4"],
   ["health", "Health", "5"],
 ]);
+/** What the page can show, by name: a view is one of them, but the garment is the figure with the panels beside it. */
+const PARTS = /** @type {const} */ (["body", "panels", "surface", "map", "health"]);
 /** Layers of pressure: setting, label, key, description. */
 const LAYERS = /** @type {const} */ ([
   ["smooth", "Smooth", "i", "Interpolate between taxels"],
@@ -62,7 +65,7 @@ export class Controls {
     this.worn = "";
     /** @type {import("./types.d.ts").Settings} */
     this.settings = {
-      view: "panels",
+      view: "garment",
       smooth: false,
       contours: true,
       contacts: true,
@@ -92,7 +95,7 @@ export class Controls {
         {
           role: "tab",
           id: `tab-${name}`,
-          "aria-controls": `view-${name}`,
+          "aria-controls": name === "garment" ? "view-body view-panels" : `view-${name}`,
           title: `${text} (${key})`,
           click: () => this.set({ view: name }),
           keydown: (event) => this.tabKey(event),
@@ -131,6 +134,22 @@ export class Controls {
     $(`tab-${name}`).focus();
   }
 
+  /**
+   * The parts that are shown. Where nobody said how the garment lies on a body, the panels stand alone.
+   * @returns {string[]}
+   */
+  get parts() {
+    const { view } = this.settings;
+    if (view !== "garment") return [view];
+    return this.store.states.body ? ["body", "panels"] : ["panels"];
+  }
+
+  /** Shows these parts and hides the others. */
+  arrange() {
+    const { parts } = this;
+    for (const name of PARTS) $(`view-${name}`).hidden = !parts.includes(name);
+  }
+
   /** Asks before it tares: a garment that is touched would no longer feel it. */
   tare() {
     if (!this.store.recorded) one(HTMLDialogElement, "ask-tare").showModal();
@@ -143,6 +162,7 @@ export class Controls {
       ...(this.store.recorded ? RECORDED_KEYS : LIVE_KEYS),
       ...LAYERS.map(([, , key, title]) => [key, title]),
       ...KEYS,
+      ...(this.store.states.hand ? HAND_KEYS : []),
     ];
     const list = rows.flatMap(([key = "", what = ""]) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)]);
     const dialog = one(HTMLDialogElement, "keys");
@@ -178,7 +198,7 @@ export class Controls {
   set(change) {
     const { settings } = this;
     Object.assign(settings, change);
-    if (!VIEWS.some(([name]) => name === settings.view)) settings.view = "panels";
+    if (!VIEWS.some(([name]) => name === settings.view)) settings.view = "garment";
     const dark = settings.theme ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     document.documentElement.dataset.theme = dark;
     forgetColours();
@@ -187,8 +207,8 @@ export class Controls {
       $(`tab-${name}`).setAttribute("aria-selected", String(chosen));
       // One tab is a stop of the tabulator; the arrow keys lead to the others.
       $(`tab-${name}`).tabIndex = chosen ? 0 : -1;
-      $(`view-${name}`).hidden = !chosen;
     }
+    this.arrange();
     for (const [name] of LAYERS) $(`layer-${name}`).setAttribute("aria-pressed", String(settings[name]));
     $("auto").setAttribute("aria-pressed", String(settings.auto));
     one(HTMLInputElement, "keys-on").checked = settings.keys;

@@ -3,10 +3,7 @@
 
 import { colourOf } from "./concepts.js";
 import { draw, make, say } from "./dom.js";
-
-const [WIDTH, HEIGHT, ACROSS, DOWN] = [98, 38, 126, 50];
-/** Height by which neighbouring columns are skewed, rows. */
-const SKEW = 0.4;
+import { arrange, HEIGHT, MARGIN, WIDTH } from "./layers.js";
 
 /** The view. */
 export class CognitiveMap {
@@ -51,10 +48,10 @@ export class CognitiveMap {
       this.root.replaceChildren(make("p", { class: "empty" }, "This scene has no cognitive map."));
       return;
     }
-    const places = placesOf(map.concepts, width / height || 2);
-    const extent = (/** @type {0 | 1} */ at) => Math.max(...places.map((place) => place[at]));
+    const layers = map.concepts.map(({ layer }) => layer);
+    const { isDown, places, extent } = arrange(layers, [width || 2, height || 1]);
     const svg = draw("svg", {
-      viewBox: `-12 -12 ${extent(0) + WIDTH + 24} ${extent(1) + HEIGHT + 24}`,
+      viewBox: [-MARGIN, -MARGIN, ...extent.map((part) => part + 2 * MARGIN)].join(" "),
       role: "img",
       "aria-label": "Concepts and causes of the cognitive map, with their activations",
     });
@@ -62,7 +59,7 @@ export class CognitiveMap {
     const name = (/** @type {number} */ at) => map.concepts[at]?.name ?? "";
     const place = (/** @type {number} */ at) => places[at] ?? [0, 0];
     this.edges = map.edges.map(({ from, to, weight }) => {
-      const line = arrow(place(from), place(to), weight);
+      const line = arrow(place(from), place(to), weight, isDown);
       line.append(draw("title", {}, `${name(from)} → ${name(to)}: ${weight}`));
       svg.append(line);
       return { from: name(from), weight, line };
@@ -75,14 +72,14 @@ export class CognitiveMap {
         x: x + WIDTH / 2,
         y: y + 31,
         "text-anchor": "middle",
-        "font-size": 12,
+        "font-size": 13,
         fill: "var(--ink)",
       });
       const title = {
         x: x + WIDTH / 2,
         y: y + 16,
         "text-anchor": "middle",
-        "font-size": 13,
+        "font-size": 14,
         "font-weight": 600,
         fill: "var(--ink)",
       };
@@ -92,35 +89,6 @@ export class CognitiveMap {
     });
     this.root.replaceChildren(svg);
   }
-}
-
-/**
- * Places causes left of effects. The inputs, which are many, stand in as many columns as make the picture large;
- * neighbouring columns are slightly skewed, so that few edges cross a concept.
- * @param {import("./types.d.ts").Concept[]} concepts
- * @param {number} aspect width of the room, heights
- * @returns {[number, number][]}
- */
-export function placesOf(concepts, aspect) {
-  const counts = Array.from({ length: 1 + Math.max(...concepts.map(({ layer }) => layer)) }, () => 0);
-  for (const { layer } of concepts) counts[layer] = (counts[layer] ?? 0) + 1;
-  const [inputs = 0, ...others] = counts;
-  const rows = (/** @type {number} */ columns) => Math.max(Math.ceil(inputs / columns), ...others);
-  const size = (/** @type {number} */ columns) =>
-    Math.max(((columns + others.length) * ACROSS) / aspect, rows(columns) * DOWN);
-  const choices = Array.from({ length: Math.max(1, inputs) }, (_, at) => at + 1);
-  const first = choices.reduce((best, columns) => (size(columns) < size(best) ? columns : best), 1);
-  const deep = Math.ceil(inputs / first);
-  const seen = new Map();
-  return concepts.map(({ layer }) => {
-    const above = seen.get(layer) ?? 0;
-    seen.set(layer, above + 1);
-    const column = layer === 0 ? Math.floor(above / deep) : layer - 1 + first;
-    const row = layer === 0 ? above % deep : above;
-    const top = (rows(first) - (layer === 0 ? deep : (counts[layer] ?? 0))) / 2;
-    const skew = (column % 2) * (layer === 0 ? SKEW : 2 * SKEW);
-    return [column * ACROSS, (row + top) * DOWN + skew * DOWN];
-  });
 }
 
 /** @param {string} kind */
@@ -147,16 +115,20 @@ function marker(kind) {
  * @param {[number, number]} from
  * @param {[number, number]} to
  * @param {number} weight
+ * @param {boolean} isDown the map is read downwards
  */
-function arrow([x0, y0], [x1, y1], weight) {
+function arrow([x0, y0], [x1, y1], weight, isDown) {
   const kind = weight < 0 ? "less" : "more";
-  const forward = x1 > x0;
-  const [from, to] = forward ? [x0 + WIDTH, x1] : [x0 + WIDTH / 2, x1 + WIDTH / 2];
-  const [up, down] = forward ? [y0 + HEIGHT / 2, y1 + HEIGHT / 2] : [y0, y1 + HEIGHT];
-  const bend = forward ? Math.max(24, (to - from) / 2) : 0;
-  const d = `M${from} ${up}C${from + bend} ${up} ${to - bend} ${down} ${to} ${down}`;
+  // Along the direction of reading, and across it.
+  const [a0, b0, a1, b1] = isDown ? [y0, x0, y1, x1] : [x0, y0, x1, y1];
+  const [length, breadth] = isDown ? [HEIGHT, WIDTH] : [WIDTH, HEIGHT];
+  const forward = a1 > a0;
+  const [from, to] = forward ? [a0 + length, a1] : [a0 + length / 2, a1 + length / 2];
+  const [start, end] = forward ? [b0 + breadth / 2, b1 + breadth / 2] : [b0, b1 + breadth];
+  const bend = forward ? Math.max(length / 4, (to - from) / 2) : 0;
+  const at = (/** @type {number} */ a, /** @type {number} */ b) => (isDown ? `${b} ${a}` : `${a} ${b}`);
   return draw("path", {
-    d,
+    d: `M${at(from, start)}C${at(from + bend, start)} ${at(to - bend, end)} ${at(to, end)}`,
     fill: "none",
     stroke: `var(--${kind})`,
     "stroke-width": 1 + 3 * Math.abs(weight),

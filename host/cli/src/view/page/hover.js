@@ -56,6 +56,16 @@ export class Hover {
     if (!way) return;
     event.preventDefault();
     event.stopPropagation();
+    this.go(canvas, panel, way);
+  }
+
+  /**
+   * Chooses the taxel so many rows and columns from the chosen one, or from the middle of the panel.
+   * @param {HTMLCanvasElement} canvas
+   * @param {import("./types.d.ts").Panel} panel
+   * @param {[number, number]} way
+   */
+  go(canvas, panel, way) {
     const here = this.place?.panel.index === panel.index ? this.place : null;
     const { row, column } = here ?? { row: panel.rows >> 1, column: panel.columns >> 1 };
     const { left, top, width, height } = canvas.getBoundingClientRect();

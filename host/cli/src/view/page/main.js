@@ -8,6 +8,7 @@ import { contacts } from "./contacts.js";
 import { Controls } from "./controls.js";
 import { felt } from "./felt.js";
 import { legend } from "./folds.js";
+import { Hand } from "./hand.js";
 import { Health } from "./health.js";
 import { Hover } from "./hover.js";
 import { Link } from "./link.js";
@@ -21,6 +22,7 @@ import { Save } from "./save.js";
 import { Store } from "./store.js";
 import { Surface } from "./surface.js";
 import { Speaker } from "./speaker.js";
+import { Tools } from "./tools.js";
 import { Why } from "./why.js";
 import { connect } from "./socket.js";
 import * as ranges from "./ranges.js";
@@ -72,7 +74,10 @@ const views = {
   map: new CognitiveMap($("view-map")),
   health: new Health($("view-health")),
 };
-const save = new Save({ store, view: () => $(`view-${controls.settings.view}`) });
+const shownViews = () => controls.parts.flatMap((name) => views[name] ?? []);
+const tools = new Tools(ask, changed);
+const hand = new Hand({ store, ask, hover, tools, views: () => shownViews() });
+const save = new Save({ store, view: () => $("view") });
 
 /** @type {import("./types.d.ts").Shown | null} */
 let drawn = null;
@@ -80,6 +85,7 @@ let drawn = null;
 function draw() {
   requestAnimationFrame(draw);
   const now = performance.now();
+  hand.frame(now);
   const due = urgent || (besides && (store.paused || now - besidesAt >= BESIDE_MS));
   if (!stale && !due) return;
   stale = false;
@@ -88,10 +94,12 @@ function draw() {
   drawn = store.latest;
   $("empty").hidden = Boolean(store.shown());
   controls.scale();
-  // First, because it decides how much room is left.
+  controls.arrange();
+  // First, because they decide how much room is left.
   if (due) player.draw();
-  others.follow(settings.view === "body" ? store.states.robot : undefined);
-  views[settings.view]?.draw(store, settings);
+  if (due) tools.draw(hand.offered, hand.force);
+  others.follow(controls.parts.includes("body") ? store.states.robot : undefined);
+  for (const view of shownViews()) view.draw(store, settings);
   scale.draw(store, settings);
   hover.draw(store);
   if (!due) return;
@@ -101,10 +109,12 @@ function draw() {
 }
 
 /**
- * What is said to whoever does not see the picture: the taxel that the keys read, else the intention, of the robot
- * if it has one.
+ * What is said to whoever does not see the picture: what the keys have changed of the tool, the taxel that they read,
+ * else the intention, of the robot if it has one.
  */
 function spoken() {
+  const changed = tools.told(performance.now());
+  if (changed !== null) return changed;
   const meant = store.states.robot_intent?.leading ?? "none";
   if (meant !== "none") return hover.told(store) ?? `intention of the robot: ${meant}`;
   const leading = store.shown()?.head.frame.intent.leading ?? "none";
@@ -143,7 +153,7 @@ window.addEventListener("keydown", (event) => {
     target.closest("dialog[open], [role=menu]:not([hidden])");
   if (typed || ctrlKey || altKey || metaKey || !controls.settings.keys) return;
   if (key === "s") save.toggle();
-  else if (!player.key(event) && !controls.key(event)) return;
+  else if (!tools.press(event) && !player.key(event) && !controls.key(event)) return;
   event.preventDefault();
 });
 

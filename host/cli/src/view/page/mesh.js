@@ -156,14 +156,26 @@ export function heightOf(held, top) {
  * @returns {number | null}
  */
 export function under(seen, faces, x, y) {
+  const best = foremost(seen, faces, x, y);
+  if (best < 0) return null;
+  const away = (/** @type {number} */ taxel) => Math.hypot((seen[3 * taxel] ?? 0) - x, (seen[3 * taxel + 1] ?? 0) - y);
+  return [...faces.subarray(best, best + 4)].reduce((nearest, taxel) => (away(taxel) < away(nearest) ? taxel : nearest));
+}
+
+/**
+ * Index in `faces` of the first corner of the foremost face at a point of the picture; -1 if there is none.
+ * @param {Float32Array} seen x, y and nearness of each taxel
+ * @param {Uint32Array} faces
+ * @param {number} x
+ * @param {number} y
+ */
+export function foremost(seen, faces, x, y) {
   let [best, near] = [-1, -Infinity];
   for (let face = 0; face < faces.length; face += 4) {
     const nearness = seen[3 * (faces[face] ?? 0) + 2] ?? 0;
     if (nearness > near && holds(seen, faces, face, x, y)) [best, near] = [face, nearness];
   }
-  if (best < 0) return null;
-  const away = (/** @type {number} */ taxel) => Math.hypot((seen[3 * taxel] ?? 0) - x, (seen[3 * taxel + 1] ?? 0) - y);
-  return [...faces.subarray(best, best + 4)].reduce((nearest, taxel) => (away(taxel) < away(nearest) ? taxel : nearest));
+  return best;
 }
 
 /**

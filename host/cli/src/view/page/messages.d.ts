@@ -11,6 +11,8 @@ export type PageHello = {
   time_us: number;
   /** Name and version of the firmware. */
   firmware: string;
+  /** Unique id of the board's chip; empty if it has none, as a simulated board. */
+  chip: string;
   /** True of a simulated board. */
   simulated: boolean;
   /** Name of the garment. */
@@ -19,6 +21,15 @@ export type PageHello = {
   scene: string;
   /** Id, date and fit of the calibration in force; empty without one: values are counts. */
   calibration: string;
+  /** Why the board has started; null if it does not know. */
+  boot: {
+    /** `power`, `pin`, `watchdog`, `panic`, `request` or `other`. */
+    cause: string;
+    /** Resets by watchdog or panic up to this one, each less than a minute after the one before. */
+    resets: number;
+    /** Why the stored settings are not in use: `no` (they are), `resets`, `pin` or `request`. */
+    aside: string;
+  } | null;
   /** Number of taxels. */
   taxels: number;
   /** Names of the regions of the body. */
@@ -297,9 +308,13 @@ export type ImageHead = {
     felt: {
       /** The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`. */
       what: string;
+      /** The same with the greatest force of the strongest touch so far: told once it has ended. */
+      peak: string;
       /** The announced intention, or why none is; empty while nothing touches. */
       meaning: string;
     };
+    /** Shape of each contact for people: `touch` unless the recogniser is sure of it. */
+    shapes: string[];
     /** Of a recording: time since its beginning, us. */
     at_us?: number;
     /** Of a recording: number of jumps in time. */
@@ -419,6 +434,21 @@ export type PosesLine = {
     /** Rotation: a quaternion x, y, z, w of length 1. */
     turn: [number, number, number, number];
   }>;
+};
+
+/** What the robot looks like. */
+export type FigureLine = {
+  /** Type of the message. */
+  type: "figure";
+  /** The links that have a shape. */
+  links: {
+    /** Name of the link. */
+    name: string;
+    /** Corners in the frame of the link, m. */
+    points: [number, number, number][];
+    /** Triangles: numbers of their corners, counter-clockwise as seen from outside. */
+    triangles: [number, number, number][];
+  }[];
 };
 
 /** Where the garment folds. The docs of the fields are the descriptions in `view/page/messages.d.ts`. */
@@ -551,6 +581,34 @@ export type EndLine = {
   type: "end";
   /** The reason, for people. */
   text: string;
+};
+
+/** What can press the garment of a simulated board. */
+export type HandLine = {
+  /** Type of the message. */
+  type: "hand";
+  /** The tools. */
+  tools: {
+    /** Name. */
+    name: string;
+    /** Length and width, mm. */
+    size_mm: [number, number];
+    /** Force of a short press, N. */
+    force_n: number;
+    /** Most that a long press comes to, N. */
+    most_n: number;
+  }[];
+  /** The scripts that can be played. */
+  scripts: {
+    /** Name. */
+    name: string;
+    /** Title. */
+    title: string;
+  }[];
+  /** Name of the script that plays; null if none does. */
+  playing: string | null;
+  /** Number of touches by hand that are kept: they can be played again and saved. */
+  touches: number;
 };
 
 /** The last message of a type is no longer valid. */
@@ -691,6 +749,29 @@ export type PageWish = {
     /** Activation of each concept of the map, -1 to 1, in the order of the map. */
     concepts: number[];
   };
+} | {
+  /** What a finger does. */
+  press: {
+    /** Number of the finger, 0 to 9. */
+    finger: number;
+    /** Name of the tool. */
+    tool: string;
+    /** Index of the panel. */
+    panel: number;
+    /** Centre, taxels of the panel: along the columns, along the rows. */
+    at: [number, number];
+    /** Force, N: 0 to 200. */
+    force_n: number;
+    /** Direction of the tool's length, degrees from +x towards +y. */
+    angle_deg: number;
+  };
+} | {
+  release: number;
+} | {
+  script: string;
+} | {
+  /** What happens to what was pressed. */
+  hand: "again" | "clear";
 } | {
   play: boolean;
 } | {

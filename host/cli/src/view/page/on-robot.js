@@ -5,9 +5,11 @@ import { home, sight, toward } from "./camera.js";
 import { arrowOf, clothOf, facing, light, nothing, shade, sideBySide, stand, STRIDE } from "./cloth.js";
 import { draw, make, say } from "./dom.js";
 import { Drawing } from "./drawing.js";
+import { NONE, withFigure } from "./figure.js";
 import { under } from "./mesh.js";
 import { Orbit } from "./orbit.js";
 import { GlPainter } from "./relief-gl.js";
+import { apart, arrow, below, grown, marker, middle, pixel, set, text } from "./robot-marks.js";
 
 /**
  * @typedef {import("./types.d.ts").Triple} Triple
@@ -18,6 +20,7 @@ import { GlPainter } from "./relief-gl.js";
  * @typedef {import("./camera.js").Sight} Sight
  * @typedef {object} BodyScene
  * @property {BodyState} body
+ * @property {import("./messages.d.ts").FigureLine | null} figure what the robot looks like
  * @property {Record<string, PoseOfLink> | null} poses of the links; null without a robot
  * @property {import("./types.d.ts").Panel[]} panels
  * @property {ArrayLike<number>} image counts
@@ -46,8 +49,6 @@ const LOWEST = -1.4;
 const MARGINS = /** @type {[number, number]} */ ([30, 22]);
 /** Sum of the pressure that an arrow of 10 cm stands for, ends of the colours. */
 const PER_ARROW = 40;
-/** Height of a line of names, and width of a letter, pixels; letters of the force behind a name. */
-const [LINE, LETTER, FORCE] = [14, 6.8, 7];
 /** Half of the width of a stroke over a taxel that folds, pixels. */
 const STROKE = 2.5;
 /** Shortest time between two texts in a place, ms: nobody reads faster. */
@@ -76,7 +77,8 @@ export class OnRobot {
     this.folds = ["halo", "mark"].map((ink, at) =>
       draw("path", { fill: "none", stroke: `var(--${ink})`, "stroke-width": 3 - 2 * at, "stroke-linecap": "round" }),
     );
-    this.names = draw("g", { "font-size": 12, "text-anchor": "middle", fill: "var(--ink)" });
+    const halo = { stroke: "var(--card, var(--paper))", "stroke-width": 3, "paint-order": "stroke" };
+    this.names = draw("g", { "font-size": 12, "text-anchor": "middle", fill: "var(--ink)", ...halo });
     this.forces = draw("g", { "font-size": 13, "font-weight": 650, "text-anchor": "middle" });
     this.ring = draw("circle", { r: 7, fill: "none", stroke: "var(--mark)", "stroke-width": 1.5, display: "none" });
     this.front.append(...this.folds, this.names, this.forces, this.ring);
@@ -91,6 +93,8 @@ export class OnRobot {
     );
     /** @type {BodyState | null} */
     this.body = null;
+    /** @type {BodyScene["figure"]} */
+    this.figure = null;
     /** @type {Record<string, PoseOfLink> | null} */
     this.poses = null;
     this.data = new Float32Array(0);
@@ -158,20 +162,20 @@ export class OnRobot {
    * Takes another body or posture.
    * @param {BodyScene} scene
    */
-  build({ body, poses, panels }) {
+  build({ body, figure, poses, panels }) {
     const { painter } = this;
-    const isOther = body !== this.body;
+    const isOther = body !== this.body || figure !== this.figure;
     if (!isOther && poses === this.poses) return;
     if (isOther) {
       const links = (/** @type {BodyState | null} */ of) => JSON.stringify(of?.links);
       // Cloth that has slid does not move the camera.
       if (!this.bounds || links(body) !== links(this.body)) this.bounds = nothing();
-      this.cloth = clothOf(body, panels);
+      this.cloth = withFigure(clothOf(body, panels), body, figure);
       this.data = new Float32Array(STRIDE * this.cloth.taxels.length);
     }
     const { cloth, bounds } = this;
     if (!cloth || !bounds) return;
-    [this.body, this.poses] = [body, poses];
+    [this.body, this.figure, this.poses] = [body, figure, poses];
     this.posed = poses ?? sideBySide(body);
     this.standing = stand(cloth, body, this.posed, bounds);
     if (!(painter instanceof GlPainter)) painter.build(cloth);
@@ -243,7 +247,8 @@ export class OnRobot {
     const { cloth, aspects } = this;
     const aspect = at && aspects.find(({ left, width }) => at[0] >= left && at[0] < left + width);
     const corner = cloth && aspect ? under(aspect.seen, cloth.faces, ...at) : null;
-    return corner === null ? null : (cloth?.taxels[corner] ?? null);
+    const taxel = corner === null ? NONE : (cloth?.taxels[corner] ?? NONE);
+    return taxel === NONE ? null : taxel;
   }
 
   /**
@@ -293,14 +298,16 @@ export class OnRobot {
         return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), name, isBehind, words }];
       }),
     );
+    const labels = arrows.map(({ at: [x, y], words: name }) => ({ name, at: /** @type {[number, number]} */ ([x, y - 7]) }));
+    apart(labels, 0);
     grown(this.forces, arrows.length, marker).forEach((group, at) => {
-      const one = arrows[at];
+      const [one, label] = [arrows[at], labels[at]];
       set(group, "display", one ? "inline" : "none");
       const [halo, line, words] = group.children;
-      if (!one || !halo || !line || !words) return;
+      if (!one || !label || !halo || !line || !words) return;
       set(group, "opacity", one.isBehind ? "0.4" : "1");
       for (const path of [halo, line]) set(path, "d", one.d);
-      set(words, "transform", `translate(${text([one.at[0], one.at[1] - 7])})`);
+      set(words, "transform", `translate(${text(label.at)})`);
       if (isDue || !words.textContent?.startsWith(`${one.name} ·`)) say(words, one.words);
     });
     if (isDue) this.name(scene);
@@ -316,14 +323,16 @@ export class OnRobot {
   }
 
   /**
-   * Writes the links' names, each with the force that presses on it.
+   * Writes the links' names, each with the force that presses on it. Those of a figure's other links, which are known
+   * at sight, would only lie over it.
    * @param {BodyScene} scene
    */
-  name({ pressing, force }) {
+  name({ body, figure, pressing, force }) {
     grown(this.names, this.named.length, () => draw("text")).forEach((words, at) => {
       const name = this.named[at] ?? "";
       const pressed = pressing?.links.find(({ link }) => link === name)?.pressed ?? 0;
-      say(words, pressed > 0 ? `${name} ${force(pressed)}` : name);
+      const isKnown = figure && body.links.some((link) => link.name === name);
+      say(words, pressed > 0 ? `${name} ${force(pressed)}` : isKnown ? "" : name);
     });
   }
 
@@ -362,107 +371,4 @@ export class OnRobot {
     const at = text([aspect.seen[3 * corner] ?? 0, aspect.seen[3 * corner + 1] ?? 0]);
     set(this.ring, "transform", `translate(${at})`);
   }
-}
-
-/**
- * Where a point of the scene is in the picture.
- * @param {Aspect} aspect
- * @param {Triple} point
- * @returns {[number, number]}
- */
-function pixel({ sight: { place }, left }, point) {
-  const [x, y] = place(...point);
-  return [x + left, y];
-}
-
-/**
- * The middle of a side's upper edge.
- * @param {Aspect} aspect
- * @returns {[number, number]}
- */
-const middle = ({ left, width }) => [left + width / 2, 14];
-
-/**
- * Moves names down until none is on another.
- * @param {{ name: string, at: [number, number] }[]} names
- */
-function apart(names) {
-  names.forEach(({ name, at }, index) => {
-    const isOn = (/** @type {typeof names[0]} */ other) =>
-      Math.abs(other.at[1] - at[1]) < LINE &&
-      Math.abs(other.at[0] - at[0]) < LETTER * ((name.length + other.name.length) / 2 + FORCE);
-    for (let other = names.slice(0, index).find(isOn); other; other = names.slice(0, index).find(isOn))
-      at[1] = other.at[1] + LINE;
-  });
-}
-
-/**
- * Sets an attribute if it has changed: what has not is not drawn again.
- * @param {Element} element
- * @param {string} name
- * @param {string} value
- */
-function set(element, name, value) {
-  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
-}
-
-/** @param {[number, number]} point to half a pixel */
-const text = ([x, y]) => `${Math.round(2 * x) / 2} ${Math.round(2 * y) / 2}`;
-
-/**
- * The point below the cloth of a link in the picture, where its name stands; null if it wears none.
- * @param {Aspect} aspect
- * @param {import("./cloth.js").Cloth} cloth
- * @param {number} link
- * @returns {[number, number] | null}
- */
-function below({ seen }, { links }, link) {
-  let [count, sum, lowest] = [0, 0, 0];
-  for (let corner = 0; corner < links.length; corner += 1) {
-    if (links[corner] !== link) continue;
-    lowest = count ? Math.max(lowest, seen[3 * corner + 1] ?? 0) : (seen[3 * corner + 1] ?? 0);
-    sum += seen[3 * corner] ?? 0;
-    count += 1;
-  }
-  return count ? [sum / count, lowest + LINE] : null;
-}
-
-/**
- * An arrow between two points of the picture.
- * @param {[number, number]} tail
- * @param {[number, number]} tip
- */
-function arrow(tail, tip) {
-  const [x, y] = [tip[0] - tail[0], tip[1] - tail[1]];
-  const long = Math.hypot(x, y);
-  const head = Math.min(9, 0.6 * long) / (long || 1);
-  const barb = (/** @type {1 | -1} */ side) =>
-    text([tip[0] - head * (x + side * 0.55 * y), tip[1] - head * (y - side * 0.55 * x)]);
-  return `M${text(tail)}L${text(tip)}M${barb(1)}L${text(tip)}L${barb(-1)}`;
-}
-
-/** An arrow in white with a dark halo, and its text. */
-function marker() {
-  const shape = { fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" };
-  // A style, because a report has one of its own for texts.
-  const style =
-    "fill:var(--mark);stroke:var(--halo);stroke-width:3.5px;paint-order:stroke fill;font:650 13px system-ui,sans-serif";
-  return draw(
-    "g",
-    {},
-    draw("path", { ...shape, stroke: "var(--halo)", "stroke-width": 5 }),
-    draw("path", { ...shape, stroke: "var(--mark)", "stroke-width": 2.2 }),
-    draw("text", { style }),
-  );
-}
-
-/**
- * The children of a group, at least so many.
- * @param {Element} group
- * @param {number} count
- * @param {() => Element} another
- */
-function grown(group, count, another) {
-  while (group.children.length < count) group.append(another());
-  return [...group.children];
 }

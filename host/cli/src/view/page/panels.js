@@ -1,5 +1,6 @@
 // The panels in two dimensions.
 
+import { onPanels, plotPanel } from "./aim.js";
 import { fit, make, say } from "./dom.js";
 import { palette } from "./colours.js";
 import { force } from "./units.js";
@@ -41,7 +42,7 @@ export class Panels {
   draw(store, settings) {
     const { garment } = store;
     if (!garment) return;
-    this.build(garment);
+    this.build(garment, Boolean(store.states.hand));
     const shown = store.shown();
     if (!shown) return;
     const image = settings.held && store.held ? store.held : shown.image;
@@ -59,10 +60,11 @@ export class Panels {
   /**
    * Creates a figure for each panel, as large as all of them fit.
    * @param {Garment} garment
+   * @param {boolean} isPressable
    */
-  build(garment) {
+  build(garment, isPressable) {
     const { clientWidth: width, clientHeight: height } = this.root;
-    const key = `${garment.key} ${width} ${height}`;
+    const key = `${garment.key} ${width} ${height} ${isPressable}`;
     if (key === this.key || !width || !height) return;
     this.key = key;
     const scale = bestScale(garment.panels, width, height);
@@ -71,7 +73,8 @@ export class Panels {
         tabindex: 0,
         role: "application",
         "aria-label":
-          `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns. ` + "Arrow keys read taxels.",
+          `Pressure on the ${panel.name}, ${panel.rows} rows and ${panel.columns} columns. Arrow keys read taxels.` +
+          (isPressable ? " Space presses." : ""),
         style: `width:${panel.columns * panel.mm[0] * scale}px;height:${panel.rows * panel.mm[1] * scale}px`,
       });
       this.hover.watch(canvas, panel);
@@ -85,6 +88,16 @@ export class Panels {
         canvas,
       );
     this.root.replaceChildren(...this.parts.map(figure));
+  }
+
+  /** @param {[number, number]} point of the page */
+  aim(point) {
+    return onPanels(this.parts, point);
+  }
+
+  /** @param {Panel} panel */
+  plot(panel) {
+    return plotPanel(this.parts, panel);
   }
 
   /**

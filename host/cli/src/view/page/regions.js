@@ -55,6 +55,11 @@ export class Regions {
     }
   }
 
+  /** The panels and their pictures. */
+  drawn() {
+    return this.parts.flatMap(({ panels }) => panels);
+  }
+
   /** @param {Garment} garment */
   build(garment) {
     if (garment.key === this.key) return;

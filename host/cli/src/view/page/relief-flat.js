@@ -1,7 +1,7 @@
 // A relief drawn by the canvas alone, for browsers without WebGL: first the floor, then what rises above it, from
 // the back to the front.
 
-import { GREY, palette, stepOf } from "./colours.js";
+import { GREY, palette, ROBOT, stepOf } from "./colours.js";
 import { STRIDE } from "./mesh.js";
 
 /**
@@ -102,13 +102,15 @@ export class FlatPainter {
   }
 
   /**
-   * @param {number} share of the ramp; below 0 if it is not known
+   * @param {number} share of the ramp; -1 if it is not known, -2 for the robot
    * @param {number} light
    */
   colour(share, light) {
-    const [step, shade] = [share < 0 ? palette.ramp.length : stepOf(share, 1), Math.round(light * LIGHTS)];
+    const grey = share < -1.5 ? ROBOT : GREY;
+    const step = share < 0 ? palette.ramp.length - Math.round(share) : stepOf(share, 1);
+    const shade = Math.round(light * LIGHTS);
     const at = step * (LIGHTS + 1) + shade;
-    const rgb = palette.ramp[step] ?? [GREY, GREY, GREY].map((part) => 255 * part);
+    const rgb = palette.ramp[step] ?? [grey, grey, grey].map((part) => 255 * part);
     return (this.colours[at] ??= `rgb(${rgb.map((part) => Math.round((part * shade) / LIGHTS)).join(" ")})`);
   }
 }

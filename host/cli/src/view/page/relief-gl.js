@@ -1,6 +1,6 @@
 // A relief, or cloth on a robot, drawn by WebGL.
 
-import { GREY, palette } from "./colours.js";
+import { GREY, palette, ROBOT } from "./colours.js";
 import { STRIDE } from "./mesh.js";
 
 /**
@@ -31,7 +31,7 @@ in float light;
 out vec4 colour;
 void main() {
   int step = int(clamp(share, 0.0, 1.0) * steps + 0.5);
-  vec3 pressed = share < 0.0 ? vec3(${GREY}) : texelFetch(ramp, ivec2(step, 0), 0).rgb;
+  vec3 pressed = share < 0.0 ? vec3(share < -1.5 ? ${ROBOT} : ${GREY}) : texelFetch(ramp, ivec2(step, 0), 0).rgb;
   colour = vec4(pressed * light, 1.0);
 }`;
 

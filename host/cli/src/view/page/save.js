@@ -82,7 +82,7 @@ function moment(store) {
  * @param {HTMLElement} root
  */
 export async function picture(root) {
-  root.dispatchEvent(new Event("picture"));
+  for (const view of [root, ...root.children]) view.dispatchEvent(new Event("picture"));
   const { left, top, width, height } = root.getBoundingClientRect();
   const ratio = window.devicePixelRatio || 1;
   const canvas = make("canvas", { width: (width + 2 * MARGIN) * ratio, height: (height + 2 * MARGIN) * ratio });

@@ -12,11 +12,12 @@ export function sentence(store) {
   if (!shown || (store.states.lost && !store.paused)) return null;
   const touched = lastTouched(store, shown);
   const { frame } = shown.head;
-  const { what, meaning } = touched.head.frame.felt;
+  const { what, peak, meaning } = touched.head.frame.felt;
   const { leading } = frame.intent;
   const at = `at ${((frame.at_us ?? frame.time_us) / 1e6).toFixed(2)} s`;
   const when = touched === shown ? "now" : "just now";
-  return { when: store.paused ? at : when, what, meaning: leading === "none" ? meaning : leading };
+  const told = touched === shown ? what : peak;
+  return { when: store.paused ? at : when, what: told, meaning: leading === "none" ? meaning : leading };
 }
 
 /**

@@ -12,8 +12,8 @@ export const KEPT_S = Math.max(1, Math.min(120, Number(new URLSearchParams(locat
 const RATE = 62;
 /** Images whose maxima since the previous image are kept: all that may still glow. */
 const GLOWING = 64;
-/** Lines of the log that are kept, and shown. */
-const [LOGGED, LINES] = [512, 60];
+/** Lines of the log that are kept whatever their age, at most, and shown. */
+const [LOGGED, MOST, LINES] = [512, 4096, 60];
 /** Age relative to the newest up to which an image may be a repeat, us. */
 const TWICE = 500_000;
 
@@ -112,7 +112,10 @@ export class Store {
     const newest = this.log.findLast(({ time_us: time }) => time !== null)?.time_us ?? 0;
     if (line.time_us !== null && line.time_us < newest) this.log = this.log.map((old) => ({ ...old, time_us: null }));
     this.log.push(line);
-    if (this.log.length > LOGGED) this.log.shift();
+    const { log } = this;
+    const isOld = (/** @type {number | null | undefined} */ then) =>
+      line.time_us !== null && (typeof then !== "number" || line.time_us - then > this.kept * 1e6);
+    while (log.length > MOST || (log.length > LOGGED && isOld(log[0]?.time_us))) log.shift();
   }
 
   /**

@@ -1,5 +1,6 @@
 // The view in three dimensions: what the page knows, as a relief.
 
+import { onCloth, plotCloth, pointOf } from "./aim.js";
 import { heightOf } from "./mesh.js";
 import { maxima } from "./peaks.js";
 import { Relief } from "./relief.js";
@@ -42,6 +43,17 @@ export class Surface {
     this.garment = garment;
     this.last = () => this.relief.draw(this.scene(store, garment, shown, settings));
     this.last();
+  }
+
+  /** @param {[number, number]} point of the page */
+  aim(point) {
+    const { garment, relief } = this;
+    return garment && onCloth(garment, relief.stage, { seen: relief.seen, faces: relief.mesh.faces }, point);
+  }
+
+  /** @param {import("./types.d.ts").Panel} panel */
+  plot(panel) {
+    return plotCloth(panel, this.relief.stage, (taxel) => pointOf(this.relief.seen, taxel));
   }
 
   /**

@@ -4,8 +4,10 @@ import type {
   BodyLine,
   BudgetLine,
   EndLine,
+  FigureLine,
   FoldingLine,
   GlowLine,
+  HandLine,
   HealthLine,
   HealthMapLine,
   LostLine,
@@ -130,6 +132,7 @@ export interface States {
   budget?: BudgetLine;
   taxel?: TaxelState;
   body?: BodyState;
+  figure?: FigureLine;
   poses?: PosesLine;
   folding?: FoldingLine;
   end?: EndLine;
@@ -140,6 +143,8 @@ export interface States {
   robot?: RobotLine;
   robot_intent?: RobotIntentLine;
   why?: WhyLine;
+  /** What presses the garment; only of a simulated board. */
+  hand?: HandLine;
 }
 
 /** A text message. */
@@ -182,7 +187,19 @@ export interface Place {
   byKeys?: boolean;
 }
 
+/** A place on a panel: x along the columns and y along the rows, taxels; 0, 0 is the centre of the first one. */
+export interface Spot {
+  panel: Panel;
+  at: [number, number];
+}
+
+/** Where places of a panel are on the page; null for one that has no place in the picture. */
+export type Plot = (at: [number, number]) => [number, number] | null;
+
 /** A view of the picture. */
 export interface View {
   draw(store: import("./store.js").Store, settings: Settings): void;
+  /** The place on the garment at a point of the page; absent if the view does not show where it is pressed. */
+  aim?(point: [number, number]): Spot | null;
+  plot?(panel: Panel): Plot;
 }

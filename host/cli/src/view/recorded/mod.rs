@@ -42,7 +42,7 @@ use survey::{RecordedTime, Survey};
 use taxel::client::Event;
 use taxel::files::calibrate::Calibration;
 use taxel::record::{CALIBRATION, Origin};
-use taxel::recording::{BoardRecording, Clips, WIRE};
+use taxel::recording::{BoardRecording, Clips, WIRE, gap_marks};
 
 /// Time between two messages about the position.
 const TOLD: Duration = Duration::from_millis(250);
@@ -89,7 +89,7 @@ impl Player {
         hub.tape(Tape::Recorded(Arc::new(cut)));
         let mut player = Player {
             deck: Deck::new(clock.duration(), speed, Instant::now()),
-            reel: Reel::new(clips, survey),
+            reel: Reel::new(clips, survey, gap_marks(recording)?),
             screen: PageScreen::new(hub.clone(), recording.to_string(), scale, folding),
             told: Instant::now(),
             pages: 0,
@@ -119,6 +119,7 @@ impl Player {
     /// Waits until there is something to do, and does it.
     fn turn(&mut self) {
         let due = self.reel.peek().map(|(at, _)| at);
+        let due = due.into_iter().chain(self.reel.gap()).min();
         for order in self.hub.orders(self.deck.rest(due, Instant::now())) {
             self.obey(&order);
         }
@@ -149,6 +150,10 @@ impl Player {
                 if let Some((at, event)) = self.reel.seek(at) {
                     self.moment(at, &event);
                 }
+                // Nothing is felt in a gap, whatever the last image before it shows.
+                if self.reel.gap().is_some_and(|gap| gap <= at) {
+                    self.play(at);
+                }
             }
             Go::By(images) => {
                 if let Some((at, event)) = self.reel.step(images) {
@@ -167,7 +172,11 @@ impl Player {
     /// Plays up to a time.
     fn play(&mut self, until: u64) {
         let begun = Instant::now();
-        while let Some((at, _)) = self.reel.peek().filter(|(at, _)| *at <= until) {
+        loop {
+            while let Some((at, event)) = self.reel.play_gap(until) {
+                self.screen.event(self.reel.client(), at, &event, self.deck.seeks());
+            }
+            let Some((at, _)) = self.reel.peek().filter(|(at, _)| *at <= until) else { return };
             if let Some(event) = self.reel.play() {
                 self.screen.event(self.reel.client(), at, &event, self.deck.seeks());
             }

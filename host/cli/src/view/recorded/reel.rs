@@ -6,7 +6,7 @@ use super::told::with_report;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use taxel::client::{Client, Event};
-use taxel::recording::{ClipMessage, Clips};
+use taxel::recording::{ClipMessage, Clips, GapMark};
 use taxel_core::wire::Report;
 
 /// Most chunks to search backwards for the key frame of an image; a board sends one each second.
@@ -44,6 +44,9 @@ pub struct Reel {
     survey: Arc<Survey>,
     client: Client,
     next: Cursor,
+    /// Begins and ends of gaps with their times, us, and the number of those passed.
+    gaps: Vec<(u64, GapMark)>,
+    passed: usize,
     /// The last image played.
     shown: Option<Cursor>,
     /// Afterglow at the last jump, counts by taxel: earlier pressure, fading with its age.
@@ -51,10 +54,12 @@ pub struct Reel {
 }
 
 impl Reel {
-    /// Starts at the beginning.
-    pub fn new(clips: Clips, survey: Arc<Survey>) -> Reel {
+    /// Starts at the beginning. `gaps` have the host's times, ns.
+    pub fn new(clips: Clips, survey: Arc<Survey>, gaps: Vec<(u64, GapMark)>) -> Reel {
         let (clock, next) = (RecordedTime::of(&clips), Cursor { chunk: 0, index: 0 });
-        Reel { clips, clock, survey, client: Client::new(), next, shown: None, glow: Vec::new() }
+        let gaps = gaps.into_iter().map(|(ns, mark)| (clock.at(ns), mark)).collect();
+        let (client, glow) = (Client::new(), Vec::new());
+        Reel { clips, clock, survey, client, next, gaps, passed: 0, shown: None, glow }
     }
 
     /// The client after the last message.
@@ -76,6 +81,20 @@ impl Reel {
             self.next = Cursor { chunk: self.next.chunk + 1, index: 0 };
         }
         None
+    }
+
+    /// Time of the next begin or end of a gap, us.
+    pub fn gap(&self) -> Option<u64> {
+        self.gaps.get(self.passed).map(|(at, _)| *at)
+    }
+
+    /// Plays the next begin or end of a gap, unless a message or this time, us, precedes it.
+    pub fn play_gap(&mut self, until: u64) -> Option<(u64, Event)> {
+        let until = self.peek().map_or(until, |(at, _)| at.min(until));
+        let (at, mark) = self.gaps.get(self.passed).filter(|(at, _)| *at <= until)?.clone();
+        self.passed += 1;
+        mark.apply(&mut self.client);
+        std::iter::from_fn(|| self.client.next_event(&[]).1).last().map(|event| (at, event))
     }
 
     /// Plays the next message; none if it is not a message of a board.
@@ -138,6 +157,7 @@ impl Reel {
         self.client.recount();
         self.shown = Some(image);
         self.next = Cursor { index: image.index + 1, ..image };
+        self.passed = self.gaps.partition_point(|(at, _)| *at < shown_at);
         last
     }
 

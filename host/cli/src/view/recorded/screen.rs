@@ -20,12 +20,14 @@ pub struct PageScreen {
     /// Where the garment folds; none without a table.
     folding: Option<Folding>,
     rate: Rate,
+    /// Number and time of the last image.
+    last: (u32, Micros),
 }
 
 impl PageScreen {
     /// Shows a recording with this label.
     pub fn new(hub: Arc<PageHub>, label: String, scale: Option<f32>, folding: Option<Folding>) -> PageScreen {
-        PageScreen { hub, label, scale, folding, rate: Rate::default() }
+        PageScreen { hub, label, scale, folding, rate: Rate::default(), last: (0, Micros(0)) }
     }
 
     /// Shows another moment and its afterglow; earlier messages are no longer valid.
@@ -58,6 +60,7 @@ impl PageScreen {
         match event {
             Event::Hello => self.hello(client),
             Event::Frame { .. } => self.image(client, at, event, seeks),
+            Event::Lost { .. } => self.nothing(client, at, seeks),
             Event::Raw { frame, whole: true, .. } => self.hub.codes(*frame, client.raw()),
             Event::Pressing(report) => self.hub.heard(report),
             event => self.state(client, event),
@@ -65,7 +68,8 @@ impl PageScreen {
     }
 
     fn image(&mut self, client: &Client, at: u64, event: &Event, seeks: u32) {
-        let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return };
+        let Event::Frame { frame, time, image: ImageNews::Whole, .. } = event else { return };
+        self.last = (*frame, *time);
         let Some((_, image)) = client.image() else { return };
         self.rate.add(*time);
         if let Some(line) = self.folding.as_mut().and_then(|folding| folding.news(time.0)) {
@@ -77,6 +81,16 @@ impl PageScreen {
         let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, *time));
         let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), pressing, ..line });
         self.hub.show(Shot { line, image: image.into(), time_us: time.0, total });
+    }
+
+    /// Shows an image of nothing after the last one: the board is lost.
+    fn nothing(&self, client: &Client, at: u64, seeks: u32) {
+        let (frame, time) = (self.last.0, Micros(self.last.1.0 + 1));
+        let nothing = Event::Frame { frame, time, alone: true, image: ImageNews::NoBase };
+        let line = message::frame(client, &nothing, self.scale);
+        let Some((line, layout)) = line.zip(client.layout()) else { return };
+        let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), ..line });
+        self.hub.show(Shot { line, image: vec![0; layout.taxels()].into(), time_us: time.0, total: 0 });
     }
 
     fn hello(&mut self, client: &Client) {

@@ -70,6 +70,7 @@ fn gesture() -> GestureReport {
         lead: 0,
         observed_ms: 5,
         ended: false,
+        confidence: None,
     }
 }
 

@@ -26,8 +26,8 @@ fn what_has_gone_is_kept_in_bounded_memory() {
             (placed.contact.id, placed.contact.phase) = (id, Phase::Released);
             placed
         });
-        let list =
-            ContactList { frame: number, time: Micros(5), dropped: 0, contacts: gone.take(20).collect() };
+        let contacts = gone.take(20).collect();
+        let list = ContactList { frame: number, time: Micros(5), contacts, ..ContactList::default() };
         events(&mut client, &frame(number, &Report::Contacts(list)));
     }
     let kept = client.released();

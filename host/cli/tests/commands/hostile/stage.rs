@@ -25,6 +25,8 @@ pub fn hello_of(seq: u32, garment: &[u8], scene: &[u8], firmware: &str, time: Mi
         clock: &clock,
         scene,
         calibration: firmware.as_bytes(),
+        chip: firmware.as_bytes(),
+        boot: None,
     });
     frame(seq, &report)
 }

@@ -57,7 +57,7 @@ fn said() -> Vec<u8> {
         };
         for report in [
             Report::Frame(image),
-            Report::Contacts(ContactList { frame: number, time, dropped: 0, contacts: Default::default() }),
+            Report::Contacts(ContactList { frame: number, time, ..ContactList::default() }),
             Report::Intent(intent),
             Report::Health(Health { time, ..Health::default() }),
             Report::Log(Log { time, level: Level::Warn, text: "tick" }),

@@ -16,11 +16,12 @@ fn recorded(name: &str, calibration: &Calibration) {
     std::fs::write(&scene, box_for(1)).unwrap();
     calibration.write(&certificate).unwrap();
     let spec: source::SourceSpec = format!("sim:{}", scene.display()).parse().unwrap();
-    let source = source::open(&spec, &SourceOptions { raw: true, ..SourceOptions::default() }).unwrap();
+    let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let origin = Origin { calibration: Some(calibration.clone()), ..Origin::default() };
     let mut recorder =
         Recorder::create(Plan { origin, ..plan(&format!("{name}.mcap"), "sim", None, false) }).unwrap();
-    let args = LiveArgs::on(BoardArgs { calibration: Some(certificate), ..BoardArgs::of(spec) });
+    let board = BoardArgs { calibration: Some(certificate), ..BoardArgs::of(spec) };
+    let args = LiveArgs { raw: true, ..LiveArgs::on(board) };
     watch(&args, source, &mut recorder).unwrap();
 }
 

@@ -11,3 +11,4 @@ mod report;
 mod rotate;
 mod scenes;
 mod stage;
+mod wire;

@@ -28,20 +28,20 @@ fn idle(recorder: &mut Recorder, client: &mut Client) -> anyhow::Result<bool> {
 
 #[test]
 fn a_refusal_of_raw_codes_ends_the_recording() {
-    let mut client = acquainted();
+    let client = acquainted();
     let begin = |name: &str| Recorder::create(Plan { raw: true, ..plan(name, "sim", None, false) }).unwrap();
-    let answer = |refusal: Option<&str>| Event::Answer { request: 21, refusal: refusal.map(String::from) };
+    let answer = |refusal: Option<&str>| Event::Answer { request: 4, refusal: refusal.map(String::from) };
     let mut refused = begin("raw-refused.mcap");
     // No request was made yet: the answer is for another program.
     hand(&mut refused, &client, &answer(Some("no"))).unwrap();
-    assert!(idle(&mut refused, &mut client).unwrap());
+    assert!(idle(&mut refused, &mut client.clone()).unwrap());
     let error = hand(&mut refused, &client, &answer(Some("the link is too slow"))).unwrap_err();
     let told = "--raw: the board refuses raw codes: the link is too slow";
     assert_eq!((error.to_string().as_str(), status(&error)), (told, 3));
     refused.finish().unwrap();
     // A board without the request answers that it cannot read it.
     let mut older = begin("raw-older.mcap");
-    idle(&mut older, &mut client).unwrap();
+    idle(&mut older, &mut client.clone()).unwrap();
     let unread = Event::Answer { request: 255, refusal: Some("no message".into()) };
     let error = hand(&mut older, &client, &unread).unwrap_err();
     assert_eq!(
@@ -50,7 +50,7 @@ fn a_refusal_of_raw_codes_ends_the_recording() {
     );
     older.finish().unwrap();
     let mut done = begin("raw-done.mcap");
-    assert!(idle(&mut done, &mut client).unwrap());
+    assert!(idle(&mut done, &mut client.clone()).unwrap());
     hand(&mut done, &client, &answer(None)).unwrap();
     // A later refusal is for another program.
     hand(&mut done, &client, &answer(Some("no"))).unwrap();

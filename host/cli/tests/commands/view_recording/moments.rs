@@ -2,7 +2,10 @@
 
 use super::stage::{Moment, PROGRAM, View, file, moments, recorded};
 use serde_json::{Value, json};
+use taxel::client::{Client, Event};
+use taxel::record::{Origin, Plan, Recorder};
 use taxel::recording::{WIRE, chunk_indexes, repair, scan};
+use taxel::session::Show;
 
 /// The frame shown at a time.
 fn at(all: &[Moment], seconds: f64) -> &Moment {
@@ -33,6 +36,48 @@ fn any_moment_is_that_of_a_recording_played_from_its_beginning() {
         page.overview();
     }
     assert!(at(&all, 0.64).line["contacts"].as_array().is_some_and(|contacts| !contacts.is_empty()));
+}
+
+#[test]
+fn nothing_is_felt_once_the_board_of_a_recording_is_lost() {
+    let path = file("lost.mcap");
+    let plan = Plan {
+        path: path.clone(),
+        rotate: None,
+        ros2: false,
+        body: None,
+        force: true,
+        inputs: Vec::new(),
+        origin: Origin::default(),
+        raw: false,
+    };
+    let (mut recorder, mut session) = (Recorder::create(plan).unwrap(), taxel::open("sim:press").unwrap());
+    let mut record = |client: &Client, event: &Event| {
+        Show::<taxel::Error>::event(&mut recorder, client, event).unwrap();
+    };
+    loop {
+        let event = session.wait().unwrap().expect("it presses");
+        record(session.client(), &event);
+        if matches!(event, Event::Frame { .. }) && !session.client().contacts().is_empty() {
+            break;
+        }
+    }
+    session.parts().0.lost("it is gone".into(), 5);
+    while let Some(event) = session.note() {
+        record(session.client(), &event);
+    }
+    recorder.finish().unwrap();
+    let view = View::start(&[path.to_str().unwrap()]);
+    let mut page = view.page();
+    page.stand();
+    page.ask(json!({ "seek": 5000.0 }));
+    let touches = |line: &Value| line["contacts"].as_array().is_some_and(|all| !all.is_empty());
+    let all = moments(&path);
+    let pressed = all.last().unwrap();
+    assert!(touches(&pressed.line) && pressed.image.iter().any(|value| *value > 0));
+    let (lost, image) = page.image(|line| line["at_us"].as_u64() >= Some(pressed.at) && !touches(line));
+    assert!(image.iter().all(|value| *value == 0));
+    assert_eq!((&lost["intent"]["leading"], &lost["frame"]), (&json!("none"), &pressed.line["frame"]));
 }
 
 #[test]

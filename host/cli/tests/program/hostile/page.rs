@@ -24,9 +24,14 @@ impl Show<anyhow::Error> for Keeper {
 fn page() -> u16 {
     let hub = Arc::new(PageHub::default());
     let spec: source::SourceSpec = "sim:five".parse().unwrap();
-    let options = SourceOptions { raw: true, seconds: Some(25.0), ..SourceOptions::default() };
+    let options = SourceOptions { seconds: Some(25.0), ..SourceOptions::default() };
     let source = source::open(&spec, &options).unwrap();
-    watch(&LiveArgs { seconds: Some(25.0), ..LiveArgs::of(spec) }, source, &mut Keeper(hub.clone())).unwrap();
+    watch(
+        &LiveArgs { seconds: Some(25.0), raw: true, ..LiveArgs::of(spec) },
+        source,
+        &mut Keeper(hub.clone()),
+    )
+    .unwrap();
     assert!(hub.recording().unwrap().len() > 4 << 20);
     serve(TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap(), hub).unwrap()
 }

@@ -25,10 +25,21 @@ min_area = 1
 gate = 4
 smoothing_ms = 40
 slip_speed = 64
+forms_in_frame = 1
 
 [shape]
 k = 1
 reject = 400
+
+[gestures]
+model = "intent"
+rate_hz = 54
+gain = 256
+quiet_ms = 1000
+decide_ms = 250
+onset_ms = 250
+lead = 200
+certainty = 700
 
 [symbol]
 strength = [1000, 5000, 20000]
@@ -72,7 +83,8 @@ frames_hz = 65535
 contacts_hz = 20
 symbols = true
 intent = true
-raw_hz = 0
+pressing_hz = 20
+form_ages = false
 key_ms = 1000
 "#;
 
@@ -211,7 +223,38 @@ const MISTAKES: &[Mistake] = &[
     ),
     ("/stream/symbols", "symbols = true", "symbols = 1", "`stream.symbols`: must be"),
     ("/stream/intent", "intent = true", "intent = \"yes\"", "`stream.intent`: must be"),
-    ("/stream/raw_hz", "raw_hz = 0", "raw_hz = true", "`stream.raw_hz`: must be"),
+    ("/stream/pressing_hz", "pressing_hz = 20", "pressing_hz = true", "`stream.pressing_hz`: must be"),
+    ("/stream/form_ages", "form_ages = false", "form_ages = 0", "`stream.form_ages`: must be"),
+    ("/gestures", "[gestures]\n", "[gestures]\nfloor = 1\n", "`gestures.floor`: "),
+    ("/gestures/model", "model = \"intent\"", "model = \"joy\"", "`gestures.model`: "),
+    (
+        "/gestures/rate_hz",
+        "rate_hz = 54",
+        "rate_hz = 0",
+        "`gestures.rate_hz`: gestures.rate_hz must be 1 to 200",
+    ),
+    ("/gestures/gain", "gain = 256", "gain = 0", "`gestures.gain`: gestures.gain must be 1 to 4096"),
+    ("/gestures/quiet_ms", "quiet_ms = 1000", "quiet_ms = -1", "`gestures.quiet_ms`: must be"),
+    (
+        "/gestures/decide_ms",
+        "decide_ms = 250",
+        "decide_ms = 49",
+        "`gestures.decide_ms`: gestures.decide_ms must be",
+    ),
+    ("/gestures/onset_ms", "onset_ms = 250", "onset_ms = 1.5", "`gestures.onset_ms`: must be"),
+    ("/gestures/lead", "lead = 200", "lead = \"far\"", "`gestures.lead`: must be"),
+    (
+        "/gestures/certainty",
+        "certainty = 700",
+        "certainty = 1000",
+        "`gestures.certainty`: gestures.certainty must be at most 999",
+    ),
+    (
+        "/contact/forms_in_frame",
+        "forms_in_frame = 1",
+        "forms_in_frame = 256",
+        "`contact.forms_in_frame`: must be",
+    ),
     ("/stream/key_ms", "key_ms = 1000", "key_ms = 1001", "`stream.key_ms`: stream.key_ms must be 1 to 1000"),
 ];
 

@@ -70,6 +70,13 @@ force_n = 3
 at_mm = [40, 50]
 start_s = 0.3
 
+[[trace]]
+panel = "back"
+shape = "palm"
+size_mm = 80
+angle_deg = 20
+path = [[0.2, 7.5, 11, 0], [0.3, 7.5, 12, 8]]
+
 [[joint]]
 name = "left_elbow"
 from_deg = 0

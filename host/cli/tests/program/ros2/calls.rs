@@ -31,7 +31,7 @@ pub fn frames(contacts: &Subscription<Framed>, many: usize) -> Vec<u32> {
 #[test]
 fn more_calls_than_wait_are_refused_and_each_is_answered() {
     let (taxel, mut peer) = (Taxel::start("many_calls", &["--source", "sim:idle"]), Peer::open("many_calls"));
-    let client = peer.client(&taxel.name("taxel/tare"), TRIGGER);
+    let client = peer.client(&taxel.name("taxel/tare"), TRIGGER, Trigger(0));
     for _ in 0..30 {
         client.send_request(Trigger(0)).unwrap();
     }
@@ -45,7 +45,7 @@ fn more_calls_than_wait_are_refused_and_each_is_answered() {
 #[test]
 fn an_answer_to_a_long_scene_arrives_and_is_short() {
     let (taxel, mut peer) = (Taxel::start("long_scene", &["--source", "sim:idle"]), Peer::open("long_scene"));
-    let client = peer.client(&taxel.name("taxel/set_scene"), SET_SCENE);
+    let client = peer.client(&taxel.name("taxel/set_scene"), SET_SCENE, SetScene(String::new()));
     client.send_request(SetScene("x".repeat(100_000))).unwrap();
     client.send_request(SetScene(format!("name = \"{}\"\n", "y".repeat(230_000)))).unwrap();
     let answers = answers(&client, 2);
@@ -61,7 +61,7 @@ fn a_scene_that_is_read_slowly_holds_up_no_contacts() {
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let (taxel, mut peer) = (Taxel::start("slow_scene", &["--source", "sim:five"]), Peer::open("slow_scene"));
     let contacts = peer.hear(&taxel.name("taxel/contacts"), ("taxel_msgs", "Contacts"));
-    let client = peer.client(&taxel.name("taxel/set_scene"), SET_SCENE);
+    let client = peer.client(&taxel.name("taxel/set_scene"), SET_SCENE, SetScene(String::new()));
     frames(&contacts, 1);
     client.send_request(SetScene(pipe.display().to_string())).unwrap();
     frames(&contacts, 400);

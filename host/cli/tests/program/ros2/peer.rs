@@ -77,6 +77,21 @@ pub struct Framed {
     pub frame: u32,
 }
 
+/// `geometry_msgs/WrenchStamped`.
+#[derive(Debug, Deserialize)]
+pub struct Wrench {
+    _stamp: (i32, u32),
+    _frame_id: String,
+    pub force: [f64; 3],
+    torque: [f64; 3],
+}
+
+impl Wrench {
+    pub fn is_zero(&self) -> bool {
+        self.force.iter().chain(&self.torque).all(|value| *value == 0.0)
+    }
+}
+
 /// Request of `std_srvs/Trigger`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Trigger(pub u8);
@@ -128,17 +143,29 @@ impl Peer {
         self.node.create_publisher(&topic, None).unwrap()
     }
 
-    /// A client of a service, once the service is found.
+    /// A client of a service, once it has answered a first call: a service may be found before it has found
+    /// the client, whose calls it then does not hear.
     pub fn client<A: Message + Clone + 'static>(
         &mut self,
         name: &str,
         (package, kind): (&str, &str),
+        first: A,
     ) -> Client<A, Done> {
         let (called, kind) = (Name::parse(name).unwrap(), ServiceTypeName::new(package, kind));
         let client =
             self.node.create_client(ServiceMapping::Enhanced, &called, &kind, reliable(64), reliable(64));
         self.find(name);
-        client.unwrap()
+        let client = client.unwrap();
+        let (mut last, mut polls) = (None, 0);
+        until("an answer to a first call", || {
+            if polls % 500 == 0 {
+                last = Some(client.send_request(first.clone()).unwrap());
+            }
+            polls += 1;
+            let mut answers = std::iter::from_fn(|| client.receive_response().unwrap());
+            answers.any(|(id, _)| Some(id) == last).then_some(())
+        });
+        client
     }
 
     /// Waits until both ends of a service are found.

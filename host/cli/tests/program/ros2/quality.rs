@@ -1,7 +1,7 @@
 //! Who listens, and how: subscribers by default, one that stands still, and a flood of others' messages.
 
 use super::calls::frames;
-use super::peer::{Peer, Taxel, domain, until};
+use super::peer::{Peer, Taxel, Wrench, domain, until};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,13 +13,6 @@ use taxel_cli::ros2::{RosNode, RosParameters, RosPlace};
 
 /// Messages that the middleware keeps for a subscriber that confirms none, and more.
 const MANY: u32 = 10_000;
-
-#[derive(Debug, serde::Deserialize)]
-struct Wrench {
-    _stamp: (i32, u32),
-    _frame_id: String,
-    force: [f64; 3],
-}
 
 #[test]
 fn subscribers_by_default_get_forces() {

@@ -26,15 +26,25 @@ pub struct OfLink {
 pub fn of_link(urdf: &str, link: &str, shape: LinkShape, packages: &[(String, PathBuf)]) -> Result<OfLink> {
     let named = meshes(urdf, &text(urdf)?, link, shape)?;
     let (mut parts, mut files) = (Vec::new(), Vec::new());
-    for LinkMesh { file, scale, origin, line } in named {
-        let place = || format!("{urdf}, line {line}, link \"{link}\"");
-        let wrong =
-            |what: String| RobotError::Link { link: link.into(), text: format!("{}: {what}", place()) };
-        let path = found(Path::new(urdf), &file, packages).map_err(wrong)?;
-        parts.push(read(&path).with_context(place)?.placed(scale, &origin));
-        files.push(path);
+    for named in named {
+        let (part, file) = of_file(urdf, link, &named, packages)?;
+        parts.push(part);
+        files.push(file);
     }
     Ok(OfLink { mesh: Mesh::joined(&parts), files })
+}
+
+/// Reads a mesh that a link names, m, in the link's frame. Returns it and its file.
+pub(super) fn of_file(
+    urdf: &str,
+    link: &str,
+    LinkMesh { file, scale, origin, line }: &LinkMesh,
+    packages: &[(String, PathBuf)],
+) -> Result<(Mesh, PathBuf)> {
+    let place = || format!("{urdf}, line {line}, link \"{link}\"");
+    let wrong = |what: String| RobotError::Link { link: link.into(), text: format!("{}: {what}", place()) };
+    let path = found(Path::new(urdf), file, packages).map_err(wrong)?;
+    Ok((read(&path).with_context(place)?.placed(*scale, origin), path))
 }
 
 /// Path of a file that a URDF names. Error if no folder has its package.

@@ -4,6 +4,13 @@ use crate::body::pose::Pose;
 use glam::DVec3;
 use std::collections::HashMap;
 
+/// The finest grid of a coarse mesh, m.
+const FINEST: f64 = 0.002;
+/// By how much the next grid is wider.
+const WIDER: f64 = 1.4;
+/// Most grids that are tried: the widest has 10^9 m.
+const GRIDS: usize = 80;
+
 /// A surface of triangles, in metres. Corners at the same place are one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
@@ -74,6 +81,29 @@ impl Mesh {
         let of =
             |part: &Mesh| part.triangles.iter().map(|triangle| part.corners(*triangle)).collect::<Vec<_>>();
         Mesh::of(parts.iter().flat_map(of))
+    }
+
+    /// The mesh with at most `most` triangles: the corners in a cell of a grid become their mean, and the grid widens until
+    /// few enough are left.
+    pub fn coarse(self, most: usize) -> Mesh {
+        if self.triangles.len() <= most {
+            return self;
+        }
+        let merged = |grid: f64| {
+            let cell = |corner: &DVec3| (*corner / grid).floor().to_array().map(|part| part as i64);
+            let mut cells: HashMap<[i64; 3], (DVec3, f64)> = HashMap::new();
+            for corner in &self.points {
+                let (sum, count) = cells.entry(cell(corner)).or_default();
+                (*sum, *count) = (*sum + *corner, *count + 1.0);
+            }
+            let mean = |number: usize| {
+                let (sum, count) = cells[&cell(&self.points[number])];
+                sum / count
+            };
+            Mesh::of(self.triangles.iter().map(|triangle| triangle.map(mean)))
+        };
+        let grids = std::iter::successors(Some(FINEST), |grid| Some(grid * WIDER)).take(GRIDS);
+        grids.map(merged).find(|mesh| mesh.triangles.len() <= most).unwrap_or_default()
     }
 
     /// The triangles that come within a distance of a point, m.

@@ -9,7 +9,7 @@
 //! | `kinematics.rs` | where the links are |
 //! | `reach.rs` | how far a point is off if the joints are |
 //! | `positions.rs` | positions of joints by name, limits |
-//! | `shapes.rs` | meshes that a link names |
+//! | `shapes.rs` | meshes that a link names, and other shapes |
 //! | `file.rs` | files and the preset |
 
 mod element;
@@ -25,6 +25,6 @@ mod urdf;
 pub use file::{parse, read};
 pub use kinematics::Poses;
 pub use model::{Drive, JointKind, Robot, RobotJoint, RobotLink};
-pub use shapes::{LinkMesh, LinkShape, meshes};
+pub use shapes::{LinkMesh, LinkShape, LinkSolid, SolidsOf, meshes, solids};
 
 pub(super) use file::text;

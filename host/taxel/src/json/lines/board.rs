@@ -17,6 +17,8 @@ pub struct HelloLine<'a> {
     pub time_us: u64,
     /// Name and version of the firmware.
     pub firmware: &'a str,
+    /// Unique id of the board's chip; empty if it has none, as a simulated board.
+    pub chip: &'a str,
     /// True of a simulated board.
     pub simulated: bool,
     /// Name of the garment.
@@ -25,6 +27,8 @@ pub struct HelloLine<'a> {
     pub scene: &'a str,
     /// Id, date and fit of the calibration in force; empty without one: values are counts.
     pub calibration: &'a str,
+    /// Why the board has started; null if it does not know.
+    pub boot: Option<StartLine>,
     /// Number of taxels.
     pub taxels: usize,
     /// Names of the regions of the body.
@@ -54,9 +58,7 @@ pub struct HelloPanel<'a> {
 /// Why the board has started.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = TypeIs("boot")))]
-#[serde(tag = "type", rename = "boot")]
-pub struct BootLine {
+pub struct StartLine {
     /// `power`, `pin`, `watchdog`, `panic`, `request` or `other`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub cause: BootCause,

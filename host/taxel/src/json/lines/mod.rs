@@ -11,8 +11,8 @@ mod regions;
 mod touch;
 
 pub use board::{
-    AnswerLine, BackLine, BootLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel,
-    LogLine, LostLine, OtherLine, PinFaultLine, RefusedLine, SelfTestLine, StartOfFrameLine, SyncLine,
+    AnswerLine, BackLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, LogLine,
+    LostLine, OtherLine, PinFaultLine, RefusedLine, SelfTestLine, StartLine, StartOfFrameLine, SyncLine,
     TemperatureLine, UnusableLine,
 };
 pub use folds::{DoubtLine, FoldsLine};
@@ -20,7 +20,7 @@ pub use frame::{ContactsLine, FrameLine, PanelPixels, RawLine};
 pub use perceived::{IntentLine, ReactionLine, ReflexLine, RegionLine, SymbolLine, SymbolsLine, WordsLine};
 pub use pressing::{LandedLine, PressingLine, PushLine, UncertainLine, WrenchLine};
 pub use regions::{RegionsLine, SurfaceRegionLine};
-pub use touch::{ConfidenceLine, FormAge, FormsLine, GestureLine, ShapesLine, UnsureLine};
+pub use touch::{GestureLine, ShapesLine};
 
 use serde::Serialize;
 
@@ -32,16 +32,12 @@ use serde::Serialize;
 #[allow(missing_docs)] // see the structs
 pub enum JsonLine<'a> {
     Hello(HelloLine<'a>),
-    Boot(BootLine),
     Unusable(UnusableLine<'a>),
     Frame(FrameLine<'a>),
     Contacts(ContactsLine<'a>),
     Symbols(SymbolsLine<'a>),
     Intent(IntentLine),
     Gesture(GestureLine<'a>),
-    Confidence(ConfidenceLine),
-    Unsure(UnsureLine<'a>),
-    Forms(FormsLine),
     Pressing(PressingLine<'a>),
     Folds(FoldsLine),
     Regions(RegionsLine<'a>),

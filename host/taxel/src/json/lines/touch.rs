@@ -34,60 +34,6 @@ pub struct GestureLine<'a> {
     pub confidence: Option<f64>,
 }
 
-/// Confidence of the next gesture.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = TypeIs("confidence")))]
-#[serde(tag = "type", rename = "confidence")]
-pub struct ConfidenceLine {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan, us of the board.
-    pub time_us: u64,
-    /// Number of the touch, from 1.
-    pub touch: u32,
-    /// Share of touches of that age and lead that are of that gesture, 0 to 1.
-    pub confidence: f64,
-}
-
-/// Contacts that may be drift of the baseline.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = TypeIs("unsure")))]
-#[serde(tag = "type", rename = "unsure")]
-pub struct UnsureLine<'a> {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan, us of the board.
-    pub time_us: u64,
-    /// Ids of the contacts.
-    pub contacts: &'a [u32],
-}
-
-/// Ages of the forms of the next contacts.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(transform = TypeIs("forms")))]
-#[serde(tag = "type", rename = "forms")]
-pub struct FormsLine {
-    /// Number of the scan.
-    pub frame: u32,
-    /// Start of the scan, us of the board.
-    pub time_us: u64,
-    /// Forms that are older than this frame.
-    pub ages: Vec<FormAge>,
-}
-
-/// Age of a form.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct FormAge {
-    /// Id of the contact.
-    pub contact: u32,
-    /// Age, frames; 255 and more are 255.
-    pub age: u8,
-}
-
 /// The base of shapes in force.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

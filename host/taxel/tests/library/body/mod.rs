@@ -1,5 +1,6 @@
 //! The garment on the robot.
 
+mod figure;
 mod fit;
 mod link;
 mod mesh;

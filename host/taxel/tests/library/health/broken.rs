@@ -103,9 +103,10 @@ impl Platform for Until {
 
 /// Runs a board for this many frames of a script.
 fn told(garment: &Garment, script: &Script, frames: u32) -> Host {
-    let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    let info =
+        BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Shipped::new(info, garment.clone(), Scene::shipped()).unwrap());
-    let SimBoard { mut lines, delay, adc, clock } = SimBoard::new(garment, script, script.seed).unwrap();
+    let SimBoard { mut lines, delay, adc, clock, .. } = SimBoard::new(garment, script, script.seed).unwrap();
     let end = Micros((f64::from(frames) * FRAME_S * 1e6) as u64);
     let mut until = Until { clock: clock.clone(), end };
     let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);

@@ -34,7 +34,13 @@ impl Worn {
     pub fn at(depth: Depth) -> Worn {
         let mut scene = Scene::shipped();
         scene.plan.depth = depth;
-        let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+        let info = BoardInfo {
+            firmware: "",
+            chip: "",
+            pins: Pins::ANY,
+            full_scale: 4095,
+            link_bytes_per_s: 1_000_000,
+        };
         let garment = Garment::reference();
         let board = Box::new(Shipped::new(info, garment.clone(), scene).unwrap());
         Worn { garment, board, said: BTreeSet::new() }
@@ -53,7 +59,7 @@ impl Worn {
         frames: u32,
         part: f64,
     ) -> BTreeMap<usize, (u32, TaxelHealth)> {
-        let SimBoard { mut lines, delay, adc, clock } =
+        let SimBoard { mut lines, delay, adc, clock, .. } =
             SimBoard::new(&self.garment, script, script.seed).unwrap();
         let mut scan = MuxScan::<_, _, _, _, PINS, TAXELS>::new(&mut lines, delay, adc, clock);
         self.tare();

@@ -22,7 +22,13 @@ struct Bench {
 
 impl Bench {
     fn new() -> Bench {
-        let info = BoardInfo { firmware: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+        let info = BoardInfo {
+            firmware: "",
+            chip: "",
+            pins: Pins::ANY,
+            full_scale: 4095,
+            link_bytes_per_s: 1_000_000,
+        };
         let board = Board::new(info, Garment::block(), Scene::shipped()).unwrap();
         Bench { board: Box::new(board), receiver: Box::new(Receiver::new()), frame: 0 }
     }

@@ -13,7 +13,6 @@ use taxel::robot::{BoardEvent, BoardPlan, RobotEvent, RobotSession, WhenFull};
 use taxel::source::Source;
 use taxel_core::format::{Code, name};
 use taxel_core::garment::Garment;
-use taxel_core::wire::Request;
 
 const NAMES: [&str; 3] = ["head", "hand", "heel"];
 
@@ -69,7 +68,7 @@ impl Bench {
                 begin: Box::new(|session| {
                     let client = session.parts().0;
                     client.start(0)?;
-                    Ok(client.request(&Request::SetRaw { hz: u16::MAX })?)
+                    Ok(client.stream_raw(u16::MAX)?)
                 }),
                 teller: Box::new(tell),
                 gather: Duration::ZERO,
@@ -297,8 +296,9 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
     let before = u64::from(frames[0] - contacts[0].min(frames[0]));
     assert_eq!(told, robot.dropped(0));
     assert_eq!(u64::from(missing) + before, told, "{frames:?}");
+    // What the start forgets is told with a list of its own, of a frame that may have had one.
     assert!(
-        contacts.windows(2).all(|pair| pair[1] == pair[0] + 1),
+        contacts.windows(2).all(|pair| pair[1] - pair[0] <= 1),
         "a list of contacts is missing: {contacts:?}"
     );
 }

@@ -8,7 +8,7 @@ use taxel::files::output::Force;
 use taxel::json::message;
 use taxel::record::{COUNTS, Play, Tally};
 use taxel::recording::{
-    BoardRecording, Clips, Messages, Overview, WIRE, WireReader, boards, chunk_indexes, scan,
+    BoardRecording, Clips, LinkRecord, Messages, Overview, WIRE, WireReader, boards, chunk_indexes, scan,
 };
 use taxel::robot::{BoardEvent, RobotRecorder, RobotSession, WhenFull};
 use taxel::session::Session;
@@ -83,11 +83,11 @@ fn the_chunks_of_a_board_are_those_of_its_stream() {
             let clip = clips.clip(chunk).unwrap();
             assert!(!clip.is_empty(), "{name}: another board's chunk");
             for message in clip.iter() {
-                let frame = frames.next_frame().unwrap().unwrap();
-                assert_eq!((message.header, &*message.data), (frame.header, frame.data), "{name}");
+                let frame = frames.next_record().unwrap();
+                assert_eq!(frame, Some((message.header, LinkRecord::Frame(&message.data))), "{name}");
             }
         }
-        assert_eq!(frames.next_frame().unwrap(), None, "{name}");
+        assert_eq!(frames.next_record().unwrap(), None, "{name}");
         assert!(clips.words("taxel").is_some() && clips.attached("garment.toml").is_some());
     }
 }

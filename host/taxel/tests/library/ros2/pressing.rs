@@ -10,7 +10,7 @@ use taxel::json::message;
 use taxel::ros2::{messages, own, pressing, schemas};
 use taxel::session::{Session, setting};
 use taxel::source::{self, SourceOptions};
-use taxel_core::wire::{PressingReport, RegionsReport, Request};
+use taxel_core::wire::{PressingReport, RegionsReport};
 
 const US: u64 = 1_700_000_000_000_123;
 const SCALE: f32 = 1000.0;
@@ -67,7 +67,7 @@ fn same_regions(all: &Definitions, client: &Client, report: &RegionsReport) {
 fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_newton: Option<f32>) {
     let scale = f64::from(per_newton.unwrap_or(1.0));
     let line = message(client, &Event::Pressing(Box::new(report.clone())));
-    let read = all.read("Pressing", &pressing::pressing(US, client, report, "base_link", per_newton));
+    let read = all.read("Pressing", &pressing::pressing(US, report, "base_link", per_newton));
     assert_eq!([&read["header"]["frame_id"], &read["frame"]], [&json!("base_link"), &line["frame"]]);
     assert_eq!(read["newtons"], json!(per_newton.is_some()));
     let age = line["pose_age_us"].as_i64().map(|us| us as f64 * 1e-6);
@@ -163,7 +163,7 @@ fn places_and_forces_on_links_are_those_of_the_board() {
     std::fs::write(&file, [include_str!("../../../bodies/reference.toml"), REGION].concat()).unwrap();
     let options = SourceOptions { body: Some(file.display().to_string()), ..SourceOptions::default() };
     let mut session = Session::over(source::open(&"sim:five".parse().unwrap(), &options).unwrap()).unwrap();
-    session.request(&Request::SetPressing(u16::MAX)).unwrap();
+    session.parts().0.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
     let (mut surface, mut reports, mut contacts, mut posed, mut clouds) = (None, 0, 0, 0, 0);
     let mut phases = BTreeSet::new();
     while let Some(event) = session.wait().unwrap() {

@@ -4,11 +4,11 @@ use super::restored::{told, until};
 use super::rig::{Rig, source};
 use crate::lines::pressing;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use taxel::client::{Client, Event};
 use taxel::json::message;
-use taxel::record::{Origin, Plan, Recorder};
+use taxel::record::{Origin, Plan, Play, Recorder};
 use taxel::recording::Messages;
 use taxel::ros2::topic_part;
 use taxel::session::{Poll, Returns, Session, Show};
@@ -23,7 +23,7 @@ use taxel_core::wire::{IntentReport, ReactionReport, RegionsReport, Report, enco
 fn pressed(rig: &Arc<Mutex<Rig>>) -> (Session, Vec<u32>) {
     let mut session = Session::new(source(rig), Returns::Always);
     session.parts().0.start(8).unwrap();
-    until(&mut session, |event| matches!(event, Event::Answer { request: 2, .. }));
+    until(&mut session, |event| matches!(event, Event::Answer { request: 12, .. }));
     rig.lock().unwrap().codes[20..23].fill(Code(2000));
     until(&mut session, |event| matches!(event, Event::Symbols(list) if !list.regions.is_empty()));
     let ids = session.client().contacts().iter().map(|placed| placed.contact.id).collect();
@@ -183,9 +183,9 @@ fn is_zero(wrench: &[u8]) -> bool {
     wrench.iter().rev().take(48).all(|byte| *byte == 0)
 }
 
-#[test]
-fn a_recording_has_a_last_wrench_of_zero_and_stale_diagnostics() {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ended.mcap");
+/// Records a board that is lost while it is pressed. Returns the file, and the board's session.
+fn recorded(name: &str) -> (PathBuf, Session) {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let origin = Origin { counts_per_newton: Some(100.0), ..Origin::default() };
     let plan = Plan {
         path: path.clone(),
@@ -215,6 +215,35 @@ fn a_recording_has_a_last_wrench_of_zero_and_stale_diagnostics() {
         record(session.client(), &event);
     }
     recorder.finish().unwrap();
+    (path, session)
+}
+
+#[test]
+fn readers_of_a_recording_see_what_ended_when_the_board_was_lost() {
+    let (path, live) = recorded("ended-read.mcap");
+    let is_lost = |event: &Event| matches!(event, Event::Lost { why, since_us } if why == "it is gone" && *since_us == 5);
+    let ends = |all: &[(usize, Event)]| {
+        let last = all.iter().rev().find(|(_, event)| matches!(event, Event::Contacts { .. }));
+        assert!(all.iter().any(|(present, _)| *present > 0) && is_lost(&all.last().unwrap().1), "{all:?}");
+        matches!(last, Some((0, Event::Contacts { released, .. })) if !released.is_empty())
+    };
+    let mut play = Play::open(&path.clone().into()).unwrap();
+    let mut read = Vec::new();
+    while let Some((_, event)) = play.next_event().unwrap() {
+        read.push((play.client().contacts().len(), event));
+    }
+    let mut replay = Session::open(&format!("replay:{}@max", path.display())).unwrap();
+    let mut replayed = Vec::new();
+    while let Some(event) = replay.wait().unwrap() {
+        replayed.push((replay.client().contacts().len(), event));
+    }
+    assert!(ends(&read) && ends(&replayed));
+    assert!(play.client().image().is_none() && live.client().image().is_none());
+}
+
+#[test]
+fn a_recording_has_a_last_wrench_of_zero_and_stale_diagnostics() {
+    let (path, session) = recorded("ended.mcap");
     let of = |file: &str, topic: &str| {
         let mut messages = Messages::of_topic(&path.with_file_name(file), topic).unwrap();
         let mut all = Vec::new();

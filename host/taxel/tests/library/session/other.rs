@@ -48,7 +48,7 @@ impl Socket {
         let (client, _) = session.parts();
         client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
         client.start(8).unwrap();
-        until(&mut session, |event| matches!(event, Event::Answer { request: 2, .. }));
+        until(&mut session, |event| matches!(event, Event::Answer { request: 12, .. }));
         session
     }
 }
@@ -101,6 +101,28 @@ fn serial_numbers_decide_where_there_are_any() {
     socket.exchange();
     let why = until(&mut session, |event| matches!(event, Event::Other { .. }));
     assert_eq!(why.remark(), Some("rig answers with another board: its serial number is B, not A"));
+    // A link without serial numbers, a UART or TCP, has the boards' own: the ids of their chips.
+    let socket = Socket::new(["glove", "glove"], [None; 2]);
+    for (rig, chip) in socket.rigs.iter().zip(["A", "B"]) {
+        let mut rig = rig.lock().unwrap();
+        rig.chip = chip;
+        rig.restart();
+    }
+    let mut session = socket.session();
+    socket.exchange();
+    let why = until(&mut session, |event| matches!(event, Event::Other { .. }));
+    assert_eq!(why.remark(), Some("rig answers with another board: its serial number is B, not A"));
+    // The number of a probe, by which a board is named, is not that of the chip behind it.
+    let socket = Socket::new(["glove", "glove"], [Some("probe"), None]);
+    socket.rigs[0].lock().unwrap().chip = "A";
+    socket.rigs[0].lock().unwrap().restart();
+    let mut session = Session::new(socket.clone().open().unwrap(), Returns::Always);
+    session.recognise(Identity::new(Some("probe".into()), None));
+    session.parts().0.start(8).unwrap();
+    until(&mut session, |event| {
+        assert!(!matches!(event, Event::Other { .. }));
+        matches!(event, Event::Frame { .. })
+    });
     // One number, another garment: it was dressed otherwise meanwhile.
     let socket = Socket::new(["head", "hand"], [Some("A"), Some("A")]);
     let mut session = socket.session();
@@ -127,6 +149,23 @@ fn a_board_that_was_dressed_otherwise_is_the_same() {
     socket.rigs[0].lock().unwrap().restart();
     socket.rigs[0].lock().unwrap().cut();
     assert!(told(&mut session, "is back after").contains("restarted"));
+}
+
+#[test]
+fn concepts_of_a_scene_that_another_program_sets_are_known_by_their_names() {
+    let socket = Socket::new(["head", "hand"], [None; 2]);
+    let mut session = socket.session();
+    let mut other = scene();
+    let concepts = &mut other.intent.as_mut().unwrap().map.concepts;
+    *concepts.last_mut().unwrap() = name("cold");
+    let bytes = postcard::to_allocvec(&other).unwrap();
+    let mut room = [0; 8192];
+    let request = encode(&Request::SetScene(&bytes), &mut room).unwrap().to_vec();
+    socket.rigs[0].lock().unwrap().receive(&request);
+    until(&mut session, |event| *event == Event::Hello);
+    assert_eq!(session.client().concepts().last(), Some(&name("cold")));
+    // It is another scene of the same board.
+    assert_eq!((session.client().counts().restarts, session.gap()), (0, None));
 }
 
 #[test]

@@ -11,7 +11,6 @@ use taxel::json::message;
 use taxel::session::{JointStates, JointTime, Poll, Posing, Session};
 use taxel::source::{self, SourceOptions};
 use taxel_core::format::Micros;
-use taxel_core::wire::Request;
 
 /// Joints that move the reference garment in the base.
 const JOINTS: [&str; 7] = [
@@ -48,7 +47,7 @@ fn open(scene: &str, realtime: bool, seconds: f64) -> Session {
         ..SourceOptions::default()
     };
     let mut session = Session::over(source::open(&scene.parse().unwrap(), &options).unwrap()).unwrap();
-    session.request(&Request::SetPressing(u16::MAX)).unwrap();
+    session.parts().0.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
     session
 }
 

@@ -11,7 +11,6 @@ use taxel::session::{Poll, Returns, Session};
 use taxel_core::condition::Certificate;
 use taxel_core::format::{Q15, name};
 use taxel_core::garment::Garment;
-use taxel_core::gesture::{GestureConfig, ShippedModel};
 use taxel_core::intent::{Feed, MapInput, Source as From};
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
@@ -40,8 +39,8 @@ pub fn scene() -> Scene {
 
 /// Request numbers of all settings, in the order of restoring.
 fn order(parts: usize) -> Vec<u8> {
-    let added = vec![17; parts];
-    [&[0, 1, 11, 15, 16][..], &added, &[18, 14, 7, 13, 3, 2, 12]].concat()
+    let added = vec![9; parts];
+    [&[5, 6, 10, 11, 8][..], &added, &[18, 0, 4, 12]].concat()
 }
 
 /// Sends all settings in another order. Returns the number of parts of the base of shapes.
@@ -49,11 +48,8 @@ fn set(session: &mut Session) -> usize {
     let (client, _) = session.parts();
     client.request(&Request::SetGarment(&postcard::to_allocvec(&garment()).unwrap())).unwrap();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
-    client.request(&Request::SetCertainty(700)).unwrap();
-    client.request(&Request::SetGestures(Some(GestureConfig::of(ShippedModel::Gestures)))).unwrap();
     let feed = Feed { concept: name("warmth"), value: Q15(9), age_ms: 5, lasts_ms: 0, otherwise: Q15(0) };
     client.request(&Request::Feed(feed)).unwrap();
-    client.request(&Request::Concept { slot: 1, value: Q15(7) }).unwrap();
     let gains = Request::SetGain { first: 0, gains: std::iter::repeat_n(5000, 64).collect() };
     client.request(&gains).unwrap();
     let of = Certificate { id: 77, taxels: 64, year: 2026, month: 2, day: 3, error: 9 };
@@ -61,7 +57,7 @@ fn set(session: &mut Session) -> usize {
     client.start(8).unwrap();
     let base = Base::open(Path::new("drawn")).unwrap();
     teach(client, &base).unwrap();
-    client.request(&Request::Budget { hz: 5 }).unwrap();
+    client.stream_budget(5).unwrap();
     base.gallery.prototypes.len().div_ceil(64)
 }
 
@@ -124,7 +120,7 @@ fn everything_is_set_again_whatever_breaks() {
         let rig = rig.lock().unwrap();
         // A reopened link sends the start at once; settings proved by a `Hello` are not repeated.
         let asked: Vec<u8> = rig.asked.iter().copied().skip(usize::from(breaks)).collect();
-        let unproven = |number: &u8| restarts || ![0, 1, 11, 15, 2].contains(number);
+        let unproven = |number: &u8| restarts || ![5, 6, 10, 11, 12].contains(number);
         let expected: Vec<u8> = order(parts).into_iter().filter(unproven).collect();
         assert_eq!(asked, expected, "round {round}");
         assert_eq!((rig.garment(), rig.scene()), (&garment(), &scene()), "round {round}");
@@ -141,8 +137,8 @@ fn what_was_replaced_or_taken_back_is_not_set_again() {
     let mut session = Session::new(source(&rig), Returns::Always);
     let (client, _) = session.parts();
     client.start(4).unwrap();
-    client.request(&Request::SetGestures(Some(GestureConfig::of(ShippedModel::Intent)))).unwrap();
-    client.request(&Request::SetGestures(None)).unwrap();
+    client.stream_raw(9).unwrap();
+    client.stream_raw(0).unwrap();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
     // The scene is too large: a refused setting is not remembered, and the one before stays.
     client.request(&Request::SetScene(&[255; 9])).unwrap();
@@ -156,7 +152,7 @@ fn what_was_replaced_or_taken_back_is_not_set_again() {
     rig.lock().unwrap().restart();
     told(&mut session, "set again");
     let rig = rig.lock().unwrap();
-    assert_eq!(rig.asked, [0, 1, 3]);
+    assert_eq!(rig.asked, [5, 6, 0, 4]);
     assert_eq!((rig.garment(), rig.scene()), (&garment(), &scene()));
 }
 

@@ -14,7 +14,7 @@ use taxel_core::selftest::Findings;
 use taxel_core::wire::{LONGEST_REQUEST, Receiver, Request, decode, frame_bound};
 
 const INFO: BoardInfo =
-    BoardInfo { firmware: "test", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
+    BoardInfo { firmware: "test", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
 /// Time between two scans.
 const SCAN: Duration = Duration::from_millis(2);
 /// Most bytes queued for the host.
@@ -36,6 +36,8 @@ pub struct Rig {
     pub plugged: bool,
     /// Pins from the next restart on; with other pins, the board refuses garments.
     pub pins: Pins,
+    /// Id of its chip.
+    pub chip: &'static str,
     /// True if it reads nothing.
     pub deaf: bool,
     /// Codes of its converter.
@@ -54,7 +56,7 @@ impl Rig {
     pub fn wearing(garment: Garment) -> Rig {
         let now = Instant::now();
         Rig {
-            board: board(Pins::ANY, &garment),
+            board: board(Pins::ANY, "", &garment),
             booted: now,
             scanned: now,
             to_host: VecDeque::new(),
@@ -63,6 +65,7 @@ impl Rig {
             link: 0,
             plugged: true,
             pins: Pins::ANY,
+            chip: "",
             deaf: false,
             codes: [Code(100); 64],
             wears: garment,
@@ -71,7 +74,7 @@ impl Rig {
 
     /// Cycles the power.
     pub fn restart(&mut self) {
-        self.board = board(self.pins, &self.wears);
+        self.board = board(self.pins, self.chip, &self.wears);
         self.booted = Instant::now();
         self.to_host.clear();
         self.receiver = Receiver::new();
@@ -160,8 +163,8 @@ impl Rig {
     }
 }
 
-fn board(pins: Pins, garment: &Garment) -> Box<Board<64, 32>> {
-    Box::new(Board::new(BoardInfo { pins, ..INFO }, garment.clone(), Scene::shipped()).unwrap())
+fn board(pins: Pins, chip: &'static str, garment: &Garment) -> Box<Board<64, 32>> {
+    Box::new(Board::new(BoardInfo { pins, chip, ..INFO }, garment.clone(), Scene::shipped()).unwrap())
 }
 
 /// A link in memory.

@@ -63,8 +63,8 @@ impl Show<anyhow::Error> for Facts {
             Event::Hello => {
                 self.firmware = client.worn().map(|worn| worn.firmware.clone());
                 self.simulated = client.worn().is_some_and(Worn::is_simulated);
+                self.boot = client.boot();
             }
-            Event::Boot(boot) => self.boot = Some(*boot),
             Event::Unusable(why) => self.unusable = Some(why.clone()),
             Event::Frame { frame, time, .. } => {
                 let first = self.frames.map_or((*frame, time.0), |[first, _]| first);

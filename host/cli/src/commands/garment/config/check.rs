@@ -57,6 +57,7 @@ fn wears_slowly(garment: &Garment, scene: &Scene) -> bool {
 
 /// Path of the key of a scene's file that an error is about.
 fn scene_key(error: &SceneError) -> String {
+    use taxel_core::gesture::GestureError;
     use taxel_core::intent::MapError;
     match error {
         SceneError::Invalid(invalid) => invalid.parameter.into(),
@@ -65,6 +66,8 @@ fn scene_key(error: &SceneError) -> String {
         SceneError::Map(MapError::NoSteps) => "intent.steps".into(),
         SceneError::Map(MapError::Fraction { parameter, .. }) => format!("intent.{parameter}"),
         SceneError::Map(_) => "intent.map".into(),
+        SceneError::Gestures(GestureError::Invalid(invalid)) => invalid.parameter.into(),
+        SceneError::Gestures(GestureError::Model(_)) => "gestures.model".into(),
     }
 }
 

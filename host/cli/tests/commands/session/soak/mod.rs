@@ -14,7 +14,7 @@ use std::fs::File;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use taxel::recording::WireReader;
+use taxel::recording::{LinkRecord, WireReader};
 
 /// Least duration that shows growth of memory.
 const LONG: Duration = Duration::from_secs(300);
@@ -73,8 +73,10 @@ fn nothing_grows_and_nothing_is_lost_unexplained() {
     let lines = lines.join().unwrap();
     let mut reader = WireReader::open(&file.as_path().into()).unwrap();
     let mut kept = Vec::new();
-    while let Some(message) = reader.next_frame().unwrap() {
-        kept.push(message.data.to_vec());
+    while let Some((_, record)) = reader.next_record().unwrap() {
+        if let LinkRecord::Frame(bytes) = record {
+            kept.push(bytes.to_vec());
+        }
     }
     let sent = recorded.sent();
     let loss = loss::judge(&sent, &kept);
