@@ -91,7 +91,7 @@ fn a_request_is_refused_by_the_name_of_what_it_asks_for() {
     assert_eq!(refused(Request::SetShapes(&[])), [None]);
     assert_eq!(refused(Request::AddShapes(&[0])), left_out("shapes"));
     let concept = "warmth".try_into().unwrap();
-    let feed = Feed { concept, value: Q15(0), age_ms: 0, lasts_ms: 0, otherwise: Q15(0) };
+    let feed = Feed { concept, value: Q15(0), age_ms: 0, timeout_ms: 0, default: Q15(0) };
     assert_eq!(refused(Request::Feed(feed)), left_out("intent"));
     assert_eq!(refused(Request::Stream { raw_hz: 10, budget_hz: 1 }), left_out("raw"));
     assert_eq!(refused(Request::Stream { raw_hz: 0, budget_hz: 9 }), [None]);

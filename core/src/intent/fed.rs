@@ -26,9 +26,9 @@ pub struct Feed {
     /// Age of the value on arrival, ms.
     pub age_ms: u32,
     /// Age from which the value no longer counts, ms; 0: it holds until the next one.
-    pub lasts_ms: u32,
+    pub timeout_ms: u32,
     /// Value that counts from then on, -1 ..= 1.
-    pub otherwise: Q15,
+    pub default: Q15,
 }
 
 /// Content of a slot.
@@ -37,7 +37,7 @@ struct Held {
     value: Q15,
     /// Time until which `value` counts; none: until the next value.
     until: Option<Micros>,
-    otherwise: Q15,
+    default: Q15,
 }
 
 /// Values that the host has fed.
@@ -59,17 +59,16 @@ impl Fed {
         let slot = map.and_then(|map| map.slot(&feed.concept));
         let slot = slot.and_then(|slot| self.slots.get_mut(usize::from(slot)));
         let held = slot.ok_or(Invalid { parameter: "feed.concept", must })?;
-        let (value, otherwise) =
-            (fraction(feed.value, "feed.value")?, fraction(feed.otherwise, "feed.otherwise")?);
-        let left = 1000 * u64::from(feed.lasts_ms.saturating_sub(feed.age_ms));
-        let until = (feed.lasts_ms > 0).then_some(Micros(now.0.saturating_add(left)));
-        *held = Held { value, until, otherwise };
+        let (value, default) = (fraction(feed.value, "feed.value")?, fraction(feed.default, "feed.default")?);
+        let left = 1000 * u64::from(feed.timeout_ms.saturating_sub(feed.age_ms));
+        let until = (feed.timeout_ms > 0).then_some(Micros(now.0.saturating_add(left)));
+        *held = Held { value, until, default };
         Ok(())
     }
 
-    /// Called when no host feeds any more: each slot falls back to its `otherwise`, 0 if none was given.
+    /// Called when no host feeds any more: each slot falls back to its `default`, 0 if none was given.
     pub fn expire(&mut self) {
-        self.slots.iter_mut().for_each(|held| *held = Held { value: held.otherwise, until: None, ..*held });
+        self.slots.iter_mut().for_each(|held| *held = Held { value: held.default, until: None, ..*held });
     }
 
     /// Values that count at `now`, by slot; 0 if nothing was fed.
@@ -77,7 +76,7 @@ impl Fed {
         let mut values = [Q15(0); SLOTS];
         for (value, held) in values.iter_mut().zip(&self.slots) {
             *value = match held.until {
-                Some(until) if now >= until => held.otherwise,
+                Some(until) if now >= until => held.default,
                 _ => held.value,
             };
         }
@@ -109,8 +108,8 @@ mod tests {
         Map::build(&config).unwrap()
     }
 
-    fn feed(value: i32, age_ms: u32, lasts_ms: u32) -> Feed {
-        Feed { concept: name("warmth"), value: Q15(value), age_ms, lasts_ms, otherwise: Q15(-7) }
+    fn feed(value: i32, age_ms: u32, timeout_ms: u32) -> Feed {
+        Feed { concept: name("warmth"), value: Q15(value), age_ms, timeout_ms, default: Q15(-7) }
     }
 
     #[test]
@@ -143,7 +142,7 @@ mod tests {
         assert_eq!(refused(feed(1, 0, 0), None), "feed.concept");
         assert_eq!(refused(feed(32769, 0, 0), Some(&map)), "feed.value");
         assert_eq!(refused(feed(i32::MIN, 0, 0), Some(&map)), "feed.value");
-        assert_eq!(refused(Feed { otherwise: Q15(-32769), ..feed(1, 0, 0) }, Some(&map)), "feed.otherwise");
+        assert_eq!(refused(Feed { default: Q15(-32769), ..feed(1, 0, 0) }, Some(&map)), "feed.default");
         assert_eq!(fed.values(Micros(0)), [Q15(0); SLOTS]);
     }
 }

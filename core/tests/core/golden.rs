@@ -265,7 +265,7 @@ fn reports() -> [Report<'static>; 23] {
 
 fn requests() -> [Request<'static>; 19] {
     let concept = name("warmth");
-    let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, lasts_ms: 500, otherwise: Q15(0) };
+    let feed = Feed { concept, value: Q15(-16_384), age_ms: 20, timeout_ms: 500, default: Q15(0) };
     let certificate =
         Certificate { id: 0xdead_beef, taxels: 2048, year: 2026, month: 11, day: 21, error: 125 };
     let posture = Posture { joints: one(JointAngle { joint: 1, centidegrees: -4500 }) };

@@ -77,7 +77,7 @@ fn what_a_host_fed_holds_until_it_says_nothing_for_three_seconds() {
     (map.inputs[0].source, map.inputs[0].low, map.inputs[0].high) = (Source::Host(1), -32_768, 32_768);
     let concept = map.concepts[usize::from(map.inputs[0].concept)].clone();
     let mut bench = BoardAndHost::new(scene);
-    let feed = Feed { concept, value: Q15(7), age_ms: 0, lasts_ms: 0, otherwise: Q15(0) };
+    let feed = Feed { concept, value: Q15(7), age_ms: 0, timeout_ms: 0, default: Q15(0) };
     assert_eq!(bench.answer(&Request::Feed(feed)), None);
     for _ in 0..20 {
         bench.now += 2_999_999;

@@ -85,8 +85,8 @@ fn feed(values: &Values) -> Result<Feed> {
         concept: short,
         value: values.fraction("value")?,
         age_ms: values.whole("age_ms", 0, u32::MAX.into())? as u32,
-        lasts_ms: values.whole("lasts_ms", 0, u32::MAX.into())? as u32,
-        otherwise: values.fraction("otherwise")?,
+        timeout_ms: values.whole("timeout_ms", 0, u32::MAX.into())? as u32,
+        default: values.fraction("default")?,
     })
 }
 

@@ -100,7 +100,7 @@ def test_both_clocks() -> None:
 
 def test_requests_are_answered() -> None:
     with taxel.open("sim:pat", tare=0, seconds=3) as board:
-        board.set_concept("cold", 0.5, lasts_ms=500)
+        board.set_concept("cold", 0.5, timeout_ms=500)
         board.set_forms(0)
         board.set_scene("rate_hz = 0\nstream = { contacts_hz = 20 }")
         board.save()

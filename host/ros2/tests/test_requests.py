@@ -73,13 +73,13 @@ def test_a_refusal_is_the_boards_own(listener):
 def test_parameters_are_checked_and_work(listener):
     images = listener.hear(Image, "/tactile/back/image", NEWEST)
     with taxel("--source", "sim:pat", "--image-hz", "50"):
-        names = ["source", "image_hz", "tare_frames", "concept_lasts_ms", "use_sim_time"]
+        names = ["source", "image_hz", "tare_frames", "concept_timeout_ms", "use_sim_time"]
         asked = GetParameters.Request(names=names)
         values = listener.call(GetParameters, "/taxel/get_parameters", asked).values
         assert [values[0].string_value, values[1].double_value] == ["sim:pat", 50.0]
         assert [values[2].integer_value, values[3].integer_value, values[4].bool_value] == [64, 2000, False]
         listener.spin(lambda: len(images.messages) > 20)
-        wishes = {"image_hz": 0.0, "source": "usb", "tare_frames": 0, "concept_lasts_ms": 500}
+        wishes = {"image_hz": 0.0, "source": "usb", "tare_frames": 0, "concept_timeout_ms": 500}
         wishes = [Parameter(name, value=value).to_parameter_msg() for name, value in wishes.items()]
         asked = SetParameters.Request(parameters=wishes)
         results = listener.call(SetParameters, "/taxel/set_parameters", asked).results

@@ -71,7 +71,7 @@ fn every_wrong_request_is_refused_with_its_reason() {
     assert!(bench.answer(&Request::SetScene(&scene[..9])).is_some());
     assert!(bench.answer(&Request::Tare { frames: 0 }).is_some());
     let concept = name("joy");
-    let feed = Feed { concept, value: Q15(0), age_ms: 0, lasts_ms: 9, otherwise: Q15(0) };
+    let feed = Feed { concept, value: Q15(0), age_ms: 0, timeout_ms: 9, default: Q15(0) };
     let why = bench.answer(&Request::Feed(feed)).unwrap();
     assert_eq!(why, "feed.concept must be a concept of the map that the host feeds");
     let bent = |joint| Posture { joints: [JointAngle { joint, centidegrees: 4500 }].into_iter().collect() };

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::time::{Duration, Instant};
 use taxel::client::Client;
-use taxel::ros2::parameters::CONCEPT_LASTS_MS;
+use taxel::ros2::parameters::CONCEPT_TIMEOUT_MS;
 use taxel::ros2::topic_part;
 use taxel::ros2::topics::CONCEPT;
 use taxel_core::format::{Name, Q15};
@@ -58,8 +58,8 @@ impl Concepts {
                 continue;
             }
             let value = Q15((value * f64::from(Q15::ONE.0)).round() as i32);
-            let lasts_ms = node.number(CONCEPT_LASTS_MS) as u32;
-            let feed = Feed { concept: name.clone(), value, age_ms: 0, lasts_ms, otherwise: Q15(0) };
+            let timeout_ms = node.number(CONCEPT_TIMEOUT_MS) as u32;
+            let feed = Feed { concept: name.clone(), value, age_ms: 0, timeout_ms, default: Q15(0) };
             client.request(&Request::Feed(feed))?;
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Parameters of the node.
 
 use ros2_client::{NodeOptions, ParameterValue};
-use taxel::ros2::parameters::{CONCEPT_LASTS_MS, IMAGE_HZ, SOURCE, TARE_FRAMES};
+use taxel::ros2::parameters::{CONCEPT_TIMEOUT_MS, IMAGE_HZ, SOURCE, TARE_FRAMES};
 
 /// Values at the start.
 #[derive(Debug, Clone)]
@@ -20,7 +20,7 @@ impl RosParameters {
             .declare_parameter(SOURCE, ParameterValue::String(self.source.clone()))
             .declare_parameter(IMAGE_HZ, ParameterValue::Double(self.image_hz))
             .declare_parameter(TARE_FRAMES, ParameterValue::Integer(64))
-            .declare_parameter(CONCEPT_LASTS_MS, ParameterValue::Integer(2000))
+            .declare_parameter(CONCEPT_TIMEOUT_MS, ParameterValue::Integer(2000))
             .parameter_validator(Box::new(move |name, value| check(name, value, &source)))
     }
 }
@@ -32,7 +32,7 @@ fn check(name: &str, value: &ParameterValue, source: &str) -> Result<(), String>
         (SOURCE, ParameterValue::String(text)) => (text == source, "cannot be set: start another node"),
         (IMAGE_HZ, ParameterValue::Double(hz)) => ((0.0..=1000.0).contains(hz), "must be 0 to 1000"),
         (TARE_FRAMES, ParameterValue::Integer(frames)) => ((1..=4096).contains(frames), "must be 1 to 4096"),
-        (CONCEPT_LASTS_MS, ParameterValue::Integer(ms)) => {
+        (CONCEPT_TIMEOUT_MS, ParameterValue::Integer(ms)) => {
             ((0..=i64::from(u32::MAX)).contains(ms), "must be 0 (until the next value) to 4294967295")
         }
         _ => (true, ""),

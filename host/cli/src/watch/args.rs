@@ -53,7 +53,7 @@ pub struct BoardArgs {
     pub forms: Option<u8>,
     /// Set a concept: value, -1 to 1; its age; the age from which the value expires [default: never]; the
     /// value that replaces it then [default: 0]
-    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = feed)]
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = feed)]
     pub feed: Vec<Feed>,
     /// Base of shapes to send to the board: a file, or the name of a shipped base
     #[arg(long, value_name = "BASE")]

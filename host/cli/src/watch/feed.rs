@@ -4,11 +4,11 @@ use anyhow::{Context, Result, bail};
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::Feed;
 
-/// Parses `NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]`: a value in -1 ..= 1, its age (default 0 ms), the age
+/// Parses `NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]`: a value in -1 ..= 1, its age (default 0 ms), the age
 /// from which it expires (default never, as for 0), and the value that replaces it then (default 0).
 pub fn feed(text: &str) -> Result<Feed> {
     let (concept, values) =
-        text.split_once('=').context("expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]")?;
+        text.split_once('=').context("expected NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]")?;
     let short = name(concept);
     if short != concept || short.is_empty() {
         bail!("{concept:?} is not a concept's name: 1 to 16 bytes");
@@ -25,8 +25,8 @@ pub fn feed(text: &str) -> Result<Feed> {
         concept: short,
         value: fraction(word(0).unwrap_or_default())?,
         age_ms: ms(1)?,
-        lasts_ms: ms(2)?,
-        otherwise: word(3).map_or(Ok(Q15(0)), fraction)?,
+        timeout_ms: ms(2)?,
+        default: word(3).map_or(Ok(Q15(0)), fraction)?,
     })
 }
 
@@ -44,15 +44,15 @@ mod tests {
     fn a_value_has_an_age_and_a_default() {
         let whole = feed("warmth=-0.5,80,2000,0.25").unwrap();
         assert_eq!((whole.concept.as_str(), whole.value, whole.age_ms), ("warmth", Q15(-16_384), 80));
-        assert_eq!((whole.lasts_ms, whole.otherwise), (2000, Q15(8_192)));
+        assert_eq!((whole.timeout_ms, whole.default), (2000, Q15(8_192)));
         let short = feed("warmth=1").unwrap();
-        assert_eq!((short.value, short.age_ms, short.lasts_ms, short.otherwise), (Q15::ONE, 0, 0, Q15(0)));
+        assert_eq!((short.value, short.age_ms, short.timeout_ms, short.default), (Q15::ONE, 0, 0, Q15(0)));
     }
 
     #[test]
     fn what_is_no_value_is_refused_in_one_sentence() {
         for (text, why) in [
-            ("warmth", "expected NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]"),
+            ("warmth", "expected NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]"),
             ("=1", "\"\" is not a concept's name: 1 to 16 bytes"),
             ("seventeen-letters=1", "\"seventeen-letters\" is not a concept's name: 1 to 16 bytes"),
             ("warmth=1.5", "\"1.5\" is not a number in -1 ..= 1"),

@@ -25,15 +25,15 @@ class Requests:
         self._ask("tare", frames=frames)
 
     def set_concept(
-        self, name: str, value: float, *, age_ms: int = 0, lasts_ms: int = 0, otherwise: float = 0.0
+        self, name: str, value: float, *, age_ms: int = 0, timeout_ms: int = 0, default: float = 0.0
     ) -> None:
         """Sets a concept that the host feeds to the map, -1 to 1.
 
-        ``age_ms`` is the value's age now. From an age of ``lasts_ms`` on (0: never) it no longer counts, and
-        ``otherwise`` does.
+        ``age_ms`` is the value's age now. From an age of ``timeout_ms`` on (0: never) it no longer counts, and
+        ``default`` does.
         """
-        ages = {"age_ms": age_ms, "lasts_ms": lasts_ms}
-        self._ask("set_concept", name=name, value=value, otherwise=otherwise, **ages)
+        ages = {"age_ms": age_ms, "timeout_ms": timeout_ms}
+        self._ask("set_concept", name=name, value=value, default=default, **ages)
 
     def set_posture(self, degrees: Mapping[str, float]) -> None:
         """Tells the angles of joints, by their names in the scene, so that folds are no touches."""

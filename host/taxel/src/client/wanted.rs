@@ -274,7 +274,7 @@ mod tests {
     fn a_value_grows_older_while_it_waits() {
         let mut wanted = Wanted::default();
         let feed =
-            Feed { concept: name("warmth"), value: Q15(1), age_ms: 70, lasts_ms: 900, otherwise: Q15(2) };
+            Feed { concept: name("warmth"), value: Q15(1), age_ms: 70, timeout_ms: 900, default: Q15(2) };
         ask(&mut wanted, &Request::Feed(feed.clone()));
         std::thread::sleep(Duration::from_millis(20));
         let mut frame = wanted.all().pop_front().unwrap().frame;

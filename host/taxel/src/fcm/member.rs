@@ -30,10 +30,10 @@ pub struct InputFile {
     pub robot: Option<RobotSource>,
     /// With `robot`: age from which a value no longer counts, ms; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lasts_ms: Option<u32>,
+    pub timeout_ms: Option<u32>,
     /// With `robot`: value that counts then, and while there is none; 0 if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub otherwise: Option<i32>,
+    pub default: Option<i32>,
     /// Increases from the first point to the second.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<[i32; 2]>,
@@ -73,10 +73,10 @@ impl InputFile {
         if self.robot == Some(RobotSource::Intent(Leading::None)) {
             fail!(MapFileError::Malformed, "input {name}: no board's intention is none");
         }
-        if self.robot.is_none() && (self.lasts_ms.is_some() || self.otherwise.is_some()) {
+        if self.robot.is_none() && (self.timeout_ms.is_some() || self.default.is_some()) {
             fail!(
                 MapFileError::Malformed,
-                "input {name}: lasts_ms and otherwise are for what a robot knows (robot)"
+                "input {name}: timeout_ms and default are for what a robot knows (robot)"
             );
         }
         let ramps = self.ramps(decimals)?;
@@ -90,8 +90,8 @@ impl InputFile {
         Some(RobotInput {
             concept: self.concept.clone(),
             source: self.robot.clone()?,
-            lasts_ms: self.lasts_ms,
-            otherwise: self.otherwise.unwrap_or(0),
+            timeout_ms: self.timeout_ms,
+            default: self.default.unwrap_or(0),
         })
     }
 

@@ -63,7 +63,7 @@ pub struct RobotInput {
     /// Where its value comes from.
     pub source: RobotSource,
     /// Age from which a value no longer counts, ms; none: never.
-    pub lasts_ms: Option<u32>,
+    pub timeout_ms: Option<u32>,
     /// Value that counts then, and while there is none; in the unit of the source.
-    pub otherwise: i32,
+    pub default: i32,
 }

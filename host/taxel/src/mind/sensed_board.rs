@@ -107,9 +107,9 @@ pub(super) struct SensedBoard {
 
 impl SensedBoard {
     /// Age of what it has said, ms, unless it is not there or silent for too long.
-    pub(super) fn age_ms(&self, lasts_ms: Option<u32>, now_us: u64) -> Option<u32> {
+    pub(super) fn age_ms(&self, timeout_ms: Option<u32>, now_us: u64) -> Option<u32> {
         let age_ms = u32::try_from(now_us.saturating_sub(self.heard_us?) / 1000).unwrap_or(u32::MAX);
-        lasts_ms.is_none_or(|lasts_ms| age_ms < lasts_ms).then_some(age_ms)
+        timeout_ms.is_none_or(|timeout_ms| age_ms < timeout_ms).then_some(age_ms)
     }
 
     /// A board that begins, and wears this.

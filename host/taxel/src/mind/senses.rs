@@ -146,7 +146,7 @@ impl Senses {
             value: i32::try_from(value).unwrap_or(if value < 0 { i32::MIN } else { i32::MAX }),
             age_ms: Some(age_ms),
         });
-        sensed.unwrap_or(SensedValue { value: input.otherwise, age_ms: None })
+        sensed.unwrap_or(SensedValue { value: input.default, age_ms: None })
     }
 
     /// The part that these words name.
@@ -159,7 +159,7 @@ impl Senses {
         let present = |words: &[String]| {
             let part = self.part(words);
             let boards = self.boards.iter().filter(|board| board.covers(part));
-            let ages = boards.filter_map(|board| board.age_ms(input.lasts_ms, now_us));
+            let ages = boards.filter_map(|board| board.age_ms(input.timeout_ms, now_us));
             ages.max()
         };
         let causes = || self.causes(input, now_us).into_iter();
@@ -176,7 +176,7 @@ impl Senses {
             }
             RobotSource::Apart(first, second) => {
                 let age_ms = present(first)?.max(present(second)?);
-                let onsets = [first, second].map(|part| self.onset_us(part, input.lasts_ms, now_us));
+                let onsets = [first, second].map(|part| self.onset_us(part, input.timeout_ms, now_us));
                 let [Some(first), Some(second)] = onsets else { return Some((0, age_ms)) };
                 Some(((second as i64 - first as i64) / 1000, age_ms))
             }
@@ -186,7 +186,7 @@ impl Senses {
                     board.report.as_ref().is_some_and(|report| report.leading != Leading::None)
                 };
                 let live =
-                    || self.boards.iter().filter(|board| board.age_ms(input.lasts_ms, now_us).is_some());
+                    || self.boards.iter().filter(|board| board.age_ms(input.timeout_ms, now_us).is_some());
                 let announcing = live().filter(|board| announces(board));
                 let excused = announcing.map(|board| board.own().unwrap_or(0)).min();
                 let least = causes().min_by_key(|cause| cause.value)?;
@@ -204,15 +204,15 @@ impl Senses {
     }
 
     /// Onset of the oldest contact on a part, us.
-    fn onset_us(&self, words: &[String], lasts_ms: Option<u32>, now_us: u64) -> Option<u64> {
+    fn onset_us(&self, words: &[String], timeout_ms: Option<u32>, now_us: u64) -> Option<u64> {
         let part = self.part(words);
-        let boards = self.boards.iter().filter(|board| board.age_ms(lasts_ms, now_us).is_some());
+        let boards = self.boards.iter().filter(|board| board.age_ms(timeout_ms, now_us).is_some());
         boards.flat_map(|board| board.touches(part, now_us)).map(|touch| touch.since_us).min()
     }
 
     /// The boards that count for an input: their numbers, and their ages, ms.
     fn live(&self, input: &RobotInput, now_us: u64) -> impl Iterator<Item = (usize, u32, &SensedBoard)> {
-        let ages = self.boards.iter().map(move |board| board.age_ms(input.lasts_ms, now_us));
+        let ages = self.boards.iter().map(move |board| board.age_ms(input.timeout_ms, now_us));
         let boards = ages.enumerate().zip(&self.boards);
         boards.filter_map(|((number, age_ms), board)| Some((number, age_ms?, board)))
     }
@@ -246,7 +246,7 @@ impl Senses {
             cause.into_iter().collect()
         };
         let alone = |value: i32, age_ms: u32| SenseCause { board: None, contact: None, value, age_ms };
-        let is_young = |age_ms: &u32| input.lasts_ms.is_none_or(|lasts_ms| *age_ms < lasts_ms);
+        let is_young = |age_ms: &u32| input.timeout_ms.is_none_or(|timeout_ms| *age_ms < timeout_ms);
         let since_ms = |touch: &SensedTouch| now_us.saturating_sub(touch.since_us) / 1000;
         match &input.source {
             RobotSource::Intent(leading) => {

@@ -7,12 +7,12 @@ pub const IMAGE_HZ: &str = "image_hz";
 /// Frames of a tare.
 pub const TARE_FRAMES: &str = "tare_frames";
 /// Time for which the value of a concept counts, ms; 0: until the next one.
-pub const CONCEPT_LASTS_MS: &str = "concept_lasts_ms";
+pub const CONCEPT_TIMEOUT_MS: &str = "concept_timeout_ms";
 
 /// All of them, with their types and values at the start.
 pub const PARAMETERS: [(&str, &str, &str); 4] = [
     (SOURCE, "string", "the source"),
     (IMAGE_HZ, "double", "10.0"),
     (TARE_FRAMES, "integer", "64"),
-    (CONCEPT_LASTS_MS, "integer", "2000"),
+    (CONCEPT_TIMEOUT_MS, "integer", "2000"),
 ];

@@ -28,7 +28,7 @@ pub struct ToldArgs {
     #[arg(long, value_name = "FILE", requires = "source")]
     pub scene: Option<PathBuf>,
     /// With --source: set a concept, as in `taxel live`
-    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,LASTS_MS[,OTHERWISE]]]", value_parser = watch::feed, requires = "source")]
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = watch::feed, requires = "source")]
     pub feed: Vec<Feed>,
 }
 

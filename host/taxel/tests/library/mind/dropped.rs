@@ -124,7 +124,7 @@ fn check(mind: &RobotMind, meaning: &RobotMeaning) {
         assert!(meaning.leading != Leading::Attack || value("hug") < Q15(20_000), "{meaning:?}");
     }
     for (input, heard) in mind.inputs().iter().zip(&meaning.heard) {
-        assert!(heard.age_ms.is_some() || heard.value == input.otherwise, "{input:?}: {heard:?}");
+        assert!(heard.age_ms.is_some() || heard.value == input.default, "{input:?}: {heard:?}");
         let causes = mind.senses().causes(input, meaning.host_us);
         assert!(heard.age_ms.is_some() || causes.is_empty(), "{input:?}: {causes:?}");
     }

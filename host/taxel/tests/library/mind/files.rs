@@ -32,7 +32,7 @@ fn mistakes_in_a_map_of_a_robot_are_named() {
         ("robot = { intent = \"none\" }\nrise = [0, 1]", "input x: no board's intention is none"),
         (
             "source = \"press\"\nlasts_ms = 3\nrise = [0, 1]",
-            "lasts_ms and otherwise are for what a robot knows",
+            "timeout_ms and default are for what a robot knows",
         ),
         ("robot = { told = \"voice\" }", "give exactly one of rise, fall, triangle and trapezoid"),
     ] {

@@ -48,7 +48,7 @@ fn set(session: &mut Session) -> usize {
     let (client, _) = session.parts();
     client.request(&Request::SetGarment(&postcard::to_allocvec(&garment()).unwrap())).unwrap();
     client.request(&Request::SetScene(&postcard::to_allocvec(&scene()).unwrap())).unwrap();
-    let feed = Feed { concept: name("warmth"), value: Q15(9), age_ms: 5, lasts_ms: 0, otherwise: Q15(0) };
+    let feed = Feed { concept: name("warmth"), value: Q15(9), age_ms: 5, timeout_ms: 0, default: Q15(0) };
     client.request(&Request::Feed(feed)).unwrap();
     let gains = Request::SetGain { first: 0, gains: std::iter::repeat_n(5000, 64).collect() };
     client.request(&gains).unwrap();
