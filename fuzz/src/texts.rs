@@ -4,9 +4,9 @@
 use crate::bytes::Bytes;
 use crate::scratch::Scratch;
 use std::path::Path;
+use taxel::files::bases::Base;
 use taxel::files::calibrate::Calibration;
 use taxel::files::{garments, scripts};
-use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::labels;
 use taxel::learn::touches::Table;
 use taxel::robot::ReadRobot;

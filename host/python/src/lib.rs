@@ -50,6 +50,7 @@ mod features;
 
 mod folds;
 
+mod keywords;
 mod map;
 
 #[cfg(feature = "cli")]

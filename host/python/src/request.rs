@@ -158,5 +158,7 @@ fn gestures(client: &mut Client, values: &Values) -> Result<()> {
         ))),
     };
     let [gain, certainty] = ["gain", "certainty"].map(|key| values.0[key].as_f64());
-    Ok(setting::set_gestures(client, model, gain, certainty)?)
+    let config = setting::gestures(model, gain, certainty)?;
+    client.change_scene(SceneChange { gestures: Some(Some(config)), ..SceneChange::default() });
+    Ok(())
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{argument, blames_board, raised};
 use crate::event::{self, Fact, Teller};
+use crate::keywords::Keywords;
 use crate::request;
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
@@ -14,8 +15,9 @@ use taxel::body::posture::Motion;
 use taxel::client::clock::SteadyTime;
 use taxel::client::{Event, ImageNews};
 use taxel::error::SourceError;
-use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn, setting};
-use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::robot::{BoardConfig, ConfigPlace, Required};
+use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn};
+use taxel::source::SourceOptions;
 use taxel::tell::words;
 use taxel_core::format::Micros;
 
@@ -38,6 +40,8 @@ struct Open {
     /// Images still awaited; none for no limit.
     frames: Option<u64>,
     limit: TimeLimit,
+    /// What the board was asked at the start, and must accept.
+    required: Required,
     over: bool,
 }
 
@@ -59,6 +63,8 @@ impl Open {
         }
         if let Some(event) = event {
             self.count(&event);
+            let refused = self.required.answered(&self.session.source().label, &event);
+            refused.map_err(taxel::Error::from)?;
             return Ok(Look::Found(Box::new(self.teller.fact(self.session.client(), &event, now_ns))));
         }
         if self.over {
@@ -89,43 +95,29 @@ impl Open {
     }
 }
 
-/// Opens a source, for a robot if one is named.
+/// Opens a board, for a robot if one is named.
 fn open(
-    spec: &str,
-    options: SourceOptions,
-    tare: Option<u16>,
+    config: &BoardConfig,
+    options: &SourceOptions,
     returns: Returns,
     posing: Option<Posing>,
-    raw: bool,
 ) -> anyhow::Result<Open> {
-    let parsed: SourceSpec = spec.parse().map_err(|why| argument(format!("source {spec}: {why}")))?;
-    let source = source::open(&parsed, &options)?;
-    let (tare, listens, wears_asked) = (tare.unwrap_or(source.tare), source.listens, source.wears_asked);
-    let has_body = source.has_body;
+    let board = config.read_alone(ConfigPlace::Keywords)?;
+    let source = board.open_any(options)?;
+    if let Some(key) = config.configures().next().filter(|_| !source.listens) {
+        let label = &source.label;
+        anyhow::bail!(argument(format!("{key}: {label} is a recording, whose board does not listen")));
+    }
     let mut session = Session::new(source, returns);
-    let (client, _) = session.parts();
-    if let Some(garment) = options.garment.as_ref().filter(|_| !wears_asked) {
-        anyhow::ensure!(listens, argument(format!("{spec}: a recording has a garment of its own")));
-        setting::set_garment(client, garment)?;
-    }
-    // Before the tare, during which the board stores nothing.
-    if let Some(body) = options.body.as_ref().filter(|_| !has_body) {
-        anyhow::ensure!(listens, argument(format!("{spec}: the board of a recording takes no body")));
-        setting::set_body(client, body, options.garment.as_deref().unwrap_or("reference"))?;
-    }
-    if raw {
-        client.stream_raw(u16::MAX)?;
-    }
-    client.start(tare)?;
-    if options.body.is_some() {
-        client.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
-    }
+    let (client, source) = session.parts();
+    board.begin(client, source)?;
+    let required = if source.listens { Required::of(client) } else { Required::default() };
     posing.into_iter().for_each(|posing| session.pose_by(posing));
     let longest =
         options.seconds.map_or(Duration::MAX, |seconds| Duration::from_micros((seconds * 1e6) as u64));
     let (teller, clock, limit) = (Teller::default(), SteadyTime::start(), TimeLimit::of(longest));
     let over = options.frames == Some(0);
-    Ok(Open { session, teller, clock, frames: options.frames, limit, over })
+    Ok(Open { session, teller, clock, frames: options.frames, limit, required, over })
 }
 
 impl Stream {
@@ -194,16 +186,14 @@ fn posing(
 #[pymethods]
 impl Stream {
     #[new]
-    #[pyo3(signature = (source, *, seed=None, garment=None, body=None, robot=None, motion=None, poses_hz=None,
-                        realtime=false, repeat=false, frames=None, seconds=None, raw=false, tare=None,
-                        wait=false, once=false))]
+    #[pyo3(signature = (source, keywords, *, seed=None, robot=None, motion=None, poses_hz=None, realtime=false,
+                        repeat=false, frames=None, seconds=None, wait=false, once=false))]
     #[allow(clippy::too_many_arguments)] // keywords in Python
     fn new(
         py: Python<'_>,
         source: &str,
+        keywords: Keywords,
         seed: Option<u64>,
-        garment: Option<String>,
-        body: Option<String>,
         robot: Option<String>,
         motion: Option<String>,
         poses_hz: Option<f64>,
@@ -211,28 +201,18 @@ impl Stream {
         repeat: bool,
         frames: Option<u64>,
         seconds: Option<f64>,
-        raw: bool,
-        tare: Option<u16>,
         wait: bool,
         once: bool,
     ) -> PyResult<Stream> {
         if seconds.is_some_and(|seconds| !(0.0..=1e9).contains(&seconds)) {
             return Err(crate::error::usage("seconds must be a time of 0 or more"));
         }
-        let options = SourceOptions {
-            seed,
-            realtime,
-            repeat,
-            frames,
-            seconds,
-            garment,
-            body,
-            ..SourceOptions::default()
-        };
+        let options = SourceOptions { seed, realtime, repeat, frames, seconds, ..SourceOptions::default() };
+        let config = keywords.config(source).map_err(raised)?;
         let returns = if once { Returns::Never } else { Returns::Always };
         let opened = || {
-            let posing = posing(options.body.as_deref(), robot.as_deref(), motion.as_deref(), poses_hz)?;
-            open(source, options.clone(), tare, returns, posing, raw)
+            let posing = posing(config.body.as_deref(), robot.as_deref(), motion.as_deref(), poses_hz)?;
+            open(&config, &options, returns, posing)
         };
         let mut is_told = false;
         let open = loop {

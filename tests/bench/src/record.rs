@@ -177,16 +177,7 @@ fn cpu_us() -> Option<f64> {
 fn recorder(path: PathBuf, ros2: bool) -> Result<Recorder> {
     let origin = Origin { label: format!("sim:{SCENE}"), counts_per_newton: Some(1000.0), calibration: None };
     let inputs = Vec::new();
-    Ok(Recorder::create(Plan {
-        path,
-        rotate: None,
-        ros2,
-        force: true,
-        inputs,
-        origin,
-        raw: false,
-        body: None,
-    })?)
+    Ok(Recorder::create(Plan { path, rotate: None, ros2, force: true, inputs, origin, body: None })?)
 }
 
 fn play(spec: SourceSpec, show: &mut dyn Show<anyhow::Error>) -> Result<()> {

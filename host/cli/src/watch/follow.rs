@@ -1,21 +1,18 @@
 //! Reads a source until it ends, or until the requested amount has come.
 
-use super::asked::Asked;
-use super::{BoardArgs, LiveArgs, gesture_model, stop};
+use super::{LiveArgs, stop};
 use crate::fault::Fault;
 use anyhow::{Context, Error, Result, bail};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, ImageNews, SceneChange, request_name};
+use taxel::client::{Client, Event, ImageNews, request_name};
 use taxel::error::SourceError;
-use taxel::files::calibrate::Calibration;
 use taxel::files::output::{Begun, Output};
-use taxel::learn::shapes::base::Base;
-use taxel::learn::shapes::teach::teach;
-use taxel::session::{JointStates, PATIENCE, Returns, Session, Show, TimeLimit, Turn, setting};
-use taxel::source::{SceneFile, Source};
+use taxel::robot::Required;
+use taxel::session::{JointStates, PATIENCE, Returns, Session, Show, TimeLimit, Turn};
+use taxel::source::Source;
 use taxel::tell::verbose;
 use taxel_core::wire::Request;
 
@@ -32,12 +29,13 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     };
     let mut session = Session::new(source, returns);
     let (client, source) = session.parts();
-    prepare(client, &args.board, source)?;
-    if args.raw && source.listens {
-        client.request_codes()?;
+    if !source.listens {
+        args.board.check_recorded(&source.label)?;
     }
+    args.board.read()?.begin(client, source)?;
     let mut joints = args.board.joint_states.as_deref().map(JointStates::open).transpose()?;
-    let mut asked = if source.listens { Asked::of(client, args) } else { Asked::default() };
+    let mut required = if source.listens { required(client, args) } else { Required::default() };
+    let mut refusal = None;
     // A board without raw codes tells the pressure of the taxel all the same.
     if args.taxel.is_some() && source.listens {
         client.request_codes()?;
@@ -46,7 +44,7 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     args.board.posing()?.into_iter().for_each(|posing| session.pose_by(posing));
     let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
     let mut patience = Patience { limited, began: Instant::now(), told: false };
-    while !limits.ended && asked.refusal.is_none() {
+    while !limits.ended && refusal.is_none() {
         pose(&mut session, joints.as_mut(), show)?;
         let turn = session.turn(&mut |client, bytes| show.asked(client, bytes))?;
         if turn == Turn::End {
@@ -67,8 +65,8 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
                 show.end(session.client())?;
                 bail!(taxel::Error::from(SourceError::Other(why.clone())));
             }
-            asked.answered(&event);
-            if limits.reached(&event) || asked.refusal.is_some() {
+            refusal = required.answered(&session.source().label, &event).err();
+            if limits.reached(&event) || refusal.is_some() {
                 break;
             }
         }
@@ -84,12 +82,22 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     if let Some(remark) = source.port.remark() {
         eprintln!("{}: {remark}", source.label);
     }
-    match (asked.refusal, client.worn()) {
+    match (refusal, client.worn()) {
         // The reason for whatever the receiver lacks at its end, too.
-        (Some(refusal), _) => Err(Fault::board(format!("{}: {refusal}", source.label)).into()),
+        (Some(refusal), _) => Err(taxel::Error::from(refusal).into()),
         (None, Some(_)) => ended,
         (None, None) => ended.and(Err(silent(source, client.counts().bytes))),
     }
+}
+
+/// Requests that the board must accept. A tare that only a simulated scene asks for may be refused: somebody touches
+/// already.
+fn required(client: &Client, args: &LiveArgs) -> Required {
+    let all = match args.board.config.tare {
+        Some(_) => Required::with_tare(client),
+        None => Required::of(client),
+    };
+    if args.body_may_fail { all.without(&Request::SetTable(&[])) } else { all }
 }
 
 /// Hands positions of joints to whoever tells the board its posture, and to the receiver.
@@ -128,54 +136,6 @@ fn tell(client: &Client, event: &Event) {
 fn silent(source: &Source, bytes: u64) -> Error {
     let why = format!("{}: no Hello of a taxel board in {bytes} bytes", source.label);
     if source.real_time { Fault::board(why).into() } else { Error::msg(why) }
-}
-
-/// Queues the options' requests to the board.
-fn prepare(client: &mut Client, args: &BoardArgs, source: &Source) -> Result<()> {
-    if !source.listens {
-        args.check_recorded(&source.label)?;
-    }
-    if let Some(garment) = args.garment.as_ref().filter(|_| !source.wears_asked) {
-        if source.label.starts_with("sim:") {
-            bail!(Fault::usage(format!(
-                "--garment {garment}: a simulated board keeps the garment that it started with"
-            )));
-        }
-        setting::set_garment(client, garment)?;
-    }
-    if let Some(scene) = &args.scene {
-        setting::set_scene(client, &SceneFile::read(scene)?)?;
-    }
-    for feed in &args.feed {
-        client.request(&Request::Feed(feed.clone()))?;
-    }
-    if let Some(file) = &args.calibration {
-        Calibration::read(file)?.requests().try_for_each(|request| client.request(&request))?;
-    }
-    // Before the tare, during which the board stores nothing.
-    if let Some(body) = args.body.as_ref().filter(|_| !source.has_body) {
-        setting::set_body(client, body, args.garment.as_deref().unwrap_or("reference"))?;
-    }
-    if let Some(folds) = args.folds.as_ref().filter(|_| !source.has_folds) {
-        setting::set_folds(client, folds)?;
-    }
-    client.start(args.tare.unwrap_or(source.tare))?;
-    // What changes the board's scene waits for its `Hello`, which follows the start.
-    let pressing_hz = args.pressing.or(args.body.as_ref().map(|_| u16::MAX));
-    let forms = args.forms.map(|in_frame| (in_frame, true));
-    if pressing_hz.is_some() || forms.is_some() {
-        client.change_scene(SceneChange { forms, pressing_hz, ..SceneChange::default() });
-    }
-    if let Some(model) = args.gestures {
-        gesture_model::recognise(client, model, args.gesture_gain, args.gesture_certainty)?;
-    }
-    if let Some(base) = &args.shapes {
-        teach(client, &Base::open(base)?)?;
-    }
-    if let Some(hz) = args.budget {
-        client.stream_budget(hz)?;
-    }
-    Ok(())
 }
 
 /// Conditions for the end of a run.

@@ -258,7 +258,7 @@ mod tests {
         let source = open(&spec, &SourceOptions::default()).unwrap();
         let mut heard = Heard(Narrator::new(None), String::new());
         let mut args = LiveArgs::of(spec);
-        args.board.shapes = shapes.map(Into::into);
+        args.board.config.shapes = shapes.map(Into::into);
         watch(&args, source, &mut heard).unwrap();
         heard.1
     }

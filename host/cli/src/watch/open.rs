@@ -7,7 +7,8 @@ use std::thread;
 use std::time::Duration;
 use taxel::error::{ErrorKind, SourceError};
 use taxel::files::calibrate::Calibration;
-use taxel::source::{self, Source, SourceOptions, SourceSpec};
+use taxel::robot::BoardConfig;
+use taxel::source::{Source, SourceOptions, SourceSpec};
 use taxel::tell::words;
 
 /// Time between two attempts to open a board that is waited for.
@@ -16,27 +17,13 @@ const TRY: Duration = Duration::from_secs(1);
 const BOARD: u8 = 3;
 
 impl BoardArgs {
-    /// Opens the source, and the calibration if there is one; the source then uses its counts per newton.
+    /// Opens the source, and reads the calibration if there is one; the source then uses its counts per newton.
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
-        let options = SourceOptions {
-            seed: self.seed,
-            garment: self.garment.clone(),
-            body: self.body.clone(),
-            folds: self.folds.clone(),
-            ..options
-        };
-        let mut source = self.opened(&options)?;
-        let calibration = self.calibration.as_deref().map(Calibration::read).transpose()?;
-        let known = calibration.as_ref().and_then(Calibration::counts_per_newton);
-        source.counts_per_newton = known.or(source.counts_per_newton);
-        Ok((source, calibration))
-    }
-
-    fn opened(&self, options: &SourceOptions) -> Result<Source> {
-        let (spec, mut told) = (self.source(), false);
+        let options = SourceOptions { seed: self.seed, ..options };
+        let (board, mut told) = (self.read()?, false);
         loop {
-            let error = match source::open(&spec, options) {
-                Ok(source) => return Ok(source),
+            let error = match board.open_any(&options) {
+                Ok(source) => return Ok((source, board.calibration)),
                 Err(error) => anyhow::Error::from(error),
             };
             if !self.wait || fault::status(&error) != BOARD {
@@ -59,13 +46,16 @@ impl BoardArgs {
         options: SourceOptions,
         or_simulated: bool,
     ) -> Result<(Source, Option<Calibration>)> {
-        let options =
-            SourceOptions { first: self.configures().is_none() && self.calibration.is_none(), ..options };
+        let options = SourceOptions {
+            first: self.configures().is_none() && self.config.calibration.is_none(),
+            ..options
+        };
         let opened = match self.open(options.clone()) {
-            Err(error) if or_simulated && self.source.is_none() && is_absent(&error) => {
+            Err(error) if or_simulated && self.config.source.is_none() && is_absent(&error) => {
                 let simulation = SourceSpec::simulation();
                 eprintln!("playing {simulation}, a simulated board: {}", words::sentence(error.as_ref()));
-                BoardArgs { source: Some(simulation), ..self.clone() }.open(options)
+                let config = BoardConfig { source: Some(simulation), ..self.config.clone() };
+                BoardArgs { config, ..self.clone() }.open(options)
             }
             opened => opened,
         }?;

@@ -27,7 +27,7 @@ fn lines(args: &[&str], kind: &str) -> Vec<Value> {
 
 /// A table of folds, learned once from the script that ships with other noise: tests that run side by side
 /// would write each other's recording anew.
-static TABLE: LazyLock<PathBuf> = LazyLock::new(|| {
+pub static TABLE: LazyLock<PathBuf> = LazyLock::new(|| {
     let (recording, table) = (file("elbow.mcap"), file("elbow.folds"));
     let [recording_name, table_name] = [&recording, &table].map(|path| path.to_str().unwrap());
     let record = ["record", "--source", "sim:elbow", "--seed", "7", "--seconds", "2.6", "--force"];

@@ -8,13 +8,14 @@ use ratatui::layout::Rect;
 use serde_json::Value;
 use std::path::PathBuf;
 use taxel::client::{Client, Event, ImageNews};
+use taxel::files::bases::Base;
 use taxel::json::MessagePrinter;
-use taxel::learn::shapes::base::Base;
-use taxel::learn::shapes::teach::teach;
+use taxel::robot::GestureModel;
 use taxel::session::Show;
+use taxel::session::setting::set_shapes;
 use taxel::source::{self, Source, SourceOptions};
 use taxel_cli::terminal::{Lines, TaxelLines, View};
-use taxel_cli::watch::{GestureModel, LiveArgs, watch};
+use taxel_cli::watch::{LiveArgs, watch};
 use taxel_core::shape::{Patch, descriptor};
 
 fn args(source: &str, frames: Option<u64>) -> LiveArgs {
@@ -322,12 +323,12 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
     let file = scratch("scene.toml");
     for (text, wrong) in [("colour = 3", "colour"), ("[contact]\nlow = 9\nhigh = 8", "contact.high")] {
         std::fs::write(&file, text).unwrap();
-        let why = refused(&|args| args.board.scene = Some(file.clone()));
+        let why = refused(&|args| args.board.config.scene = Some(file.clone()));
         assert!(why.starts_with(&file.display().to_string()) && why.contains(wrong), "{why}");
     }
     std::fs::write(&file, "rate_hz = 50\n[stream]\nframes_hz = 10").unwrap();
     let mut slower = LiveArgs { seconds: Some(2.0), ..args("sim:pat", None) };
-    slower.board.scene = Some(file.clone());
+    slower.board.config.scene = Some(file.clone());
     let lines = json(&slower);
     let images = of_type(&parsed(&lines), "frame").count();
     assert!((19..=23).contains(&images), "{images} images in 2 s at 10 a second");
@@ -337,7 +338,7 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
 #[test]
 fn gestures_are_told_where_they_are_asked_for() {
     let mut asked = args("sim:pat", Some(300));
-    asked.board.gestures = Some(GestureModel::Gestures);
+    asked.board.config.gestures = Some(GestureModel::Gestures);
     let lines = parsed(&json(&asked));
     let told: Vec<&Value> = of_type(&lines, "gesture").collect();
     assert!(!told.is_empty());
@@ -349,22 +350,22 @@ fn gestures_are_told_where_they_are_asked_for() {
     assert!(ended <= 1, "a touch ends once");
     assert!(of_type(&parsed(&json(&args("sim:pat", Some(300)))), "gesture").next().is_none());
     let mut intent = asked.clone();
-    intent.board.gestures = Some(GestureModel::Intent);
+    intent.board.config.gestures = Some(GestureModel::Intent);
     let classes = ["kindness", "threat", "attack"];
     let lines = parsed(&json(&intent));
     let told: Vec<&Value> = of_type(&lines, "gesture").collect();
     assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["class"].as_str().unwrap())));
     let mut certain = asked.clone();
-    certain.board.gesture_certainty = Some(0.7);
+    certain.board.config.gesture_certainty = Some(0.7);
     let lines = parsed(&json(&certain));
     let sure = |line: &&Value| line["confidence"].as_f64().unwrap() >= 0.7;
     assert!(of_type(&lines, "gesture").filter(|line| line["ended"] == false).all(|line| sure(&line)));
     let mut refused = asked;
-    refused.board.gesture_certainty = Some(-0.1);
+    refused.board.config.gesture_certainty = Some(-0.1);
     let why = watch(&refused, open(&refused), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert_eq!(format!("{why:#}"), "--gestures: gestures.certainty must be at most 999 (0.999)");
-    refused.board.gesture_certainty = None;
-    refused.board.gesture_gain = Some(17.0);
+    refused.board.config.gesture_certainty = None;
+    refused.board.config.gesture_gain = Some(17.0);
     let why = watch(&refused, open(&refused), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
 }
@@ -415,7 +416,7 @@ impl Show<anyhow::Error> for Teacher {
 
     fn idle(&mut self, client: &mut Client) -> anyhow::Result<bool> {
         if client.worn().is_some() && !std::mem::replace(&mut self.taught, true) {
-            teach(client, &self.base)?;
+            set_shapes(client, &self.base)?;
         }
         Ok(true)
     }

@@ -46,6 +46,7 @@ mod robot_view;
 mod ros2;
 mod schemas;
 mod set_up;
+mod settings;
 #[path = "../commands/sink.rs"]
 mod sink;
 mod socket;

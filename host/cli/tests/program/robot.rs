@@ -78,7 +78,7 @@ fn check_lists_boards_or_says_what_is_wrong() {
     let done = run(&good, &["robot", "check", "robot.toml"]);
     let table = "\
 robot two: 2 boards; reference: 12 links, base base_link
-board  source     garment     taxels  lies on         scene  calibration  tare
+board  source     garment     taxels  lies on         scene  calibration  tare  also
 torso  sim:five   reference   2048    body reference  -      -            -
 hand   sim:press  block-4x16  64      left_hand       -      -            32
 ";

@@ -248,18 +248,29 @@ class Board(_taxel.Board, Requests):
 def open(
     source: str = "auto",
     *,
-    seed: int | None = None,
-    garment: str | None = None,
-    body: str | None = None,
+    garment: str | os.PathLike[str] | None = None,
+    scene: str | os.PathLike[str] | None = None,
+    calibration: str | os.PathLike[str] | None = None,
+    tare: int | None = None,
+    budget: int | None = None,
+    raw: bool = False,
+    gestures: str | None = None,
+    gesture_gain: float | None = None,
+    gesture_certainty: float | None = None,
+    forms: int | str | None = None,
+    feed: Mapping[str, float] | None = None,
+    shapes: str | os.PathLike[str] | None = None,
+    body: str | os.PathLike[str] | None = None,
+    folds: str | os.PathLike[str] | None = None,
+    pressing: int | None = None,
     robot: str | None = None,
     motion: Mapping[str, float] | None = None,
     poses_hz: float | None = None,
+    seed: int | None = None,
     realtime: bool = False,
     repeat: bool = False,
     frames: int | None = None,
     seconds: float | None = None,
-    raw: bool = False,
-    tare: int | None = None,
     wait: bool = False,
     once: bool = False,
 ) -> Stream:
@@ -270,10 +281,26 @@ def open(
     is the board that is plugged in, on USB or behind a probe. If there is none, or it hangs, another program has it or
     this user may not open it, or there are several, ``BoardError`` says so within 3 s; nothing is simulated instead.
 
-    - ``seed``: of a simulation, instead of its script's
-    - ``garment``: a preset or a TOML file, for the board
+    What the board is asked first, as the keys of ``robot.toml`` and the options of ``taxel live`` are named; a board that
+    refuses one of these raises ``BoardError``:
+
+    - ``garment``: a preset or a TOML file
+    - ``scene``: a TOML file; missing keys have the shipped values
+    - ``calibration``: a file of ``taxel calibrate``, for forces in newtons
+    - ``tare``: frames of the baseline at the start; by default those that a simulated scene wants, else 0
+    - ``budget``: timing reports per second
+    - ``raw``: also the raw codes of every scan
+    - ``gestures``: the model that the board runs, ``gestures`` or ``intent``; ``gesture_gain`` is the factor from the
+      garment's counts to those of the training, ``gesture_certainty`` the confidence that an announcement needs
+    - ``forms``: contacts per frame whose form is computed, 1 to 254 or ``all``; by default 1
+    - ``feed``: values of concepts, -1 to 1
+    - ``shapes``: a base of shapes, by its file or the name of a shipped one
     - ``body``: where the taxels lie on the robot, a preset or a TOML file: the board tells in ``Pressing`` events
-      what presses on each link
+      what presses on each link, ``pressing`` times per second, by default with each frame
+    - ``folds``: what the garment's folds press, a file of ``taxel body learn``
+
+    Who wears it, and how it is read:
+
     - ``robot``: that wears the body, ``reference`` or a URDF file: ``Stream.set_joints`` tells its joints, and contacts
       of ``Pressing`` events have a place in its base
     - ``motion``: what bounds the joints' motion, for ``pose_error_m``: ``angular`` (rad/s2), ``linear`` (m/s2),
@@ -283,8 +310,7 @@ def open(
     - ``repeat``: a simulation repeats its script
     - ``frames``, ``seconds``: end after so many images, or so much of the board's time. If the board sends no image for
       10 s, ``frames`` is an error (``BoardError``), and ``seconds`` are over
-    - ``raw``: also the raw codes of every scan
-    - ``tare``: frames of the baseline at the start; by default those that a simulated scene wants, else 0
+    - ``seed``: of a simulation, instead of its script's
     - ``wait``: wait for a board that cannot be opened yet, instead of raising ``BoardError``; a ``RuntimeWarning`` says
       why it is waited for, and Ctrl-C ends the wait
     - ``once``: end with an error when the board is lost, instead of waiting for it
@@ -296,11 +322,27 @@ def open(
     >>> touched
     {'back'}
     """
+    keywords: dict[str, object] = {
+        "garment": garment,
+        "scene": scene,
+        "calibration": calibration,
+        "tare": tare,
+        "budget": budget,
+        "raw": raw,
+        "gestures": gestures,
+        "gesture_gain": gesture_gain,
+        "gesture_certainty": gesture_certainty,
+        "forms": None if forms is None else str(forms),
+        "feed": dict(feed or {}),
+        "shapes": shapes,
+        "body": body,
+        "folds": folds,
+        "pressing": pressing,
+    }
     return Stream(
         source,
+        keywords,
         seed=seed,
-        garment=garment,
-        body=body,
         robot=robot,
         motion=None if motion is None else ",".join(f"{name}={value}" for name, value in motion.items()),
         poses_hz=poses_hz,
@@ -308,8 +350,6 @@ def open(
         repeat=repeat,
         frames=frames,
         seconds=seconds,
-        raw=raw,
-        tare=tare,
         wait=wait,
         once=once,
     )

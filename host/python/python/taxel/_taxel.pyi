@@ -472,10 +472,9 @@ class Stream:
     def __init__(
         self,
         source: str,
+        keywords: dict[str, object],
         *,
         seed: int | None = None,
-        garment: str | None = None,
-        body: str | None = None,
         robot: str | None = None,
         motion: str | None = None,
         poses_hz: float | None = None,
@@ -483,8 +482,6 @@ class Stream:
         repeat: bool = False,
         frames: int | None = None,
         seconds: float | None = None,
-        raw: bool = False,
-        tare: int | None = None,
         wait: bool = False,
         once: bool = False,
     ) -> None: ...

@@ -1,6 +1,7 @@
-//! Files that users name: outputs, recorded frames, garments, tables of folds, scripts of touches, calibrations.
+//! Files that users name: outputs, recorded frames, garments, tables of folds, bases of shapes, scripts of touches, calibrations.
 
 pub mod arrays;
+pub mod bases;
 pub mod calibrate;
 pub mod folds;
 pub mod garments;

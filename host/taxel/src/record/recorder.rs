@@ -11,8 +11,8 @@ use super::standing::Standing;
 use super::tally::{COUNTS, Tally};
 use crate::body::ReadBody;
 use crate::client::passed::Passed;
-use crate::client::{Client, Event, Worn, request_name};
-use crate::error::{Context, Error, Result, SourceError};
+use crate::client::{Client, Event, Worn};
+use crate::error::{Context, Error, Result};
 use crate::files::output::{Begun, Force, Output};
 use crate::recording;
 use crate::session::{JointPositions, Show};
@@ -20,16 +20,12 @@ use crate::tell::progress::{self, Unit};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use taxel_core::wire::Request;
 
 /// Time between two chunks: the loss by a kill, plus as much again for the disk to write it.
 const CHUNK: Duration = Duration::from_millis(500);
 /// Most board time between two chunks for sources faster than real time, us, so that readers can seek to any
 /// second. A chunk of more than half of it ends before a key frame, so that the next one stands alone.
 const CHUNK_US: u64 = 1_000_000;
-
-/// Request number in the answer to an unreadable request, which the firmware does not know.
-const UNREADABLE: u8 = 255;
 
 /// Topic whose messages count as frames.
 const FRAMES: &str = "/taxel/frames";
@@ -51,8 +47,6 @@ pub struct Plan {
     pub inputs: Vec<PathBuf>,
     /// Origin of the stream.
     pub origin: Origin,
-    /// Also request raw codes.
-    pub raw: bool,
 }
 
 /// A recording in progress.
@@ -78,8 +72,6 @@ pub struct Recorder {
     shown: progress::Progress,
     /// Counters so far, and when the file began.
     tally: [Tally; 2],
-    /// Raw codes are requested, and the board has not answered yet.
-    waits_for_raw: bool,
 }
 
 impl Recorder {
@@ -104,7 +96,6 @@ impl Recorder {
             counters: Counters::default(),
             shown: progress::Progress::of("recording", Unit::BoardTime, None),
             tally: [Tally::default(); 2],
-            waits_for_raw: false,
             plan,
         })
     }
@@ -231,23 +222,6 @@ impl Recorder {
         Ok(())
     }
 
-    /// Error if the board refuses raw codes.
-    fn answered(&mut self, event: &Event) -> Result<()> {
-        let Event::Answer { request, refusal } = event else { return Ok(()) };
-        let is_ours = [(Request::Stream { raw_hz: 0, budget_hz: 0 }).number(), UNREADABLE].contains(request);
-        if !is_ours || !std::mem::take(&mut self.waits_for_raw) {
-            return Ok(());
-        }
-        match refusal {
-            Some(why) => {
-                let what = "--raw: the board refuses raw codes".into();
-                let (request, reason) = (request_name(*request), why.to_string());
-                Err(SourceError::Refused { request, what, reason }.into())
-            }
-            None => Ok(()),
-        }
-    }
-
     fn keep(&mut self) -> Result<()> {
         if self.kept.elapsed() < CHUNK {
             return Ok(());
@@ -297,8 +271,7 @@ impl<E: From<Error>> Show<E> for Recorder {
             eprintln!("{remark}");
         }
         let done = self.take(client, event);
-        self.guard(done)?;
-        Ok(self.answered(event)?)
+        Ok(self.guard(done)?)
     }
 
     /// In another file.
@@ -324,10 +297,7 @@ impl<E: From<Error>> Show<E> for Recorder {
         Ok(self.guard(done)?)
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool, E> {
-        if std::mem::take(&mut self.plan.raw) {
-            self.waits_for_raw = client.request_codes().map_err(Error::from)?;
-        }
+    fn idle(&mut self, _: &mut Client) -> Result<bool, E> {
         let done = self.keep();
         self.guard(done)?;
         Ok(true)

@@ -2,9 +2,11 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `config.rs` | [`RobotConfig`]: the file `robot.toml` as its author writes it |
+//! | `gesture_model.rs`, `forms_in_frame.rs`, `feed.rs` | what a board is asked, in words |
+//! | `config.rs` | [`RobotConfig`], [`BoardConfig`]: a robot and its boards as their author writes them |
 //! | `place.rs` | file, line, board and key of an error |
 //! | `board.rs` | [`RobotBoard`]: how a board is opened and recognised, and what is asked of it first |
+//! | `board_reader.rs` | reads the files that a board's configuration names |
 //! | `file.rs` | [`ReadRobot`]: the file and what it names, checked |
 //! | `recognise.rs` | recognises a board before anything is asked of it |
 //! | `event.rs` | [`RobotEvent`]: what the boards say, and how they are |
@@ -28,12 +30,16 @@
 //! hold up the others.
 
 mod board;
+mod board_reader;
 mod config;
 mod contact;
 mod contact_reader;
 mod event;
+mod feed;
 mod file;
 mod follow;
+mod forms_in_frame;
+mod gesture_model;
 mod line;
 mod moments;
 mod open;
@@ -48,16 +54,21 @@ mod refused;
 mod session;
 
 pub use board::{BoardGarment, RobotBoard};
+pub use board_reader::ConfigPlace;
 pub use config::{BoardConfig, RobotConfig};
 pub use contact::BoardContact;
 pub use contact_reader::ContactReader;
 pub use event::{BoardEvent, RobotEvent, Teller};
+pub use feed::feed;
 pub use file::ReadRobot;
 pub use follow::{Ask, Begin, BoardPlan, Opener};
+pub use forms_in_frame::FormsInFrame;
+pub use gesture_model::GestureModel;
 pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
 pub use record_teller::{BoardRecord, RecordTeller};
 pub use recorder::{RobotRecorder, RobotTopic};
+pub use refused::Required;
 pub use session::RobotSession;

@@ -32,7 +32,7 @@ impl ReadRobot {
     ) -> Vec<BoardPlan<T>> {
         let plan = |(number, board): (usize, &RobotBoard)| {
             let (options, opens, begins) = (options.clone(), board.clone(), board.clone());
-            let robot = self.robot.clone();
+            let (robot, motion, poses) = (self.robot.clone(), self.motion, self.poses);
             BoardPlan {
                 name: board.name.clone(),
                 open: Box::new(move || opens.open_any(&options)),
@@ -42,7 +42,8 @@ impl ReadRobot {
                 begin: Box::new(move |session| {
                     let (client, source) = session.parts();
                     begins.begin(client, source)?;
-                    let posing = robot.map(|robot| begins.posing(robot)).transpose()?.flatten();
+                    let posing =
+                        robot.map(|robot| begins.posing(robot, motion, poses)).transpose()?.flatten();
                     posing.into_iter().for_each(|posing| session.pose_by(posing));
                     Ok(())
                 }),

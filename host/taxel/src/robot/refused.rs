@@ -12,8 +12,18 @@ impl Required {
     /// The requests that are queued, except a tare: a garment that is touched refuses it, and goes on with
     /// the baseline that it has.
     pub fn of(client: &Client) -> Required {
-        let numbers = client.queued_numbers().into_iter();
-        Required(numbers.filter(|number| *number != Request::Tare { frames: 0 }.number()).collect())
+        Required(client.queued_numbers()).without(&Request::Tare { frames: 0 })
+    }
+
+    /// The requests that are queued, with the tare.
+    pub fn with_tare(client: &Client) -> Required {
+        Required(client.queued_numbers())
+    }
+
+    /// All but requests of this kind, which the board may refuse.
+    pub fn without(mut self, request: &Request<'_>) -> Required {
+        self.0.retain(|number| *number != request.number());
+        self
     }
 
     /// Error if the event is the refusal of one of them.
@@ -29,5 +39,28 @@ impl Required {
                 Err(SourceError::Refused { request, what, reason: reason.clone() })
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_may_be_refused_is_no_error() {
+        let mut client = Client::new();
+        let requests = [Request::SetTable(&[]), Request::Stream { raw_hz: 0, budget_hz: 1 }];
+        requests.iter().for_each(|request| client.request(request).unwrap());
+        let refused = |mut required: Required| {
+            let refusal = |request: &Request<'_>| Event::Answer {
+                request: request.number(),
+                refusal: Some("no".into()),
+            };
+            let answers = requests.iter().map(|request| required.answered("usb", &refusal(request)));
+            answers.filter_map(Result::err).map(|error| error.to_string()).collect::<Vec<_>>()
+        };
+        let stream = "usb: the board refuses stream: no";
+        assert_eq!(refused(Required::of(&client)), ["usb: the board refuses set-table: no", stream]);
+        assert_eq!(refused(Required::of(&client).without(&Request::SetTable(&[]))), [stream]);
     }
 }

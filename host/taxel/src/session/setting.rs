@@ -1,8 +1,9 @@
 //! Garments, scenes and models of the user, queued as requests to a board.
 
 use crate::body;
-use crate::client::{Client, SceneChange};
+use crate::client::Client;
 use crate::error::{Context, Result, SettingError, UsageError};
+use crate::files::bases::Base;
 use crate::files::{folds, garments};
 use crate::source::SceneFile;
 use crate::tell::verbose;
@@ -12,8 +13,9 @@ use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::gesture::{GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
+use taxel_core::shape::GalleryHead;
 use taxel_core::surface::LinkMotion;
-use taxel_core::wire::{Poses, Request, TABLE_PIECE, TablePiece};
+use taxel_core::wire::{Poses, Request, SHAPES_ADDED, TABLE_PIECE, TablePiece};
 
 /// Queues `SetGarment` for a preset or a TOML file. Errors that do not depend on the board are found here;
 /// the board checks its own pins and capacity.
@@ -44,6 +46,24 @@ pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
     };
     verbose::tell(format_args!("sending body {body}, {} bytes", table.len()));
     send_table(client, TableKind::Surface, &table)
+}
+
+/// Queues the requests that transfer a base of shapes to a board.
+pub fn set_shapes(client: &mut Client, base: &Base) -> Result<()> {
+    let gallery = &base.gallery;
+    let head = GalleryHead {
+        names: gallery.names.clone(),
+        space: gallery.space.clone(),
+        k: gallery.k,
+        reject: gallery.reject,
+        confidence: gallery.confidence.clone(),
+        prototypes: gallery.prototypes.len() as u16,
+    };
+    client.request(&Request::SetShapes(&postcard::to_allocvec(&head)?))?;
+    for some in gallery.prototypes.chunks(SHAPES_ADDED) {
+        client.request(&Request::AddShapes(&postcard::to_allocvec(some)?))?;
+    }
+    Ok(())
 }
 
 /// Queues the requests that store a table of folds on the board, as [`learn::folds`](crate::learn::folds)
@@ -116,16 +136,11 @@ pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
     client.use_for(&file.scene).with_context(place)
 }
 
-/// Queues the recognition of gestures by a model in the board's firmware: its own settings except for the gain, a
+/// Settings of the recognition of gestures by a model in the board's firmware: its own except for the gain, a
 /// factor from the garment's counts to those that the model was trained on, and the confidence, 0 to 0.999, that an
 /// announcement needs. With a confidence, a class is announced as soon as it is reached, without a minimum time in
 /// the lead.
-pub fn set_gestures(
-    client: &mut Client,
-    model: ShippedModel,
-    gain: Option<f64>,
-    certainty: Option<f64>,
-) -> Result<()> {
+pub fn gestures(model: ShippedModel, gain: Option<f64>, certainty: Option<f64>) -> Result<GestureConfig> {
     let mut config = GestureConfig::of(model);
     if let Some(gain) = gain {
         // Out of range, or NaN: a value that is refused.
@@ -137,8 +152,7 @@ pub fn set_gestures(
         (config.decide_ms, config.onset_ms) = (100, 0);
     }
     Gestures::build(&config).map_err(of_caller)?;
-    client.change_scene(SceneChange { gestures: Some(Some(config)), ..SceneChange::default() });
-    Ok(())
+    Ok(config)
 }
 
 /// An error of the arguments, not of a file.

@@ -2,8 +2,8 @@
 //! recognises shapes.
 
 use proptest::prelude::*;
+use taxel::files::bases::{Base, shipped_names};
 use taxel::learn::confusion::Confusion;
-use taxel::learn::shapes::base::{Base, shipped_names};
 use taxel_core::board::{Board, BoardInfo, Input};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Pins};

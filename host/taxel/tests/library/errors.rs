@@ -6,10 +6,10 @@ use taxel::error::{
     ArrayError, Error, ErrorKind, FileError, LearnError, MapFileError, RecordingError, SettingError,
     SourceError, UsageError,
 };
+use taxel::files::bases::Base;
 use taxel::files::calibrate::Calibration;
 use taxel::files::output::{Force, Output};
 use taxel::files::{arrays, garments, scripts};
-use taxel::learn::shapes::base::Base;
 use taxel::recording::{Clips, Format, Messages, Overview, Writer};
 use taxel::session::setting;
 use taxel::source::SceneFile;
@@ -180,7 +180,7 @@ fn an_invalid_setting_names_its_parameter() {
     let of = |result: Result<(), Error>| failed(result).kind().parameter().unwrap_or_default();
     let mut client = Client::new();
     assert_eq!(
-        of(setting::set_gestures(&mut client, taxel_core::gesture::ShippedModel::Intent, None, Some(2.0))),
+        of(setting::gestures(taxel_core::gesture::ShippedModel::Intent, None, Some(2.0)).map(drop)),
         "gestures.certainty"
     );
     let scene = SceneFile::named("contact = { low = 0 }").unwrap();

@@ -6,8 +6,8 @@ use std::ops::Range;
 use std::path::Path;
 use taxel::client::Client;
 use taxel::files::arrays;
-use taxel::learn::shapes::base::Base;
-use taxel::learn::shapes::teach::teach;
+use taxel::files::bases::Base;
+use taxel::session::setting::set_shapes;
 use taxel_core::acquire::Depth;
 use taxel_core::condition::Filter;
 use taxel_core::fold::{JointAngle, Posture};
@@ -158,7 +158,7 @@ impl Variant {
         let mut client = Client::new();
         client.request(&Request::SetShapes(&[]))?;
         if self == Variant::Taught {
-            teach(&mut client, &Base::open(Path::new("drawn"))?)?;
+            set_shapes(&mut client, &Base::open(Path::new("drawn"))?)?;
         }
         // The harness transfers at most 4,096 bytes.
         Ok(client.queued().chunks(1024).map(|bytes| Step::Receive(bytes.to_vec())).collect())

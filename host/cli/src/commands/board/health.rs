@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use taxel::client::{Client, Event, Worn};
 use taxel::files::garments;
+use taxel::robot::BoardConfig;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
@@ -77,7 +78,8 @@ pub fn run(args: HealthArgs) -> Result<()> {
 pub fn look(args: &HealthArgs) -> Result<HealthText> {
     let options = SourceOptions { frames: Some(args.frames), ..SourceOptions::default() };
     let source = source::open(&args.source, &options)?;
-    let asked = BoardArgs { tare: args.tare, ..BoardArgs::of(args.source.clone()) };
+    let config = BoardConfig { tare: args.tare, ..BoardConfig::of(args.source.clone()) };
+    let asked = BoardArgs { config, ..BoardArgs::default() };
     let live = LiveArgs { frames: Some(args.frames), ..LiveArgs::on(asked) };
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     watch::watch(&live, source, &mut found)?;

@@ -24,7 +24,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 pub fn run(args: SaveArgs) -> Result<()> {
     let (source, _) = args.board.open(SourceOptions::default())?;
     let label = source.label.clone();
-    let tare = args.board.tare.unwrap_or(source.tare);
+    let tare = args.board.config.tare.unwrap_or(source.tare);
     let mut saving =
         Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false, simulated: false };
     watch::watch(&LiveArgs::on(args.board), source, &mut saving)?;

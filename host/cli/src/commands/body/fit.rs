@@ -13,6 +13,7 @@ use taxel::body::fit::{KnownTouch, Mark, known_touches, marks, picked};
 use taxel::body::{self, Fit, Form, ReadBody, Surface};
 use taxel::files::input;
 use taxel::files::output::Output;
+use taxel::robot::BoardConfig;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel_core::garment::Layout;
 
@@ -120,7 +121,8 @@ fn asked(args: &FitArgs, marks: Vec<Mark>, surface: &Surface, layout: &Layout) -
     // A simulated board wears it; a real one has its own.
     let is_simulated = matches!(args.source, SourceSpec::Sim(_) | SourceSpec::Emulator(_));
     let garment = Some(args.worn.garment.clone()).filter(|_| is_simulated);
-    let board = BoardArgs { garment, ..BoardArgs::of(args.source.clone()) };
+    let config = BoardConfig { garment, ..BoardConfig::of(args.source.clone()) };
+    let board = BoardArgs { config, ..BoardArgs::default() };
     let (source, _) = board.open(SourceOptions::default())?;
     stop::catch()?;
     let mut dialogue = MarkDialogue::new(marks, links(surface, layout));

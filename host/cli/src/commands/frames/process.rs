@@ -1,7 +1,6 @@
 //! `taxel process`: runs the board's pipeline over recorded frames, one JSON object per frame.
 
 use crate::fault::Fault;
-use crate::watch::forms;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use serde_json::{Value, json};
@@ -10,6 +9,7 @@ use std::path::{Path, PathBuf};
 use taxel::files::arrays::{self, Frames};
 use taxel::json::Replay;
 use taxel::learn::doubts;
+use taxel::robot::FormsInFrame;
 use taxel::tell::progress::{Progress, Unit};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
@@ -37,8 +37,8 @@ pub struct ProcessArgs {
     pub tare: u16,
     /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to
     /// 254, or all; on a board 1
-    #[arg(long, value_name = "N", value_parser = forms, default_value = "all")]
-    pub forms: u8,
+    #[arg(long, value_name = "N", default_value = "all")]
+    pub forms: FormsInFrame,
     /// Print JSON, one object per frame
     #[arg(long)]
     pub json: bool,
@@ -77,7 +77,7 @@ fn process(args: &ProcessArgs, name: &str, frames: &Frames, out: &mut impl Write
     };
     let place = || format!("{}{}", args.file.display(), array_of(name));
     let mut scene = Scene::scaled(args.full_scale);
-    scene.contact.forms_in_frame = args.forms;
+    scene.contact.forms_in_frame = args.forms.0;
     let mut replay = Replay::new(&garment, &scene, top).with_context(place)?;
     let taxels = usize::from(frames.rows) * usize::from(frames.columns);
     if taxels != replay.layout.taxels() {

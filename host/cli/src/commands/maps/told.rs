@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use taxel::client::{Client, Event};
 use taxel::fcm::map::MapFile;
 use taxel::fcm::told::Told;
+use taxel::robot::{BoardConfig, feed};
 use taxel::session::Show;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel_core::format::Micros;
@@ -28,7 +29,7 @@ pub struct ToldArgs {
     #[arg(long, value_name = "FILE", requires = "source")]
     pub scene: Option<PathBuf>,
     /// With --source: set a concept, as in `taxel live`
-    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = watch::feed, requires = "source")]
+    #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = feed, requires = "source")]
     pub feed: Vec<Feed>,
 }
 
@@ -41,7 +42,8 @@ impl ToldArgs {
     /// Report of the source, if one is given.
     pub fn listen(self) -> Result<Option<Told>> {
         let Some(source) = self.source else { return Ok(None) };
-        listen(BoardArgs { scene: self.scene, feed: self.feed, ..BoardArgs::of(source) }, self.at).map(Some)
+        let config = BoardConfig { scene: self.scene, feed: self.feed, ..BoardConfig::of(source) };
+        listen(BoardArgs { config, ..BoardArgs::default() }, self.at).map(Some)
     }
 }
 

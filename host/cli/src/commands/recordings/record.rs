@@ -2,12 +2,11 @@
 
 use super::viewed::ViewedRecorder;
 use crate::commands::views::view::{announce, bind, wearer};
-use crate::fault::Fault;
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
 use crate::view::{PageHub, Tape, Viewer};
 use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
-use anyhow::{Error, Result, bail};
+use anyhow::{Error, Result};
 use clap::Args;
 use std::net::TcpListener;
 use std::path::PathBuf;
@@ -41,9 +40,6 @@ pub struct RecordArgs {
     /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Overwrite,
-    /// Also record the converter's raw code of every taxel
-    #[arg(long)]
-    pub raw: bool,
     /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
@@ -70,7 +66,7 @@ impl Pages {
         Ok(Pages {
             listener: bind(args.port)?,
             wearer: wearer(&args.board, "")?,
-            folding: args.board.folds.as_deref().map(Folding::read).transpose()?,
+            folding: args.board.config.folds.as_deref().map(Folding::read).transpose()?,
         })
     }
 
@@ -93,9 +89,6 @@ pub fn run(args: RecordArgs) -> Result<()> {
         ..SourceOptions::default()
     };
     let (source, calibration) = args.board.open(options)?;
-    if args.raw && !source.listens {
-        bail!(Fault::usage(format!("--raw: {} is a recording, whose board does not listen", source.label)));
-    }
     let pages = args.view.then(|| Pages::prepare(&args)).transpose()?;
     stop::catch()?;
     let origin =
@@ -104,17 +97,15 @@ pub fn run(args: RecordArgs) -> Result<()> {
         path: args.output,
         rotate: args.rotate,
         ros2: args.ros2,
-        body: args.board.body.as_deref().map(body::read).transpose()?,
+        body: args.board.config.body.as_deref().map(body::read).transpose()?,
         force: args.force.force,
         inputs: args.board.files(),
         origin: origin.clone(),
-        raw: args.raw,
     })?;
     let label = source.label.clone();
     let unlimited = args.frames.is_none() && args.seconds.is_none();
     recorder.expect(args.seconds.unwrap_or(0.0));
-    let watched =
-        LiveArgs { frames: args.frames, seconds: args.seconds, raw: args.raw, ..LiveArgs::on(args.board) };
+    let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
     let pages = pages.map(|pages| pages.open(&source, origin, args.open)).transpose()?;
     let done = match pages {
         Some((viewer, hub)) => {

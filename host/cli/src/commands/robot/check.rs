@@ -27,11 +27,11 @@ fn table(robot: &ReadRobot) -> String {
         let _ = write!(text, "; {}: {} links, base {base}", described.file(), described.links().len());
     }
     text += "\n";
-    let head =
-        ["board", "source", "garment", "taxels", "lies on", "scene", "calibration", "tare"].map(String::from);
-    let rows: Vec<[String; 8]> = [head].into_iter().chain(robot.boards.iter().map(row)).collect();
+    let head = ["board", "source", "garment", "taxels", "lies on", "scene", "calibration", "tare", "also"]
+        .map(String::from);
+    let rows: Vec<[String; 9]> = [head].into_iter().chain(robot.boards.iter().map(row)).collect();
     let wide = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let wide: Vec<usize> = (0..8).map(wide).collect();
+    let wide: Vec<usize> = (0..9).map(wide).collect();
     for row in &rows {
         let cells: String = row.iter().zip(&wide).map(|(cell, wide)| format!("{cell:wide$}  ")).collect();
         let _ = writeln!(text, "{}", cells.trim_end());
@@ -39,8 +39,8 @@ fn table(robot: &ReadRobot) -> String {
     text
 }
 
-fn row(board: &RobotBoard) -> [String; 8] {
-    let RobotBoard { name, source, garment, scene, calibration, tare, body, link } = board;
+fn row(board: &RobotBoard) -> [String; 9] {
+    let RobotBoard { name, source, garment, scene, calibration, tare, body, link, .. } = board;
     [
         name.clone(),
         source.to_string(),
@@ -54,7 +54,23 @@ fn row(board: &RobotBoard) -> [String; 8] {
         scene.as_ref().map_or("-".into(), |scene| scene.scene.name.to_string()),
         calibration.as_ref().map_or("-".into(), |calibration| calibration.id.clone()),
         tare.map_or("-".into(), |frames| frames.to_string()),
+        also(board).join(", "),
     ]
+}
+
+/// Keys of what else the board is asked.
+fn also(board: &RobotBoard) -> Vec<&'static str> {
+    let keys = [
+        ("budget", board.budget.is_some()),
+        ("raw", board.raw),
+        ("gestures", board.gestures.is_some()),
+        ("forms", board.forms.is_some()),
+        ("feed", !board.feeds.is_empty()),
+        ("shapes", board.shapes.is_some()),
+        ("folds", board.folds.is_some()),
+        ("pressing", board.pressing.is_some()),
+    ];
+    keys.into_iter().filter(|(_, is_there)| *is_there).map(|(key, _)| key).collect()
 }
 
 fn report(robot: &ReadRobot) -> Value {
@@ -73,6 +89,7 @@ fn report(robot: &ReadRobot) -> Value {
             "tare": board.tare,
             "body": board.body,
             "link": board.link,
+            "also": also(board),
         })
     };
     json!({

@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use std::path::{Path, PathBuf};
+use taxel::files::bases::{Base, ImagesFile};
 use taxel::learn::confusion::Confusion;
-use taxel::learn::shapes::base::{Base, ImagesFile};
 
 /// Arguments of `taxel shapes card`.
 #[derive(Debug, Clone, clap::Args)]

@@ -1,9 +1,9 @@
 //! Labelled images, named on the command line.
 
 use std::path::PathBuf;
+use taxel::files::bases::view::{self, Choice};
 use taxel::learn::shapes::classes::Classes;
 use taxel::learn::shapes::data::Images;
-use taxel::learn::shapes::view::{self, Choice};
 
 /// Source of labelled images.
 #[derive(Debug, Clone, clap::Args)]

@@ -6,9 +6,9 @@ use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
-use taxel::learn::shapes::base::Base;
-use taxel::learn::shapes::teach::teach;
+use taxel::files::bases::Base;
 use taxel::session::Show;
+use taxel::session::setting::set_shapes;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::wire::Request;
 
@@ -70,7 +70,7 @@ impl Show<anyhow::Error> for Installing {
     fn idle(&mut self, client: &mut Client) -> Result<bool> {
         match self.begun {
             None if client.worn().is_some() => {
-                teach(client, &self.base).context("the base is too long for a request")?;
+                set_shapes(client, &self.base).context("the base is too long for a request")?;
                 self.begun = Some(Instant::now());
             }
             None if self.opened.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use taxel::learn::shapes::base::{Base, shipped_names};
+use taxel::files::bases::{Base, shipped_names};
 
 /// Arguments of `taxel shapes list`.
 #[derive(Debug, Clone, clap::Args)]

@@ -3,8 +3,8 @@
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;
+use taxel::files::bases::Base;
 use taxel::files::output::Output;
-use taxel::learn::shapes::base::Base;
 use taxel::learn::shapes::prune::prune;
 
 /// Arguments of `taxel shapes prune`.

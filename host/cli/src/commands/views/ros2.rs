@@ -71,7 +71,7 @@ impl RosNodeArgs {
 pub fn run(args: Ros2Args) -> Result<()> {
     let place = args.node.place()?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
-    let body = args.board.body.as_deref().map(body::read).transpose()?;
+    let body = args.board.config.body.as_deref().map(body::read).transpose()?;
     let (source, _) = args.board.open(options)?;
     let parameters = RosParameters { source: source.label.clone(), image_hz: args.node.image_hz };
     let at = format!("{} as node {} in domain {}", source.label, place.absolute(&place.name), place.domain);

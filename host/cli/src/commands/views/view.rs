@@ -13,6 +13,7 @@ use std::thread;
 use taxel::files::calibrate::Calibration;
 use taxel::record::Origin;
 use taxel::recording::BoardRecording;
+use taxel::robot::BoardConfig;
 use taxel::source::{SourceOptions, SourceSpec, Speed};
 
 /// Default port, unless it is taken: T, A, X, L on a telephone keypad.
@@ -69,7 +70,7 @@ impl ViewArgs {
 /// The robot that wears a board's garment, with its joints at these positions; none without a body.
 pub fn wearer(board: &BoardArgs, joints: &str) -> Result<Option<Wearer>> {
     let read = |body: &String| Wearer::read(body, board.robot.as_deref(), joints);
-    board.body.as_ref().map(read).transpose()
+    board.config.body.as_ref().map(read).transpose()
 }
 
 /// Runs the command.
@@ -80,24 +81,25 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let wearer = args.wearer()?;
     let listener = bind(args.port)?;
     // Who came to press is not disturbed, unless a script was asked for.
-    let waits = args.board.source.is_none();
+    let waits = args.board.config.source.is_none();
     let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
     let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
     let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
     hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     // The garment that is played where nothing was named is worn by a robot, too.
-    let unnamed = waits && source.hand.is_some() && args.board.garment.is_none();
+    let unnamed = waits && source.hand.is_some() && args.board.config.garment.is_none();
     let reference = || Wearer::read(REFERENCE, Some(REFERENCE), "");
     let wearer = if unnamed && wearer.is_none() { Some(reference()?) } else { wearer };
     wearer.into_iter().for_each(|wearer| hub.wear(wearer));
     announce(&source.label, listener, hub.clone(), args.open)?;
-    let folding = args.board.folds.as_deref().map(Folding::read).transpose()?;
+    let folding = args.board.config.folds.as_deref().map(Folding::read).transpose()?;
     let mut viewer = Viewer::new(&source, hub).folding(folding);
     // Where a board does not listen, the host alone knows the body.
-    let BoardArgs { body, robot, .. } = args.board.clone();
-    let (body, robot) = (body.filter(|_| source.listens), robot.filter(|_| source.listens));
-    let board = BoardArgs { body, robot, ..args.board };
+    let mut board = args.board;
+    if !source.listens {
+        (board.config.body, board.robot) = (None, None);
+    }
     watch::watch(&LiveArgs { body_may_fail: true, ..LiveArgs::on(board) }, source, &mut viewer)?;
     println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
@@ -108,16 +110,17 @@ pub fn run(args: ViewArgs) -> Result<()> {
 /// Shows a recording.
 fn play(args: &ViewArgs, recording: &BoardRecording, speed: f64) -> Result<()> {
     // The host places the taxels of a recording, and knows where it folds: its board is not asked.
-    BoardArgs { body: None, robot: None, folds: None, ..args.board.clone() }
-        .check_recorded(&recording.to_string())?;
+    let config = BoardConfig { body: None, folds: None, ..args.board.config.clone() };
+    BoardArgs { config, ..BoardArgs::default() }.check_recorded(&recording.to_string())?;
     ensure!(
         args.board.joint_states.is_none(),
         Fault::usage(format!("--joint-states: {recording} is a recording, whose robot does not move now"))
     );
-    let calibration = args.board.calibration.as_deref().map(Calibration::read).transpose()?;
+    let calibration = args.board.config.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(PageHub::default());
     args.wearer()?.into_iter().for_each(|wearer| hub.wear(wearer));
-    let folding = args.board.folds.as_deref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
+    let folding =
+        args.board.config.folds.as_deref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
     let player = Player::open(recording, speed, calibration, folding, hub.clone())?;
     announce(&recording.to_string(), bind(args.port)?, hub, args.open)?;
     player.run()

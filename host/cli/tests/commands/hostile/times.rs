@@ -91,7 +91,6 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
         force: true,
         inputs: Vec::new(),
         origin: Origin::default(),
-        raw: false,
         body: None,
     };
     let recorder = Recorder::create(plan).unwrap();

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use taxel::client::{Client, Event};
 use taxel::fcm::told::Told;
 use taxel::fcm::why::{explain, explain_told, report};
+use taxel::robot::BoardConfig;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_cli::commands::maps::told::listen;
@@ -63,7 +64,8 @@ fn where_there_is_nothing_to_explain_it_is_said() {
     assert_eq!((early.report.leading, explain_told(&early, None).unwrap().why.sum.0), (Leading::None, 0));
     let scene = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("silent.toml");
     std::fs::write(&scene, "[stream]\nintent = false\n").unwrap();
-    let board = BoardArgs { scene: Some(scene), ..BoardArgs::of(spec("sim:lash")) };
+    let config = BoardConfig { scene: Some(scene), ..BoardConfig::of(spec("sim:lash")) };
+    let board = BoardArgs { config, ..BoardArgs::default() };
     let silent = listen(board, Some(0.1)).unwrap_err().to_string();
     assert!(silent.ends_with("no intention was reported in the first 0.1 s"), "{silent}");
 }
@@ -80,8 +82,9 @@ fn what_the_host_feeds_counts_until_it_is_too_old() {
     std::fs::write(folder.join("warm map.toml"), WARM).unwrap();
     std::fs::write(&scene, "react = []\n[intent]\nmap = \"warm map.toml\"\n").unwrap();
     let fed = |words: &str| {
-        let feed = vec![watch::feed(words).unwrap()];
-        let board = BoardArgs { scene: Some(scene.clone()), feed, ..BoardArgs::of(spec("sim:lash")) };
+        let feed = vec![taxel::robot::feed(words).unwrap()];
+        let config = BoardConfig { scene: Some(scene.clone()), feed, ..BoardConfig::of(spec("sim:lash")) };
+        let board = BoardArgs { config, ..BoardArgs::default() };
         let told = listen(board, Some(0.4)).unwrap();
         let explained = explain_told(&told, Some("kindness")).unwrap();
         (told.report.concepts[0].0, told.report.leading, explained.why.sum.0)

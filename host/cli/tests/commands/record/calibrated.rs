@@ -6,6 +6,7 @@ use std::path::Path;
 use taxel::files::calibrate::Calibration;
 use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
 use taxel::recording::Overview;
+use taxel::robot::BoardConfig;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::commands::recordings::export::{ExportArgs, Form, run};
 use taxel_cli::watch::{BoardArgs, LiveArgs, Overwrite, watch};
@@ -20,9 +21,8 @@ fn recorded(name: &str, calibration: &Calibration) {
     let origin = Origin { calibration: Some(calibration.clone()), ..Origin::default() };
     let mut recorder =
         Recorder::create(Plan { origin, ..plan(&format!("{name}.mcap"), "sim", None, false) }).unwrap();
-    let board = BoardArgs { calibration: Some(certificate), ..BoardArgs::of(spec) };
-    let args = LiveArgs { raw: true, ..LiveArgs::on(board) };
-    watch(&args, source, &mut recorder).unwrap();
+    let config = BoardConfig { calibration: Some(certificate), raw: true, ..BoardConfig::of(spec) };
+    watch(&LiveArgs::on(BoardArgs { config, ..BoardArgs::default() }), source, &mut recorder).unwrap();
 }
 
 fn table(path: &Path, output: &str, counts: bool) -> Vec<Vec<String>> {

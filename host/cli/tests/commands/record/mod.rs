@@ -5,7 +5,6 @@ mod belonging;
 mod calibrated;
 mod exports;
 mod lerobot;
-mod raw;
 mod replayed;
 mod report;
 mod rotate;

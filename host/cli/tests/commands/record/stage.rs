@@ -76,7 +76,6 @@ pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan
         force: true,
         inputs: Vec::new(),
         origin: Origin { label: label.into(), counts_per_newton: Some(1000.0), calibration: None },
-        raw: false,
     }
 }
 

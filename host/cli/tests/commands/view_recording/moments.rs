@@ -49,7 +49,6 @@ fn nothing_is_felt_once_the_board_of_a_recording_is_lost() {
         force: true,
         inputs: Vec::new(),
         origin: Origin::default(),
-        raw: false,
     };
     let (mut recorder, mut session) = (Recorder::create(plan).unwrap(), taxel::open("sim:press").unwrap());
     let mut record = |client: &Client, event: &Event| {

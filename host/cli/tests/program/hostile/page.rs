@@ -5,10 +5,11 @@ use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
+use taxel::robot::BoardConfig;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::view::{PageHub, serve};
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{BoardArgs, LiveArgs, watch};
 
 /// Keeps the bytes of a board for the pages.
 struct Keeper(Arc<PageHub>);
@@ -27,7 +28,13 @@ fn page() -> u16 {
     let options = SourceOptions { seconds: Some(25.0), ..SourceOptions::default() };
     let source = source::open(&spec, &options).unwrap();
     watch(
-        &LiveArgs { seconds: Some(25.0), raw: true, ..LiveArgs::of(spec) },
+        &LiveArgs {
+            seconds: Some(25.0),
+            ..LiveArgs::on(BoardArgs {
+                config: BoardConfig { raw: true, ..BoardConfig::of(spec) },
+                ..BoardArgs::default()
+            })
+        },
         source,
         &mut Keeper(hub.clone()),
     )

@@ -1,7 +1,7 @@
 //! Sets the confidence of votes and the limit for "none", from examples left out of training.
 
 use super::data::Example;
-use super::train::Known;
+use crate::files::bases::BoardGallery;
 use taxel_core::format::Q15;
 use taxel_core::shape::{ConfidenceTable, Recognised, STEPS};
 
@@ -13,7 +13,7 @@ const NEARLY_ALL: f64 = 0.99;
 const DOUBT: f64 = 4.0;
 
 /// Completes a gallery by the results of galleries that were tested on left-out examples.
-pub fn calibrate(gallery: &mut Known, examples: &[&Example], found: &[Recognised]) {
+pub fn calibrate(gallery: &mut BoardGallery, examples: &[&Example], found: &[Recognised]) {
     let mut distances: Vec<u16> = found.iter().map(|found| found.distance).collect();
     distances.sort();
     let at = |part: f64| distances.get((part * (distances.len() - 1) as f64) as usize).copied().unwrap_or(0);

@@ -1,7 +1,7 @@
 //! Cross-validation of a recipe.
 
 use super::data::Example;
-use super::train::Known;
+use crate::files::bases::BoardGallery;
 use crate::learn::stratified::stratified;
 use crate::tell::progress::{Progress, Unit};
 use taxel_core::shape::Recognised;
@@ -24,7 +24,7 @@ pub fn deal(examples: &[&Example], folds: usize, seed: u64) -> Vec<usize> {
 pub fn predict(
     examples: &[&Example],
     fold: &[usize],
-    train: impl Fn(&[&Example]) -> Known,
+    train: impl Fn(&[&Example]) -> BoardGallery,
 ) -> Vec<Recognised> {
     let folds = fold.iter().max().map_or(0, |last| last + 1);
     let others = |n: usize| -> Vec<&Example> {
@@ -35,7 +35,7 @@ pub fn predict(
         progress.at(n as u64);
         train(&others(n))
     };
-    let galleries: Vec<Known> = (0..folds).map(&mut gallery).collect();
+    let galleries: Vec<BoardGallery> = (0..folds).map(&mut gallery).collect();
     examples.iter().zip(fold).map(|(example, fold)| galleries[*fold].recognise(&example.descriptor)).collect()
 }
 

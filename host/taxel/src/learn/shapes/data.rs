@@ -1,9 +1,9 @@
 //! Labelled images prepared for the recogniser: descriptors, classes and groups.
 
 use super::classes::Classes;
-use super::view::{Choice, View};
 use crate::error::{LearnError, Result, UsageError};
 use crate::files::arrays::{self, Frames};
+use crate::files::bases::view::{Choice, View};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 use std::path::PathBuf;

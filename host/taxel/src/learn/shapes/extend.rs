@@ -1,9 +1,9 @@
 //! Adds examples to a base.
 
-use super::base::{Base, LEFT_OUT};
 use super::calibrate::count;
 use super::cluster::centres;
 use crate::error::{LearnError, Result};
+use crate::files::bases::{Base, LEFT_OUT};
 use crate::learn::confusion::Confusion;
 use taxel_core::format::name;
 use taxel_core::shape::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Point, Recognised};

@@ -1,12 +1,12 @@
 //! Removes prototypes that do not affect decisions.
 
-use super::train::Known;
+use crate::files::bases::BoardGallery;
 use taxel_core::shape::{Exemplar, Point};
 
 /// Hart's condensed nearest neighbour rule: starting with the first prototype of each class, keeps only those
 /// that the kept ones would misclassify. From then on one neighbour votes, because the remaining prototypes
 /// lie where classes meet.
-pub fn prune(gallery: &mut Known) {
+pub fn prune(gallery: &mut BoardGallery) {
     let all: Vec<Exemplar> = gallery.prototypes.to_vec();
     let mut kept = vec![false; all.len()];
     for class in 0..gallery.names.len() {
@@ -37,7 +37,7 @@ fn distance(a: &Point, b: &Point) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::shapes::base::{Base, shipped_names};
+    use crate::files::bases::{Base, shipped_names};
 
     #[test]
     fn what_is_kept_decides_the_same_of_all_prototypes() {

@@ -3,13 +3,11 @@
 use super::cluster::{centres, mean};
 use super::data::Example;
 use super::discriminant::Discriminant;
+use crate::files::bases::BoardGallery;
 use taxel_core::format::name;
 use taxel_core::shape::{
     ConfidenceTable, DIMENSIONS, Exemplar, GALLERY_PROTOTYPES, Gallery, MEASURES, Point, Space,
 };
-
-/// A gallery of the size that a board holds.
-pub type Known = Gallery<GALLERY_PROTOTYPES>;
 
 /// Training settings.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +44,7 @@ impl Default for Recipe {
 const UNITS: f64 = 256.0;
 
 /// Trains a gallery that never answers "none", without a table of confidence.
-pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> Known {
+pub fn fit(examples: &[&Example], names: &[String], recipe: &Recipe) -> BoardGallery {
     let space = space(examples, recipe);
     let mut prototypes = heapless::Vec::new();
     for class in 0..names.len() {

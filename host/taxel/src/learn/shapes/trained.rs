@@ -1,18 +1,19 @@
 //! Trains a complete gallery.
 
-use super::base::{Base, Card, ImagesFile};
 use super::calibrate::calibrate;
 use super::cross::{FOLDS, SEED, deal, predict};
 use super::data::{Example, Examples, Images};
 use super::select::select;
-use super::train::{Known, Recipe, fit};
+use super::train::{Recipe, fit};
 use crate::error::{LearnError, Result};
+use crate::files::bases::BoardGallery;
+use crate::files::bases::{Base, Card, ImagesFile};
 use crate::learn::confusion::Confusion;
 use crate::learn::fingerprint::Fingerprint;
 use taxel_core::shape::{GALLERY_CLASSES, Recognised};
 
 /// A gallery of all examples, completed by five folds of them. Also returns the results of the folds.
-pub fn trained(examples: &[&Example], names: &[String], recipe: &Recipe) -> (Known, Vec<Recognised>) {
+pub fn trained(examples: &[&Example], names: &[String], recipe: &Recipe) -> (BoardGallery, Vec<Recognised>) {
     let recipe = &if recipe.select { select(examples, names, recipe) } else { recipe.clone() };
     let found = predict(examples, &deal(examples, FOLDS, SEED), |others| fit(others, names, recipe));
     let mut gallery = fit(examples, names, recipe);

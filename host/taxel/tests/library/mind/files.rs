@@ -31,7 +31,7 @@ fn mistakes_in_a_map_of_a_robot_are_named() {
         ("robot = { lode = [] }\nrise = [0, 1]", "lode"),
         ("robot = { intent = \"none\" }\nrise = [0, 1]", "input x: no board's intention is none"),
         (
-            "source = \"press\"\nlasts_ms = 3\nrise = [0, 1]",
+            "source = \"press\"\ntimeout_ms = 3\nrise = [0, 1]",
             "timeout_ms and default are for what a robot knows",
         ),
         ("robot = { told = \"voice\" }", "give exactly one of rise, fall, triangle and trapezoid"),

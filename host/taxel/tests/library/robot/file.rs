@@ -69,9 +69,13 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "tare = 32",
         "tares = 32",
-        "robot.toml, line 15: `tares` is not a known key, did you mean `tare`? Known are `name`, `source`, `garment`, `scene`, `calibration`, `tare`, `body`, `link` (board arm)",
+        "robot.toml, line 15: `tares` is not a known key, did you mean `tare`? Known are `name`, `source`, `garment`, `scene`, `calibration`, `tare`, `budget`, `raw`, `gestures`, `gesture_gain`, `gesture_certainty`, `forms`, `feed`, `shapes`, `body`, `folds`, `pressing`, `link` (board arm)",
     ),
-    ("source = \"sim:pat\"\n", "", "robot.toml, line 4, `boards`: `source` is missing (board torso)"),
+    (
+        "source = \"sim:pat\"\n",
+        "",
+        "robot.toml, line 4, `boards[0].source`: board torso: auto finds any board: name its serial number, usb:SERIAL",
+    ),
     (
         "name = \"arm\"",
         "name = \"left arm\"",
@@ -85,7 +89,7 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "sim:pat",
         "sum:pat",
-        "robot.toml, line 6, `boards[0].source`: board torso: there is no source \"sum:pat\": known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]",
+        "robot.toml, line 6, `source`: there is no source \"sum:pat\": known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED] (board torso)",
     ),
     (
         "sim:pat",

@@ -195,7 +195,6 @@ fn recorded(name: &str) -> (PathBuf, Session) {
         force: true,
         inputs: Vec::new(),
         origin,
-        raw: false,
     };
     let mut recorder = Recorder::create(plan).unwrap();
     let mut session = taxel::open("sim:press").unwrap();

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use taxel::client::Event;
-use taxel::learn::shapes::base::Base;
-use taxel::learn::shapes::teach::teach;
+use taxel::files::bases::Base;
+use taxel::session::setting::set_shapes;
 use taxel::session::{Poll, Returns, Session};
 use taxel_core::condition::Certificate;
 use taxel_core::format::{Q15, name};
@@ -56,7 +56,7 @@ fn set(session: &mut Session) -> usize {
     client.request(&Request::SetCalibration(of)).unwrap();
     client.start(8).unwrap();
     let base = Base::open(Path::new("drawn")).unwrap();
-    teach(client, &base).unwrap();
+    set_shapes(client, &base).unwrap();
     client.stream_budget(5).unwrap();
     base.gallery.prototypes.len().div_ceil(64)
 }

@@ -1,39 +1,39 @@
-//! Parses a concept's value from the command line.
+//! A concept's value, in words of the command line and of `robot.toml`.
 
-use anyhow::{Context, Result, bail};
+use crate::error::UsageError;
 use taxel_core::format::{Q15, name};
 use taxel_core::intent::Feed;
 
 /// Parses `NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]`: a value in -1 ..= 1, its age (default 0 ms), the age
 /// from which it expires (default never, as for 0), and the value that replaces it then (default 0).
-pub fn feed(text: &str) -> Result<Feed> {
-    let (concept, values) =
-        text.split_once('=').context("expected NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]")?;
+pub fn feed(text: &str) -> Result<Feed, UsageError> {
+    let wrong = |why: String| UsageError::Argument(why);
+    let expected = || wrong("expected NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]".into());
+    let (concept, values) = text.split_once('=').ok_or_else(expected)?;
     let short = name(concept);
     if short != concept || short.is_empty() {
-        bail!("{concept:?} is not a concept's name: 1 to 16 bytes");
+        return Err(wrong(format!("{concept:?} is not a concept's name: 1 to 16 bytes")));
     }
     let words: Vec<&str> = values.split(',').map(str::trim).collect();
     if words.len() > 4 {
-        bail!("{text}: {} values, expected 1 to 4", words.len());
+        return Err(wrong(format!("{text}: {} values, expected 1 to 4", words.len())));
     }
-    let word = |at: usize| words.get(at).copied();
+    let fraction = |text: &str| -> Result<Q15, UsageError> {
+        let value: Option<f64> = text.parse().ok().filter(|value: &f64| (-1.0..=1.0).contains(value));
+        let value = value.ok_or_else(|| wrong(format!("{text:?} is not a number in -1 ..= 1")))?;
+        Ok(Q15((value * f64::from(Q15::ONE.0)).round() as i32))
+    };
     let ms = |at: usize| {
-        word(at).map_or(Ok(0), |text| text.parse().with_context(|| format!("{text:?} is not a number of ms")))
+        let not_ms = |text| wrong(format!("{text:?} is not a number of ms"));
+        words.get(at).map_or(Ok(0), |text| text.parse().map_err(|_| not_ms(text)))
     };
     Ok(Feed {
         concept: short,
-        value: fraction(word(0).unwrap_or_default())?,
+        value: fraction(words.first().unwrap_or(&""))?,
         age_ms: ms(1)?,
         timeout_ms: ms(2)?,
-        default: word(3).map_or(Ok(Q15(0)), fraction)?,
+        default: words.get(3).map_or(Ok(Q15(0)), |text| fraction(text))?,
     })
-}
-
-fn fraction(text: &str) -> Result<Q15> {
-    let value: Option<f64> = text.parse().ok().filter(|value: &f64| (-1.0..=1.0).contains(value));
-    let value = value.with_context(|| format!("{text:?} is not a number in -1 ..= 1"))?;
-    Ok(Q15((value * f64::from(Q15::ONE.0)).round() as i32))
 }
 
 #[cfg(test)]

@@ -1,14 +1,18 @@
-//! A base of shapes: a gallery and its origin, as a file.
+//! Bases of shapes: a gallery and its origin, as a file.
 
-use super::train::Known;
-use super::view::View;
+pub mod view;
+
 use crate::error::{Context, FileError, LearnError, Result, UsageError};
 use crate::files::input;
 use crate::files::output::Output;
 use crate::tell::words;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use taxel_core::shape::{DIMENSIONS, GALLERY_CLASSES, GALLERY_PROTOTYPES, MEASURE_NAMES, MEASURES};
+use taxel_core::shape::{DIMENSIONS, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery, MEASURE_NAMES, MEASURES};
+use view::View;
+
+/// A gallery of the size that a board holds.
+pub type BoardGallery = Gallery<GALLERY_PROTOTYPES>;
 
 /// First value of the file.
 const KIND: &str = "taxel shapes 1";
@@ -61,7 +65,7 @@ pub struct Base {
     /// Results on data left out of training.
     pub card: Card,
     /// The gallery.
-    pub gallery: Known,
+    pub gallery: BoardGallery,
 }
 
 /// A file of training data.
@@ -70,7 +74,7 @@ pub struct Base {
 pub struct ImagesFile {
     /// Name without folders.
     pub file: String,
-    /// See [`Fingerprint`](crate::learn::fingerprint::Fingerprint); empty for touches on a board.
+    /// Fingerprint of its content; empty for touches on a board.
     pub fingerprint: String,
     /// Sets of the file that were used; empty for all.
     pub sets: Vec<String>,
@@ -92,7 +96,7 @@ pub struct Card {
 
 impl Base {
     /// A new base.
-    pub fn new(view: View, trained_on: ImagesFile, card: Card, gallery: Known) -> Base {
+    pub fn new(view: View, trained_on: ImagesFile, card: Card, gallery: BoardGallery) -> Base {
         let measures = MEASURE_NAMES.map(String::from).to_vec();
         Base { kind: KIND.into(), measures, view, trained_on: vec![trained_on], card, gallery }
     }
