@@ -18,7 +18,7 @@ async function state() {
   const { browser, view } = both;
   await browser.send("HeapProfiler.collectGarbage");
   const { usedSize, embedderHeapUsedSize, backingStorageSize } = await browser.send("Runtime.getHeapUsage");
-  const recording = await (await fetch(`${view.url}recording.taxel`)).arrayBuffer();
+  const recording = await (await fetch(`${view.url}recording.mcap`)).arrayBuffer();
   const link = await browser.value("taxel.store.states.link");
   const head = await browser.value("taxel.store.latest.head");
   const count = await browser.value("taxel.store.count");

@@ -108,11 +108,11 @@ test("a moment is saved as JSON, and the board's bytes as a recording", async ()
     saved.panels.map(({ name, rows }) => [name, rows.length, rows[0].length]),
     ["chest", "back", "left arm", "right arm"].map((name) => [name, 32, 16]),
   );
-  const answer = await fetch(`${view.url}recording.taxel`);
-  const file = join(folder, "recording.taxel");
+  const answer = await fetch(`${view.url}recording.mcap`);
+  const file = join(folder, "recording.mcap");
   await writeFile(file, Buffer.from(await answer.arrayBuffer()));
   const run = promisify(execFile);
-  const { stdout } = await run(process.env.TAXEL_PROGRAM, ["live", "--source", `file:${file}`, "--json"], {
+  const { stdout } = await run(process.env.TAXEL_PROGRAM, ["live", "--source", `replay:${file}@max`, "--json"], {
     maxBuffer: 1 << 28,
   });
   const frames = stdout

@@ -20,27 +20,31 @@ pub fn campaign(log: &Path) -> End<Vec<String>> {
     install::python3("python3")?;
     let folder = paths::target().join("xtask/zenoh");
     let python = install::python_in("python3", &folder, &cases().join("requirements.txt"))?;
-    Ok(tested(log).and_then(|program| run(&python, &program, log)))
+    Ok(tested(log).and_then(|programs| run(&python, &programs, log)))
 }
 
-/// Runs the tests with Zenoh; returns the program that they are of.
-fn tested(log: &Path) -> Result<PathBuf, String> {
-    let test = ["test", "--package", "taxel", "--package", "taxel-cli", "--features", "full,zenoh"];
-    let mut cargo = cargo(&[&test[..], &["--test", "zenoh"]].concat(), paths::root());
-    // What cargo tells this program of itself: `ring` would be built anew for it, and all that is above.
-    let told = std::env::vars_os().map(|(name, _)| name);
-    let told = told.filter(|name| name.to_str().is_some_and(|name| TOLD.iter().any(|t| name.starts_with(t))));
-    told.for_each(|name| _ = cargo.env_remove(name));
-    process::run_into(&mut cargo, log)?;
-    Ok(paths::target().join("debug/taxel"))
+/// Runs the tests with Zenoh; returns the program that they are of, and the one that keeps what a board sends.
+fn tested(log: &Path) -> Result<[PathBuf; 2], String> {
+    let of = ["--package", "taxel", "--package", "taxel-cli", "--package", "taxel-bench"];
+    let of = [&of[..], &["--features", "full,zenoh"]].concat();
+    for what in [&["test", "--test", "zenoh"][..], &["build", "--bin", "taxel-bench"]] {
+        let mut cargo = cargo(&[what, &of].concat(), paths::root());
+        // What cargo tells this program of itself: `ring` would be built anew for it, and all that is above.
+        let told = std::env::vars_os().map(|(name, _)| name);
+        let told =
+            told.filter(|name| name.to_str().is_some_and(|name| TOLD.iter().any(|t| name.starts_with(t))));
+        told.for_each(|name| _ = cargo.env_remove(name));
+        process::run_into(&mut cargo, log)?;
+    }
+    Ok(["taxel", "taxel-bench"].map(|name| paths::target().join("debug").join(name)))
 }
 
-fn run(python: &Path, program: &Path, log: &Path) -> Result<Vec<String>, String> {
+fn run(python: &Path, programs: &[PathBuf; 2], log: &Path) -> Result<Vec<String>, String> {
     let mut mypy = Command::new(python);
     mypy.args(["-m", "mypy", "--strict", "--cache-dir"]).arg(paths::target().join("xtask/mypy"));
     process::run_into(mypy.arg(".").current_dir(cases()), log)?;
     let before = std::fs::read_to_string(log).unwrap_or_default().len();
-    process::run_into(Command::new(python).arg(cases().join("campaign.py")).arg(program), log)?;
+    process::run_into(Command::new(python).arg(cases().join("campaign.py")).args(programs), log)?;
     let said = std::fs::read_to_string(log).unwrap_or_default();
     Ok(said.get(before..).unwrap_or_default().lines().map(String::from).collect())
 }

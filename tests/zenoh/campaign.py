@@ -1,7 +1,8 @@
 """Boards between machines: what arrives, how late, and what happens when something breaks.
 
-`cargo xtask campaign --only zenoh` runs this as root with the program; it prints one line for each case, and fails if
-something wrong was delivered, a count was off, or contacts were late on a clean cable."""
+`cargo xtask campaign --only zenoh` runs this as root with the program and with that of `tests/bench`; it prints one
+line for each case, and fails if something wrong was delivered, a count was off, or contacts were late on a clean
+cable."""
 
 import json
 import re
@@ -18,7 +19,7 @@ from pathlib import Path
 import machines
 import wire
 
-PROGRAM = sys.argv[1]
+PROGRAM, TAP = sys.argv[1:3]
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent.parent / "examples/zenoh"
 BOARD = "arm/left"
@@ -109,8 +110,11 @@ class Stage:
 
     def serve(self, machine: str, router: str, seed: int, truth: Path, *more: str) -> Process:
         config = self.client(f"serve-{machine}", router)
-        words = ["serve", "--source", SCENE, "--seed", str(seed), "--name", BOARD, "--zenoh", config]
-        return self.start(machine, PROGRAM, *words, "--save", str(truth), "--force", *more)
+        tap = self.start(machine, TAP, "tap", SCENE, str(seed), str(truth))
+        tap.wait_for("port ")
+        source = f"tcp:127.0.0.1:{tap.lines[0][1].removeprefix('port ')}"
+        words = ["serve", "--source", source, "--name", BOARD, "--zenoh", config]
+        return self.start(machine, PROGRAM, *words, *more)
 
     def record(self, recording: Path) -> Process:
         source = f"zenoh:{BOARD}@{self.client('viewer', RB)}"
@@ -152,7 +156,7 @@ def judged(recording: Path, truths: list[Path]) -> Judged:
     """Compares; fails if a frame was changed, out of order or twice, or the count of losses is off."""
     counted = json.loads(program("info", str(recording), "--json"))
     saved = recording.with_suffix(".saved")
-    program("live", "--source", f"replay:{recording}@max", "--save", str(saved), "--force")
+    subprocess.run([TAP, "wire", str(recording), str(saved)], check=True)
     boards = [{frame.seq: frame for frame in wire.frames(truth)[0]} for truth in truths]
     got, damaged = wire.frames(saved)
     # A recording begins with a Hello of its own.
@@ -448,7 +452,7 @@ CASES = (clean, losses, jitter, router_killed, cable_cut, two_publishers, rights
 
 
 def main() -> None:
-    wanted = sys.argv[2:]
+    wanted = sys.argv[3:]
     for case in CASES:
         if wanted and case.__name__ not in wanted:
             continue

@@ -123,9 +123,9 @@ impl Map {
         value::dict(py, &py.detach(check).map_err(raised)?)
     }
 
-    /// The map as SVG.
+    /// The map in DOT.
     fn draw(&self) -> String {
-        draw::svg(&self.file, None)
+        draw::dot(&self.file, None)
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

@@ -21,7 +21,7 @@
 //! | [`recording`] | MCAP files: read, written and repaired |
 //! | [`fcm`] | fuzzy cognitive maps: files, inference, explanation, learning |
 //! | [`network`] | boards between machines: names, order, configuration |
-//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, Zenoh, emulator, file, recording |
+//! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, Zenoh, recording |
 //! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
 //! | [`stepped`] | the very board, stepped by hand with codes and a time |
 //! | [`json`] | a stream's JSON |

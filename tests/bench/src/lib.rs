@@ -10,6 +10,7 @@ pub mod nmi;
 mod outline;
 pub mod record;
 pub mod stages;
+pub mod tap;
 mod touch;
 
 use chart::Chart;

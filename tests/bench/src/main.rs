@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use taxel::files::output;
 use taxel::tell::words;
 use taxel_bench::boards::{self, player};
-use taxel_bench::{Report, acquisition, amplifier, mind, nmi, record, stages};
+use taxel_bench::{Report, acquisition, amplifier, mind, nmi, record, stages, tap};
 use taxel_cli::fault;
 use taxel_cli::watch::Overwrite;
 
@@ -47,6 +47,12 @@ enum TableArg {
     /// Play boards for `boards`
     #[command(hide = true)]
     Play(player::PlayArgs),
+    /// Offer a simulated board, and keep its bytes, for `tests/zenoh`
+    #[command(hide = true)]
+    Tap(tap::TapArgs),
+    /// Write the bytes of a recording, for `tests/zenoh`
+    #[command(hide = true)]
+    Wire(tap::WireArgs),
     /// Cost of the mind of a robot of 1 to 100 boards
     #[command(after_help = "Example:\n  cargo xtask bench mind")]
     Mind(mind::MindBench),
@@ -102,6 +108,8 @@ fn run(args: BenchArgs) -> Result<()> {
             kept
         }
         TableArg::Play(args) => player::run(&args),
+        TableArg::Tap(args) => tap::run(&args),
+        TableArg::Wire(args) => tap::wire(&args),
         TableArg::Mind(args) => mind::run(&args),
     }
 }

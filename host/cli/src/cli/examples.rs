@@ -14,8 +14,7 @@ Exit status:
 pub(super) const LIVE: &str = "Examples:
   taxel live
   taxel live --source sim:lash --frames 200 --json
-  taxel live --source serial:/dev/ttyACM0 --save touch.taxel
-  taxel live --source file:touch.taxel";
+  taxel live --source serial:/dev/ttyACM0";
 
 pub(super) const VIEW: &str = "Examples:
   taxel view --open
@@ -106,7 +105,7 @@ pub(super) const FCM: &str = "Examples:
   taxel fcm why --source sim:lash
   taxel fcm check my-map.toml
   taxel fcm combine anna.toml ben.toml carla.toml -o ours.toml
-  taxel fcm draw tactile --input shape=1 -o tactile.svg";
+  taxel fcm draw tactile --input shape=1 -o tactile.dot";
 
 pub(super) const GESTURES: &str = "Examples:
   taxel gestures eval --frames train.npz --labels train.csv --cross participant --json

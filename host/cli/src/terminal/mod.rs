@@ -1,4 +1,4 @@
-//! A board's stream in the terminal: panes and maps, lines of text, one taxel, and a picture of the panes.
+//! A board's stream in the terminal: panes and maps, lines of text, one taxel.
 
 mod curve;
 mod head;
@@ -8,12 +8,10 @@ mod panes;
 pub mod ramp;
 mod scale;
 mod screen;
-mod svg;
 mod taxel;
 mod view;
 
 pub use lines::Lines;
 pub use screen::Screen;
-pub use svg::{Painter, picture};
 pub use taxel::TaxelLines;
 pub use view::View;

@@ -81,7 +81,7 @@ pub fn hello<'a>(
     })
 }
 
-/// The cognitive map, in layers as in `taxel fcm draw`.
+/// The cognitive map, in layers.
 fn map(map: &MapConfig) -> PageMap<'_> {
     let one = 10f64.powi(map.decimals.into());
     let concepts = map.concepts.iter().zip(layers::of_config(map));

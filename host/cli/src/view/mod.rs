@@ -16,7 +16,6 @@ mod lines;
 mod mailbox;
 pub mod message;
 mod order;
-mod pace;
 mod page;
 mod past;
 mod raw;

@@ -1,4 +1,4 @@
-//! Bytes of the last half minute, as a file for `--source file:FILE`.
+//! Bytes of the last half minute.
 
 use std::collections::VecDeque;
 use taxel::client::passed::Passed;

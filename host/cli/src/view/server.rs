@@ -50,8 +50,8 @@ fn connection(mut stream: TcpStream, guest: &Guest, hubs: &PageHubs) -> std::io:
                 http::refuse(&mut stream, Refusal { status: "503 Service Unavailable", why })
             }
         },
-        ("/recording.taxel" | "/recording.mcap", None) => match hub.transfer() {
-            Some(_transfer) => recording(stream, path, hub),
+        ("/recording.mcap", None) => match hub.transfer() {
+            Some(_transfer) => recording(stream, hub),
             None => http::refuse(&mut stream, BUSY),
         },
         ("/touches.toml", None) => match hub.touches() {
@@ -74,19 +74,13 @@ fn connection(mut stream: TcpStream, guest: &Guest, hubs: &PageHubs) -> std::io:
 }
 
 /// Sends a recording to be saved.
-fn recording(mut stream: TcpStream, path: &str, hub: &PageHub) -> std::io::Result<()> {
-    let kind = "application/octet-stream";
-    if path == "/recording.taxel" {
-        let Some(bytes) = hub.recording() else { return http::refuse(&mut stream, MISSING) };
-        let name = "Content-Disposition: attachment; filename=\"recording.taxel\"\r\n";
-        return http::answer(&mut Hurry::new(stream), kind, name, &bytes);
-    }
+fn recording(mut stream: TcpStream, hub: &PageHub) -> std::io::Result<()> {
     if !hub.has_tape() {
         return http::refuse(&mut stream, MISSING);
     }
     let name = "Content-Disposition: attachment; filename=\"recording.mcap\"\r\n";
     let mut stream = Hurry::new(stream);
-    http::begin(&mut stream, kind, name)?;
+    http::begin(&mut stream, "application/octet-stream", name)?;
     let mut transfer = Transfer(BufWriter::new(stream));
     // On failure the end of the body is missing, which the browser reports.
     match hub.save(&mut transfer) {

@@ -4,7 +4,6 @@ use super::hand::PageHand;
 use super::hub::PageHub;
 use super::lines::{EndLine, PageFrame};
 use super::message;
-use super::pace::Pace;
 use super::raw::RawCodes;
 use super::said::{Said, Teller};
 use super::shot::{Shot, text};
@@ -34,8 +33,6 @@ pub struct Viewer {
     folding: Option<Folding>,
     teller: Teller,
     rate: Rate,
-    /// Paces a saved stream to its own time; none for a live one.
-    pace: Option<Pace>,
     raw: RawCodes,
     told: Instant,
     /// It asks the board what only pages want to know: round trips, raw codes.
@@ -60,7 +57,6 @@ impl Viewer {
             folding: None,
             teller: Teller::new(source.counts_per_newton),
             rate: Rate::default(),
-            pace: source.label.starts_with("file:").then(Pace::default),
             raw: RawCodes::default(),
             told: now,
             is_curious: true,
@@ -71,10 +67,10 @@ impl Viewer {
         }
     }
 
-    /// Shows what somebody else records, who must get the stream as if nobody watched: nothing waits, and the
-    /// board is asked nothing but a tare that somebody at a page wants.
+    /// Shows what somebody else records, who must get the stream as if nobody watched: the board is asked
+    /// nothing but a tare that somebody at a page wants.
     pub fn beside_recording(self) -> Viewer {
-        Viewer { pace: None, is_curious: false, ..self }
+        Viewer { is_curious: false, ..self }
     }
 
     /// Also shows where the garment folds.
@@ -110,9 +106,6 @@ impl Viewer {
 
     fn frame(&mut self, client: &Client, event: &Event, time: Micros) {
         self.rate.add(time);
-        if let Some(pace) = &mut self.pace {
-            std::thread::sleep(pace.wait(time, Instant::now()));
-        }
         if let Some(line) = self.folding.as_mut().and_then(|folding| folding.news(time.0)) {
             self.hub.state("folding", line);
         }

@@ -1,6 +1,6 @@
 //! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
-use super::{Overwrite, TaxelPlace};
+use super::TaxelPlace;
 use crate::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
@@ -108,12 +108,6 @@ pub struct LiveArgs {
     /// With --json: also print the pressure of every taxel
     #[arg(long, requires = "json")]
     pub pixels: bool,
-    /// Also save the received bytes, for --source file:FILE
-    #[arg(long, value_name = "FILE")]
-    pub save: Option<PathBuf>,
-    /// Whether an existing output is replaced.
-    #[command(flatten)]
-    pub force: Overwrite,
     /// Print one taxel's time, code and pressure, frame by frame
     #[arg(long, value_name = "PANEL,ROW,COL")]
     pub taxel: Option<TaxelPlace>,
@@ -123,9 +117,6 @@ pub struct LiveArgs {
     /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
-    /// Write the terminal's last picture as SVG
-    #[arg(long, value_name = "FILE", hide = true)]
-    pub svg: Option<PathBuf>,
 }
 
 impl LiveArgs {
@@ -142,12 +133,9 @@ impl LiveArgs {
             seconds: None,
             json: false,
             pixels: false,
-            save: None,
-            force: Overwrite::default(),
             taxel: None,
             body_may_fail: false,
             realtime: false,
-            svg: None,
         }
     }
 }

@@ -2,14 +2,10 @@
 
 use super::{LiveArgs, stop};
 use crate::fault::Fault;
-use anyhow::{Context, Error, Result, bail};
-use std::fs::File;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use anyhow::{Error, Result, bail};
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, ImageNews, request_name};
 use taxel::error::SourceError;
-use taxel::files::output::{Begun, Output};
 use taxel::robot::Required;
 use taxel::session::{JointStates, PATIENCE, Returns, Session, Show, TimeLimit, Turn};
 use taxel::source::Source;
@@ -42,7 +38,6 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     }
     let mut limits = Limits::of(args);
     args.board.posing()?.into_iter().for_each(|posing| session.pose_by(posing));
-    let mut save = args.save.as_ref().map(|path| Saver::open(path, args)).transpose()?;
     let mut patience = Patience { limited, began: Instant::now(), told: false };
     while !limits.ended && refusal.is_none() {
         pose(&mut session, joints.as_mut(), show)?;
@@ -59,7 +54,7 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
             }
             show.event(session.client(), &event)?;
             if let Event::Other { why } = &event
-                && (save.is_some() || !show.follows_another())
+                && !show.follows_another()
             {
                 // What is already shown or written of the other board is whole.
                 show.end(session.client())?;
@@ -69,9 +64,6 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
             if limits.reached(&event) || refusal.is_some() {
                 break;
             }
-        }
-        if let Some(save) = &mut save {
-            save.write(&session.bytes()[..session.taken()])?;
         }
         if !show.idle(session.parts().0)? || stop::asked() {
             break;
@@ -174,26 +166,6 @@ impl Limits {
             self.time.check_images(session).map_err(taxel::Error::from)?;
         }
         Ok(())
-    }
-}
-
-/// Saves the received bytes.
-struct Saver {
-    file: File,
-    begun: Begun,
-    path: PathBuf,
-}
-
-impl Saver {
-    fn open(path: &Path, args: &LiveArgs) -> Result<Saver> {
-        let (file, mut begun) = Output::file(path, args.force, args.board.files())?.begin()?;
-        begun.open()?;
-        Ok(Saver { file, begun, path: path.into() })
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> Result<()> {
-        self.file.write_all(bytes).with_context(|| format!("{} cannot be written", self.path.display()))?;
-        if bytes.is_empty() { Ok(()) } else { Ok(self.begun.name()?) }
     }
 }
 

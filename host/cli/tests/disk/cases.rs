@@ -7,8 +7,6 @@ pub enum Content {
     Same,
     /// It ends like this; it contains a date or a name.
     Ends(&'static str),
-    /// Data from before a fault stays.
-    Begins,
     /// A TOML table; it contains a date or measurements.
     Toml,
     /// A recording, of which a fault leaves earlier messages.
@@ -59,8 +57,6 @@ pub struct Case {
     pub args: &'static str,
     pub outputs: &'static [Output],
     pub replaces: Replaces,
-    /// Its standard input.
-    pub answers: &'static str,
     /// It takes seconds: fewer of its calls are tried.
     pub is_slow: bool,
 }
@@ -96,10 +92,6 @@ const fn ends(name: &'static str, end: &'static str) -> Output {
     Output { name, is_folder: false, content: Content::Ends(end) }
 }
 
-const fn begins(name: &'static str) -> Output {
-    Output { name, is_folder: false, content: Content::Begins }
-}
-
 const fn table(name: &'static str) -> Output {
     Output { name, is_folder: false, content: Content::Toml }
 }
@@ -109,10 +101,8 @@ const fn recording(name: &'static str) -> Output {
 }
 
 const fn case(name: &'static str, args: &'static str, outputs: &'static [Output]) -> Case {
-    Case { name, args, outputs, replaces: Replaces::Forced, answers: "", is_slow: false }
+    Case { name, args, outputs, replaces: Replaces::Forced, is_slow: false }
 }
-
-const MAP: &str = "press\nkindness\n\npress > kindness\n\n0.9\ntanh\n0\n\npress rise 0 30000\n";
 
 /// All commands.
 pub const CASES: &[Case] = &[
@@ -135,8 +125,6 @@ pub const CASES: &[Case] = &[
         "record --source sim:press --seconds 2.5 --rotate 1s -o out.mcap",
         &[recording("out.mcap"), recording("out-0002.mcap"), recording("out-0003.mcap")],
     ),
-    case("live save", "live --source sim:pat --frames 30 --json --save out.bytes", &[begins("out.bytes")]),
-    case("live svg", "live --source sim:pat --frames 30 --svg out.svg", &[ends("out.svg", "</svg>\n")]),
     case("info repair", "info cut.mcap --repair -o out.mcap", &[file("out.mcap")]),
     case("info repair whole", "info in.mcap --repair -o out.mcap", &[file("out.mcap")]),
     Case {
@@ -163,10 +151,9 @@ pub const CASES: &[Case] = &[
     case("body fit", "body fit reference --touches known.csv -o worn.toml", &[file("worn.toml")]),
     case("setup", "setup --simulate 7 -o out.toml", &[file("out.toml")]),
     case("settle", "settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),
-    Case { answers: MAP, ..case("fcm new", "fcm new -o map.toml", &[file("map.toml")]) },
     case("fcm combine", "fcm combine tactile tactile -o map.toml", &[file("map.toml")]),
     case("fcm merge", "fcm merge tactile tactile -o map.toml", &[file("map.toml")]),
-    case("fcm draw", "fcm draw tactile -o map.svg", &[file("map.svg")]),
+    case("fcm draw", "fcm draw tactile -o map.dot", &[file("map.dot")]),
     case("fcm learn", "fcm learn tactile --touches touches.csv --folds 2 -o map.toml", &[file("map.toml")]),
     case("shapes prune", "shapes prune base.json -o out.json", &[file("out.json")]),
     Case {

@@ -90,9 +90,6 @@ impl Judge<'_> {
             Content::Toml => {
                 !now.is_empty() && now.iter().all(|(name, bytes)| keys(bytes) == keys(&new[name]))
             }
-            Content::Begins => {
-                now.iter().all(|(name, bytes)| new.get(name).is_some_and(|new| new.starts_with(bytes)))
-            }
             Content::Recording => {
                 let [path, held] =
                     [&done.place.folder, &done.place.held()].map(|folder| folder.join(output.name));

@@ -126,9 +126,9 @@ fn bad_sources_are_refused_by_name() {
     refused(2, &["live", "--source", "sim:nothing"], &["no script of touches", "nothing", "pat"]);
     refused(3, &["live", "--source", "serial:/dev/no-such-port"], &["/dev/no-such-port"]);
     refused(3, &["live", "--source", "tcp:127.0.0.1:1"], &["127.0.0.1:1"]);
-    refused(1, &["live", "--source", "file:/no/such/bytes"], &["/no/such/bytes"]);
+    refused(1, &["live", "--source", "replay:/no/such/bytes"], &["/no/such/bytes"]);
     let garbage = file("garbage.bin", &[0x5a; 4000]);
-    refused(1, &["live", "--source", &format!("file:{garbage}"), "--json"], &["garbage.bin", "no Hello"]);
+    refused(1, &["live", "--source", &format!("replay:{garbage}"), "--json"], &["garbage.bin"]);
 }
 
 /// An unreadable argument has the same status; clap adds how to get help.

@@ -28,12 +28,11 @@ fn no_other_module_opens_files() {
 
 /// Commands, and the file that each reads.
 #[cfg(unix)]
-const READERS: [&[&str]; 25] = [
+const READERS: [&[&str]; 24] = [
     &["info", "no.mcap"],
     &["export", "no.mcap", "--to", "csv", "-o", "out.csv"],
     &["report", "no.mcap", "-o", "out.html"],
     &["live", "--source", "replay:no.mcap"],
-    &["live", "--source", "file:no.bytes"],
     &["live", "--source", "sim:no.toml"],
     &["live", "--source", "sim:press", "--garment", "no.toml"],
     &["live", "--source", "sim:press", "--scene", "no.toml"],

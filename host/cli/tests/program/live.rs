@@ -5,15 +5,19 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::files::bases::Base;
 use taxel::json::MessagePrinter;
+use taxel::recording::{Format, WIRE, Writer};
 use taxel::robot::GestureModel;
 use taxel::session::Show;
 use taxel::session::setting::set_shapes;
 use taxel::source::{self, Source, SourceOptions};
+use taxel_cli::palette;
 use taxel_cli::terminal::{Lines, TaxelLines, View};
 use taxel_cli::watch::{LiveArgs, watch};
 use taxel_core::shape::{Patch, descriptor};
@@ -87,32 +91,50 @@ fn nothing_touches_an_idle_garment_and_the_scene_ends_by_itself() {
 }
 
 #[test]
-fn a_run_is_repeated_to_the_byte_and_a_saved_one_reads_the_same() {
-    let file = scratch("saved");
-    let saved = LiveArgs { save: Some(file.clone()), pixels: true, ..args("sim:five", Some(60)) };
-    let first = json(&saved);
-    let bytes = std::fs::read(&file).unwrap();
-    std::fs::remove_file(&file).unwrap();
-    assert_eq!(json(&saved), first);
-    assert_eq!(std::fs::read(&file).unwrap(), bytes);
-    let again = LiveArgs { pixels: true, ..args(&format!("file:{}", file.display()), None) };
+fn a_run_is_repeated_to_the_byte_and_a_kept_one_reads_the_same() {
+    let run = LiveArgs { pixels: true, ..args("sim:five", Some(60)) };
+    let first = json(&run);
+    assert_eq!(json(&run), first);
+    let bytes = recorded("sim:five", 60);
+    assert_eq!(recorded("sim:five", 60), bytes);
+    let file = scratch("kept.mcap");
+    keep(&file, &bytes);
+    let again = LiveArgs { pixels: true, ..args(&format!("replay:{}", file.display()), None) };
     assert_eq!(json(&again), first);
-    let mut seeded = LiveArgs { pixels: true, ..args("sim:five", Some(60)) };
+    std::fs::remove_file(file).unwrap();
+    let mut seeded = run.clone();
     seeded.board.seed = Some(7);
     assert_ne!(json(&seeded), first);
-    std::fs::remove_file(file).unwrap();
     let lines = parsed(&first);
     let last = of_type(&lines, "frame").last().unwrap();
     assert_eq!(last["panels"][3]["rows"][31].as_array().unwrap().len(), 16);
 }
 
-/// Bytes of a run, and all their events.
+/// Keeps the bytes of a board.
+#[derive(Default)]
+struct Bytes(Vec<u8>);
+
+impl Show<anyhow::Error> for Bytes {
+    fn event(&mut self, client: &Client, _event: &Event) -> anyhow::Result<()> {
+        client.lines().for_each(|line| self.0.extend_from_slice(line));
+        Ok(())
+    }
+}
+
+/// Bytes of a run.
 fn recorded(scene: &str, frames: u64) -> Vec<u8> {
-    let file = scratch(&scene.replace(':', "-"));
-    json(&LiveArgs { save: Some(file.clone()), ..args(scene, Some(frames)) });
-    let bytes = std::fs::read(&file).unwrap();
-    std::fs::remove_file(file).unwrap();
-    bytes
+    let (args, mut bytes) = (args(scene, Some(frames)), Bytes::default());
+    watch(&args, open(&args), &mut bytes).unwrap();
+    bytes.0
+}
+
+/// Writes a recording whose board has sent these bytes.
+fn keep(path: &Path, bytes: &[u8]) {
+    let mut writer = Writer::create(File::create(path).unwrap(), "").unwrap();
+    let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: "" };
+    let channel = writer.channel(WIRE, &format).unwrap();
+    writer.message(channel, 0, 0, bytes).unwrap();
+    writer.finish().unwrap();
 }
 
 fn events(client: &mut Client, bytes: &[u8]) -> Vec<Event> {
@@ -268,6 +290,11 @@ fn the_picture_shows_maps_contacts_and_intention() {
     ] {
         assert!(wide.contains(part), "{part} in\n{wide}");
     }
+    // The scale has the colours that the page is told.
+    let ramp = palette::told().ramp;
+    for [r, g, b] in ramp.iter().step_by(17).copied() {
+        assert!(pictures[0].content.iter().any(|cell| cell.bg == Color::Rgb(r, g, b)), "{r} {g} {b}");
+    }
     // A small terminal has the sentence, the maps, the concepts and the curve, too.
     for picture in &pictures[1..3] {
         let text = text(picture).join("\n");
@@ -296,15 +323,15 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
     for (source, start) in [
         ("serial:/dev/no-such-port", "serial port /dev/no-such-port at 921600 Bd cannot be opened: "),
         ("tcp:127.0.0.1:1", "tcp:127.0.0.1:1 cannot be reached: "),
-        ("file:/no/such/file", "file /no/such/file cannot be read: "),
+        ("replay:/no/such/file", "/no/such/file cannot be read: "),
         ("sim:tickle", "there is no script of touches \"tickle\"; known are pat, "),
     ] {
         let sentence = error(source);
         assert!(sentence.starts_with(start) && !sentence.contains('\n'), "{sentence}");
     }
-    let file = scratch("garbage");
-    std::fs::write(&file, [7; 1000]).unwrap();
-    let args = args(&format!("file:{}", file.display()), None);
+    let file = scratch("garbage.mcap");
+    keep(&file, &[7; 1000]);
+    let args = args(&format!("replay:{}", file.display()), None);
     let error = watch(&args, open(&args), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert!(error.to_string().ends_with("no Hello of a taxel board in 1000 bytes"), "{error}");
     std::fs::remove_file(file).unwrap();

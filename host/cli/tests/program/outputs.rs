@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// Modules that write to a disk without it, and why.
-const ALLOWED: [(&str, &str); 3] = [
+const ALLOWED: [(&str, &str); 2] = [
     ("taxel/src/files/output/", "the writer"),
     ("cli/src/commands/board/flash.rs", "a board's drive, which restarts the board at the last block"),
-    ("taxel/src/source/emulator.rs", "a temporary folder of its own"),
 ];
 /// Calls that write, replace or remove a file.
 const WRITES: [&str; 11] = [
@@ -112,17 +111,14 @@ impl Drop for Folder {
 }
 
 /// Commands that write, without the name of the output.
-const WRITERS: [&[&str]; 13] = [
+const WRITERS: [&[&str]; 10] = [
     &["record", "--source", "sim:press", "--frames", "5", "-o"],
-    &["live", "--source", "sim:press", "--frames", "5", "--save"],
-    &["live", "--source", "sim:press", "--frames", "5", "--svg"],
     &["export", "in.mcap", "--to", "csv", "-o"],
     &["export", "in.mcap", "--to", "npz", "-o"],
     &["export", "in.mcap", "--to", "png", "-o"],
     &["report", "in.mcap", "-o"],
     &["fcm", "draw", "tactile", "-o"],
     &["fcm", "combine", "tactile", "tactile", "-o"],
-    &["fcm", "new", "-o"],
     &["setup", "--simulate", "7", "-o"],
     &["calibrate", "--simulate", "7", "-o"],
     &["config", "new"],
@@ -146,9 +142,8 @@ fn no_command_replaces_its_input() {
     let folder = Folder::new("input");
     let before = folder.bytes("in.mcap");
     fs::hard_link(folder.0.join("in.mcap"), folder.0.join("hard.mcap")).unwrap();
-    let readers: [&[&str]; 6] = [
+    let readers: [&[&str]; 5] = [
         &["record", "--source", "replay:in.mcap@max", "--force", "-o"],
-        &["live", "--source", "replay:in.mcap@max", "--force", "--save"],
         &["export", "in.mcap", "--to", "csv", "--force", "-o"],
         &["export", "in.mcap", "--to", "npz", "--force", "-o"],
         &["report", "in.mcap", "--force", "-o"],
@@ -228,10 +223,9 @@ fn a_recording_that_is_killed_before_a_frame_replaces_nothing() {
     let source = format!("tcp:{}", board.local_addr().unwrap());
     let robot = format!("name = \"one\"\n[[boards]]\nname = \"left\"\nsource = \"{source}\"\n");
     fs::write(folder.0.join("robot.toml"), robot).unwrap();
-    let commands: [&[&str]; 3] = [
+    let commands: [&[&str]; 2] = [
         &["record", "--source", &source, "--force", "-o", "old"],
         &["robot", "record", "robot.toml", "--force", "-o", "old"],
-        &["live", "--source", &source, "--force", "--save", "old"],
     ];
     for command in commands {
         let mut program = Command::new(env!("CARGO_BIN_EXE_taxel"));

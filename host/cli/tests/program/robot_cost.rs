@@ -68,12 +68,11 @@ fn most_mb(id: u32) -> Option<f64> {
 fn robot_cost_by_number_of_boards() {
     let folder = folder("cost", "");
     std::fs::write(folder.join("two.toml"), TWO).unwrap();
-    let _ = std::fs::remove_file(folder.join("two.taxel"));
-    run(&folder, &["live", "--source", "sim:two.toml", "--seconds", "0.5", "--json", "--save", "two.taxel"]);
+    run(&folder, &["record", "--source", "sim:two.toml", "--seconds", "0.5", "-o", "two.mcap", "--force"]);
     println!("boards  frames   record: us a frame     MB   live --json: us a frame     MB");
     let mut alone = None;
     for number in BOARDS {
-        let board = |at: usize| format!("[[boards]]\nname = \"b{at}\"\nsource = \"file:two.taxel\"\n");
+        let board = |at: usize| format!("[[boards]]\nname = \"b{at}\"\nsource = \"replay:two.mcap@max\"\n");
         let robot: String = (0..number).map(board).collect();
         std::fs::write(folder.join("robot.toml"), format!("name = \"many\"\n{robot}")).unwrap();
         let record = run(&folder, &["robot", "record", "robot.toml", "-o", "out.mcap", "--force"]);

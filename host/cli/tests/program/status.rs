@@ -34,7 +34,7 @@ fn what_is_done_is_0() {
 fn what_failed_is_1() {
     ends(&["info", "no-such.mcap"], 1, "no-such.mcap cannot be read: no such file");
     ends(&["config", "check", "no-such.toml"], 1, "no-such.toml");
-    ends(&["live", "--source", "file:/no/such/bytes"], 1, "/no/such/bytes");
+    ends(&["live", "--source", "replay:/no/such/bytes"], 1, "/no/such/bytes");
     ends(&["setup", "--simulate", "7", "--garment", "block-4x16"], 1, "only binary addresses do");
 }
 

@@ -277,7 +277,7 @@ def open(
     """Opens a board, and iterates over its events.
 
     ``source`` is ``auto``, ``usb[:SERIAL]``, ``sim[:TOUCHES]``, ``serial:PATH[@BAUD]``, ``tcp:HOST:PORT``,
-    ``zenoh:ROBOT/BOARD[@FILE]`` (if the package was built with it), ``file:FILE`` or ``replay:FILE[@SPEED]``. ``auto``
+    ``zenoh:ROBOT/BOARD[@FILE]`` (if the package was built with it) or ``replay:FILE[@SPEED]``. ``auto``
     is the board that is plugged in, on USB or behind a probe. If there is none, or it hangs, another program has it or
     this user may not open it, or there are several, ``BoardError`` says so within 3 s; nothing is simulated instead.
 

@@ -51,7 +51,7 @@ pub enum SourceError {
     /// A request is too long for the wire.
     #[error(transparent)]
     Request(#[from] WireError),
-    /// The emulator or a simulation cannot be started.
+    /// A simulation cannot be started.
     #[error("{0}")]
     Unstarted(String),
 }

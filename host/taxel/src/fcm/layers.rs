@@ -1,6 +1,5 @@
 //! Layers of a drawn map: causes left of their effects.
 
-use super::map::MapFile;
 use serde::Serialize;
 use taxel_core::intent::{Leading, MapConfig};
 
@@ -33,18 +32,9 @@ pub fn of_config(map: &MapConfig) -> Vec<(usize, Role)> {
     (0..layers.len()).map(|at| (layers[at], role(at))).collect()
 }
 
-/// Layer of each concept: 0 without a cause, else one more than the highest layer of its causes. Edges that
-/// close a ring are ignored.
-pub fn of_map(map: &MapFile) -> Vec<usize> {
-    let number = |name: &str| map.find(name);
-    let edges = map.edge.iter().filter(|edge| edge.weight.value() != 0.0);
-    let edges: Vec<(usize, usize)> =
-        edges.filter_map(|edge| Some((number(&edge.from)?, number(&edge.to)?))).collect();
-    layers(map.concept.len(), &edges)
-}
-
-/// Layer of each of `n` concepts, from the edges as pairs of cause and effect.
-pub fn layers(n: usize, edges: &[(usize, usize)]) -> Vec<usize> {
+/// Layer of each of `n` concepts, from the edges as pairs of cause and effect: 0 without a cause, else one more
+/// than the highest layer of its causes. Edges that close a ring are ignored.
+fn layers(n: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     let forward = forward(n, edges);
     let mut layers = vec![0; n];
     // Without rings, no path is longer than the number of concepts.
@@ -92,31 +82,21 @@ fn visit(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fcm::load;
     use taxel_core::scene::Scene;
-
-    #[test]
-    fn the_shipped_map_reads_from_touch_to_mood() {
-        let map = load::map("tactile").unwrap();
-        assert_eq!(of_map(&map)[..10], [0, 0, 0, 0, 3, 2, 1, 4, 4, 5]);
-        assert_eq!(of_map(&map)[10..], [0; 10], "what is measured beside");
-    }
 
     #[test]
     fn the_shipped_map_leads_from_what_is_felt_to_feelings() {
         let intent = Scene::shipped().intent.unwrap();
-        let roles: Vec<Role> = of_config(&intent.map).into_iter().map(|(_, role)| role).collect();
+        let (layers, roles): (Vec<_>, Vec<_>) = of_config(&intent.map).into_iter().unzip();
         let wanted =
             [[Role::Felt; 4].as_slice(), &[Role::Meaning; 3], &[Role::Feeling; 3], &[Role::Felt; 10]];
         assert_eq!(roles, wanted.concat());
+        assert_eq!(layers[..10], [0, 0, 0, 0, 3, 2, 1, 4, 4, 5]);
+        assert_eq!(layers[10..], [0; 10], "what is measured beside");
     }
 
     #[test]
     fn a_ring_has_an_end() {
-        let edge = |from, to| format!("[[edge]]\nfrom = \"{from}\"\nto = \"{to}\"\nweight = 1\n");
-        let text =
-            "name = \"r\"\n[[concept]]\nname = \"b\"\n[[concept]]\nname = \"c\"\n[[concept]]\nname = \"a\"\n";
-        let text = text.to_string() + &edge("a", "b") + &edge("b", "c") + &edge("c", "b") + &edge("c", "c");
-        assert_eq!(of_map(&load::parse(&text, "r").unwrap()), [1, 2, 0]);
+        assert_eq!(layers(3, &[(2, 0), (0, 1), (1, 0), (1, 1)]), [1, 2, 0]);
     }
 }

@@ -1,6 +1,5 @@
 //! A causality value as written: a number or a linguistic term.
 
-use super::decimal::Decimal;
 use super::terms::{self, Triangle};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -16,13 +15,6 @@ pub enum Weight {
 }
 
 impl Weight {
-    /// Parses typed text; none if it is neither a number in -1 ..= 1 nor a term.
-    pub fn parse(text: &str) -> Option<Weight> {
-        let number = Decimal::parse(text.trim()).filter(|number| number.is_fraction());
-        let term = || terms::weight_of(text).map(|_| Weight::Term(text.trim().into()));
-        number.map(|number| Weight::Number(number.to_f64())).or_else(term)
-    }
-
     /// Number of the weight.
     pub fn value(&self) -> f64 {
         match self {

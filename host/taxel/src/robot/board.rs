@@ -74,7 +74,7 @@ impl RobotBoard {
 
     /// True unless its source is a recording, whose board takes no requests.
     pub fn listens(&self) -> bool {
-        !matches!(self.source, SourceSpec::File(_) | SourceSpec::Replay { .. })
+        !matches!(self.source, SourceSpec::Replay { .. })
     }
 
     /// Opens its source, and recognises the board if it is a real one.

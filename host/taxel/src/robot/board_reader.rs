@@ -97,7 +97,7 @@ impl BoardConfig {
         }
         let is_file = matches!(place, ConfigPlace::File { .. });
         let source = self.found(place, beside)?;
-        if let (ConfigPlace::File { .. }, SourceSpec::File(_) | SourceSpec::Replay { .. }) = (place, &source)
+        if let (ConfigPlace::File { .. }, SourceSpec::Replay { .. }) = (place, &source)
             && let Some(key) = self.configures().find(|key| *key != "garment")
         {
             return wrong(key, format!("{source} is a recording, whose board does not listen"));
@@ -159,8 +159,6 @@ impl BoardConfig {
                 place.named(&self.name, "source", scripts::load(&scene))?;
                 SourceSpec::Sim(scene)
             }
-            SourceSpec::Emulator(scene) => SourceSpec::Emulator(beside(Path::new(&scene))),
-            SourceSpec::File(path) => SourceSpec::File(beside(&path).into()),
             SourceSpec::Replay { recording: BoardRecording { path, board }, speed } => {
                 let path = beside(&path).into();
                 SourceSpec::Replay { recording: BoardRecording { path, board }, speed }

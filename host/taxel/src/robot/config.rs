@@ -41,7 +41,7 @@ pub struct BoardConfig {
     #[cfg_attr(feature = "clap", arg(skip))]
     pub name: String,
     /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
-    /// `zenoh:ROBOT/BOARD[@FILE]`, `emulator[:TOUCHES]`, `file:FILE` or `replay:FILE[#BOARD][@SPEED]`
+    /// `zenoh:ROBOT/BOARD[@FILE]` or `replay:FILE[#BOARD][@SPEED]`
     /// [default: auto, the board that is plugged in]
     #[cfg_attr(feature = "clap", arg(long, value_name = "SOURCE"))]
     #[serde(default, deserialize_with = "source")]

@@ -314,11 +314,6 @@ impl Session {
         &self.buffer
     }
 
-    /// How many of them were handled.
-    pub fn taken(&self) -> usize {
-        self.taken
-    }
-
     /// Next event of the last turn.
     pub fn next_event(&mut self) -> Option<Event> {
         let (count, event) = self.client.next_event(&self.buffer[self.taken..]);

@@ -1,9 +1,6 @@
-//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, Zenoh, the emulator, a file, a
-//! recording.
+//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, Zenoh, a recording.
 
 mod auto;
-mod emulator;
-mod file;
 mod hand;
 mod heard;
 mod pipe;
@@ -208,11 +205,6 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
                 UsageError::Unknown,
                 "source {spec}: this program was built without Zenoh (feature `zenoh`); docs/zenoh.md says how it is built in"
             )
-        }
-        SourceSpec::Emulator(scene) => emulator::open(scene, options),
-        SourceSpec::File(path) => {
-            let saved = Source::new(format!("file:{}", path.display()), file::Saved::open(path)?);
-            Ok(Source { listens: false, ..saved })
         }
         SourceSpec::Replay { recording, speed } => replay::open(recording, *speed, options),
     }

@@ -37,10 +37,6 @@ pub enum SourceSpec {
         /// Zenoh's configuration; none for that of the environment, else for this machine.
         config: Option<PathBuf>,
     },
-    /// The firmware image in the emulator, with this script of touches.
-    Emulator(String),
-    /// Saved bytes.
-    File(PathBuf),
     /// A recording.
     Replay {
         /// The file, and the board to play of a robot's.
@@ -76,10 +72,8 @@ impl SourceSpec {
     /// Path of its file, if it has one, which no output may replace.
     pub fn file(&self) -> Option<PathBuf> {
         match self {
-            SourceSpec::File(path) | SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => {
-                Some(path.clone())
-            }
-            SourceSpec::Sim(scene) | SourceSpec::Emulator(scene) => Some(scene.into()),
+            SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => Some(path.clone()),
+            SourceSpec::Sim(scene) => Some(scene.into()),
             SourceSpec::Zenoh { config, .. } => config.clone(),
             _ => None,
         }
@@ -97,16 +91,13 @@ impl FromStr for SourceSpec {
             ("usb", Some(number)) if !number.is_empty() => Ok(SourceSpec::Usb(Some(number.into()))),
             ("sim", None) => Ok(SourceSpec::simulation()),
             ("sim", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Sim(scene.into())),
-            ("emulator", None) => Ok(SourceSpec::Emulator(SCENE.into())),
-            ("emulator", Some(scene)) if !scene.is_empty() => Ok(SourceSpec::Emulator(scene.into())),
             ("serial", Some(port)) if !port.is_empty() => serial(port),
             ("tcp", Some(address)) => tcp(address),
             ("zenoh", Some(place)) => zenoh(place),
-            ("file", Some(path)) if !path.is_empty() => Ok(SourceSpec::File(path.into())),
             ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
             _ => Err(
                 "known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], \
-                      emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED]"
+                      replay:FILE[#BOARD][@SPEED]"
                     .into(),
             ),
         }
@@ -162,8 +153,6 @@ impl fmt::Display for SourceSpec {
                 let config = config.as_ref().map_or(String::new(), |file| format!("@{}", file.display()));
                 write!(f, "zenoh:{place}{config}")
             }
-            SourceSpec::Emulator(scene) => write!(f, "emulator:{scene}"),
-            SourceSpec::File(path) => write!(f, "file:{}", path.display()),
             SourceSpec::Replay { recording, speed } => write!(f, "replay:{recording}{speed}"),
         }
     }
@@ -205,7 +194,6 @@ mod tests {
             "tcp:[::1]:80",
             "zenoh:arm/left",
             "zenoh:arm/left@a/b@c.json5",
-            "file:a b",
             "sim:x/y.toml",
             "replay:a@b.mcap",
             "replay:a.mcap@2.5",
@@ -220,7 +208,6 @@ mod tests {
         assert_eq!(read("replay:a#b@max").unwrap(), robot);
         assert_eq!(robot.file(), Some("a".into()));
         assert_eq!(read("sim").unwrap(), SourceSpec::simulation());
-        assert_eq!(read("emulator").unwrap(), SourceSpec::Emulator("pat".into()));
         assert_eq!(read("serial:COM3").unwrap().to_string(), "serial:COM3@921600");
         for wrong in [
             "",
@@ -235,7 +222,7 @@ mod tests {
             "zenoh:arm",
             "zenoh:arm/left/2",
             "zenoh:arm/left@",
-            "file",
+            "file:a",
             "usb:",
             "replay:",
         ] {

@@ -24,7 +24,7 @@ use taxel_core::wire::Request;
 /// Arguments of `taxel health`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HealthArgs {
-    /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `file:FILE` or
+    /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD` or
     /// `replay:FILE`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,

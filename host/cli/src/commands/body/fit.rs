@@ -33,7 +33,7 @@ pub struct FitArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..=100))]
     pick: Option<u16>,
     /// The board that feels the touches of the marks: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
-    /// `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`, `file:FILE` or `replay:FILE[@SPEED]`
+    /// `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto", conflicts_with = "touches")]
     source: SourceSpec,
     /// The body file to write, which says how each panel is worn; - for the standard output
@@ -119,8 +119,7 @@ fn marked(args: &FitArgs, surface: &Surface, layout: &Layout) -> Result<Vec<Mark
 /// Shows the marks one after the other, and takes the touch of each from the board.
 fn asked(args: &FitArgs, marks: Vec<Mark>, surface: &Surface, layout: &Layout) -> Result<Vec<KnownTouch>> {
     // A simulated board wears it; a real one has its own.
-    let is_simulated = matches!(args.source, SourceSpec::Sim(_) | SourceSpec::Emulator(_));
-    let garment = Some(args.worn.garment.clone()).filter(|_| is_simulated);
+    let garment = matches!(args.source, SourceSpec::Sim(_)).then(|| args.worn.garment.clone());
     let config = BoardConfig { garment, ..BoardConfig::of(args.source.clone()) };
     let board = BoardArgs { config, ..BoardArgs::default() };
     let (source, _) = board.open(SourceOptions::default())?;

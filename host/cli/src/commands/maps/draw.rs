@@ -1,4 +1,4 @@
-//! `taxel fcm draw`: draws the graph of a map as SVG.
+//! `taxel fcm draw`: writes the graph of a map, for Graphviz to draw.
 
 use crate::commands::maps::told::ToldArgs;
 use crate::watch::Overwrite;
@@ -6,7 +6,7 @@ use anyhow::Result;
 use std::path::PathBuf;
 use taxel::fcm::board::BoardMap;
 use taxel::fcm::decimal::Decimal;
-use taxel::fcm::draw::svg;
+use taxel::fcm::draw::dot;
 use taxel::fcm::load;
 use taxel::fcm::map::MapFile;
 use taxel::files::output::Output;
@@ -17,7 +17,7 @@ pub struct DrawArgs {
     /// TOML file, or the name of a shipped map
     #[arg(required_unless_present = "source")]
     pub map: Option<String>,
-    /// File to write (.svg)
+    /// File to write (.dot): `dot -Tsvg FILE` draws it
     #[arg(short, long)]
     pub output: PathBuf,
     /// Whether an existing output is replaced.
@@ -46,7 +46,7 @@ pub fn run(args: DrawArgs) -> Result<()> {
             (map, activations)
         }
     };
-    Ok(output.write(svg(&map, activations.as_deref()).as_bytes())?)
+    Ok(output.write(dot(&map, activations.as_deref()).as_bytes())?)
 }
 
 fn settled(map: &MapFile, inputs: &[(String, Decimal)]) -> Result<Vec<f64>> {

@@ -1,11 +1,9 @@
 //! `taxel fcm`: fuzzy cognitive maps as files: run, check, explain, combine, learn and draw.
 
-pub mod bench;
 pub mod check;
 pub mod combine;
 pub mod draw;
 pub mod learn;
-pub mod new;
 pub mod run;
 pub mod told;
 pub mod why;
@@ -34,14 +32,10 @@ enum MapCommand {
     Merge(combine::MergeArgs),
     /// Explain an activation: what caused it, and what would change it
     Why(why::WhyArgs),
-    /// Write a new map in four steps, by answering questions
-    New(new::NewArgs),
     /// Learn weights from labelled touches; the expert's signs stay
     Learn(learn::MapLearnArgs),
-    /// Draw a map as SVG
+    /// Write a map as a graph in DOT, which Graphviz draws
     Draw(draw::DrawArgs),
-    /// Time one inference, beside other programs
-    Bench(bench::BenchArgs),
 }
 
 /// Runs the command.
@@ -51,10 +45,8 @@ pub fn run(args: FcmArgs) -> Result<()> {
         (Some(MapCommand::Combine(args)), _) => combine::combine(args),
         (Some(MapCommand::Merge(args)), _) => combine::merge(args),
         (Some(MapCommand::Why(args)), _) => why::run(args),
-        (Some(MapCommand::New(args)), _) => new::run(args),
         (Some(MapCommand::Learn(args)), _) => learn::run(args),
         (Some(MapCommand::Draw(args)), _) => draw::run(args),
-        (Some(MapCommand::Bench(args)), _) => bench::run(args),
         (None, Some(args)) => run::run(args),
         (None, None) => bail!(Fault::usage("a map or a command is missing: see taxel fcm --help")),
     }

@@ -52,7 +52,7 @@ fn rule(text: &str) -> Result<Rule, String> {
 }
 
 /// Parses the option of this name.
-pub fn transfer(text: &str) -> Result<Transfer, String> {
+fn transfer(text: &str) -> Result<Transfer, String> {
     match text {
         "bivalent" => Ok(Transfer::Bivalent),
         "trivalent" => Ok(Transfer::Trivalent),
@@ -64,13 +64,13 @@ pub fn transfer(text: &str) -> Result<Transfer, String> {
 }
 
 /// Parses the option of this name.
-pub fn lambda(text: &str) -> Result<f64, String> {
+fn lambda(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number".to_string())?;
     if (0.001..=65.535).contains(&value) { Ok(value) } else { Err("expected 0.001 ..= 65.535".into()) }
 }
 
 /// Parses the option of this name.
-pub fn threshold(text: &str) -> Result<Decimal, String> {
+fn threshold(text: &str) -> Result<Decimal, String> {
     Decimal::parse(text).filter(|t| t.is_fraction()).ok_or_else(|| "expected a number in -1 ..= 1".into())
 }
 

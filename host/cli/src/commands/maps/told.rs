@@ -18,8 +18,8 @@ use taxel_core::wire::IntentReport;
 #[derive(Debug, Clone, clap::Args)]
 pub struct ToldArgs {
     /// Instead of a map: a board or a recording, whose first announced intention is shown: `sim[:TOUCHES]`,
-    /// `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `emulator[:TOUCHES]`, `file:FILE`
-    /// or `replay:FILE[@SPEED]`
+    /// `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD` or
+    /// `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
     pub source: Option<SourceSpec>,
     /// With --source: show the last state of the first S seconds, announced or not

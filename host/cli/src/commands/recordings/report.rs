@@ -22,8 +22,8 @@ pub struct ReportArgs {
     /// Recording: .mcap, of a robot .mcap#BOARD
     #[arg(conflicts_with = "source")]
     pub file: Option<BoardRecording>,
-    /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
-    /// `zenoh:ROBOT/BOARD`, `emulator[:TOUCHES]` or `file:FILE`
+    /// In place of a recording: `sim[:TOUCHES]`, `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT` or
+    /// `zenoh:ROBOT/BOARD`
     #[arg(long, value_name = "SOURCE")]
     pub source: Option<SourceSpec>,
     /// Page to write (.html), `-` for standard output

@@ -11,7 +11,6 @@ use taxel::files::bases::{Base, ImagesFile, LEFT_OUT};
 use taxel::files::output::{Force, Output, is_same};
 use taxel::learn::fingerprint::Fingerprint;
 use taxel::learn::shapes::extend::{check_name, extend};
-use taxel::recording::BoardRecording;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel_core::shape::Point;
 
@@ -120,9 +119,7 @@ fn held(args: &ShapesLearnArgs, base: &Base) -> Result<(Vec<Point>, ImagesFile)>
     }
     ensure!(!points.is_empty(), "{label} ended before anything was held against it for half a second");
     let fingerprint = match &args.board.source() {
-        SourceSpec::File(path) | SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => {
-            Fingerprint::of(path)?.to_string()
-        }
+        SourceSpec::Replay { recording, .. } => Fingerprint::of(&recording.path)?.to_string(),
         _ => String::new(),
     };
     let images = points.len();

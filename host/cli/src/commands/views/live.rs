@@ -1,10 +1,9 @@
 //! `taxel live`: shows a board's stream in the terminal, as lines of text or as JSON.
 
-use crate::terminal::{Lines, Painter, Screen, TaxelLines, View};
+use crate::terminal::{Lines, Screen, TaxelLines, View};
 use crate::watch::{LiveArgs, watch};
 use anyhow::Result;
 use std::io::{IsTerminal, stdout};
-use taxel::files::output::Output;
 use taxel::json::MessagePrinter;
 use taxel::session::Show;
 use taxel::source::SourceOptions;
@@ -12,7 +11,7 @@ use taxel::source::SourceOptions;
 /// Runs the command; `bare` if the program was called without one.
 pub fn run(args: LiveArgs, bare: bool) -> Result<()> {
     let is_seen = stdout().is_terminal();
-    let terminal = is_seen && !args.json && args.taxel.is_none() && args.svg.is_none();
+    let terminal = is_seen && !args.json && args.taxel.is_none();
     let bounded = args.frames.is_some() || args.seconds.is_some();
     let options = SourceOptions {
         realtime: args.realtime || terminal,
@@ -23,10 +22,7 @@ pub fn run(args: LiveArgs, bare: bool) -> Result<()> {
     };
     let (source, calibration) = args.board.open_to_show(options, bare || is_seen)?;
     let out = std::io::BufWriter::new(stdout());
-    let mut show: Box<dyn Show<anyhow::Error>> = if let Some(file) = &args.svg {
-        let inputs = args.board.files().into_iter().chain(args.save.clone());
-        Box::new(Painter::new(View::new(&source), Output::stream(file, args.force, inputs)?))
-    } else if let Some(place) = &args.taxel {
+    let mut show: Box<dyn Show<anyhow::Error>> = if let Some(place) = &args.taxel {
         Box::new(TaxelLines::new(place.clone(), args.json, out))
     } else if args.json {
         Box::new(MessagePrinter::new(args.pixels, out).calibrated(calibration))

@@ -1,6 +1,6 @@
 //! `taxel serve`: offers a board to other machines over Zenoh.
 
-use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, seconds, stop};
+use crate::watch::{self, BoardArgs, LiveArgs, seconds, stop};
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
@@ -23,12 +23,6 @@ pub struct ServeArgs {
     /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
-    /// Also save the bytes of the board, for --source file:FILE
-    #[arg(long, value_name = "FILE")]
-    pub save: Option<PathBuf>,
-    /// Whether an existing file is replaced.
-    #[command(flatten)]
-    pub force: Overwrite,
 }
 
 /// The network in which boards are offered.
@@ -49,6 +43,5 @@ pub fn run(args: ServeArgs) -> Result<()> {
     // Others learn at once that the board is no longer offered.
     stop::catch()?;
     println!("{} as zenoh:{} (Ctrl-C ends)", source.label, args.name);
-    let ServeArgs { board, seconds, save, force, .. } = args;
-    watch::watch(&LiveArgs { seconds, save, force, ..LiveArgs::on(board) }, source, &mut offer)
+    watch::watch(&LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board) }, source, &mut offer)
 }

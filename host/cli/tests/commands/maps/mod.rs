@@ -1,4 +1,3 @@
-//! Maps that are written by questions, and explained from a board's reports.
+//! Maps that are explained from a board's reports.
 
-mod ask;
 mod told;

@@ -1,14 +1,13 @@
 //! Announcements of a board are explained from its own numbers, live and from a recording.
 
+use crate::record::stage::{file, plan, record};
 use std::path::PathBuf;
-use taxel::client::{Client, Event};
 use taxel::fcm::told::Told;
 use taxel::fcm::why::{explain, explain_told, report};
 use taxel::robot::BoardConfig;
-use taxel::session::Show;
-use taxel::source::{self, SourceOptions, SourceSpec};
+use taxel::source::SourceSpec;
 use taxel_cli::commands::maps::told::listen;
-use taxel_cli::watch::{self, BoardArgs, LiveArgs};
+use taxel_cli::watch::BoardArgs;
 use taxel_core::intent::Leading;
 
 fn spec(words: &str) -> SourceSpec {
@@ -95,23 +94,12 @@ fn what_the_host_feeds_counts_until_it_is_too_old() {
     assert_eq!(fed("warmth=0.75,200,100"), (0, Leading::None, 0));
 }
 
-/// A view that shows nothing.
-struct Silent;
-
-impl Show<anyhow::Error> for Silent {
-    fn event(&mut self, _client: &Client, _event: &Event) -> anyhow::Result<()> {
-        Ok(())
-    }
-}
-
 #[test]
 fn a_recording_explains_the_same() {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("told.taxel");
-    let _ = std::fs::remove_file(&path);
-    let source = source::open(&spec("sim:lash"), &SourceOptions::default()).unwrap();
-    let args = LiveArgs { save: Some(path.clone()), ..LiveArgs::of(spec("sim:lash")) };
-    watch::watch(&args, source, &mut Silent).unwrap();
-    let (live, kept) =
-        (told("sim:lash", None).unwrap(), told(&format!("file:{}", path.display()), None).unwrap());
+    record("sim:lash", plan("told.mcap", "sim:lash", None, false));
+    let (live, kept) = (
+        told("sim:lash", None).unwrap(),
+        told(&format!("replay:{}@max", file("told.mcap").display()), None).unwrap(),
+    );
     assert_eq!((live.report, live.map, live.seconds), (kept.report, kept.map, kept.seconds));
 }

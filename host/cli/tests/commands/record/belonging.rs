@@ -2,7 +2,9 @@
 
 use super::replayed::replayed;
 use super::stage::{file, plan, record};
+use std::fs::File;
 use taxel::client::Client;
+use taxel::recording::{Format, WIRE, Writer};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Level, Log, RegionNames, Report, encode};
 
@@ -22,8 +24,13 @@ fn they_are_recorded_with_the_event_that_they_belong_to() {
         .zip([&names, &names, &log])
         .flat_map(|(seq, report)| encode(&(seq, report), &mut [0; 128]).unwrap().to_vec())
         .collect();
-    std::fs::write(file("belonging.bin"), [hello, &more].concat()).unwrap();
-    let source = format!("file:{}", file("belonging.bin").display());
-    assert!(record(&source, plan("belonging.mcap", "file", None, false)).wire.ends_with(&more));
+    let said = file("belonging-said.mcap");
+    let mut writer = Writer::create(File::create(&said).unwrap(), "").unwrap();
+    let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: "" };
+    let channel = writer.channel(WIRE, &format).unwrap();
+    writer.message(channel, 0, 0, &[hello, &more].concat()).unwrap();
+    writer.finish().unwrap();
+    let source = format!("replay:{}", said.display());
+    assert!(record(&source, plan("belonging.mcap", "replay", None, false)).wire.ends_with(&more));
     assert!(replayed(&file("belonging.mcap")).wire.ends_with(&more));
 }

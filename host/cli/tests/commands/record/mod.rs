@@ -9,5 +9,5 @@ mod replayed;
 mod report;
 mod rotate;
 mod scenes;
-mod stage;
+pub mod stage;
 mod wire;

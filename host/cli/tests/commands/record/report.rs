@@ -48,8 +48,8 @@ fn a_page_is_in_one_unit() {
 
 #[test]
 fn without_an_image_there_is_no_page() {
-    let error = page(&Seen::new("file:x".into(), None)).unwrap_err().to_string();
-    assert_eq!(error, "file:x: no image was received, so there is nothing to report");
+    let error = page(&Seen::new("replay:x".into(), None)).unwrap_err().to_string();
+    assert_eq!(error, "replay:x: no image was received, so there is nothing to report");
 }
 
 #[test]

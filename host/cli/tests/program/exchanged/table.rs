@@ -38,7 +38,6 @@ const RAW: &str = "error: {} is gone, and has not come back within 5 s: ";
 const LOOPS: &[Row] = &[
     ("live --source {}", ("lost: {} is gone: ", GoesOn), ("another board: {} answers with", GoesOn)),
     ("live --json --source {}", ("{\"type\":\"lost\",", GoesOn), ("{\"type\":\"other\",", GoesOn)),
-    ("live --json --save a.bytes --source {}", ("{\"type\":\"lost\",", GoesOn), (REFUSED, Ends(0.0))),
     ("view --port 0 --source {}", (GONE, GoesOn), (OTHER, GoesOn)),
     ("record -o a.mcap --source {}", (GONE, GoesOn), (REFUSED, Ends(0.0))),
     ("health --frames 1000000 --source {}", (LIMITED, Ends(10.0)), (REFUSED, Ends(0.0))),

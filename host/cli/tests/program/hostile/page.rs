@@ -5,10 +5,11 @@ use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event};
+use taxel::record::Origin;
 use taxel::robot::BoardConfig;
 use taxel::session::Show;
 use taxel::source::{self, SourceOptions};
-use taxel_cli::view::{PageHub, serve};
+use taxel_cli::view::{PageHub, Tape, serve};
 use taxel_cli::watch::{BoardArgs, LiveArgs, watch};
 
 /// Keeps the bytes of a board for the pages.
@@ -27,19 +28,12 @@ fn page() -> u16 {
     let spec: source::SourceSpec = "sim:five".parse().unwrap();
     let options = SourceOptions { seconds: Some(25.0), ..SourceOptions::default() };
     let source = source::open(&spec, &options).unwrap();
-    watch(
-        &LiveArgs {
-            seconds: Some(25.0),
-            ..LiveArgs::on(BoardArgs {
-                config: BoardConfig { raw: true, ..BoardConfig::of(spec) },
-                ..BoardArgs::default()
-            })
-        },
-        source,
-        &mut Keeper(hub.clone()),
-    )
-    .unwrap();
+    let config = BoardConfig { raw: true, ..BoardConfig::of(spec) };
+    let board = LiveArgs::on(BoardArgs { config, ..BoardArgs::default() });
+    watch(&LiveArgs { seconds: Some(25.0), ..board }, source, &mut Keeper(hub.clone())).unwrap();
     assert!(hub.recording().unwrap().len() > 4 << 20);
+    let origin = Origin { label: "sim:five".into(), counts_per_newton: None, calibration: None };
+    hub.tape(Tape::Live(Arc::new(origin)));
     serve(TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap(), hub).unwrap()
 }
 
@@ -63,7 +57,7 @@ fn is_served(port: u16) -> Duration {
 #[test]
 fn who_takes_large_files_and_does_not_read_them_shuts_nobody_out() {
     let port = page();
-    for path in ["/recording.taxel", "/store.js", "/"] {
+    for path in ["/recording.mcap", "/store.js", "/"] {
         let held: Vec<TcpStream> = (0..150).map(|_| ask(port, path)).collect();
         let waited = is_served(port);
         assert!(waited < Duration::from_secs(4), "{path}: {waited:?}");
@@ -78,7 +72,7 @@ fn who_takes_large_files_and_does_not_read_them_shuts_nobody_out() {
     let begun = Instant::now();
     loop {
         let mut answer = Vec::new();
-        ask(port, "/recording.taxel").read_to_end(&mut answer).unwrap();
+        ask(port, "/recording.mcap").read_to_end(&mut answer).unwrap();
         if answer.starts_with(b"HTTP/1.1 200 OK") {
             assert!(answer.len() > 4 << 20);
             break;

@@ -1,4 +1,4 @@
-//! Writing of all outputs that the user names with `-o`, `--save` and the like.
+//! Writing of all outputs that the user names with `-o` and the like.
 //!
 //! An output is checked before a command begins its work: a name that leads to an input of the same command
 //! is refused (whatever the spelling or link), and another existing file is replaced only with `--force`. The

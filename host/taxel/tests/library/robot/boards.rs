@@ -1,10 +1,12 @@
 //! The streams of a robot's boards are those of the boards alone.
 
+use std::fs::File;
 use std::path::Path;
 use std::time::Duration;
 use taxel::client::{Client, Event};
 use taxel::json::message;
 use taxel::record::Stamp;
+use taxel::recording::{Format, WIRE, Writer};
 use taxel::robot::{BoardEvent, ReadRobot, RobotSession, WAITING, WhenFull};
 use taxel::session::{Session, Turn};
 use taxel::source::{self, SourceOptions};
@@ -106,16 +108,23 @@ fn a_board_that_refuses_its_scene_fails_and_the_others_go_on() {
 #[test]
 fn what_is_not_the_stream_of_the_board_fails_and_says_why() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    std::fs::write(folder.join("noise.taxel"), [7; 1000]).unwrap();
+    let keep = |name: &str, bytes: &[u8]| {
+        let mut writer = Writer::create(File::create(folder.join(name)).unwrap(), "").unwrap();
+        let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: "" };
+        let channel = writer.channel(WIRE, &format).unwrap();
+        writer.message(channel, 0, 0, bytes).unwrap();
+        writer.finish().unwrap();
+    };
+    keep("noise.mcap", &[7; 1000]);
     let options = SourceOptions { garment: Some("block-4x16".into()), ..SourceOptions::default() };
     let mut session = Session::over(source::open(&"sim:press".parse().unwrap(), &options).unwrap()).unwrap();
     let mut bytes = Vec::new();
     while session.turn::<taxel::Error>(&mut |_, _| Ok(())).unwrap() != Turn::End {
         bytes.extend_from_slice(session.bytes());
     }
-    std::fs::write(folder.join("block.taxel"), bytes).unwrap();
-    let text = "name = \"two\"\n[[boards]]\nname = \"noise\"\nsource = \"file:noise.taxel\"\n\
-                [[boards]]\nname = \"other\"\nsource = \"file:block.taxel\"\ngarment = \"reference\"\n";
+    keep("block.mcap", &bytes);
+    let text = "name = \"two\"\n[[boards]]\nname = \"noise\"\nsource = \"replay:noise.mcap\"\n\
+                [[boards]]\nname = \"other\"\nsource = \"replay:block.mcap\"\ngarment = \"reference\"\n";
     let read = ReadRobot::parse("two.toml".into(), text.into(), folder).unwrap();
     let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(line)).unwrap();
     let (mut failed, mut others) = ([const { String::new() }; 2], 0);
@@ -126,7 +135,7 @@ fn what_is_not_the_stream_of_the_board_fails_and_says_why() {
             other => panic!("{other:?}"),
         }
     }
-    assert!(failed[0].ends_with("noise.taxel: no Hello of a taxel board in 1000 bytes"), "{}", failed[0]);
+    assert!(failed[0].ends_with("noise.mcap: no Hello of a taxel board in 1000 bytes"), "{}", failed[0]);
     let why = "answers with another board: it wears the garment block-4x16, not reference";
     assert!(others == 1 && failed[1].ends_with(why), "{}", failed[1]);
 }

@@ -89,7 +89,7 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "sim:pat",
         "sum:pat",
-        "robot.toml, line 6, `source`: there is no source \"sum:pat\": known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], emulator[:TOUCHES], file:FILE, replay:FILE[#BOARD][@SPEED] (board torso)",
+        "robot.toml, line 6, `source`: there is no source \"sum:pat\": known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED] (board torso)",
     ),
     (
         "sim:pat",
@@ -113,8 +113,8 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     ),
     (
         "tcp:localhost:4000\"",
-        "file:a.taxel\"",
-        "robot.toml, line 15, `boards[1].tare`: board arm: file:a.taxel is a recording, whose board does not listen",
+        "replay:a.mcap\"",
+        "robot.toml, line 15, `boards[1].tare`: board arm: replay:a.mcap is a recording, whose board does not listen",
     ),
     (
         "garment = \"block-4x16\"",

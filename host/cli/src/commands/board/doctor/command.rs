@@ -16,8 +16,7 @@ use taxel::tell::date;
 /// Arguments of `taxel doctor`.
 #[derive(Debug, Clone, Args)]
 pub struct DoctorArgs {
-    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`,
-    /// `file:FILE`
+    /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
     /// Seconds of the board to listen
