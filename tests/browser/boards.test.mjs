@@ -29,7 +29,7 @@ before(async () => {
   ].join("");
   file = join(await mkdtemp(join(tmpdir(), "taxel-boards-")), "robot.toml");
   await writeFile(file, robot);
-  view = await View.robot(file, "--requests", "-");
+  view = await View.start(file, "--requests", "-");
   browser = await Chromium.start();
   await browser.open(view.url);
 });
@@ -105,7 +105,7 @@ test("the page of a board is that of its garment, and grey while it is not live"
 
 test("a robot that is recorded is shown like one that is only watched", async () => {
   const recorded = await View.run(
-    ...["robot", "record", file, "--output", join(dirname(file), "boards.mcap")],
+    ...["record", file, "--output", join(dirname(file), "boards.mcap")],
     ...["--realtime", "--seconds", "30", "--view"],
   );
   try {

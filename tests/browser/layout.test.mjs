@@ -30,7 +30,7 @@ before(async () => {
   await writeFile(file, `name = "two"\nurdf = "reference"\n${boards}`);
   await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:five", "--seconds", "3", "-o", recording]);
   // One after the other: what has started is stopped even if the next one fails.
-  robot = await View.robot(file);
+  robot = await View.start(file);
   recorded = await View.start("--source", `replay:${recording}`);
   browser = await Chromium.start();
 });

@@ -12,11 +12,6 @@ export class View {
     return View.run("view", ...options);
   }
 
-  /** Starts `taxel robot view`. */
-  static robot(...options) {
-    return View.run("robot", "view", ...options);
-  }
-
   static async run(...words) {
     const port = words.includes("--port") ? [] : ["--port", "0"];
     const program = spawn(PROGRAM, [...words, ...port], { stdio: ["pipe", "pipe", "inherit"] });

@@ -98,7 +98,7 @@ before(async () => {
     board("bare", "sim:press", "block-4x16"),
   ];
   await writeFile(join(folder, "robot.toml"), robot.join(""));
-  view = await View.robot(join(folder, "robot.toml"), "--requests", "-");
+  view = await View.start(join(folder, "robot.toml"), "--requests", "-");
   browser = await Chromium.start();
   await browser.open(view.url);
   await browser.until("taxel.store.states.robot && taxel.store.latest");

@@ -211,7 +211,7 @@ const RUNS: &[(&str, Run, &str)] = &[
     (
         "boards",
         Run::Boards,
-        "taxel robot record --view: 1 to 100 boards that other processes play, two moving contacts each, the release program (simulated)",
+        "taxel record --view: 1 to 100 boards that other processes play, two moving contacts each, the release program (simulated)",
     ),
     (
         "absent",

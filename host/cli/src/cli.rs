@@ -35,7 +35,7 @@ use crate::commands::recordings::info::{self, InfoArgs};
 use crate::commands::recordings::record::{self, RecordArgs};
 use crate::commands::recordings::replay::{self, ReplayArgs};
 use crate::commands::recordings::report::{self, ReportArgs};
-use crate::commands::robot::{self, RobotArgs};
+use crate::commands::robot;
 use crate::commands::shapes::{self, ShapesArgs};
 use crate::commands::touches::gestures::{self, GesturesArgs};
 use crate::commands::touches::intent::{self, IntentArgs};
@@ -157,9 +157,6 @@ enum Command {
     /// Place a garment's taxels on the robot's links
     #[command(after_help = BODY)]
     Body(BodyArgs),
-    /// Check, watch, record and diagnose all boards of a robot at once
-    #[command(after_help = ROBOT)]
-    Robot(RobotArgs),
     /// List the scripts of touches that a simulation plays
     #[command(after_help = SCENES)]
     Scenes(ScenesArgs),
@@ -182,21 +179,36 @@ impl Cli {
         let bare = self.command.is_none();
         let live = || Cli::parse_from(["taxel", "live"]).command;
         match self.command.or_else(live).expect("live is a command") {
-            Command::Live(args) => live::run(args, bare),
-            Command::View(args) => view::run(args),
+            Command::Live(args) => match args.board.robot()? {
+                Some(robot) => robot::live::run(&args, &robot),
+                None => live::run(args, bare),
+            },
+            Command::View(args) => match args.board.robot()? {
+                Some(robot) => robot::view::run(&args, &robot),
+                None => view::run(args),
+            },
             #[cfg(feature = "foxglove")]
             Command::Foxglove(args) => foxglove::run(args),
             #[cfg(not(feature = "foxglove"))]
             Command::Foxglove(args) => not_built::foxglove(&args),
             #[cfg(feature = "ros2")]
-            Command::Ros2(args) => ros2::run(args),
+            Command::Ros2(args) => match args.board.robot()? {
+                Some(robot) => robot::ros2::run(&args, &robot),
+                None => ros2::run(args),
+            },
             #[cfg(not(feature = "ros2"))]
             Command::Ros2(args) => not_built::ros2(&args),
             #[cfg(feature = "zenoh")]
-            Command::Serve(args) => serve::run(args),
+            Command::Serve(args) => match args.board.robot()? {
+                Some(robot) => robot::serve::run(&args, &robot),
+                None => serve::run(args),
+            },
             #[cfg(not(feature = "zenoh"))]
             Command::Serve(args) => not_built::serve(&args),
-            Command::Record(args) => record::run(args),
+            Command::Record(args) => match args.board.robot()? {
+                Some(robot) => robot::record::run(&args, &robot),
+                None => record::run(args),
+            },
             Command::Info(args) => info::run(args),
             Command::Replay(args) => replay::run(args),
             Command::Export(args) => export::run(args),
@@ -207,7 +219,10 @@ impl Cli {
             Command::Report(args) => report::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),
-            Command::Fcm(args) => maps::run(args),
+            Command::Fcm(args) => match args.why_of_robot()? {
+                Some((args, robot)) => robot::why::run(args, &robot),
+                None => maps::run(args),
+            },
             Command::Gestures(args) => gestures::run(args),
             Command::Intent(args) => intent::run(args),
             Command::Setup(args) => setup::run(&args),
@@ -217,12 +232,14 @@ impl Cli {
             Command::Save(args) => save::run(args),
             Command::ResetSettings(args) => reset_settings::run(&args),
             Command::Shapes(args) => shapes::run(args),
-            Command::Doctor(args) => doctor::run(&args),
+            Command::Doctor(args) => match args.robot()? {
+                Some(robot) => robot::doctor::run(&args, &robot),
+                None => doctor::run(&args),
+            },
             Command::Ports(args) => ports::run(&args),
             Command::Flash(args) => flash::run(&args),
             Command::Config(args) => config::run(&args),
             Command::Body(args) => body::run(&args),
-            Command::Robot(args) => robot::run(&args),
             Command::Scenes(args) => scenes::run(args),
             Command::Completions(args) => completions::run(&args, Cli::command()),
         }

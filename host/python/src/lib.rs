@@ -34,6 +34,7 @@ mod event;
 
 mod request;
 
+mod keywords;
 mod stream;
 
 mod moments;
@@ -50,7 +51,6 @@ mod features;
 
 mod folds;
 
-mod keywords;
 mod map;
 
 #[cfg(feature = "cli")]

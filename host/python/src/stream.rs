@@ -15,7 +15,7 @@ use taxel::body::posture::Motion;
 use taxel::client::clock::SteadyTime;
 use taxel::client::{Event, ImageNews};
 use taxel::error::SourceError;
-use taxel::robot::{BoardConfig, ConfigPlace, Required};
+use taxel::robot::{BoardConfig, ConfigPlace, Required, read_board};
 use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
@@ -102,7 +102,7 @@ fn open(
     returns: Returns,
     posing: Option<Posing>,
 ) -> anyhow::Result<Open> {
-    let board = config.read_alone(ConfigPlace::Keywords)?;
+    let board = read_board(config, ConfigPlace::Keywords)?;
     let source = board.open_any(options)?;
     if let Some(key) = config.configures().next().filter(|_| !source.listens) {
         let label = &source.label;

@@ -113,9 +113,9 @@ def listener(request):
 
 
 @contextmanager
-def taxel(*words, command=("ros2",)):
-    """Runs `taxel ros2`, or `taxel robot ros2`, and ends it as Ctrl-C does."""
-    process = subprocess.Popen([PROGRAM, *command, *words], stdout=subprocess.PIPE, text=True)
+def taxel(*words):
+    """Runs `taxel ros2`, and ends it as Ctrl-C does."""
+    process = subprocess.Popen([PROGRAM, "ros2", *words], stdout=subprocess.PIPE, text=True)
     try:
         line = process.stdout.readline()
         assert f"in domain {os.environ['ROS_DOMAIN_ID']} (Ctrl-C ends)" in line, line

@@ -42,7 +42,7 @@ def test_each_board_says_below_its_name_what_it_says_alone(listener, robot):
         told = listener.hear(String, f"/{board}/taxel/json")
         boards[board] = told, listener.hear(Contacts, f"/{board}/taxel/contacts")
     images = listener.hear(Image, "/left_hand/tactile/mat/image", NEWEST)
-    with taxel(robot, command=("robot", "ros2")):
+    with taxel(robot):
         # On a busy machine ROS finds one topic of a node seconds before another.
         listener.spin(lambda: all(got.messages for of in boards.values() for got in of), 40)
         for _, contacts in boards.values():
@@ -80,7 +80,7 @@ REFUSED = "the board refuses: something touches the garment"
 def test_the_robot_says_who_is_missing(listener, robot):
     diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
     statuses = lambda: {one.name: one for message in diagnostics.messages for one in message.status}
-    with taxel(robot, command=("robot", "ros2")):
+    with taxel(robot):
         listener.spin(lambda: {"taxel: torso", "taxel: left-hand", "taxel: foot"} <= {*statuses()}, 20)
     assert statuses()["taxel: foot"].level == b"\3" and "cannot be reached" in statuses()["taxel: foot"].message
     assert statuses()["taxel: torso"].level == b"\0"
@@ -96,7 +96,7 @@ def test_the_robot_says_what_touches_mean_and_hears_what_is_told(listener, robot
         vision.publish(Float64(data=-0.5))
         return any("vision" not in message.defaults for message in meant.messages)
 
-    with taxel(robot, command=("robot", "ros2")):
+    with taxel(robot):
         listener.spin(lambda: {touch.board for one in meant.messages for touch in one.touches} == BOARDS, 30)
         listener.spin(is_told, 30)
         # Without a description the robot has no joints.
@@ -126,7 +126,7 @@ def test_joint_states_say_how_the_robot_moves(listener, robot):
         states.publish(JointState(name=["waist", "nobody_s"], position=[0.1, 7.0]))
         return any("in motion" not in message.defaults for message in meant.messages)
 
-    with taxel(robot, command=("robot", "ros2")):
+    with taxel(robot):
         listener.spin(moves, 30)
 
 

@@ -13,13 +13,16 @@ Exit status:
 
 pub(super) const LIVE: &str = "Examples:
   taxel live
-  taxel live --source sim:lash --frames 200 --json
-  taxel live --source serial:/dev/ttyACM0";
+  taxel live sim:lash --frames 200 --json
+  taxel live /dev/ttyACM0
+  taxel live robot.toml --json
+  taxel live robot.toml#hand";
 
 pub(super) const VIEW: &str = "Examples:
   taxel view --open
   taxel view --source sim:five
   taxel view walk.mcap --open
+  taxel view robot.toml --open
   taxel view --source sim:five --body reference --robot reference --open
   taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
 
@@ -177,13 +180,6 @@ pub(super) const BODY: &str = "Examples:
   taxel body places reference --robot reference --joints left_elbow=30deg --frame base -o places.csv
   taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt
   taxel body fit reference --marks marks.txt -o worn.toml";
-
-pub(super) const ROBOT: &str = "Examples:
-  taxel robot check robot.toml
-  taxel robot live robot.toml --json
-  taxel robot view robot.toml --open
-  taxel robot record robot.toml -o touch.mcap
-  taxel robot doctor robot.toml";
 
 pub(super) const SCENES: &str = "Examples:
   taxel scenes

@@ -29,22 +29,10 @@ pub fn ros2(args: &NotBuiltArgs) -> Result<()> {
     refuse("ROS 2", "ros2", "ros2", args)
 }
 
-/// Stand-in for `taxel robot ros2`: returns the error that says how the command is built in.
-#[cfg(not(feature = "ros2"))]
-pub fn robot_ros2(args: &NotBuiltArgs) -> Result<()> {
-    refuse("ROS 2", "ros2", "robot ros2", args)
-}
-
 /// Stand-in for `taxel serve`: returns the error that says how the command is built in.
 #[cfg(not(feature = "zenoh"))]
 pub fn serve(args: &NotBuiltArgs) -> Result<()> {
     refuse("Zenoh", "zenoh", "serve", args)
-}
-
-/// Stand-in for `taxel robot serve`: returns the error that says how the command is built in.
-#[cfg(not(feature = "zenoh"))]
-pub fn robot_serve(args: &NotBuiltArgs) -> Result<()> {
-    refuse("Zenoh", "zenoh", "robot serve", args)
 }
 
 fn refuse(what: &str, feature: &str, command: &str, args: &NotBuiltArgs) -> Result<()> {

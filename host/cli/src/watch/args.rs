@@ -6,13 +6,17 @@ use anyhow::{Result, bail};
 use clap::Args;
 use std::path::PathBuf;
 use taxel::body::posture::Motion;
-use taxel::robot::{BoardConfig, ConfigPlace, RobotBoard};
+use taxel::robot::{BoardConfig, ConfigPlace, ReadRobot, RobotBoard, read_board};
 use taxel::session::{POSES, POSES_HZ, Posing};
 use taxel::source::SourceSpec;
 
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Default, Args)]
 pub struct BoardArgs {
+    /// The same as --source: a board, the path of a port, a recording (.mcap) or a robot's file (.toml: all its boards;
+    /// .toml#BOARD: one)
+    #[arg(value_name = "SOURCE", conflicts_with = "source")]
+    pub place: Option<SourceSpec>,
     /// The board.
     #[command(flatten)]
     pub config: BoardConfig,
@@ -28,11 +32,11 @@ pub struct BoardArgs {
     #[arg(long, value_name = "FILE", requires = "robot")]
     pub joint_states: Option<PathBuf>,
     /// Poses of the links sent to the board per second [default: 50]
-    #[arg(long, value_name = "HZ", requires = "robot", value_parser = poses_hz, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = poses_hz, allow_negative_numbers = true)]
     pub poses: Option<f64>,
     /// What bounds the joints' motion, for the error of places in the base: angular=20 rad/s2, linear=5 m/s2,
     /// angular_velocity=10 rad/s, angular_error=0 rad, linear_error=0 m
-    #[arg(long, value_name = "NAME=VALUE,...", requires = "robot")]
+    #[arg(long, value_name = "NAME=VALUE,...")]
     pub motion: Option<Motion>,
     /// End when the connection to the board is lost, instead of waiting for the board
     #[arg(long)]
@@ -40,6 +44,10 @@ pub struct BoardArgs {
     /// Seed of the simulation
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Ask the boards of a robot's file while they are followed, by lines: tare [BOARD] [N], scene [BOARD] FILE,
+    /// self-test [BOARD], told NAME VALUE [AGE_MS]; - is the standard input
+    #[arg(long, value_name = "FILE")]
+    pub requests: Option<PathBuf>,
 }
 
 impl BoardArgs {
@@ -50,18 +58,50 @@ impl BoardArgs {
 
     /// The board, with the files that its options name. Error if one cannot be read, or is none of its kind.
     pub fn read(&self) -> Result<RobotBoard> {
-        Ok(self.config.read_alone(ConfigPlace::Options)?)
+        let option =
+            self.requests.as_ref().map(|_| "--requests: this follows one board, which is asked by options");
+        option.map_or(Ok(()), |why| bail!(Fault::usage(why)))?;
+        let config = BoardConfig { source: self.named().cloned(), ..self.config.clone() };
+        Ok(read_board(&config, ConfigPlace::Options)?)
+    }
+
+    /// The robot whose boards are all meant; none for a board.
+    pub fn robot(&self) -> Result<Option<ReadRobot>> {
+        let Some(SourceSpec::Robot { file, board: None }) = self.named() else { return Ok(None) };
+        let of_one = [
+            ("--robot", self.robot.is_some(), "name its `urdf` in the file"),
+            ("--joint-states", self.joint_states.is_some(), "--requests has them"),
+            ("--once", self.once, "a lost board is waited for"),
+        ];
+        if let Some((option, _, why)) = of_one.into_iter().find(|(_, is_there, _)| *is_there) {
+            bail!(Fault::usage(format!(
+                "{option} is for a board, {} is a robot's file: {why}",
+                file.display()
+            )));
+        }
+        let mut robot = ReadRobot::read_with(file, &self.config)?;
+        robot.poses = self.poses.or(robot.poses);
+        robot.motion = self.motion.or(robot.motion);
+        let requests = self.requests.iter().filter(|path| path.as_os_str() != "-");
+        robot.inputs.extend(requests.map(|path| path.display().to_string()));
+        Ok(Some(robot))
+    }
+
+    /// The source that was named; none for the board that is plugged in.
+    pub fn named(&self) -> Option<&SourceSpec> {
+        self.place.as_ref().or(self.config.source.as_ref())
     }
 
     /// The source.
     pub fn source(&self) -> SourceSpec {
-        self.config.source.clone().unwrap_or(SourceSpec::Auto)
+        self.named().cloned().unwrap_or(SourceSpec::Auto)
     }
 
     /// Paths of the input files, which no output may replace. A preset's name is among them like a path.
     pub fn files(&self) -> Vec<PathBuf> {
-        let robot = self.robot.as_ref().map(PathBuf::from);
-        self.config.files().into_iter().chain(robot).chain(self.joint_states.clone()).collect()
+        let (place, robot) =
+            (self.place.as_ref().and_then(SourceSpec::file), self.robot.as_ref().map(PathBuf::from));
+        self.config.files().into_iter().chain(place).chain(robot).chain(self.joint_states.clone()).collect()
     }
 
     /// Option that configures the board, if there is one.

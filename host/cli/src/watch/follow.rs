@@ -28,7 +28,8 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     if !source.listens {
         args.board.check_recorded(&source.label)?;
     }
-    args.board.read()?.begin(client, source)?;
+    let board = args.board.read()?;
+    board.begin(client, source)?;
     let mut joints = args.board.joint_states.as_deref().map(JointStates::open).transpose()?;
     let mut required = if source.listens { required(client, args) } else { Required::default() };
     let mut refusal = None;
@@ -38,6 +39,9 @@ pub fn watch(args: &LiveArgs, source: Source, show: &mut dyn Show<anyhow::Error>
     }
     let mut limits = Limits::of(args);
     args.board.posing()?.into_iter().for_each(|posing| session.pose_by(posing));
+    if !board.is_dressed {
+        session.recognise(board.identity());
+    }
     let mut patience = Patience { limited, began: Instant::now(), told: false };
     while !limits.ended && refusal.is_none() {
         pose(&mut session, joints.as_mut(), show)?;

@@ -51,7 +51,7 @@ impl BoardArgs {
             ..options
         };
         let opened = match self.open(options.clone()) {
-            Err(error) if or_simulated && self.config.source.is_none() && is_absent(&error) => {
+            Err(error) if or_simulated && self.named().is_none() && is_absent(&error) => {
                 let simulation = SourceSpec::simulation();
                 eprintln!("playing {simulation}, a simulated board: {}", words::sentence(error.as_ref()));
                 let config = BoardConfig { source: Some(simulation), ..self.config.clone() };

@@ -114,7 +114,7 @@ pub const CASES: &[Case] = &[
     case("index", "index . -o out.parquet", &[file("out.parquet")]),
     case("report", "report in.mcap -o out.html", &[ends("out.html", "</html>\n")]),
     case("record", "record --source sim:press --seconds 2 -o out.mcap", &[recording("out.mcap")]),
-    case("robot record", "robot record robot.toml --seconds 2 -o out.mcap", &[recording("out.mcap")]),
+    case("robot record", "record robot.toml --seconds 2 -o out.mcap", &[recording("out.mcap")]),
     case(
         "record ros2",
         "record --source sim:press --seconds 1.5 --ros2 -o out.mcap",

@@ -18,7 +18,7 @@ fn a_build_without_foxglove_says_how_to_build_it() {
 #[test]
 #[cfg(not(feature = "ros2"))]
 fn a_build_without_ros2_says_how_to_build_it() {
-    for words in ["ros2 --source sim:pat", "robot ros2 robot.toml --domain 7"] {
+    for words in ["ros2 --source sim:pat", "ros2 robot.toml --domain 7"] {
         let output = taxel(&Vec::from_iter(words.split(' ')));
         let error = String::from_utf8(output.stderr).unwrap();
         let how = format!("`cargo run --release --features ros2 -- {words}`");
@@ -29,7 +29,7 @@ fn a_build_without_ros2_says_how_to_build_it() {
 #[test]
 #[cfg(not(feature = "zenoh"))]
 fn a_build_without_zenoh_says_how_to_build_it() {
-    for words in ["serve --source sim:pat --name arm/left", "robot serve robot.toml"] {
+    for words in ["serve --source sim:pat --name arm/left", "serve robot.toml"] {
         let output = taxel(&Vec::from_iter(words.split(' ')));
         let error = String::from_utf8(output.stderr).unwrap();
         let how = format!("`cargo run --release --features zenoh -- {words}`");

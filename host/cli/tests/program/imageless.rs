@@ -32,7 +32,7 @@ fn a_run_of_limited_time_ends_without_images() {
             "0 frames",
         ),
         (&["fcm", "why", "--source", &why, "--at", "1"], 1, "no intention was reported in the first 1 s"),
-        (&["robot", "live", "robot.toml", "--seconds", "1"], 0, "no image came for 10 s"),
+        (&["live", "robot.toml", "--seconds", "1"], 0, "no image came for 10 s"),
     ];
     thread::scope(|scope| {
         for (args, status, says) in runs {

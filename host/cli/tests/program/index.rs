@@ -46,7 +46,7 @@ fn every_board_of_every_recording_has_a_row_and_what_is_unreadable_says_so() {
             "1",
         ],
     );
-    done(&folder, &["robot", "record", "robot.toml", "-o", "all/robot.mcap", "--seconds", "1"]);
+    done(&folder, &["record", "robot.toml", "-o", "all/robot.mcap", "--seconds", "1"]);
     let whole = std::fs::read(all.join("press.mcap")).unwrap();
     std::fs::write(all.join("cut.mcap"), &whole[..whole.len() - 100]).unwrap();
     std::fs::write(all.join("empty.mcap"), "").unwrap();

@@ -60,8 +60,8 @@ const READERS: [&[&str]; 24] = [
     &["body", "fit", "reference", "--touches", "no.csv", "-o", "out.toml"],
     &["shapes", "list", "no.json"],
     &["shapes", "train", "--images", "no.npz", "-o", "out.json"],
-    &["robot", "check", "no.toml"],
-    &["robot", "live", "robot.toml", "--requests", "no.jsonl"],
+    &["config", "check", "no.toml"],
+    &["live", "robot.toml", "--requests", "no.jsonl"],
     &["flash", "no.uf2"],
 ];
 

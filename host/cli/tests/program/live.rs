@@ -337,6 +337,11 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
     std::fs::remove_file(file).unwrap();
 }
 
+/// Why what a board is to be asked is refused before its source is opened.
+fn refusal(args: &LiveArgs) -> String {
+    format!("{:#}", args.board.open(SourceOptions::default()).map(drop).unwrap_err())
+}
+
 #[test]
 fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../taxel/garments/block-4x16.toml");
@@ -344,8 +349,7 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
     let refused = |edit: &dyn Fn(&mut LiveArgs)| {
         let mut args = args("sim:idle", Some(1));
         edit(&mut args);
-        let source = open(&args);
-        format!("{:#}", watch(&args, source, &mut MessagePrinter::new(false, Vec::new())).unwrap_err())
+        refusal(&args)
     };
     let file = scratch("scene.toml");
     for (text, wrong) in [("colour = 3", "colour"), ("[contact]\nlow = 9\nhigh = 8", "contact.high")] {
@@ -389,12 +393,10 @@ fn gestures_are_told_where_they_are_asked_for() {
     assert!(of_type(&lines, "gesture").filter(|line| line["ended"] == false).all(|line| sure(&line)));
     let mut refused = asked;
     refused.board.config.gesture_certainty = Some(-0.1);
-    let why = watch(&refused, open(&refused), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
-    assert_eq!(format!("{why:#}"), "--gestures: gestures.certainty must be at most 999 (0.999)");
+    assert_eq!(refusal(&refused), "--gestures: gestures.certainty must be at most 999 (0.999)");
     refused.board.config.gesture_certainty = None;
     refused.board.config.gesture_gain = Some(17.0);
-    let why = watch(&refused, open(&refused), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
-    assert_eq!(format!("{why:#}"), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
+    assert_eq!(refusal(&refused), "--gestures: gestures.gain must be 1 to 4096 (16.0)");
 }
 
 /// Teaches a board a base, and compares the shape of a single contact with the base's result for its image.

@@ -1,4 +1,4 @@
-//! `taxel robot doctor` of boards that tell the starts of a USB's frames: who shares a controller.
+//! `taxel doctor` of boards that tell the starts of a USB's frames: who shares a controller.
 
 use super::answering_board::answering_board;
 use super::robot::folder;
@@ -21,7 +21,7 @@ fn the_doctor_tells_which_boards_share_a_controller() {
     }
     let folder = folder("bus", &robot);
     let mut doctor = Command::new(taxel());
-    doctor.current_dir(&folder).args(["robot", "doctor", "robot.toml", "--seconds", "3", "--json"]);
+    doctor.current_dir(&folder).args(["doctor", "robot.toml", "--seconds", "3", "--json"]);
     let told = doctor.stdin(Stdio::null()).output().unwrap();
     let told: Value = serde_json::from_slice(&told.stdout).unwrap();
     let controller = |at: usize| {

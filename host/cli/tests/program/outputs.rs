@@ -225,7 +225,7 @@ fn a_recording_that_is_killed_before_a_frame_replaces_nothing() {
     fs::write(folder.0.join("robot.toml"), robot).unwrap();
     let commands: [&[&str]; 2] = [
         &["record", "--source", &source, "--force", "-o", "old"],
-        &["robot", "record", "robot.toml", "--force", "-o", "old"],
+        &["record", "robot.toml", "--force", "-o", "old"],
     ];
     for command in commands {
         let mut program = Command::new(env!("CARGO_BIN_EXE_taxel"));

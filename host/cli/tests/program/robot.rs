@@ -55,7 +55,7 @@ fn the_commands_of_the_document_run() {
         assert!(!done.stdout.is_empty() || line.contains(" -o "), "{line}");
         count += 1;
     }
-    assert_eq!(count, 9);
+    assert_eq!(count, 10);
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn the_document_names_every_key_and_state() {
 #[test]
 fn check_lists_boards_or_says_what_is_wrong() {
     let good = folder("good", &two());
-    let done = run(&good, &["robot", "check", "robot.toml"]);
+    let done = run(&good, &["config", "check", "robot.toml"]);
     let table = "\
 robot two: 2 boards; reference: 12 links, base base_link
 board  source     garment     taxels  lies on         scene  calibration  tare  also
@@ -83,20 +83,28 @@ torso  sim:five   reference   2048    body reference  -      -            -
 hand   sim:press  block-4x16  64      left_hand       -      -            32
 ";
     assert_eq!(text(&done.stdout), table, "{}", text(&done.stderr));
-    let told = run(&good, &["robot", "check", "robot.toml", "--json"]);
+    let told = run(&good, &["config", "check", "robot.toml", "--json"]);
     let told: Value = serde_json::from_slice(&told.stdout).unwrap();
     assert_eq!(told["boards"][1]["panels"], json!(["mat"]));
     let bad = folder("bad", &two().replace("block-4x16", "block-4x61"));
-    let done = run(&bad, &["robot", "check", "robot.toml"]);
+    let done = run(&bad, &["config", "check", "robot.toml"]);
     assert_eq!(done.status.code(), Some(2), "{}", text(&done.stderr));
     let why = "error: robot.toml, line 13, `boards[1].garment`: board hand: there is no garment \"block-4x61\": did \
                you mean \"block-4x16\"?";
     assert!(text(&done.stderr).starts_with(why), "{}", text(&done.stderr));
-    let none = run(&good, &["robot", "check", "no-such.toml"]);
+    let none = run(&good, &["config", "check", "no-such.toml"]);
     assert_eq!(none.status.code(), Some(1));
-    let unknown = run(&good, &["robot", "live", "robot.toml", "--tare", "hnad=3"]);
-    assert_eq!(unknown.status.code(), Some(2));
-    assert!(text(&unknown.stderr).contains("--tare: there is no board \"hnad\": did you mean \"hand\"?"));
+    for (words, why) in [
+        (["live", "robot.toml#hnad"], "robot.toml: there is no board \"hnad\": did you mean \"hand\"?"),
+        (["save", "robot.toml"], "its boards are torso, hand, and this takes one: name it, robot.toml#torso"),
+        (["live", "robot.tml"], "known are auto, usb[:SERIAL]"),
+    ] {
+        let refused = run(&good, &words);
+        assert_eq!(refused.status.code(), Some(2), "{words:?}");
+        assert!(text(&refused.stderr).contains(why), "{words:?}: {}", text(&refused.stderr));
+    }
+    let frames = run(&good, &["live", "robot.toml", "--frames", "3"]);
+    assert!(text(&frames.stderr).contains("--frames is for a board"), "{}", text(&frames.stderr));
 }
 
 /// JSON lines by board, in order, without the board's name and the messages about boards.
@@ -117,7 +125,7 @@ fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
 #[test]
 fn live_prints_of_each_board_what_live_prints_of_it_alone() {
     let folder = folder("live", &two());
-    let done = run(&folder, &["robot", "live", "robot.toml", "--json", "--pixels", "--seconds", "1"]);
+    let done = run(&folder, &["live", "robot.toml", "--json", "--pixels", "--seconds", "1"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let together = by_board(&done.stdout);
     let asked = [
@@ -127,6 +135,9 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
     for (name, asked) in asked {
         let args = [&["live", "--source"][..], &asked, &["--json", "--pixels", "--seconds", "1"]].concat();
         let alone = run(&folder, &args);
+        let by_name =
+            run(&folder, &["live", &format!("robot.toml#{name}"), "--json", "--pixels", "--seconds", "1"]);
+        assert!(alone.stdout == by_name.stdout, "{name}: {}", text(&by_name.stderr));
         let alone: Vec<Value> =
             text(&alone.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         assert!(
@@ -136,7 +147,7 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
             alone.len()
         );
     }
-    let lines = run(&folder, &["robot", "live", "robot.toml", "--seconds", "1", "--tare", "hand=16"]);
+    let lines = run(&folder, &["live", "robot.toml", "--seconds", "1", "--tare", "16"]);
     let lines = text(&lines.stdout);
     assert!(lines.lines().all(|line| line.starts_with("torso ") || line.starts_with("hand  ")), "{lines}");
     assert!(lines.contains("hand  tare: done\n"), "{lines}");
@@ -145,7 +156,7 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
 
 /// Records a second of all boards to `touch.mcap`; returns what the program says of it.
 fn recorded(folder: &Path) -> String {
-    let record = ["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"];
+    let record = ["record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"];
     let done = run(folder, &record);
     assert!(done.status.success(), "{}", text(&done.stderr));
     text(&done.stderr).into()
@@ -220,12 +231,12 @@ fn record_and_doctor_tell_of_all_boards() {
         assert!(frames > 190 && table.contains(&format!("\n  {board}: {frames} frames (")), "{table}");
         assert!(table.contains(&format!("\n{board}\n  counts_per_newton")), "{table}");
     }
-    let again = run(&folder, &["robot", "record", "robot.toml", "-o", "touch.mcap", "--seconds", "1"]);
+    let again = run(&folder, &["record", "robot.toml", "-o", "touch.mcap", "--seconds", "1"]);
     assert_eq!(again.status.code(), Some(1));
     assert!(text(&again.stderr).contains("touch.mcap already exists"));
-    let over = run(&folder, &["robot", "record", "robot.toml", "-o", "robot.toml", "--force"]);
+    let over = run(&folder, &["record", "robot.toml", "-o", "robot.toml", "--force"]);
     assert!(!over.status.success() && std::fs::read_to_string(folder.join("robot.toml")).unwrap() == two());
-    let doctor = run(&folder, &["robot", "doctor", "robot.toml", "--seconds", "1", "--json"]);
+    let doctor = run(&folder, &["doctor", "robot.toml", "--seconds", "1", "--json"]);
     assert!(doctor.status.success(), "{}", text(&doctor.stderr));
     let told: Value = serde_json::from_slice(&doctor.stdout).unwrap();
     let boards = told["boards"].as_array().unwrap();
@@ -235,7 +246,7 @@ fn record_and_doctor_tell_of_all_boards() {
     assert!(boards.iter().all(tested), "{told}");
     let gone = two().replace("sim:press", "tcp:127.0.0.1:1");
     std::fs::write(folder.join("gone.toml"), gone).unwrap();
-    let doctor = run(&folder, &["robot", "doctor", "gone.toml", "--seconds", "1"]);
+    let doctor = run(&folder, &["doctor", "gone.toml", "--seconds", "1"]);
     assert_eq!(doctor.status.code(), Some(3), "{}", text(&doctor.stderr));
     assert!(text(&doctor.stdout).contains("X link         tcp:127.0.0.1:1 cannot be reached"));
 }
@@ -257,7 +268,7 @@ fn boards_that_are_pulled_come_back_in_another_order_and_never_under_another_nam
     let folder = folder("pulled", &format!("name = \"three\"\n{boards}"));
     let mut program = Command::new(taxel())
         .current_dir(&folder)
-        .args(["robot", "live", "robot.toml", "--json"])
+        .args(["live", "robot.toml", "--json"])
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .spawn()
@@ -330,8 +341,7 @@ fn boards_are_asked_by_lines_while_they_are_followed() {
     let lines = "tare hand 8\n\ntare gone\nscene foot calm.toml\nself-test\nself-test hnad\ntare foot many\n\
                  tare 5000\ndance\nscene gone none.toml\n";
     std::fs::write(folder.join("lines.txt"), lines).unwrap();
-    let args =
-        ["robot", "live", "robot.toml", "--json", "--realtime", "--seconds", "2", "--requests", "lines.txt"];
+    let args = ["live", "robot.toml", "--json", "--realtime", "--seconds", "2", "--requests", "lines.txt"];
     let done = run(&folder, &args);
     // The board that is gone does not come in time; the others have done what they were asked.
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
@@ -393,7 +403,7 @@ fn of_robot(file: &Path, name: &str) -> Vec<(u64, Value)> {
 fn record_has_what_touches_mean_and_what_was_told() {
     let folder = embraced("recorded-mind");
     std::fs::write(folder.join("told.txt"), "told vision 0.5 40\ntold visoin 1\n").unwrap();
-    let args = ["robot", "record", "robot.toml", "-o", "touch.mcap", "--force", "--requests", "told.txt"];
+    let args = ["record", "robot.toml", "-o", "touch.mcap", "--force", "--requests", "told.txt"];
     let done = run(&folder, &[&args[..], &["--realtime"]].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert!(text(&done.stderr).contains("did you mean \"vision\"?"), "{}", text(&done.stderr));
@@ -443,7 +453,7 @@ fn what_follows_from_what_is_told_is_printed() {
     let folder = folder("told", robot);
     std::fs::write(folder.join("trust.toml"), map).unwrap();
     std::fs::write(folder.join("told.txt"), "told voice 1\n").unwrap();
-    let args = ["robot", "live", "robot.toml", "--realtime", "--seconds", "1", "--requests", "told.txt"];
+    let args = ["live", "robot.toml", "--realtime", "--seconds", "1", "--requests", "told.txt"];
     let done = run(&folder, &args);
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert_eq!(text(&done.stdout).matches("robot kindness").count(), 1, "{}", text(&done.stdout));
@@ -455,7 +465,7 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     let told = "told vision 0.5 40\n{\"told\": {\"voice\": 0.25}}\n{\"positions\": {\"waist\": 0.0}}\ntold visoin 1\n\
                 told voice 3\ntold plan 1 2 3\n{\"positions\": {\"knee\": 1}}\n";
     std::fs::write(folder.join("told.txt"), told).unwrap();
-    let args = ["robot", "live", "robot.toml", "--realtime", "--requests", "told.txt"];
+    let args = ["live", "robot.toml", "--realtime", "--requests", "told.txt"];
     let done = run(&folder, &[&args[..], &["--json"]].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));
     let lines = text(&done.stdout).lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
@@ -480,7 +490,7 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     }
     let lines = run(&folder, &args);
     assert!(text(&lines.stdout).contains("robot kindness; hug 0."), "{}", text(&lines.stdout));
-    let why = run(&folder, &["robot", "why", "robot.toml", "--at", "1.6", "--of", "hug"]);
+    let why = run(&folder, &["fcm", "why", "--source", "robot.toml", "--at", "1.6", "--of", "hug"]);
     let why = text(&why.stdout);
     for part in [
         "hug is 0.",
@@ -492,12 +502,12 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     ] {
         assert!(why.contains(part), "{part} in {why}");
     }
-    let announced = run(&folder, &["robot", "why", "robot.toml", "--json"]);
+    let announced = run(&folder, &["fcm", "why", "--source", "robot.toml", "--json"]);
     let announced: Value = serde_json::from_slice(&announced.stdout).unwrap();
     assert_eq!((&announced["leading"], &announced["concept"]), (&json!("kindness"), &json!("kindness")));
     std::fs::write(folder.join("front.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
     std::fs::write(folder.join("rear.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
-    let none = run(&folder, &["robot", "why", "robot.toml"]);
+    let none = run(&folder, &["fcm", "why", "--source", "robot.toml"]);
     let told = "error: robot.toml: no intention was announced; --at S explains the state at that time\n";
     assert_eq!((none.status.code(), text(&none.stderr)), (Some(1), told));
 }

@@ -1,4 +1,4 @@
-//! What a frame of a board costs by the number of boards: `taxel robot record` and `taxel robot live --json` of
+//! What a frame of a board costs by the number of boards: `taxel record` and `taxel live --json` of
 //! streams that were made before. Nothing is lost, whatever their number.
 //!
 //! The time of the processor is that of the program's whole run; it is told where the system has `/proc`, and of
@@ -75,8 +75,8 @@ fn robot_cost_by_number_of_boards() {
         let board = |at: usize| format!("[[boards]]\nname = \"b{at}\"\nsource = \"replay:two.mcap@max\"\n");
         let robot: String = (0..number).map(board).collect();
         std::fs::write(folder.join("robot.toml"), format!("name = \"many\"\n{robot}")).unwrap();
-        let record = run(&folder, &["robot", "record", "robot.toml", "-o", "out.mcap", "--force"]);
-        let live = run(&folder, &["robot", "live", "robot.toml", "--json"]);
+        let record = run(&folder, &["record", "robot.toml", "-o", "out.mcap", "--force"]);
+        let live = run(&folder, &["live", "robot.toml", "--json"]);
         let overview = Overview::of(&folder.join("out.mcap")).unwrap();
         let count = |at: usize, topic: &str| overview.messages(&format!("/taxel/b{at}/{topic}"));
         let told = [count(0, "frames"), count(0, "contacts"), count(0, "wire")];

@@ -1,4 +1,4 @@
-//! `taxel robot view` and `taxel robot record --view`: the pages of all boards, from outside.
+//! `taxel view` and `taxel record --view`: the pages of all boards, from outside.
 
 use super::robot::folder;
 use super::socket::Socket;
@@ -31,7 +31,7 @@ pub struct Viewed(pub Child, u16);
 
 impl Viewed {
     fn start(name: &str, robot: &str) -> Viewed {
-        Viewed::run(&folder(name, robot), &["robot", "view", "robot.toml"], "robot two")
+        Viewed::run(&folder(name, robot), &["view", "robot.toml"], "robot two")
     }
 
     /// Runs the program in a folder; its first line tells what it shows.
@@ -156,7 +156,7 @@ fn with_a_time_it_ends_and_a_board_that_never_comes_is_an_error() {
     let gone = robot(&hand).replace(&format!("tcp:{}", hand.address), "serial:nowhere");
     let run = |name: &str, text: &str| {
         let mut command = Command::new(taxel());
-        command.args(["robot", "view", "robot.toml", "--port", "0", "--seconds", "0.5"]);
+        command.args(["view", "robot.toml", "--port", "0", "--seconds", "0.5"]);
         command.current_dir(folder(name, text)).stdin(Stdio::null()).output().unwrap()
     };
     assert!(run("view-time", &robot(&hand)).status.success());
@@ -198,9 +198,8 @@ pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
 #[test]
 fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
     let folder = folder("record-view", TWO);
-    let record = |file: &'static str| {
-        ["robot", "record", "robot.toml", "--realtime", "--seconds", "3", "--force", "-o", file]
-    };
+    let record =
+        |file: &'static str| ["record", "robot.toml", "--realtime", "--seconds", "3", "--force", "-o", file];
     let mut viewed = Viewed::run(&folder, &[&record("watched.mcap")[..], &["--view"]].concat(), "robot two");
     let [mut torso, mut hand, _asleep] =
         ["/boards/torso/socket", "/boards/hand/socket", "/boards/torso/socket"].map(|path| viewed.page(path));
@@ -229,7 +228,7 @@ fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
 #[test]
 fn what_is_said_of_a_page_needs_one() {
     let folder = folder("record-unseen", TWO);
-    let args = ["robot", "record", "robot.toml", "-o", "out.mcap", "--port", "0"];
+    let args = ["record", "robot.toml", "-o", "out.mcap", "--port", "0"];
     let done = Command::new(taxel()).current_dir(&folder).args(args).output().unwrap();
     assert_eq!(done.status.code(), Some(2));
     assert!(String::from_utf8(done.stderr).unwrap().contains("--view"));

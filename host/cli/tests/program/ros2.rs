@@ -42,7 +42,7 @@ fn the_nodes_of_a_robot_end_with_its_boards() {
                  [[boards]]\nname = \"left-hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n";
     let folder = folder("ros2", robot);
     let file = folder.join("robot.toml").display().to_string();
-    let words = ["robot", "ros2", &file, "--seconds", "1", "--domain", "230", "--namespace", "/skin"];
+    let words = ["ros2", &file, "--seconds", "1", "--domain", "230", "--namespace", "/skin"];
     let output = taxel(&words, "");
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

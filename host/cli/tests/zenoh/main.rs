@@ -141,8 +141,8 @@ fn the_boards_of_a_robot_are_offered_and_followed_as_a_robot() {
     std::fs::write(folder.join("here.toml"), robot(["sim:five", "sim:press"])).unwrap();
     let there = ["torso", "hand"].map(|board| format!("zenoh:two/{board}@client.json5"));
     std::fs::write(folder.join("there.toml"), robot([&there[0], &there[1]])).unwrap();
-    let _serving = Serving::start(&folder, &["robot", "serve", "here.toml", "--zenoh", "router.json5"]);
-    let watched = run(&folder, &["robot", "live", "there.toml", "--json", "--seconds", "1"]);
+    let _serving = Serving::start(&folder, &["serve", "here.toml", "--zenoh", "router.json5"]);
+    let watched = run(&folder, &["live", "there.toml", "--json", "--seconds", "1"]);
     assert!(watched.status.success(), "{}", said(&watched));
     let lines = lines(&watched);
     for board in ["torso", "hand"] {
@@ -166,7 +166,7 @@ fn a_wrong_file_or_name_ends_with_a_sentence() {
         (vec!["live", "--source", "zenoh:a/b@no-such.json5"], "no-such.json5 cannot be read"),
         (vec!["serve", "--name", "arm"], "a board is named ROBOT/BOARD, as in arm/left"),
         (
-            vec!["robot", "serve", "robot.toml", "--zenoh", "router.json5"],
+            vec!["serve", "robot.toml", "--zenoh", "router.json5"],
             "robot.toml: the name of a robot is 1 to 32 letters, digits, _ and -, not \"a b\"",
         ),
     ] {

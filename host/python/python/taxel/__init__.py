@@ -164,7 +164,7 @@ class Robot(_taxel.Robot):
     def why(self, of: str | None = None) -> dict[str, Any]:
         """Why the robot's map has its activations now: of a concept, else of the intention that leads.
 
-        It is what ``taxel robot why --json`` prints: the causes in units that add up, what each input heard down to
+        It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
         the contacts of each board, and why each board announced what it did.
         """
         found: dict[str, Any] = json.loads(super()._why(of))

@@ -8,7 +8,7 @@ use crate::error::{Context, Error, Result, UsageError};
 use crate::files::bases::Base;
 use crate::files::calibrate::{Calibration, Forces};
 use crate::files::{folds, garments, scripts};
-use crate::recording::{BoardRecording, is_board};
+use crate::recording::is_board;
 use crate::session::setting;
 use crate::source::{SceneFile, SourceSpec};
 use std::path::Path;
@@ -73,21 +73,22 @@ impl ConfigPlace<'_> {
     }
 }
 
-impl BoardConfig {
-    /// Reads a board that is configured by options of a command or keywords of Python.
-    pub fn read_alone(&self, place: ConfigPlace<'_>) -> Result<RobotBoard> {
-        self.read(place, None, &mut |named| named.into())
-    }
+/// Reads a board's configuration.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BoardReader<'a> {
+    /// The configuration, with paths from the working folder.
+    pub config: &'a BoardConfig,
+    /// Where it is.
+    pub place: ConfigPlace<'a>,
+    /// The robot that wears it, if it is described.
+    pub robot: Option<&'a Arc<Robot>>,
+}
 
-    /// Reads what it names by paths that `beside` makes absolute or relative to the working folder, of a robot with
-    /// this description.
-    pub(super) fn read(
-        &self,
-        place: ConfigPlace<'_>,
-        robot: Option<&Arc<Robot>>,
-        beside: &mut impl FnMut(&str) -> String,
-    ) -> Result<RobotBoard> {
-        let name = self.name.as_str();
+impl BoardReader<'_> {
+    /// Reads what it names.
+    pub fn read(&self) -> Result<RobotBoard> {
+        let BoardReader { config, place, robot } = *self;
+        let name = config.name.as_str();
         let wrong = |key: &str, why: String| Err(place.wrong(name, key, why));
         if let ConfigPlace::File { text, index, .. } = place
             && (name.len() > NAME || !is_board(name))
@@ -96,32 +97,28 @@ impl BoardConfig {
             return Err(text.error(&format!("boards[{index}].name"), why).into());
         }
         let is_file = matches!(place, ConfigPlace::File { .. });
-        let source = self.found(place, beside)?;
+        let source = self.found()?;
         if let (ConfigPlace::File { .. }, SourceSpec::Replay { .. }) = (place, &source)
-            && let Some(key) = self.configures().find(|key| *key != "garment")
+            && let Some(key) = config.configures().find(|key| *key != "garment")
         {
             return wrong(key, format!("{source} is a recording, whose board does not listen"));
         }
-        let mut file = |path: &Path| beside(&path.display().to_string());
-        let worn = self.garment.as_deref().map(|named| garment(&file(Path::new(named)))).transpose();
-        let worn = place.named(name, "garment", worn)?;
-        let scene = self.scene.as_deref().map(|path| SceneFile::read(Path::new(&file(path)))).transpose();
-        let calibration = self.calibration.as_deref().map(|path| calibration(&file(path), worn.as_ref()));
-        let shapes = self.shapes.as_deref().map(|path| Base::open(Path::new(&file(path)))).transpose();
-        let folds = self.folds.as_deref().map(|path| file(path).into());
-        let table = folds.as_deref().map_or(Ok(()), |path| folds::read(path).map(drop));
+        let worn = place.named(name, "garment", config.garment.as_deref().map(garment).transpose())?;
+        let scene = config.scene.as_deref().map(scene).transpose();
+        let calibration = config.calibration.as_deref().map(|path| calibration(path, worn.as_ref()));
+        let shapes = config.shapes.as_deref().map(Base::open).transpose();
+        let table = config.folds.as_deref().map_or(Ok(()), |path| folds::read(path).map(drop));
         place.named(name, "folds", table)?;
-        if let Some(tare) = self.tare.filter(|tare| *tare > TARE) {
+        if let Some(tare) = config.tare.filter(|tare| *tare > TARE) {
             return wrong("tare", format!("it is {tare}, and must be 0 to {TARE}"));
         }
-        let body = self.body.as_deref().map(|named| file(Path::new(named)));
-        if is_file && let Some(body) = &body {
+        if is_file && let Some(body) = &config.body {
             let Some(worn) = &worn else {
                 return wrong("body", "a body is that of a garment: name the board's `garment`, too".into());
             };
             place.named(name, "body", check_body(body, worn, robot))?;
         }
-        self.check_link(place, robot)?;
+        self.check_link()?;
         Ok(RobotBoard {
             name: name.into(),
             source,
@@ -129,72 +126,73 @@ impl BoardConfig {
             is_dressed: !is_file,
             scene: place.named(name, "scene", scene)?,
             calibration: place.named(name, "calibration", calibration.transpose())?,
-            tare: self.tare,
-            budget: self.budget,
-            raw: self.raw,
-            gestures: self.gestures(place)?,
-            forms: self.forms.map(|forms| forms.0),
-            feeds: self.feed.clone(),
+            tare: config.tare,
+            budget: config.budget,
+            raw: config.raw,
+            gestures: self.gestures()?,
+            forms: config.forms.map(|forms| forms.0),
+            feeds: config.feed.clone(),
             shapes: place.named(name, "shapes", shapes)?,
-            body,
-            folds,
-            pressing: self.pressing,
-            link: self.link.clone(),
+            body: config.body.clone(),
+            folds: config.folds.clone(),
+            pressing: config.pressing,
+            link: config.link.clone(),
         })
     }
 
-    /// Its source, with paths from the working folder.
-    fn found(&self, place: ConfigPlace<'_>, beside: &mut impl FnMut(&str) -> String) -> Result<SourceSpec> {
-        let wrong = |why: String| Err(place.wrong(&self.name, "source", why));
-        let source = self.source.clone().unwrap_or(SourceSpec::Auto);
-        if let (ConfigPlace::File { boards: 2.., .. }, SourceSpec::Auto | SourceSpec::Usb(None)) =
-            (place, &source)
-        {
-            return wrong(format!("{source} finds any board: name its serial number, usb:SERIAL"));
+    /// Its source.
+    fn found(&self) -> Result<SourceSpec> {
+        let BoardReader { config, place, .. } = *self;
+        let wrong = |why: String| Err(place.wrong(&config.name, "source", why));
+        let source = config.source.clone().unwrap_or(SourceSpec::Auto);
+        match (place, &source) {
+            (ConfigPlace::File { boards: 2.., .. }, SourceSpec::Auto | SourceSpec::Usb(None)) => {
+                wrong(format!("{source} finds any board: name its serial number, usb:SERIAL"))
+            }
+            (ConfigPlace::File { .. }, SourceSpec::Robot { .. }) => {
+                wrong(format!("{source} is a robot's file, and a board is found at one place"))
+            }
+            (ConfigPlace::File { .. }, SourceSpec::Sim(script)) => {
+                place.named(&config.name, "source", scripts::load(script))?;
+                Ok(source)
+            }
+            _ => Ok(source),
         }
-        let mut beside = |path: &Path| beside(&path.display().to_string());
-        Ok(match source {
-            SourceSpec::Sim(scene) => {
-                let scene = beside(Path::new(&scene));
-                place.named(&self.name, "source", scripts::load(&scene))?;
-                SourceSpec::Sim(scene)
-            }
-            SourceSpec::Replay { recording: BoardRecording { path, board }, speed } => {
-                let path = beside(&path).into();
-                SourceSpec::Replay { recording: BoardRecording { path, board }, speed }
-            }
-            SourceSpec::Zenoh { place, config } => {
-                let config = config.map(|file| beside(&file).into());
-                SourceSpec::Zenoh { place, config }
-            }
-            found => found,
-        })
     }
 
     /// The recognition of gestures, if a model is named.
-    fn gestures(&self, place: ConfigPlace<'_>) -> Result<Option<GestureConfig>> {
-        let of = [("gesture_gain", self.gesture_gain), ("gesture_certainty", self.gesture_certainty)];
-        if let (None, Some((key, _))) = (self.gestures, of.into_iter().find(|(_, value)| value.is_some())) {
+    fn gestures(&self) -> Result<Option<GestureConfig>> {
+        let BoardReader { config, place, .. } = *self;
+        let of = [("gesture_gain", config.gesture_gain), ("gesture_certainty", config.gesture_certainty)];
+        if let (None, Some((key, _))) = (config.gestures, of.into_iter().find(|(_, value)| value.is_some())) {
             return Err(place.wrong(
-                &self.name,
+                &config.name,
                 key,
                 "it is a setting of `gestures`, which is missing".into(),
             ));
         }
-        let Some(model) = self.gestures else { return Ok(None) };
-        let config = setting::gestures(model.into(), self.gesture_gain, self.gesture_certainty);
-        config.map(Some).map_err(|error| place.wrong(&self.name, "gestures", error.to_string()))
+        let Some(model) = config.gestures else { return Ok(None) };
+        let known = setting::gestures(model.into(), config.gesture_gain, config.gesture_certainty);
+        known.map(Some).map_err(|error| place.wrong(&config.name, "gestures", error.to_string()))
     }
 
-    fn check_link(&self, place: ConfigPlace<'_>, robot: Option<&Arc<Robot>>) -> Result<()> {
-        let Some(link) = &self.link else { return Ok(()) };
-        let wrong = |why: &str| Err(place.wrong(&self.name, "link", why.into()));
-        if self.body.is_some() {
+    fn check_link(&self) -> Result<()> {
+        let BoardReader { config, place, robot } = *self;
+        let Some(link) = &config.link else { return Ok(()) };
+        let wrong = |why: &str| Err(place.wrong(&config.name, "link", why.into()));
+        if config.body.is_some() {
             return wrong("its `body` says on which links its panels lie");
         }
         let Some(robot) = robot else { return wrong("the robot has no `urdf` that has links") };
-        place.named(&self.name, "link", robot.link(link).map(drop).map_err(Error::from))
+        place.named(&config.name, "link", robot.link(link).map(drop).map_err(Error::from))
     }
+}
+
+/// Reads a scene, and checks what does not depend on a board.
+fn scene(path: &Path) -> Result<SceneFile> {
+    let file = SceneFile::read(path)?;
+    setting::check_scene(&file)?;
+    Ok(file)
 }
 
 /// Reads a garment, and checks what does not depend on a board.
@@ -207,8 +205,8 @@ fn garment(named: &str) -> Result<BoardGarment> {
 }
 
 /// Reads a calibration, and checks that it is of this garment.
-fn calibration(path: &str, worn: Option<&BoardGarment>) -> Result<Calibration> {
-    let calibration = Calibration::read(Path::new(path))?;
+fn calibration(path: &Path, worn: Option<&BoardGarment>) -> Result<Calibration> {
+    let calibration = Calibration::read(path)?;
     worn.map_or(Ok(()), |worn| Forces::new(&calibration, &worn.layout).map(drop))?;
     Ok(calibration)
 }

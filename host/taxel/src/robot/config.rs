@@ -109,6 +109,47 @@ impl BoardConfig {
         BoardConfig { source: Some(source), ..BoardConfig::default() }
     }
 
+    /// True unless its source is a recording, whose board takes no requests.
+    pub(super) fn listens(&self) -> bool {
+        !matches!(self.source, Some(SourceSpec::Replay { .. }))
+    }
+
+    /// The board, asked what `more` says in place of its own. Its name, source and link stay.
+    pub(super) fn with(&self, more: &BoardConfig) -> BoardConfig {
+        BoardConfig {
+            name: self.name.clone(),
+            source: self.source.clone(),
+            garment: more.garment.clone().or_else(|| self.garment.clone()),
+            scene: more.scene.clone().or_else(|| self.scene.clone()),
+            calibration: more.calibration.clone().or_else(|| self.calibration.clone()),
+            tare: more.tare.or(self.tare),
+            budget: more.budget.or(self.budget),
+            raw: more.raw || self.raw,
+            gestures: more.gestures.or(self.gestures),
+            gesture_gain: more.gesture_gain.or(self.gesture_gain),
+            gesture_certainty: more.gesture_certainty.or(self.gesture_certainty),
+            forms: more.forms.or(self.forms),
+            feed: [self.feed.clone(), more.feed.clone()].concat(),
+            shapes: more.shapes.clone().or_else(|| self.shapes.clone()),
+            body: more.body.clone().or_else(|| self.body.clone()),
+            folds: more.folds.clone().or_else(|| self.folds.clone()),
+            pressing: more.pressing.or(self.pressing),
+            link: self.link.clone(),
+        }
+    }
+
+    /// The board with paths as `beside` makes them of those that it names.
+    pub(super) fn resolved(&self, beside: &mut dyn FnMut(&str) -> String) -> BoardConfig {
+        let mut text = |named: &Option<String>| named.as_deref().map(&mut *beside);
+        let (garment, body) = (text(&self.garment), text(&self.body));
+        let mut path =
+            |path: &Option<PathBuf>| path.as_ref().map(|path| beside(&path.display().to_string()).into());
+        let (scene, calibration, shapes, folds) =
+            (path(&self.scene), path(&self.calibration), path(&self.shapes), path(&self.folds));
+        let source = self.source.as_ref().map(|source| source.beside(beside));
+        BoardConfig { source, garment, body, scene, calibration, shapes, folds, ..self.clone() }
+    }
+
     /// Paths of the files that it names, which no output may replace. A preset's name is among them like a path.
     pub fn files(&self) -> Vec<PathBuf> {
         let source = self.source.as_ref().and_then(SourceSpec::file);

@@ -1,8 +1,8 @@
 //! Robots' files, checked.
 
 use super::board::RobotBoard;
-use super::board_reader::ConfigPlace;
-use super::config::RobotConfig;
+use super::board_reader::{BoardReader, ConfigPlace};
+use super::config::{BoardConfig, RobotConfig};
 use super::place::RobotText;
 use crate::body::posture::Motion;
 use crate::body::robot::{self, Robot};
@@ -49,13 +49,23 @@ impl ReadRobot {
 
     /// Reads a robot's file and the files that it names. Errors name file, line, board and key.
     pub fn read(path: &Path) -> Result<ReadRobot> {
+        ReadRobot::read_with(path, &BoardConfig::default())
+    }
+
+    /// Reads a robot's file, each of whose boards that listens is asked what `more` says in place of its own; paths
+    /// of `more` are those of the working folder.
+    pub fn read_with(path: &Path, more: &BoardConfig) -> Result<ReadRobot> {
         let file = path.display().to_string();
         let text = input::text(path).with_context(|| format!("{file} cannot be read"))?;
-        ReadRobot::parse(file, text, path.parent().unwrap_or(Path::new("")))
+        ReadRobot::parse_with(file, text, path.parent().unwrap_or(Path::new("")), more)
     }
 
     /// Reads the text of a robot's file, whose paths are relative to `folder`. `file` names it in errors.
     pub fn parse(file: String, text: String, folder: &Path) -> Result<ReadRobot> {
+        ReadRobot::parse_with(file, text, folder, &BoardConfig::default())
+    }
+
+    fn parse_with(file: String, text: String, folder: &Path, more: &BoardConfig) -> Result<ReadRobot> {
         let place = RobotText { file: &file, text: &text };
         let config = place.parse()?;
         if config.name.is_empty() {
@@ -85,11 +95,14 @@ impl ReadRobot {
         let mut boards: Vec<RobotBoard> = Vec::new();
         for (index, board) in config.boards.iter().enumerate() {
             let of = ConfigPlace::File { text: place, index, boards: config.boards.len() };
-            let read = board.read(of, described.as_ref(), &mut beside)?;
+            let asked = board.resolved(&mut beside);
+            let asked = if asked.listens() { asked.with(more) } else { asked };
+            let read = BoardReader { config: &asked, place: of, robot: described.as_ref() }.read()?;
             of.check_alone(&read, &boards)?;
             boards.push(read);
         }
         let RobotConfig { name, poses, motion, .. } = config;
+        inputs.extend(more.files().iter().map(|path| path.display().to_string()));
         Ok(ReadRobot { name, robot: described, poses, motion, map, boards, inputs, text, file })
     }
 

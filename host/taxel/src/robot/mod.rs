@@ -20,6 +20,7 @@
 //! | `contact_reader.rs` | [`ContactReader`]: the contacts of a board's events |
 //! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
 //! | `recorded_board.rs` | a board's part of a recording, filled in the board's thread |
+//! | `alone.rs` | a board that is followed alone |
 //! | `record_teller.rs` | records a board, in its thread |
 //! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
 //! | `open.rs` | the boards of a file, followed |
@@ -29,6 +30,7 @@
 //! its name is an event ([`BoardEvent::Other`]), and nothing that it sends is passed on. A board that is lost does not
 //! hold up the others.
 
+mod alone;
 mod board;
 mod board_reader;
 mod config;
@@ -53,6 +55,7 @@ mod recorder;
 mod refused;
 mod session;
 
+pub use alone::read_board;
 pub use board::{BoardGarment, RobotBoard};
 pub use board_reader::ConfigPlace;
 pub use config::{BoardConfig, RobotConfig};

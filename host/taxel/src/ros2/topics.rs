@@ -1,4 +1,4 @@
-//! Topics and services of the node `taxel ros2`, and of the nodes of `taxel robot ros2`: their names, types and qualities of service. Recordings have
+//! Topics and services of the node `taxel ros2`, and of the nodes of `taxel ros2`: their names, types and qualities of service. Recordings have
 //! some of the topics, too.
 
 /// Quality of service of a topic.

@@ -124,16 +124,21 @@ fn send_poses<'a>(
     Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
 }
 
-/// Queues `SetScene` for a scene's file.
-pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
-    let place = || file.name().to_string();
+/// Checks what of a scene does not depend on the board.
+pub fn check_scene(file: &SceneFile) -> Result<()> {
     let layout = Layout::build(&Garment::reference(), usize::from(u16::MAX), 4095)?;
     // Regions are left to the board, which may have another garment.
     let mut elsewhere = file.scene.clone();
     elsewhere.react.iter_mut().for_each(|row| row.region.clear());
-    Pipeline::build(&elsewhere, &layout).with_context(place)?;
+    Pipeline::build(&elsewhere, &layout).with_context(|| file.name().to_string())?;
+    Ok(())
+}
+
+/// Queues `SetScene` for a scene's file.
+pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
+    check_scene(file)?;
     verbose::tell(format_args!("sending scene {}", file.scene.name));
-    client.use_for(&file.scene).with_context(place)
+    client.use_for(&file.scene).with_context(|| file.name().to_string())
 }
 
 /// Settings of the recognition of gestures by a model in the board's firmware: its own except for the gain, a

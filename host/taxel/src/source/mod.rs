@@ -206,6 +206,10 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
                 "source {spec}: this program was built without Zenoh (feature `zenoh`); docs/zenoh.md says how it is built in"
             )
         }
+        SourceSpec::Robot { file, .. } => {
+            let file = file.display();
+            fail!(UsageError::Argument, "{file} is a robot's file, and this takes one board: name its source")
+        }
         SourceSpec::Replay { recording, speed } => replay::open(recording, *speed, options),
     }
 }

@@ -1,8 +1,9 @@
-//! Parses a source from the command line.
+//! A source by its name: `sim:pat`, the path of a port, of a recording or of a robot's file.
 
 use super::replay::Speed;
 use crate::network::BoardPlace;
 use crate::recording::BoardRecording;
+use crate::tell::words;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -37,6 +38,13 @@ pub enum SourceSpec {
         /// Zenoh's configuration; none for that of the environment, else for this machine.
         config: Option<PathBuf>,
     },
+    /// The boards of a robot's file, or the one of this name.
+    Robot {
+        /// The file.
+        file: PathBuf,
+        /// Name of the board; none for all.
+        board: Option<String>,
+    },
     /// A recording.
     Replay {
         /// The file, and the board to play of a robot's.
@@ -69,11 +77,28 @@ impl SourceSpec {
         }
     }
 
+    /// The source with its file's path as `beside` makes it.
+    pub fn beside(&self, beside: &mut dyn FnMut(&str) -> String) -> SourceSpec {
+        let mut path = |path: &Path| PathBuf::from(beside(&path.display().to_string()));
+        match self.clone() {
+            SourceSpec::Sim(script) => SourceSpec::Sim(beside(&script)),
+            SourceSpec::Robot { file, board } => SourceSpec::Robot { file: path(&file), board },
+            SourceSpec::Replay { recording: BoardRecording { path: file, board }, speed } => {
+                SourceSpec::Replay { recording: BoardRecording { path: path(&file), board }, speed }
+            }
+            SourceSpec::Zenoh { place, config } => {
+                SourceSpec::Zenoh { place, config: config.map(|file| path(&file)) }
+            }
+            other => other,
+        }
+    }
+
     /// Path of its file, if it has one, which no output may replace.
     pub fn file(&self) -> Option<PathBuf> {
         match self {
             SourceSpec::Replay { recording: BoardRecording { path, .. }, .. } => Some(path.clone()),
             SourceSpec::Sim(scene) => Some(scene.into()),
+            SourceSpec::Robot { file, .. } => Some(file.clone()),
             SourceSpec::Zenoh { config, .. } => config.clone(),
             _ => None,
         }
@@ -95,13 +120,37 @@ impl FromStr for SourceSpec {
             ("tcp", Some(address)) => tcp(address),
             ("zenoh", Some(place)) => zenoh(place),
             ("replay", Some(path)) if !path.is_empty() => Ok(replay(path)),
-            _ => Err(
-                "known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], \
-                      replay:FILE[#BOARD][@SPEED]"
-                    .into(),
-            ),
+            _ => by_path(text).unwrap_or_else(|| Err(unknown(kind, rest))),
         }
     }
+}
+
+/// A port, a recording or a robot's file by its path; none if it is none.
+fn by_path(text: &str) -> Option<Result<SourceSpec, String>> {
+    let is_com =
+        text.strip_prefix("COM").is_some_and(|number| number.starts_with(|c: char| c.is_ascii_digit()));
+    let (path, board) = text.rsplit_once('#').map_or((text, None), |(path, board)| (path, Some(board)));
+    if text.starts_with("/dev/") || is_com {
+        Some(serial(text))
+    } else if text.contains(".mcap") {
+        Some(Ok(replay(text)))
+    } else if path.ends_with(".toml") {
+        Some(Ok(SourceSpec::Robot { file: path.into(), board: board.map(String::from) }))
+    } else {
+        None
+    }
+}
+
+/// What sources there are, and which one may be meant.
+fn unknown(kind: &str, rest: Option<&str>) -> String {
+    let kinds = ["auto", "usb", "sim", "serial", "tcp", "zenoh", "replay"];
+    let meant = words::meant(kind, kinds).filter(|meant| *meant != kind);
+    let meant = meant.map(|meant| rest.map_or(meant.into(), |rest| format!("{meant}:{rest}")));
+    let meant = meant.map_or(String::new(), |meant| format!("did you mean {meant}? "));
+    meant
+        + "known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, \
+           zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED], and the path of a port, of a recording (.mcap) or of a \
+           robot's file (.toml[#BOARD])"
 }
 
 fn serial(port: &str) -> Result<SourceSpec, String> {
@@ -153,6 +202,10 @@ impl fmt::Display for SourceSpec {
                 let config = config.as_ref().map_or(String::new(), |file| format!("@{}", file.display()));
                 write!(f, "zenoh:{place}{config}")
             }
+            SourceSpec::Robot { file, board } => {
+                let board = board.as_ref().map_or(String::new(), |board| format!("#{board}"));
+                write!(f, "{}{board}", file.display())
+            }
             SourceSpec::Replay { recording, speed } => write!(f, "replay:{recording}{speed}"),
         }
     }
@@ -200,6 +253,8 @@ mod tests {
             "replay:a.mcap@max",
             "replay:a.mcap#left-arm@2",
             "replay:a#b.mcap",
+            "a/robot.toml",
+            "robot.toml#left-arm",
         ] {
             assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
         }
@@ -209,6 +264,17 @@ mod tests {
         assert_eq!(robot.file(), Some("a".into()));
         assert_eq!(read("sim").unwrap(), SourceSpec::simulation());
         assert_eq!(read("serial:COM3").unwrap().to_string(), "serial:COM3@921600");
+        let by_path = ["/dev/ttyACM0", "COM3@9600", "pat.mcap", "a/robot.mcap#hand@max"]
+            .map(|text| read(text).unwrap());
+        let named = [
+            "serial:/dev/ttyACM0@921600",
+            "serial:COM3@9600",
+            "replay:pat.mcap",
+            "replay:a/robot.mcap#hand@max",
+        ];
+        assert_eq!(by_path.map(|spec| spec.to_string()), named);
+        assert!(read("sm:pat").unwrap_err().starts_with("did you mean sim:pat? known are auto, "));
+        assert!(read("Usb").unwrap_err().starts_with("did you mean usb? "));
         for wrong in [
             "",
             "auto:",

@@ -1,4 +1,4 @@
-//! `taxel robot record --view` as a process of its own, of boards that other processes play.
+//! `taxel record --view` as a process of its own, of boards that other processes play.
 
 use super::stream::{Brought, Stream};
 use anyhow::{Context, Result, bail, ensure};
@@ -87,7 +87,7 @@ pub fn judge(program: &Path, folder: &Path, stream: &Stream, seconds: f64, board
     let robot: String = ports.iter().enumerate().map(board).collect();
     std::fs::write(folder.join("robot.toml"), format!("name = \"many\"\n{robot}"))?;
     let mut recorder = Command::new(program);
-    recorder.args(["robot", "record", "robot.toml", "-o", "out.mcap", "--force", "--view", "--port", "0"]);
+    recorder.args(["record", "robot.toml", "-o", "out.mcap", "--force", "--view", "--port", "0"]);
     recorder.current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped());
     recorder.stderr(File::create(folder.join("said.txt"))?);
     let spawned = recorder.spawn().with_context(|| program.display().to_string())?;

@@ -1,4 +1,4 @@
-//! What `taxel robot record --view` costs by the number of boards, which other processes play, and that nothing is
+//! What `taxel record --view` costs by the number of boards, which other processes play, and that nothing is
 //! lost.
 
 mod judged;
@@ -131,7 +131,7 @@ fn chart(rows: &[Judged], sum: impl Fn(&Judged) -> f64) -> Chart {
             .collect(),
     };
     Chart {
-        title: "taxel robot record --view: boards of 2,048 taxels, 195 frames/s, two contacts".into(),
+        title: "taxel record --view: boards of 2,048 taxels, 195 frames/s, two contacts".into(),
         x: Axis::new("boards", Better::More),
         y: Axis::new("% of one core", Better::Less),
         named: false,

@@ -10,6 +10,7 @@ pub mod why;
 
 use crate::fault::Fault;
 use anyhow::{Result, bail};
+use taxel::robot::ReadRobot;
 
 /// Arguments of `taxel fcm`.
 #[derive(Debug, Clone, clap::Args)]
@@ -36,6 +37,14 @@ enum MapCommand {
     Learn(learn::MapLearnArgs),
     /// Write a map as a graph in DOT, which Graphviz draws
     Draw(draw::DrawArgs),
+}
+
+impl FcmArgs {
+    /// What is asked to be explained of a robot, by all its boards; none for anything else.
+    pub fn why_of_robot(&self) -> Result<Option<(&why::WhyArgs, ReadRobot)>> {
+        let Some(MapCommand::Why(args)) = &self.command else { return Ok(None) };
+        Ok(args.told.robot()?.map(|robot| (args, robot)))
+    }
 }
 
 /// Runs the command.

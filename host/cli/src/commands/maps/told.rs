@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use taxel::client::{Client, Event};
 use taxel::fcm::map::MapFile;
 use taxel::fcm::told::Told;
-use taxel::robot::{BoardConfig, feed};
+use taxel::robot::{BoardConfig, ReadRobot, feed};
 use taxel::session::Show;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel_core::format::Micros;
@@ -31,12 +31,23 @@ pub struct ToldArgs {
     /// With --source: set a concept, as in `taxel live`
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = feed, requires = "source")]
     pub feed: Vec<Feed>,
+    /// With --source of a robot's file: ask its boards and tell its map, as in `taxel live`
+    #[arg(long, value_name = "FILE", requires = "source")]
+    pub requests: Option<PathBuf>,
 }
 
 impl ToldArgs {
     /// Paths of the input files.
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.iter().filter_map(SourceSpec::file).chain(self.scene.clone()).collect()
+    }
+
+    /// The robot whose boards are all meant; none for a board.
+    pub fn robot(&self) -> Result<Option<ReadRobot>> {
+        let Some(SourceSpec::Robot { file, board: None }) = &self.source else { return Ok(None) };
+        let more =
+            BoardConfig { scene: self.scene.clone(), feed: self.feed.clone(), ..BoardConfig::default() };
+        Ok(Some(ReadRobot::read_with(file, &more)?))
     }
 
     /// Report of the source, if one is given.

@@ -1,4 +1,4 @@
-//! `taxel robot check`: a robot's boards.
+//! `taxel config check` of a robot's file: its boards.
 
 use anyhow::{Context, Result};
 use serde_json::{Value, json};

@@ -1,35 +1,20 @@
-//! `taxel robot doctor`: the diagnosis of each board, and which of them share a USB host controller.
+//! `taxel doctor` of a robot: the diagnosis of each board, and which of them share a USB host controller.
 
 use super::controllers::controller;
-use crate::commands::board::doctor::{Examined, Finding, Grade, examine, first_cure, line, worst};
+use crate::commands::board::doctor::{
+    DoctorArgs, Examined, Finding, Grade, examine, first_cure, line, worst,
+};
 use crate::fault::Fault;
-use anyhow::{Result, bail, ensure};
-use clap::Args;
+use anyhow::{Result, bail};
 use serde_json::{Value, json};
-use std::path::PathBuf;
 use std::thread;
 use taxel::client::Buses;
 use taxel::robot::{ReadRobot, RobotBoard};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 
-/// Arguments of `taxel robot doctor`.
-#[derive(Debug, Clone, Args)]
-pub struct RobotDoctorArgs {
-    /// The robot's file: robot.toml
-    file: PathBuf,
-    /// Seconds of each board to listen
-    #[arg(long, value_name = "S", default_value_t = 5.0, allow_negative_numbers = true)]
-    seconds: f64,
-    /// Print JSON instead of tables
-    #[arg(long)]
-    json: bool,
-}
-
 /// Runs the command: all boards at once. Error if one does not work.
-pub fn run(args: &RobotDoctorArgs) -> Result<()> {
-    ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
-    let robot = ReadRobot::read(&args.file)?;
+pub fn run(args: &DoctorArgs, robot: &ReadRobot) -> Result<()> {
     let all = diagnosed_together(&robot.boards, args.seconds);
     let worst_of_all = all.iter().map(|found| worst(found)).max().unwrap_or(Grade::Good);
     let boards = || robot.boards.iter().zip(&all);

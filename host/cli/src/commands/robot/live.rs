@@ -1,14 +1,14 @@
-//! `taxel robot live`: all boards as lines of text or JSON.
+//! `taxel live` of a robot: all boards as lines of text or JSON.
 
-use super::args::RobotFileArgs;
+use super::requests::RequestLines;
 use super::tellers::{BoardNews, JsonTeller, TextTeller};
-use crate::watch::{seconds, stop};
-use anyhow::{Context, Error, Result};
-use clap::Args;
+use crate::fault::Fault;
+use crate::watch::{LiveArgs, stop};
+use anyhow::{Context, Error, Result, bail};
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
 use taxel::mind::{RobotMeaning, RobotMeaningLine, RobotMind};
-use taxel::robot::{BoardEvent, BoardLine, RobotSession, Teller, WhenFull};
+use taxel::robot::{BoardEvent, BoardLine, ReadRobot, RobotSession, Teller, WhenFull};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 
@@ -18,42 +18,31 @@ const LOOK: Duration = Duration::from_millis(100);
 /// What precedes lines about the whole robot.
 const ROBOT: &str = "robot";
 
-/// Arguments of `taxel robot live`.
-#[derive(Debug, Clone, Args)]
-pub struct RobotLiveArgs {
-    /// The robot.
-    #[command(flatten)]
-    robot: RobotFileArgs,
-    /// Stop after S seconds of each board's time; a board that is missing is then waited for 10 s [default: a
-    /// simulated scene is played once]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
-    seconds: Option<f64>,
-    /// Print messages as JSON, one per line, each with its `board`
-    #[arg(long)]
-    json: bool,
-    /// With --json: also print the pressure of every taxel
-    #[arg(long, requires = "json")]
-    pixels: bool,
-    /// Pace simulations to real time
-    #[arg(long)]
-    realtime: bool,
-}
-
 /// Runs the command. Error if a board cannot be followed, once all are over.
-pub fn run(args: &RobotLiveArgs) -> Result<()> {
-    let robot = args.robot.read()?;
-    let mut requests = args.robot.requests()?;
-    let options =
-        SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
+pub fn run(args: &LiveArgs, robot: &ReadRobot) -> Result<()> {
+    let of_one = [("--frames", args.frames.is_some()), ("--taxel", args.taxel.is_some())];
+    if let Some((option, _)) = of_one.into_iter().find(|(_, is_there)| *is_there) {
+        let file = &robot.file;
+        bail!(Fault::usage(format!(
+            "{option} is for a board, {file} is a robot's file: name one, {file}#BOARD"
+        )));
+    }
+    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
+    let options = SourceOptions {
+        seed: args.board.seed,
+        realtime: args.realtime,
+        seconds: args.seconds,
+        ..SourceOptions::default()
+    };
     let is_minded = robot.is_at_one_time(args.realtime);
-    let mut mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
+    let mut mind = is_minded.then(|| RobotMind::new(robot)).transpose()?;
     let names = robot.boards.iter().map(|board| board.name.len());
     let wide = names.chain(is_minded.then_some(ROBOT.len())).max().unwrap_or(0);
     let teller = |number: usize| -> Box<dyn Teller<BoardNews>> {
         let name = &robot.boards[number].name;
         match args.json {
-            true => Box::new(JsonTeller::new(&robot, number, args.pixels, is_minded)),
-            false => Box::new(TextTeller::new(&robot, number, format!("{name:wide$} "), is_minded)),
+            true => Box::new(JsonTeller::new(robot, number, args.pixels, is_minded)),
+            false => Box::new(TextTeller::new(robot, number, format!("{name:wide$} "), is_minded)),
         }
     };
     let plans = robot.plans(&options, limit(args.seconds), teller);

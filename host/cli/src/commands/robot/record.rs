@@ -1,20 +1,19 @@
-//! `taxel robot record`: all boards in one recording.
+//! `taxel record` of a robot: all boards in one recording.
 
-use super::args::RobotFileArgs;
 use super::live::{failed, limit};
-use super::requests::Told;
+use super::requests::{RequestLines, Told};
 use super::view::pages;
 use super::viewed::ViewedTeller;
+use crate::commands::recordings::record::RecordArgs;
 use crate::commands::views::view::{announce, bind};
+use crate::fault::Fault;
 use crate::view::RobotPages;
-use crate::watch::{Overwrite, seconds, stop};
-use anyhow::{Error, Result};
-use clap::Args;
-use std::path::PathBuf;
+use crate::watch::stop;
+use anyhow::{Error, Result, bail};
 use std::thread;
 use std::time::Duration;
 use taxel::mind::{MindRecord, MindRecordTeller, RecordedMind, RobotMind};
-use taxel::robot::{BoardEvent, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
+use taxel::robot::{BoardEvent, ReadRobot, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
 use taxel::source::SourceOptions;
 
 /// Longest wait before the file is flushed.
@@ -23,36 +22,6 @@ const LOOK: Duration = Duration::from_millis(100);
 const GATHER: Duration = Duration::from_millis(40);
 /// Time in which events gather once all are taken: of many boards, each would wake this thread.
 const REST: Duration = Duration::from_millis(5);
-
-/// Arguments of `taxel robot record`.
-#[derive(Debug, Clone, Args)]
-pub struct RobotRecordArgs {
-    /// The robot.
-    #[command(flatten)]
-    robot: RobotFileArgs,
-    /// File to write (.mcap)
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
-    /// Stop after S seconds of each board's time; a board that is missing is then waited for 10 s [default: a
-    /// simulated scene is played once; boards are recorded until Ctrl-C]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
-    seconds: Option<f64>,
-    /// Whether an existing output is replaced.
-    #[command(flatten)]
-    force: Overwrite,
-    /// Pace simulations to real time
-    #[arg(long)]
-    realtime: bool,
-    /// Show all boards in the browser meanwhile, as `taxel robot view` does
-    #[arg(long)]
-    view: bool,
-    /// With --view: port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
-    #[arg(long, value_name = "N", requires = "view")]
-    port: Option<u16>,
-    /// With --view: open the page in the browser
-    #[arg(long, requires = "view")]
-    open: bool,
-}
 
 /// What becomes of a robot's events.
 struct Recording<'a> {
@@ -64,26 +33,37 @@ struct Recording<'a> {
 }
 
 /// Runs the command. Error if a board cannot be followed, once all are over: the others are recorded.
-pub fn run(args: &RobotRecordArgs) -> Result<()> {
-    let robot = args.robot.read()?;
-    let mut requests = args.robot.requests()?;
+pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
+    let of_one =
+        [("--frames", args.frames.is_some()), ("--rotate", args.rotate.is_some()), ("--ros2", args.ros2)];
+    if let Some((option, _)) = of_one.into_iter().find(|(_, is_there)| *is_there) {
+        let file = &robot.file;
+        bail!(Fault::usage(format!(
+            "{option} is for a board, {file} is a robot's file: name one, {file}#BOARD"
+        )));
+    }
+    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
     let is_minded = robot.is_at_one_time(args.realtime);
-    let mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
-    let view = args.view.then(|| anyhow::Ok((bind(args.port)?, pages(&robot)?))).transpose()?;
+    let mind = is_minded.then(|| RobotMind::new(robot)).transpose()?;
+    let view = args.view.then(|| anyhow::Ok((bind(args.port)?, pages(robot)?))).transpose()?;
     stop::catch()?;
-    let mut recorder = RobotRecorder::create(&robot, &args.output, args.force.into())?;
+    let mut recorder = RobotRecorder::create(robot, &args.output, args.force.into())?;
     let mind = mind.map(|mind| RecordedMind::begin(mind, &mut recorder)).transpose()?;
     let pages = view.map(|(port, pages)| {
         announce(&format!("robot {}", robot.name), port, pages.hubs(), args.open).map(|()| pages)
     });
     let mut recording = Recording { recorder, mind, pages: pages.transpose()? };
-    let options =
-        SourceOptions { realtime: args.realtime, seconds: args.seconds, ..SourceOptions::default() };
+    let options = SourceOptions {
+        seed: args.board.seed,
+        realtime: args.realtime,
+        seconds: args.seconds,
+        ..SourceOptions::default()
+    };
     let mut plans = robot.plans(&options, limit(args.seconds), |number| -> Box<dyn Teller<MindRecord>> {
         let records = recording.recorder.teller(number);
-        let records = MindRecordTeller::new(&robot, number, records);
+        let records = MindRecordTeller::new(robot, number, records);
         match &recording.pages {
-            Some(pages) => Box::new(ViewedTeller::new(&robot, number, records, pages.hub(number))),
+            Some(pages) => Box::new(ViewedTeller::new(robot, number, records, pages.hub(number))),
             None => Box::new(records),
         }
     });

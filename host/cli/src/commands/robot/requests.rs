@@ -27,8 +27,12 @@ pub struct RequestLines {
 }
 
 impl RequestLines {
-    /// Reads a file, or `-`, the standard input.
-    pub fn open(path: &Path) -> Result<RequestLines> {
+    /// Reads a file, or `-`, the standard input, if one is named.
+    pub fn of(path: Option<&Path>) -> Result<Option<RequestLines>> {
+        path.map(RequestLines::open).transpose()
+    }
+
+    fn open(path: &Path) -> Result<RequestLines> {
         let (name, input): (_, Box<dyn Read + Send>) = match path.as_os_str() == "-" {
             true => ("standard input".into(), Box::new(stdin())),
             false => {

@@ -1,14 +1,13 @@
-//! `taxel robot ros2`: a node for each board, and one for the robot.
+//! `taxel ros2` of a robot: a node for each board, and one for the robot.
 
-use super::args::RobotFileArgs;
 use super::live::{failed, limit};
+use super::requests::RequestLines;
 use super::shown::ShownTeller;
-use crate::commands::views::ros2::RosNodeArgs;
+use crate::commands::views::ros2::Ros2Args;
 use crate::fault::Fault;
 use crate::ros2::{RobotNode, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::{seconds, stop};
+use crate::watch::stop;
 use anyhow::{Context, Result, ensure};
-use clap::Args;
 use std::time::Duration;
 use taxel::body;
 use taxel::mind::BoardSense;
@@ -19,34 +18,23 @@ use taxel::source::{Source, SourceOptions};
 /// Longest wait before Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Arguments of `taxel robot ros2`.
-#[derive(Debug, Clone, Args)]
-pub struct RobotRos2Args {
-    /// The robot.
-    #[command(flatten)]
-    robot: RobotFileArgs,
-    /// The nodes.
-    #[command(flatten)]
-    node: RosNodeArgs,
-    /// Stop after S seconds of each board's time; a board that is missing is then waited for 10 s [default:
-    /// never; simulated scenes are repeated]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
-    seconds: Option<f64>,
-}
-
 /// Runs the command. Error if a board cannot be followed, once all are over.
-pub fn run(args: &RobotRos2Args) -> Result<()> {
+pub fn run(args: &Ros2Args, robot: &ReadRobot) -> Result<()> {
     let place = args.node.place()?;
-    let robot = args.robot.read()?;
-    check_names(&robot)?;
-    let mut requests = args.robot.requests()?;
-    let options =
-        SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
+    check_names(robot)?;
+    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
+    let options = SourceOptions {
+        seed: args.board.seed,
+        realtime: true,
+        repeat: true,
+        seconds: args.seconds,
+        ..SourceOptions::default()
+    };
     let image_hz = args.node.image_hz;
     let open = |place: RosPlace, source: String| RosNode::open(place, &RosParameters { source, image_hz });
     let at =
         format!("robot {} as node {} in domain {}", robot.name, place.absolute(&place.name), place.domain);
-    let mut node = RobotNode::open(open(place.clone(), robot.file.clone())?, &robot)?;
+    let mut node = RobotNode::open(open(place.clone(), robot.file.clone())?, robot)?;
     // One after the other: of nodes that join the network in the same moment, one may stay unknown to others.
     let boards = robot.boards.iter();
     let nodes = boards.map(|board| open(place.of_board(&board.name), board.source.to_string()));
@@ -54,7 +42,7 @@ pub fn run(args: &RobotRos2Args) -> Result<()> {
     let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let (mut node, body) = (nodes[number].take(), robot.boards[number].body.clone());
         let open = move |source: &Source| shown(node.take(), source, body.as_deref());
-        Box::new(ShownTeller::new(&robot, number, open))
+        Box::new(ShownTeller::new(robot, number, open))
     };
     let plans = robot.plans(&options, limit(args.seconds), teller);
     // The nodes leave the network before the program ends.

@@ -1,14 +1,13 @@
-//! `taxel robot view`: all boards in the browser.
+//! `taxel view` of a robot: all boards in the browser.
 
-use super::args::RobotFileArgs;
 use super::live::{failed, limit};
+use super::requests::RequestLines;
 use super::shown::ShownTeller;
-use crate::commands::views::view::{announce, bind};
+use crate::commands::views::view::{ViewArgs, announce, bind};
+use crate::fault::Fault;
 use crate::on_robot::Wearer;
 use crate::view::{PageHub, RobotPages, Tape, Viewer};
-use crate::watch::seconds;
-use anyhow::Result;
-use clap::Args;
+use anyhow::{Result, bail};
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
@@ -21,36 +20,26 @@ use taxel::source::{Source, SourceOptions};
 /// Longest wait before pages are told what is new.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Arguments of `taxel robot view`.
-#[derive(Debug, Clone, Args)]
-pub struct RobotViewArgs {
-    /// The robot.
-    #[command(flatten)]
-    robot: RobotFileArgs,
-    /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
-    #[arg(long, value_name = "N")]
-    port: Option<u16>,
-    /// Open the page in the browser
-    #[arg(long)]
-    open: bool,
-    /// Stop after S seconds of each board's time [default: go on until Ctrl-C]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
-    seconds: Option<f64>,
-}
-
 /// Runs the command. Error if a board cannot be followed, once all are over.
-pub fn run(args: &RobotViewArgs) -> Result<()> {
-    let robot = args.robot.read()?;
-    let mut requests = args.robot.requests()?;
-    let mut mind = RobotMind::new(&robot)?;
-    let mut pages = pages(&robot)?;
+pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
+    if args.joints.is_some() {
+        bail!(Fault::usage("--joints is for a board: --requests tells a robot's joints"));
+    }
+    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
+    let mut mind = RobotMind::new(robot)?;
+    let mut pages = pages(robot)?;
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
-    let options =
-        SourceOptions { realtime: true, repeat: true, seconds: args.seconds, ..SourceOptions::default() };
+    let options = SourceOptions {
+        seed: args.board.seed,
+        realtime: true,
+        repeat: true,
+        seconds: args.seconds,
+        ..SourceOptions::default()
+    };
     let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
         let open = move |source: &Source| Ok(viewer(source, &hub, calibration.clone()));
-        Box::new(ShownTeller::new(&robot, number, open))
+        Box::new(ShownTeller::new(robot, number, open))
     };
     let plans = robot.plans(&options, limit(args.seconds), teller);
     let mut session = RobotSession::start(plans, WhenFull::DropImages)?;

@@ -1,10 +1,10 @@
-//! `taxel robot why`: explains what touches mean to the robot, down to the contacts of its boards.
+//! `taxel fcm why` of a robot: explains what touches mean to the robot, down to the contacts of its boards.
 
-use super::args::RobotFileArgs;
 use super::live::failed;
-use crate::watch::{seconds, stop};
+use super::requests::RequestLines;
+use crate::commands::maps::why::WhyArgs;
+use crate::watch::stop;
 use anyhow::{Result, bail};
-use clap::Args;
 use std::time::Duration;
 use taxel::client::{Client, Event};
 use taxel::mind::{BoardSense, MindReader, RobotMeaning, RobotMind, RobotReasons};
@@ -16,43 +16,22 @@ use taxel_core::intent::Leading;
 /// Longest wait before the requests are read again.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Arguments of `taxel robot why`.
-#[derive(Debug, Clone, Args)]
-pub struct RobotWhyArgs {
-    /// The robot.
-    #[command(flatten)]
-    robot: RobotFileArgs,
-    /// Explain the state S seconds after the begin, announced or not [default: the first announced intention]
-    #[arg(long, value_name = "S", value_parser = seconds)]
-    at: Option<f64>,
-    /// Concept to explain [default: the announced or the strongest intention]
-    #[arg(long)]
-    of: Option<String>,
-    /// Paths to list, of each map
-    #[arg(long, default_value_t = 6)]
-    paths: usize,
-    /// Print JSON instead of a table; it has all paths
-    #[arg(long)]
-    json: bool,
-}
-
 /// Runs the command: simulations are played at real time. Error if no intention is announced.
-pub fn run(args: &RobotWhyArgs) -> Result<()> {
-    let robot = args.robot.read()?;
-    let mind = RobotMind::new(&robot)?;
-    let (mind, seconds) = listen(args, &robot, mind)?;
-    let reasons = RobotReasons::of(&mind, seconds, args.of.as_deref(), &robot)?;
+pub fn run(args: &WhyArgs, robot: &ReadRobot) -> Result<()> {
+    let mind = RobotMind::new(robot)?;
+    let (mind, seconds) = listen(args, robot, mind)?;
+    let reasons = RobotReasons::of(&mind, seconds, args.of.as_deref(), robot)?;
     match args.json {
-        true => println!("{}", reasons.json(&robot)),
-        false => print!("{}", reasons.text(&robot, args.paths)),
+        true => println!("{}", reasons.json(robot)),
+        false => print!("{}", reasons.text(robot, args.paths)),
     }
     Ok(())
 }
 
 /// Follows the boards until the moment that is to be explained. Returns the mind then, and the time since the
 /// begin, s.
-fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result<(RobotMind, f64)> {
-    let mut requests = args.robot.requests()?;
+fn listen(args: &WhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result<(RobotMind, f64)> {
+    let mut requests = RequestLines::of(args.told.requests.as_deref())?;
     let options = SourceOptions { realtime: true, ..SourceOptions::default() };
     let plans = robot.plans(&options, None, |number| {
         let mut reader = MindReader::new(robot, number);
@@ -61,14 +40,14 @@ fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result
     let mut session: RobotSession<BoardSense> = RobotSession::start(plans, WhenFull::DropImages)?;
     let begun_us = session.now_us();
     let since = |now_us: u64| now_us.saturating_sub(begun_us) as f64 / 1e6;
-    let is_found = |meaning: &RobotMeaning| args.at.is_none() && meaning.leading != Leading::None;
+    let is_found = |meaning: &RobotMeaning| args.told.at.is_none() && meaning.leading != Leading::None;
     while !session.is_over() && !stop::asked() {
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(&mut mind)));
         let now_us = session.now_us();
         if told.iter().filter_map(|told| told.news.as_ref()).any(is_found) {
             return Ok((mind, since(now_us)));
         }
-        if args.at.is_some_and(|at| since(now_us) >= at) {
+        if args.told.at.is_some_and(|at| since(now_us) >= at) {
             return Ok((mind, since(now_us)));
         }
         let Some(event) = session.wait(LOOK) else { continue };
@@ -77,7 +56,7 @@ fn listen(args: &RobotWhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result
         }
         failed(&robot.boards[event.board].name, event.what)?;
     }
-    match args.at {
+    match args.told.at {
         None => bail!("{}: no intention was announced; --at S explains the state at that time", robot.file),
         Some(at) => bail!("{}: its boards were over before {at} s", robot.file),
     }

@@ -25,10 +25,6 @@ const REFERENCE: &str = "reference";
 /// Arguments of `taxel view`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ViewArgs {
-    /// Recording (.mcap, of a robot .mcap#BOARD) to open in the page instead of a board: `--source replay:FILE`
-    /// is the same
-    #[arg(conflicts_with = "source")]
-    pub file: Option<BoardRecording>,
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
@@ -42,14 +38,16 @@ pub struct ViewArgs {
     /// Open the page in the browser
     #[arg(long)]
     pub open: bool,
+    /// Stop after S seconds of the board's time [default: go on until Ctrl-C]
+    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
+    pub seconds: Option<f64>,
 }
 
 impl ViewArgs {
     /// Recording to show, and its speed; none for a board.
     fn recording(&self) -> Option<(BoardRecording, f64)> {
-        match (&self.file, self.board.source()) {
-            (Some(file), _) => Some((file.clone(), 1.0)),
-            (None, SourceSpec::Replay { recording, speed }) => {
+        match self.board.source() {
+            SourceSpec::Replay { recording, speed } => {
                 let times = match speed {
                     Speed::AsAsked => 1.0,
                     Speed::Times(times) => times,
@@ -81,7 +79,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let wearer = args.wearer()?;
     let listener = bind(args.port)?;
     // Who came to press is not disturbed, unless a script was asked for.
-    let waits = args.board.config.source.is_none();
+    let waits = args.board.named().is_none();
     let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
     let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
@@ -100,7 +98,11 @@ pub fn run(args: ViewArgs) -> Result<()> {
     if !source.listens {
         (board.config.body, board.robot) = (None, None);
     }
-    watch::watch(&LiveArgs { body_may_fail: true, ..LiveArgs::on(board) }, source, &mut viewer)?;
+    let live = LiveArgs { body_may_fail: true, seconds: args.seconds, ..LiveArgs::on(board) };
+    watch::watch(&live, source, &mut viewer)?;
+    if args.seconds.is_some() {
+        return Ok(());
+    }
     println!("Stream ended; showing the last frame (Ctrl-C ends).");
     loop {
         thread::park();

@@ -42,8 +42,8 @@ const LOOPS: &[Row] = &[
     ("record -o a.mcap --source {}", (GONE, GoesOn), (REFUSED, Ends(0.0))),
     ("health --frames 1000000 --source {}", (LIMITED, Ends(10.0)), (REFUSED, Ends(0.0))),
     ("calibrate -o a.toml --source {}", (RAW, Ends(5.0)), (REFUSED, Ends(0.0))),
-    ("robot live robot.toml --json", ("\"state\":\"lost\"", GoesOn), ("\"state\":\"other\"", GoesOn)),
-    ("robot record robot.toml -o a.mcap", ("board hand: {} is gone: ", GoesOn), (OTHER, GoesOn)),
+    ("live robot.toml --json", ("\"state\":\"lost\"", GoesOn), ("\"state\":\"other\"", GoesOn)),
+    ("record robot.toml -o a.mcap", ("board hand: {} is gone: ", GoesOn), (OTHER, GoesOn)),
     #[cfg(feature = "ros2")]
     ("ros2 --domain 228 --source {}", (GONE, GoesOn), (REFUSED, Ends(0.0))),
     #[cfg(feature = "foxglove")]

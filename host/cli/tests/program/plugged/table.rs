@@ -18,7 +18,7 @@ const LOOPS: &[&str] = &[
     "doctor",
     "calibrate -o {}/a.toml",
     "setup",
-    "robot doctor {}/robot.toml",
+    "doctor {}/robot.toml",
     #[cfg(feature = "ros2")]
     "ros2 --domain 229",
     #[cfg(feature = "foxglove")]

@@ -4,18 +4,22 @@ use super::facts::Facts;
 use super::finding::{Finding, Grade};
 use super::judge::judge;
 use crate::fault::Fault;
-use crate::watch::{self, LiveArgs};
+use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
 use taxel::client::Buses;
 use taxel::error::{ErrorKind, SourceError};
-use taxel::source::{self, Source, SourceOptions, SourceSpec};
+use taxel::robot::ReadRobot;
+use taxel::source::{Source, SourceOptions, SourceSpec};
 use taxel::tell::date;
 
 /// Arguments of `taxel doctor`.
 #[derive(Debug, Clone, Args)]
 pub struct DoctorArgs {
+    /// The same as --source, or a robot's file (.toml): all its boards
+    #[arg(value_name = "SOURCE", conflicts_with = "source")]
+    pub place: Option<SourceSpec>,
     /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
@@ -27,14 +31,31 @@ pub struct DoctorArgs {
     pub json: bool,
 }
 
+impl DoctorArgs {
+    /// The robot whose boards are all meant; none for a board.
+    pub fn robot(&self) -> Result<Option<ReadRobot>> {
+        let ok = self.seconds.is_finite() && self.seconds > 0.0;
+        ensure!(ok, Fault::usage("--seconds must be a time above 0"));
+        let SourceSpec::Robot { file, board: None } = self.source() else { return Ok(None) };
+        Ok(Some(ReadRobot::read(file)?))
+    }
+
+    /// The source.
+    fn source(&self) -> &SourceSpec {
+        self.place.as_ref().unwrap_or(&self.source)
+    }
+}
+
 /// Runs the command. Error if the board does not work.
 pub fn run(args: &DoctorArgs) -> Result<()> {
-    ensure!(args.seconds.is_finite() && args.seconds > 0.0, Fault::usage("--seconds must be a time above 0"));
+    let spec = args.source();
     let options = SourceOptions { seconds: Some(args.seconds), ..SourceOptions::default() };
-    let source = source::open(&args.source, &options)
+    let source = BoardArgs::of(spec.clone())
+        .read()?
+        .open_any(&options)
         .context("no link (`taxel ports` lists what is plugged in; docs/troubleshooting.md says more)")?;
     let label = source.label.clone();
-    let Examined { found, heard, .. } = examine(&args.source, source, args.seconds, Buses::default());
+    let Examined { found, heard, .. } = examine(spec, source, args.seconds, Buses::default());
     let worst = worst(&found);
     if args.json {
         println!("{}", json!({ "type": "doctor", "source": label, "verdict": worst, "findings": found }));

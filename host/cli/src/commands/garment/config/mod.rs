@@ -5,6 +5,7 @@ mod scene;
 
 pub use check::check;
 
+use crate::commands::robot;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
@@ -73,12 +74,17 @@ enum What {
         #[command(flatten)]
         force: Overwrite,
     },
-    /// Check a garment file, and a scene file with it; errors name line and key
-    #[command(after_help = "Example:\n  taxel config check mine.toml --scene scene.toml")]
+    /// Check a garment file, and a scene file with it, or a robot's file; errors name line and key
+    #[command(
+        after_help = "Examples:\n  taxel config check mine.toml --scene scene.toml\n  taxel config check robot.toml"
+    )]
     Check {
-        /// The garment: a TOML file or a preset
-        #[arg(value_name = "GARMENT")]
-        garment: String,
+        /// The garment: a TOML file or a preset; or a robot's file, whose boards are listed
+        #[arg(value_name = "FILE")]
+        file: String,
+        /// Of a robot's file: print JSON instead of tables
+        #[arg(long)]
+        json: bool,
         /// A scene for this garment
         #[arg(long, value_name = "FILE")]
         scene: Option<PathBuf>,
@@ -108,8 +114,9 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
             let output = Output::file(file, *force, none)?;
             begin(output, (*force).into(), FileKind::Scene, &(comment + &scene::text()?))
         }
-        What::Check { garment, scene } => {
-            println!("{}", check(garment, scene.as_deref())?);
+        What::Check { file, json, .. } if is_robot(file) => robot::check::run(Path::new(file), *json),
+        What::Check { file, scene, .. } => {
+            println!("{}", check(file, scene.as_deref())?);
             Ok(())
         }
         What::Schema { of } => {
@@ -117,6 +124,11 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
             Ok(())
         }
     }
+}
+
+/// True if the file lists the boards of a robot.
+fn is_robot(file: &str) -> bool {
+    input::text(Path::new(file)).is_ok_and(|text| text.contains("[[boards]]"))
 }
 
 /// A file's text without the first line that names its schema; a new file gets such a line of its own.
