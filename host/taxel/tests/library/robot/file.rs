@@ -89,7 +89,7 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "sim:pat",
         "sum:pat",
-        "robot.toml, line 6, `source`: there is no source \"sum:pat\": known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED] (board torso)",
+        "robot.toml, line 6, `source`: there is no source \"sum:pat\": did you mean sim:pat? known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED], and the path of a port, of a recording (.mcap) or of a robot's file (.toml[#BOARD]) (board torso)",
     ),
     (
         "sim:pat",
