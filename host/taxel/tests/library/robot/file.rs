@@ -109,12 +109,12 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "source = \"sim:pat\"",
         "source = \"replay:a.mcap\"",
-        "robot.toml, line 8, `boards[0].body`: board torso: replay:a.mcap is a recording, whose board does not listen",
+        "robot.toml, line 8, `boards[0].body`: board torso: replay:./a.mcap is a recording, whose board does not listen",
     ),
     (
         "tcp:localhost:4000\"",
         "replay:a.mcap\"",
-        "robot.toml, line 15, `boards[1].tare`: board arm: replay:a.mcap is a recording, whose board does not listen",
+        "robot.toml, line 15, `boards[1].tare`: board arm: replay:./a.mcap is a recording, whose board does not listen",
     ),
     (
         "garment = \"block-4x16\"",
@@ -169,7 +169,7 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "tare = 32\n",
         "tare = 32\n\n[[seams]]\nlength = 16\n",
-        "robot.toml, line 17: `seams` is not a known key: `name`, `urdf`, `maps`, `boards`",
+        "robot.toml, line 17: `seams` is not a known key: `name`, `urdf`, `poses`, `motion`, `maps`, `boards`",
     ),
 ];
 
