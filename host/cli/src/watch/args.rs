@@ -44,8 +44,8 @@ pub struct BoardArgs {
     /// Seed of the simulation
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Ask the boards of a robot's file while they are followed, by lines: tare [BOARD] [N], scene [BOARD] FILE,
-    /// self-test [BOARD], told NAME VALUE [AGE_MS]; - is the standard input
+    /// Ask the boards of a robot's file while they are followed, by lines: `tare [BOARD] [N]`, `scene [BOARD] FILE`,
+    /// `self-test [BOARD]`, `told NAME VALUE [AGE_MS]`; - is the standard input
     #[arg(long, value_name = "FILE")]
     pub requests: Option<PathBuf>,
 }

@@ -189,6 +189,12 @@ fn what_a_page_presses_is_felt_and_its_file_plays_the_same_to_the_last_bit() {
     drop(page);
     let mut page = view.page();
     page.read(1_000);
+    // A busy machine may take longer.
+    for _ in 0..20 {
+        if !page.contacts().is_empty() {
+            page.read(500);
+        }
+    }
     assert!(page.contacts().is_empty(), "{}", page.image);
 }
 
