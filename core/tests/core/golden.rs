@@ -1,7 +1,7 @@
 //! The bytes of every message, frozen: a changed byte is a changed wire.
 //!
-//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new message adds a line, a new field
-//! bytes at the end of one.
+//! `golden/wire.txt` holds a line for each: its name, then postcard in hex. A new message adds a line, a new
+//! field bytes at the end of one.
 
 use heapless::Vec;
 use std::fmt::Write;

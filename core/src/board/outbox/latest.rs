@@ -12,11 +12,11 @@ const NUMBERS: usize = 4;
 
 /// The bodies of reports that wait, with their numbers.
 pub(super) struct Latest {
-    bodies: [Option<(u32, Body)>; NUMBERS],
+    bodies: [Option<(u32, NotedBody)>; NUMBERS],
 }
 
 /// The fields of a report as they are written.
-pub(super) struct Body(Vec<u8, LONGEST>);
+pub(super) struct NotedBody(Vec<u8, LONGEST>);
 
 impl Latest {
     pub const fn new() -> Latest {
@@ -42,13 +42,13 @@ impl Latest {
         // There are as many places as reports that are kept here, and each has room.
         let Some(body) = written.and_then(|bytes| Vec::from_slice(bytes).ok()) else { return };
         if let Some(place) = self.bodies.iter_mut().find(|place| place.is_none()) {
-            *place = Some((number, Body(body)));
+            *place = Some((number, NotedBody(body)));
         }
     }
 
     /// Takes the report of this number.
-    pub fn take(&mut self, number: u32) -> Option<Body> {
-        let waits = |place: &mut Option<(u32, Body)>| place.take_if(|(waits, _)| *waits == number);
+    pub fn take(&mut self, number: u32) -> Option<NotedBody> {
+        let waits = |place: &mut Option<(u32, NotedBody)>| place.take_if(|(waits, _)| *waits == number);
         self.bodies.iter_mut().find_map(waits).map(|(_, body)| body)
     }
 
@@ -58,7 +58,7 @@ impl Latest {
     }
 }
 
-impl Serialize for Body {
+impl Serialize for NotedBody {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = serializer.serialize_tuple(self.0.len())?;
         for byte in &self.0 {

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use taxel::body::posture::Motion;
 use taxel::robot::{BoardConfig, ConfigPlace, ReadRobot, RobotBoard, read_board};
 use taxel::session::{POSES, POSES_HZ, Posing};
-use taxel::source::SourceSpec;
+use taxel::source::{SourceOptions, SourceSpec};
 
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Default, Args)]
@@ -85,6 +85,12 @@ impl BoardArgs {
         let requests = self.requests.iter().filter(|path| path.as_os_str() != "-");
         robot.inputs.extend(requests.map(|path| path.display().to_string()));
         Ok(Some(robot))
+    }
+
+    /// Options of sources that are shown or offered: simulations take their time, and are repeated.
+    pub fn at_real_time(&self, seconds: Option<f64>) -> SourceOptions {
+        let seed = self.seed;
+        SourceOptions { seed, realtime: true, repeat: true, seconds, ..SourceOptions::default() }
     }
 
     /// The source that was named; none for the board that is plugged in.

@@ -13,7 +13,7 @@ use taxel::body;
 use taxel::mind::BoardSense;
 use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
 use taxel::ros2::topic_part;
-use taxel::source::{Source, SourceOptions};
+use taxel::source::Source;
 
 /// Longest wait before Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
@@ -23,13 +23,7 @@ pub fn run(args: &Ros2Args, robot: &ReadRobot) -> Result<()> {
     let place = args.node.place()?;
     check_names(robot)?;
     let mut requests = RequestLines::of(args.board.requests.as_deref())?;
-    let options = SourceOptions {
-        seed: args.board.seed,
-        realtime: true,
-        repeat: true,
-        seconds: args.seconds,
-        ..SourceOptions::default()
-    };
+    let options = args.board.at_real_time(args.seconds);
     let image_hz = args.node.image_hz;
     let open = |place: RosPlace, source: String| RosNode::open(place, &RosParameters { source, image_hz });
     let at =

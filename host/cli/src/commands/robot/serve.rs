@@ -12,7 +12,7 @@ use taxel::mind::BoardSense;
 use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
 use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
-use taxel::source::{Source, SourceOptions};
+use taxel::source::Source;
 
 /// Longest wait before Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
@@ -27,13 +27,7 @@ pub fn run(args: &ServeArgs, robot: &ReadRobot) -> Result<()> {
     let offers: Result<Vec<_>, _> =
         places.iter().map(|place| BoardOffer::open(&network, place).map(Some)).collect();
     let mut offers = offers?;
-    let options = SourceOptions {
-        seed: args.board.seed,
-        realtime: true,
-        repeat: true,
-        seconds: args.seconds,
-        ..SourceOptions::default()
-    };
+    let options = args.board.at_real_time(args.seconds);
     let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let mut offer = offers[number].take();
         let open = move |_: &Source| offer.take().context("the board is offered already");

@@ -15,7 +15,7 @@ use taxel::files::calibrate::Calibration;
 use taxel::mind::{BoardSense, RobotMind};
 use taxel::record::Origin;
 use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
-use taxel::source::{Source, SourceOptions};
+use taxel::source::Source;
 
 /// Longest wait before pages are told what is new.
 const LOOK: Duration = Duration::from_millis(50);
@@ -29,13 +29,7 @@ pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
     let mut mind = RobotMind::new(robot)?;
     let mut pages = pages(robot)?;
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
-    let options = SourceOptions {
-        seed: args.board.seed,
-        realtime: true,
-        repeat: true,
-        seconds: args.seconds,
-        ..SourceOptions::default()
-    };
+    let options = args.board.at_real_time(args.seconds);
     let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
         let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
         let open = move |source: &Source| Ok(viewer(source, &hub, calibration.clone()));
