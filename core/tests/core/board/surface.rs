@@ -78,8 +78,8 @@ fn poses(at: Option<u64>, link: LinkPose) -> Vec<u8> {
     postcard::to_allocvec(&poses).unwrap()
 }
 
-/// With another rate what was told is told anew: an end that waited for the link is not dropped, and without a rate
-/// nothing presses any more.
+/// With another rate what was told is told anew: an end that waited for the link is not dropped, and without a
+/// rate nothing presses any more.
 #[test]
 fn the_end_of_a_press_is_told_when_the_rate_changes() {
     for (still, hz) in [(0, u16::MAX), (0, 20), (1000, 0)] {
