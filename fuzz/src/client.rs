@@ -6,9 +6,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use std::io;
 use std::sync::Arc;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamps};
 use taxel::json::MessagePrinter;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{Port, Source};
 use taxel_cli::terminal::{Lines, View};
 use taxel_cli::view::{PageHub, Viewer};
@@ -49,7 +49,8 @@ impl Port for Silent {
 /// A client, and who looks at it.
 struct Told {
     client: Client,
-    shows: [Box<dyn Show<taxel_cli::Error>>; 3],
+    observers: Vec<Box<dyn Observer>>,
+    stamps: Stamps,
     picture: View,
     seq: u32,
     /// Number and values of the last image.
@@ -63,13 +64,16 @@ impl Told {
         let mut client = Client::new();
         // A request of a byte fits.
         let _ = client.start(0);
+        let mut observers: Vec<Box<dyn Observer>> = vec![
+            Box::new(Viewer::new(Arc::new(PageHub::default()), None)),
+            Box::new(Lines::new(io::sink())),
+            Box::new(MessagePrinter::new(true, io::sink())),
+        ];
+        observers.opened(&source).expect("it can be shown");
         Told {
             client,
-            shows: [
-                Box::new(Viewer::new(&source, Arc::new(PageHub::default()))),
-                Box::new(Lines::new(&source, io::sink())),
-                Box::new(MessagePrinter::new(true, io::sink())),
-            ],
+            observers,
+            stamps: Stamps::start(),
             picture: View::new(&source),
             seq: 0,
             image: (0, Vec::new()),
@@ -92,7 +96,7 @@ impl Told {
             8 => self.time = self.time.wrapping_add(1 << (bytes.byte() % 64)),
             _ => _ = self.client.take_requests(),
         }
-        self.shows.iter_mut().for_each(|show| _ = show.idle(&mut self.client).expect("it can be shown"));
+        self.observers.idle(&mut self.client).expect("it can be shown");
     }
 
     /// Bytes come.
@@ -105,9 +109,8 @@ impl Told {
     }
 
     fn show(&mut self, event: &Event) {
-        for show in &mut self.shows {
-            show.event(&self.client, event).expect("it can be shown");
-        }
+        let stamp = self.stamps.of(&self.client, event);
+        self.observers.event(&self.client, event, stamp).expect("it can be shown");
         self.picture.event(&self.client, event);
     }
 

@@ -96,12 +96,27 @@ fn mark(error: &Error) -> Option<u8> {
     })
 }
 
-/// Whom the library blames.
+/// Whom the library blames, or an observer of the program's own.
 fn blamed(kind: &ErrorKind) -> Option<u8> {
     match kind {
         ErrorKind::Usage(_) => Some(2),
         ErrorKind::Source(error) if SourceError::blames_board(error) => Some(3),
+        ErrorKind::Other(error) => error.downcast_ref::<Fault>().map(|fault| fault.status),
         _ => None,
+    }
+}
+
+impl From<Fault> for ErrorKind {
+    fn from(fault: Fault) -> ErrorKind {
+        ErrorKind::Other(Box::new(fault))
+    }
+}
+
+/// The error of an observer of the program's own, as the library passes it on.
+pub fn own(error: Error) -> taxel::Error {
+    match error.chain().next().is_some_and(|outermost| outermost.is::<taxel::Error>()) {
+        true => error.downcast().unwrap_or_else(taxel::Error::other),
+        false => taxel::Error::other(error.reallocate_into_boxed_dyn_error_without_backtrace()),
     }
 }
 

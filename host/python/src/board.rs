@@ -2,7 +2,7 @@
 
 use crate::array;
 use crate::error::{raised, usage};
-use crate::event::{self, Fact, Teller};
+use crate::event::{self, Fact, FactReader};
 use crate::request;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -21,7 +21,7 @@ pub struct Board {
 
 struct Hand {
     board: Stepped,
-    teller: Teller,
+    reader: FactReader,
 }
 
 impl Board {
@@ -44,7 +44,7 @@ impl Board {
     #[pyo3(signature = (garment="reference", scene=None))]
     fn new(py: Python<'_>, garment: &str, scene: Option<&str>) -> PyResult<Board> {
         let board = py.detach(|| build(garment, scene)).map_err(raised)?;
-        Ok(Board { stepped: Mutex::new(Hand { board, teller: Teller::default() }) })
+        Ok(Board { stepped: Mutex::new(Hand { board, reader: FactReader::default() }) })
     }
 
     /// Number of taxels: the length of a scan.
@@ -64,9 +64,9 @@ impl Board {
         let codes = codes.as_slice().map_err(|_| usage("the codes must lie side by side"))?;
         let step = || {
             let mut facts: Vec<Fact> = Vec::new();
-            let Hand { board, teller } = &mut *self.lock();
+            let Hand { board, reader } = &mut *self.lock();
             board.step(codes, Micros(time_us), &mut |client, event| {
-                facts.push(teller.fact(client, event, time_us.saturating_mul(1000)));
+                facts.push(reader.fact(client, event, time_us.saturating_mul(1000)));
                 Ok(())
             })?;
             Ok::<_, taxel::Error>(facts)

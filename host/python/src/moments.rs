@@ -6,7 +6,7 @@ use crate::event::Fact;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::time::Duration;
-use taxel::record::Stamp;
+use taxel::client::Stamp;
 use taxel::robot::{BoardContact, BoardMoment, RobotMoments};
 
 /// Images and contacts of all boards, as long as they are kept.

@@ -1,7 +1,7 @@
 //! Recordings: contents, events in written order, and the messages of any topic.
 
 use crate::error::raised;
-use crate::event::{self, Fact, Teller};
+use crate::event::{self, Fact, FactReader};
 use crate::value;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -69,7 +69,7 @@ impl Range {
 pub struct RecordedEvents {
     kinds: Vec<String>,
     range: Range,
-    play: Mutex<(Play, Teller)>,
+    play: Mutex<(Play, FactReader)>,
 }
 
 #[pymethods]
@@ -80,7 +80,7 @@ impl RecordedEvents {
         let open = || recording.overview().and_then(|_| Play::open(&recording));
         let play = py.detach(open).map_err(raised)?;
         let range = Range { first, last };
-        Ok(RecordedEvents { kinds, range, play: Mutex::new((play, Teller::default())) })
+        Ok(RecordedEvents { kinds, range, play: Mutex::new((play, FactReader::default())) })
     }
 
     fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
@@ -95,12 +95,12 @@ impl RecordedEvents {
 
 impl RecordedEvents {
     fn next(&self) -> anyhow::Result<Option<Fact>> {
-        let (play, teller) = &mut *held(&self.play);
+        let (play, reader) = &mut *held(&self.play);
         while let Some((header, event)) = play.next_event()? {
             if self.range.is_past(header.log_time) {
                 return Ok(None);
             }
-            let fact = teller.fact(play.client(), &event, header.log_time);
+            let fact = reader.fact(play.client(), &event, header.log_time);
             let kind = fact.line["type"].as_str().unwrap_or_default();
             let is_wanted = self.kinds.is_empty() || self.kinds.iter().any(|wanted| wanted == kind);
             if is_wanted && self.range.has(header.log_time) {

@@ -1,7 +1,7 @@
 //! A robot of several boards: opened, iterated, asked by the names of its boards.
 
 use crate::error::{argument, raised};
-use crate::event::{self, Fact, Teller};
+use crate::event::{self, Fact, FactReader};
 use crate::moments::{KeptMoments, Moment};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -10,13 +10,13 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use taxel::client::{Client, Event};
+use taxel::client::Event;
 use taxel::mind::{BoardSense, MindReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
-use taxel::record::Stamp;
 use taxel::robot::{
-    BoardContact, BoardEvent, BoardLine, BoardOrder, ContactReader, ReadRobot, RobotEvent, RobotSession,
-    Teller as BoardTeller, WhenFull,
+    BoardContact, BoardEvent, BoardLine, BoardOrder, BoardState, ContactReader, ReadRobot, RobotEvent,
+    RobotStream, WhenFull,
 };
+use taxel::session::RunLimit;
 use taxel::source::{SceneFile, SourceOptions};
 
 /// Longest look for an event: between two, signals are handled.
@@ -33,7 +33,7 @@ pub struct Robot {
 
 struct OpenRobot {
     robot: ReadRobot,
-    session: RobotSession<BoardFact>,
+    session: RobotStream<BoardFact>,
     /// None unless all boards are at one time.
     mind: Option<RobotMind>,
     /// None if nothing is kept.
@@ -52,38 +52,6 @@ struct BoardFact {
     sense: Option<BoardSense>,
 }
 
-/// Makes facts of a board's events.
-struct FactTeller {
-    board: String,
-    teller: Teller,
-    /// None if nothing is kept.
-    contacts: Option<ContactReader>,
-    /// None unless all boards are at one time.
-    mind: Option<MindReader>,
-}
-
-impl FactTeller {
-    /// The fact with its board, and the one time of all boards.
-    fn named(&self, mut fact: Fact, stamp: Stamp) -> Fact {
-        fact.line["board"] = self.board.as_str().into();
-        stamp.mark(&mut fact.line);
-        Fact { host_ns: stamp.host_ns(), ..fact }
-    }
-}
-
-impl BoardTeller<BoardFact> for FactTeller {
-    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<Option<BoardFact>> {
-        // How the board is, the robot says.
-        if let Event::Lost { .. } | Event::Back { .. } = event {
-            return Ok(None);
-        }
-        let fact = self.teller.fact(client, event, stamp.host_ns());
-        let contacts = self.contacts.as_ref().and_then(|reader| reader.contacts(client, event));
-        let sense = self.mind.as_mut().and_then(|mind| mind.sense(client, event));
-        Ok(Some(BoardFact { fact: self.named(fact, stamp), contacts, sense }))
-    }
-}
-
 impl OpenRobot {
     /// Opens it; what its boards have said is kept for so long.
     fn open(path: PathBuf, options: &SourceOptions, keep: Duration) -> anyhow::Result<OpenRobot> {
@@ -91,17 +59,26 @@ impl OpenRobot {
         let is_minded = robot.is_at_one_time(options.realtime);
         let mind = is_minded.then(|| RobotMind::new(&robot)).transpose()?;
         let is_kept = !keep.is_zero();
-        let teller = |number: usize| -> Box<dyn BoardTeller<BoardFact>> {
-            let board = &robot.boards[number];
-            Box::new(FactTeller {
-                board: board.name.clone(),
-                teller: Teller::default(),
-                contacts: is_kept.then(|| ContactReader::new(board)),
-                mind: is_minded.then(|| MindReader::new(&robot, number)),
-            })
-        };
         let limit = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-        let session = RobotSession::start(robot.plans(options, limit, teller), WhenFull::DropImages)?;
+        let plans = robot.plans(options, &RunLimit::of(options.frames, limit));
+        let session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
+            let board = &robot.boards[number];
+            let (name, mut reader) = (board.name.clone(), FactReader::default());
+            let contacts = is_kept.then(|| ContactReader::new(board));
+            let mut mind = is_minded.then(|| MindReader::new(&robot, number));
+            queue.make(move |client, event, stamp| {
+                // How the board is, the robot says.
+                if let Event::Lost { .. } | Event::Back { .. } = event {
+                    return None;
+                }
+                let mut fact = reader.fact(client, event, stamp.host_ns());
+                fact.line["board"] = name.as_str().into();
+                stamp.mark(&mut fact.line);
+                let contacts = contacts.as_ref().and_then(|reader| reader.contacts(client, event));
+                let sense = mind.as_mut().and_then(|mind| mind.sense(client, event));
+                Some(BoardFact { fact, contacts, sense })
+            })
+        })?;
         let begun_us = session.now_us();
         let kept = is_kept.then(|| KeptMoments::new(robot.boards.len(), keep));
         Ok(OpenRobot { robot, session, mind, kept, begun_us, waiting: VecDeque::new() })
@@ -151,7 +128,8 @@ impl OpenRobot {
     fn take(&mut self, event: RobotEvent<BoardFact>) -> anyhow::Result<()> {
         let RobotEvent { board, stamp, what } = event;
         let host_us = stamp.host_us;
-        if let Some(line) = BoardLine::of(&self.robot.boards[board].name, host_us, &what) {
+        if let BoardEvent::State(state) = &what {
+            let line = BoardLine::of(&self.robot.boards[board].name, host_us, state);
             self.waiting.push_back(Fact::alone(serde_json::to_value(line)?, stamp.host_ns()));
         }
         if let Some(kept) = &mut self.kept {
@@ -159,12 +137,15 @@ impl OpenRobot {
                 BoardEvent::News(BoardFact { fact, contacts, .. }) => {
                     kept.take(board, stamp, fact, contacts.as_deref());
                 }
-                BoardEvent::Lost { .. } | BoardEvent::Failed(_) => kept.forget(board),
-                BoardEvent::Over => kept.end(board),
-                _ => {}
+                BoardEvent::State(BoardState::Lost { .. } | BoardState::Failed(_)) => kept.forget(board),
+                BoardEvent::State(BoardState::Over { .. }) => kept.end(board),
+                BoardEvent::State(_) => {}
             }
         }
-        let is_gone = matches!(what, BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_));
+        let is_gone = matches!(
+            what,
+            BoardEvent::State(BoardState::Lost { .. } | BoardState::Over { .. } | BoardState::Failed(_))
+        );
         let mut sense = None;
         if let BoardEvent::News(news) = what {
             self.waiting.push_back(news.fact);

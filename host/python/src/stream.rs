@@ -1,7 +1,7 @@
 //! A board's stream: opened, iterated, asked.
 
 use crate::error::{argument, blames_board, raised};
-use crate::event::{self, Fact, Teller};
+use crate::event::{self, Fact, FactReader};
 use crate::keywords::Keywords;
 use crate::request;
 use pyo3::exceptions::PyRuntimeWarning;
@@ -12,11 +12,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use taxel::body::posture::Motion;
+use taxel::client::Event;
 use taxel::client::clock::SteadyTime;
-use taxel::client::{Event, ImageNews};
 use taxel::error::SourceError;
 use taxel::robot::{BoardConfig, ConfigPlace, Required, read_board};
-use taxel::session::{JointTime, POSES_HZ, Posing, Returns, Session, TimeLimit, Turn};
+use taxel::session::{JointTime, POSES_HZ, Poll, Posing, Returns, RunLimit, Session};
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 use taxel_core::format::Micros;
@@ -35,11 +35,9 @@ pub struct Stream {
 /// A session and how long it is read.
 struct Open {
     session: Session,
-    teller: Teller,
+    reader: FactReader,
     clock: SteadyTime,
-    /// Images still awaited; none for no limit.
-    frames: Option<u64>,
-    limit: TimeLimit,
+    limit: RunLimit,
     /// What the board was asked at the start, and must accept.
     required: Required,
     over: bool,
@@ -55,43 +53,34 @@ enum Look {
 impl Open {
     fn look(&mut self) -> anyhow::Result<Look> {
         let now_ns = self.clock.now_us().saturating_mul(1000);
-        let event = if self.over { self.session.note() } else { self.session.next_event() };
-        if let Some(Event::Other { why }) = event {
-            // Who gathers images never gathers those of two boards.
-            self.over = true;
-            return Err(taxel::Error::from(SourceError::Other(why)).into());
-        }
-        if let Some(event) = event {
-            self.count(&event);
-            let refused = self.required.answered(&self.session.source().label, &event);
-            refused.map_err(taxel::Error::from)?;
-            return Ok(Look::Found(Box::new(self.teller.fact(self.session.client(), &event, now_ns))));
-        }
         if self.over {
-            return Ok(Look::End);
+            return Ok(self.session.note().map_or(Look::End, |note| self.found(&note, now_ns)));
         }
-        match self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))? {
-            Turn::Bytes | Turn::Waiting => {
-                self.over |= self.limit.look(&mut self.session);
-                if self.frames.is_some() {
-                    self.limit.check_images(&self.session).map_err(taxel::Error::from)?;
-                }
+        match self.session.poll()? {
+            Poll::Event(Event::Other { why }) => {
+                // Who gathers images never gathers those of two boards.
+                self.over = true;
+                Err(taxel::Error::from(SourceError::Other(why)).into())
+            }
+            Poll::Event(event) => {
+                self.over |= self.limit.take(&event);
+                let refused = self.required.answered(&self.session.source().label, &event);
+                refused.map_err(taxel::Error::from)?;
+                Ok(self.found(&event, now_ns))
+            }
+            Poll::Nothing => {
+                self.over |= self.limit.look(&mut self.session).map_err(taxel::Error::from)?;
                 Ok(Look::Nothing)
             }
-            Turn::End => {
+            Poll::End => {
                 self.over = true;
                 Ok(Look::End)
             }
         }
     }
 
-    /// Counts what is awaited: whole images, and the board's time by them.
-    fn count(&mut self, event: &Event) {
-        if let (Event::Frame { image: ImageNews::Whole, .. }, Some(frames)) = (event, &mut self.frames) {
-            *frames = frames.saturating_sub(1);
-            self.over |= *frames == 0;
-        }
-        self.over |= self.limit.take(event);
+    fn found(&mut self, event: &Event, now_ns: u64) -> Look {
+        Look::Found(Box::new(self.reader.fact(self.session.client(), event, now_ns)))
     }
 }
 
@@ -113,11 +102,11 @@ fn open(
     board.begin(client, source)?;
     let required = if source.listens { Required::of(client) } else { Required::default() };
     posing.into_iter().for_each(|posing| session.pose_by(posing));
-    let longest =
-        options.seconds.map_or(Duration::MAX, |seconds| Duration::from_micros((seconds * 1e6) as u64));
-    let (teller, clock, limit) = (Teller::default(), SteadyTime::start(), TimeLimit::of(longest));
+    let longest = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let (reader, clock, limit) =
+        (FactReader::default(), SteadyTime::start(), RunLimit::of(options.frames, longest));
     let over = options.frames == Some(0);
-    Ok(Open { session, teller, clock, frames: options.frames, limit, required, over })
+    Ok(Open { session, reader, clock, limit, required, over })
 }
 
 impl Stream {

@@ -33,6 +33,7 @@ mod picture;
 mod requests;
 mod restart;
 mod scene_change;
+mod stamps;
 mod syncs;
 mod time;
 mod wanted;
@@ -46,6 +47,7 @@ pub use identity::Identity;
 pub use known::leads;
 pub use requests::{request_name, scene_bytes};
 pub use scene_change::SceneChange;
+pub use stamps::{NS, Stamp, Stamps, time_of};
 pub use worn::{SIMULATED, Worn, is_simulated};
 
 use crate::client::growths::Growths;

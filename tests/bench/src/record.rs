@@ -6,9 +6,9 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use taxel::client::{Client, Event, ImageNews};
-use taxel::record::{Origin, Plan, Recorder};
-use taxel::session::Show;
+use taxel::client::{Client, Event, ImageNews, Stamp};
+use taxel::record::{Origin, Plan, PlannedBoard, Recorder};
+use taxel::session::Observer;
 use taxel::sim;
 use taxel::source::{self, SourceOptions, SourceSpec, Speed};
 use taxel_cli::watch::{LiveArgs, watch};
@@ -126,7 +126,7 @@ impl RecordCost {
 pub fn measure(folder: &Path) -> Result<RecordCost> {
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let file = |name: &str| folder.join(name);
-    play(SourceSpec::Sim(SCENE.into()), &mut recorder(file("scene.mcap"), false)?)?;
+    record(SourceSpec::Sim(SCENE.into()), file("scene.mcap"), false)?;
     let scene = SourceSpec::Replay { recording: file("scene.mcap").into(), speed: Speed::Max };
     let mut images = Images::default();
     play(scene.clone(), &mut images)?;
@@ -135,7 +135,7 @@ pub fn measure(folder: &Path) -> Result<RecordCost> {
     let replayed = each(&mut || play(scene.clone(), &mut Images::default()))?;
     let again = |name: &str, ros2| {
         let path = file(name);
-        let recorded = each(&mut || play(scene.clone(), &mut recorder(path.clone(), ros2)?))?;
+        let recorded = each(&mut || record(scene.clone(), path.clone(), ros2))?;
         // Without the time of reading; a negative difference is noise.
         let without = |all: f64, reading: f64| (all - reading).max(0.0);
         anyhow::Ok(Spent {
@@ -174,24 +174,26 @@ fn cpu_us() -> Option<f64> {
     text.split_whitespace().next()?.parse::<f64>().ok().map(|ns| ns / 1e3)
 }
 
-fn recorder(path: PathBuf, ros2: bool) -> Result<Recorder> {
+fn record(spec: SourceSpec, path: PathBuf, ros2: bool) -> Result<()> {
     let origin = Origin { label: format!("sim:{SCENE}"), counts_per_newton: Some(1000.0), calibration: None };
-    let inputs = Vec::new();
-    Ok(Recorder::create(Plan { path, rotate: None, ros2, force: true, inputs, origin, body: None })?)
+    let board = PlannedBoard { origin, ..PlannedBoard::default() };
+    let recorder = Recorder::create(Plan { ros2, force: true, ..Plan::of(path, board) })?;
+    play(spec, &mut recorder.board(0))?;
+    Ok(recorder.finish()?)
 }
 
-fn play(spec: SourceSpec, show: &mut dyn Show<anyhow::Error>) -> Result<()> {
+fn play(spec: SourceSpec, observer: &mut dyn Observer) -> Result<()> {
     let seconds = matches!(spec, SourceSpec::Sim(_)).then_some(SECONDS);
     let source = source::open(&spec, &SourceOptions { repeat: true, ..SourceOptions::default() })?;
-    watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, show)
+    watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, observer)
 }
 
 /// Time (us) and values of each image.
 #[derive(Debug, Default)]
 struct Images(Vec<(u64, Vec<u16>)>);
 
-impl Show<anyhow::Error> for Images {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Images {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if let (Event::Frame { time, image: ImageNews::Whole, .. }, Some((_, image))) =
             (event, client.image())
         {

@@ -3,11 +3,11 @@
 use super::hub::FoxgloveHub;
 use super::protocol;
 use super::subscriber::ChannelMessage;
-use anyhow::Result;
 use std::sync::Arc;
-use taxel::client::{Client, Event};
-use taxel::record::{self, Stamps};
-use taxel::session::Show;
+use taxel::Result;
+use taxel::client::{Client, Event, Stamp};
+use taxel::record;
+use taxel::session::Observer;
 
 /// Topic of images, the only one that is costly to encode; skipped if nobody subscribes.
 const LARGE: &str = "frames";
@@ -16,19 +16,17 @@ const LARGE: &str = "frames";
 #[derive(Debug)]
 pub struct Publisher {
     hub: Arc<FoxgloveHub>,
-    stamps: Stamps,
 }
 
 impl Publisher {
-    /// Starts now.
+    /// One that sends to these.
     pub fn new(hub: Arc<FoxgloveHub>) -> Publisher {
-        Publisher { hub, stamps: Stamps::start() }
+        Publisher { hub }
     }
 }
 
-impl Show<anyhow::Error> for Publisher {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
-        let stamp = self.stamps.of(client, event);
+impl Observer for Publisher {
+    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Some((topic, channel)) =
             record::topic(event).and_then(|topic| Some((topic, protocol::channel(topic)?)))
         else {

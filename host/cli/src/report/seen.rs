@@ -2,16 +2,16 @@
 
 use super::scale::PageUnit;
 use super::series::Series;
+use crate::fault::own;
 use crate::folding::{Folding, FoldingLine};
 use crate::on_robot::Wearer;
 use crate::watch::narrate::Narrator;
 use crate::watch::shape::shape;
-use anyhow::Result;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use taxel::client::{Client, Counts, Event, ImageNews, Worn};
+use taxel::client::{Client, Counts, Event, ImageNews, Stamp, Worn};
 use taxel::recording::Skipped;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel_core::body::Placed;
 use taxel_core::format::Micros;
 use taxel_core::garment::Area;
@@ -178,18 +178,18 @@ pub(super) fn of<'v>(area: &Area, values: &'v [u16]) -> &'v [u16] {
     values.get(start..start + usize::from(area.rows) * usize::from(area.columns)).unwrap_or(&[])
 }
 
-impl Show<anyhow::Error> for Seen {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Seen {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
                 self.worn = client.worn().cloned();
                 if let (Some(wearer), Some(worn)) = (&mut self.wearer, client.worn())
                     && !wearer.wears(worn)
                 {
-                    wearer.wear(worn)?;
+                    wearer.wear(worn).map_err(own)?;
                 }
                 if let (Some(folding), Some(worn)) = (&mut self.folding, client.worn()) {
-                    folding.wear(worn)?;
+                    folding.wear(worn).map_err(own)?;
                 }
                 self.concepts = client.concepts().iter().map(ToString::to_string).collect();
             }
@@ -215,12 +215,12 @@ impl Show<anyhow::Error> for Seen {
         Ok(())
     }
 
-    fn asked(&mut self, client: &Client, requests: &[u8]) -> Result<()> {
+    fn sent(&mut self, client: &Client, requests: &[u8], _: Stamp) -> taxel::Result<()> {
         self.folding.iter_mut().for_each(|folding| folding.asked(client, requests));
         Ok(())
     }
 
-    fn end(&mut self, client: &Client) -> Result<()> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         self.counts.clone_from(client.counts());
         Ok(())
     }

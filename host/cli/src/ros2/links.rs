@@ -15,15 +15,15 @@ use taxel_core::wire::{PressingReport, RegionsReport};
 pub struct Links {
     body: Option<ReadBody>,
     /// Counts per newton, if known.
-    per_newton: Option<f32>,
+    pub per_newton: Option<f32>,
     /// The body on this garment.
     worn: Option<(Garment, Arc<Surface>)>,
 }
 
 impl Links {
     /// Those of a body, if there is one.
-    pub fn new(body: Option<ReadBody>, per_newton: Option<f32>) -> Links {
-        Links { body, per_newton, worn: None }
+    pub fn new(body: Option<ReadBody>) -> Links {
+        Links { body, per_newton: None, worn: None }
     }
 
     /// The places of the taxels; none without a body, or before the board's garment is known.

@@ -28,8 +28,8 @@ pub struct Panels {
 
 impl Panels {
     /// None yet.
-    pub fn new(per_newton: Option<f32>) -> Panels {
-        Panels { per_newton, areas: Vec::new(), surface: None, due_us: 0 }
+    pub fn new() -> Panels {
+        Panels { per_newton: None, areas: Vec::new(), surface: None, due_us: 0 }
     }
 
     /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed. With

@@ -6,8 +6,8 @@ use anyhow::Result;
 use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
 use taxel::mind::{BoardSense, RobotMeaning, RobotMeaningLine, RobotMind, robot_intent_message};
-use taxel::robot::{BoardEvent, ReadRobot, RobotEvent, RobotSession};
-use taxel::ros2::messages::{self, BoardState};
+use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent, RobotStream};
+use taxel::ros2::messages::{self, DiagnosticState};
 use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_INTENT};
 use taxel::tell::words;
 
@@ -50,13 +50,15 @@ impl<'a> RobotNode<'a> {
     /// Handles an event of a board.
     pub fn event(&mut self, event: &RobotEvent<BoardSense>) -> Result<()> {
         let gone = match &event.what {
-            BoardEvent::News(_) | BoardEvent::Dropped { .. } => None,
-            BoardEvent::Met | BoardEvent::Back { .. } => Some(None),
-            BoardEvent::Absent { why } | BoardEvent::Lost { why, .. } | BoardEvent::Other { why } => {
-                Some(Some(why.clone()))
-            }
-            BoardEvent::Over => Some(Some("its stream has ended".into())),
-            BoardEvent::Failed(error) => Some(Some(words::sentence(error))),
+            BoardEvent::News(_) | BoardEvent::State(BoardState::Dropped { .. }) => None,
+            BoardEvent::State(state) => Some(match state {
+                BoardState::Absent { why } | BoardState::Lost { why, .. } | BoardState::Other { why } => {
+                    Some(why.clone())
+                }
+                BoardState::Over { .. } => Some("its stream has ended".into()),
+                BoardState::Failed(error) => Some(words::sentence(error)),
+                _ => None,
+            }),
         };
         if let Some(gone) = gone {
             if let Some(why) = &gone {
@@ -73,7 +75,7 @@ impl<'a> RobotNode<'a> {
 
     /// Tells mind and boards what has come, and the mind that time passes, if no board says anything. Publishes
     /// what touches mean then if that is news, and the diagnostics of boards that are not there, if they are due.
-    pub fn turn(&mut self, session: &RobotSession<BoardSense>, is_quiet: bool) -> Result<()> {
+    pub fn turn(&mut self, session: &RobotStream<BoardSense>, is_quiet: bool) -> Result<()> {
         let now_us = session.now_us();
         let mut news = self.taken.turn(&self.node, self.robot, &mut self.mind, session);
         if is_quiet {
@@ -86,7 +88,7 @@ impl<'a> RobotNode<'a> {
         self.told = Instant::now();
         for (board, why) in self.robot.boards.iter().zip(&self.gone) {
             if let Some(why) = why {
-                let told = messages::diagnostics(&board.name, now_us, "", BoardState::Lost(why));
+                let told = messages::diagnostics(&board.name, now_us, "", DiagnosticState::Lost(why));
                 self.node.publish(&DIAGNOSTICS, "", told)?;
             }
         }

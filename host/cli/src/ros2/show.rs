@@ -6,18 +6,18 @@ use super::node::RosNode;
 use super::panels::Panels;
 use super::posture::Postures;
 use super::services::Services;
+use crate::fault::own as own_error;
 use anyhow::Result;
 use ros2_client::log::LogLevel;
 use serde_json::Value;
 use std::time::{Duration, Instant};
 use taxel::body::ReadBody;
-use taxel::client::{Client, Event, ImageNews};
+use taxel::client::{Client, Event, ImageNews, Stamp, Stamps};
 use taxel::json;
-use taxel::record::{Stamp, Stamps};
-use taxel::ros2::messages::{self, BoardState};
+use taxel::ros2::messages::{self, DiagnosticState};
 use taxel::ros2::own;
 use taxel::ros2::topics::{CLOCK, CONTACTS, DIAGNOSTICS, FRAMES, HEALTH, INTENT, JSON, REACTIONS, SYMBOLS};
-use taxel::session::{JointTime, Posing, Show};
+use taxel::session::{JointTime, Observer, Posing};
 use taxel::source::Source;
 use taxel_core::fold::Posture;
 use taxel_core::format::Micros;
@@ -31,6 +31,7 @@ const SET_POSES: u8 = Request::SetPoses(&[]).number();
 /// Publishes a board's stream, and passes on what comes for the board.
 pub struct RosShow {
     node: RosNode,
+    /// Times of messages, whose inverse those of joints need.
     stamps: Stamps,
     /// The board's time is ROS's.
     is_clock: bool,
@@ -38,41 +39,50 @@ pub struct RosShow {
     links: Links,
     /// Frame of the robot's base; empty without a robot.
     base: String,
-    postures: Postures,
     concepts: Concepts,
-    services: Services,
+    /// What it takes from others; none before the board's source is open.
+    taken: Option<Taken>,
     /// Why the board is lost, and when that was told last.
     lost: Option<(String, Instant)>,
 }
 
+/// What a node takes for its board: positions of joints, and calls of services.
+struct Taken {
+    postures: Postures,
+    services: Services,
+}
+
 impl RosShow {
-    /// Offers everything. With `is_clock`, stamps are the board's time, which is told on `/clock`.
-    /// With a body, what presses on its links is told.
-    pub fn open(
-        mut node: RosNode,
-        source: &Source,
-        is_clock: bool,
-        body: Option<ReadBody>,
-    ) -> Result<RosShow> {
-        for topic in [CONTACTS, SYMBOLS, REACTIONS, INTENT, HEALTH, JSON, FRAMES, DIAGNOSTICS] {
-            node.offer(&topic, "")?;
-        }
-        if is_clock {
-            node.offer(&CLOCK, "")?;
-        }
-        let deaf = (!source.listens).then(|| source.label.clone());
-        Ok(RosShow {
+    /// Of the board of this node. With `is_clock`, stamps are the board's time, which is told on `/clock`. With a body,
+    /// what presses on its links is told.
+    pub fn new(node: RosNode, is_clock: bool, body: Option<ReadBody>) -> RosShow {
+        RosShow {
             stamps: Stamps::start(),
             is_clock,
-            panels: Panels::new(source.counts_per_newton),
-            links: Links::new(body, source.counts_per_newton),
+            panels: Panels::new(),
+            links: Links::new(body),
             base: String::new(),
-            postures: Postures::open(&mut node)?,
             concepts: Concepts::default(),
-            services: Services::open(&mut node, deaf)?,
+            taken: None,
             lost: None,
             node,
-        })
+        }
+    }
+
+    /// Offers everything: topics and services of a board that is not there yet are not.
+    fn offer(&mut self, source: &Source) -> Result<()> {
+        for topic in [CONTACTS, SYMBOLS, REACTIONS, INTENT, HEALTH, JSON, FRAMES, DIAGNOSTICS] {
+            self.node.offer(&topic, "")?;
+        }
+        if self.is_clock {
+            self.node.offer(&CLOCK, "")?;
+        }
+        self.panels.per_newton = source.counts_per_newton;
+        self.links.per_newton = source.counts_per_newton;
+        let deaf = (!source.listens).then(|| source.label.clone());
+        let postures = Postures::open(&mut self.node)?;
+        self.taken = Some(Taken { postures, services: Services::open(&mut self.node, deaf)? });
+        Ok(())
     }
 
     /// Time of a message, us.
@@ -104,7 +114,7 @@ impl RosShow {
             Event::Health(health) => {
                 node.publish(&HEALTH, "", own::health(us, client, health))?;
                 let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
-                let state = BoardState::Reports(health, client.ill().len());
+                let state = DiagnosticState::Reports(health, client.ill().len());
                 let told = messages::diagnostics(node.board(), us, firmware, state);
                 node.publish(&DIAGNOSTICS, "", told)
             }
@@ -118,9 +128,11 @@ impl RosShow {
                 Ok(())
             }
             Event::Answer { request, refusal } => {
-                self.services.answered(*request, refusal.as_deref());
-                if *request == Request::Posture(Posture::default()).number() {
-                    self.postures.answered(node, client, refusal.is_none())?;
+                if let Some(taken) = &mut self.taken {
+                    taken.services.answered(*request, refusal.as_deref());
+                    if *request == Request::Posture(Posture::default()).number() {
+                        taken.postures.answered(node, client, refusal.is_none())?;
+                    }
                 }
                 if let (SET_POSES, Some(why)) = (*request, refusal) {
                     node.log(LogLevel::Warn, &format!("the board refuses poses: {why}"));
@@ -138,15 +150,13 @@ impl RosShow {
         let Some((why, told)) = &mut self.lost else { return Ok(()) };
         *told = Instant::now();
         let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
-        let message = messages::diagnostics(self.node.board(), us, firmware, BoardState::Lost(why));
+        let message = messages::diagnostics(self.node.board(), us, firmware, DiagnosticState::Lost(why));
         self.node.publish(&DIAGNOSTICS, "", message)
     }
-}
 
-impl Show<anyhow::Error> for RosShow {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+    /// Publishes an event.
+    fn take(&mut self, client: &Client, event: &Event) -> Result<()> {
         if let Some(remark) = event.remark() {
-            eprintln!("{remark}");
             self.node.log(LogLevel::Warn, remark);
         }
         let stamp = self.stamps.of(client, event);
@@ -165,11 +175,30 @@ impl Show<anyhow::Error> for RosShow {
         Ok(())
     }
 
-    fn tells_remarks(&self) -> bool {
-        true
+    /// Passes on what has come for the board.
+    fn turn(&mut self, client: &mut Client) -> Result<()> {
+        if self.lost.as_ref().is_some_and(|(_, told)| told.elapsed() >= PERIOD) {
+            self.stale(client)?;
+        }
+        if let Some(taken) = &mut self.taken {
+            taken.services.turn(&self.node, client)?;
+            taken.postures.turn(client)?;
+        }
+        self.concepts.turn(&self.node, client)?;
+        Ok(())
+    }
+}
+
+impl Observer for RosShow {
+    fn opened(&mut self, source: &Source) -> taxel::Result<()> {
+        self.offer(source).map_err(own_error)
     }
 
-    fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
+        self.take(client, event).map_err(own_error)
+    }
+
+    fn pose(&mut self, client: &Client, posing: &mut Posing) -> taxel::Result<()> {
         if self.base.is_empty() {
             self.base = posing.base().into();
         }
@@ -178,17 +207,13 @@ impl Show<anyhow::Error> for RosShow {
             true => JointTime::Board(Micros(us)),
             false => self.stamps.board_time(client, us).map_or(JointTime::Host(us), JointTime::Board),
         };
-        self.postures.pose(&self.node, client, posing, time);
+        if let Some(taken) = &mut self.taken {
+            taken.postures.pose(&self.node, client, posing, time);
+        }
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
-        if self.lost.as_ref().is_some_and(|(_, told)| told.elapsed() >= PERIOD) {
-            self.stale(client)?;
-        }
-        self.services.turn(&self.node, client)?;
-        self.postures.turn(client)?;
-        self.concepts.turn(&self.node, client)?;
-        Ok(true)
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
+        self.turn(client).map_err(own_error)
     }
 }

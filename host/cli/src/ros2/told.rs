@@ -10,7 +10,7 @@ use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
 use taxel::fcm::robot_source::RobotSource;
 use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
-use taxel::robot::{ReadRobot, RobotSession};
+use taxel::robot::{ReadRobot, RobotStream};
 use taxel::ros2::topic_part;
 use taxel::ros2::topics::{JOINT_STATES, TOLD};
 use taxel::session::JointTime;
@@ -51,7 +51,7 @@ impl RobotTold {
         node: &RosNode,
         robot: &ReadRobot,
         mind: &mut RobotMind,
-        session: &RobotSession<T>,
+        session: &RobotStream<T>,
     ) -> Option<RobotMeaning> {
         if self.looked.elapsed() < PAUSE {
             return None;

@@ -75,7 +75,8 @@ mod tests {
     use super::*;
     use crate::watch::{LiveArgs, watch};
     use taxel::client::Event;
-    use taxel::session::Show;
+    use taxel::client::Stamp;
+    use taxel::session::Observer;
     use taxel::source::{SourceOptions, SourceSpec, open};
 
     /// Greatest force of the first touch, and the force that is told once it has ended, N.
@@ -87,8 +88,8 @@ mod tests {
         ended: Option<f64>,
     }
 
-    impl Show<anyhow::Error> for FirstTouch {
-        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+    impl Observer for FirstTouch {
+        fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
             let Event::Frame { time, .. } = event else { return Ok(()) };
             self.head.take(client, *time, self.counts_per_newton);
             let what = self.head.felt.as_ref().and_then(|felt| felt.what.split(" N").next());

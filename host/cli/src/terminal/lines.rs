@@ -1,10 +1,9 @@
 //! Plain text output: one line for each event, one summary per second of board time. No control codes.
 
 use crate::watch::narrate::{Narrator, seconds};
-use anyhow::Result;
 use std::io::Write;
-use taxel::client::{Client, Event};
-use taxel::session::Show;
+use taxel::client::{Client, Event, Stamp};
+use taxel::session::Observer;
 use taxel::source::Source;
 use taxel_core::format::Micros;
 
@@ -18,14 +17,9 @@ pub struct Lines<W> {
 }
 
 impl<W: Write> Lines<W> {
-    /// Output for a source.
-    pub fn new(source: &Source, out: W) -> Lines<W> {
-        Lines {
-            label: source.label.clone(),
-            narrator: Narrator::new(source.counts_per_newton),
-            out,
-            summed: None,
-        }
+    /// Output for a source, which is told once it is open.
+    pub fn new(out: W) -> Lines<W> {
+        Lines { label: String::new(), narrator: Narrator::new(None), out, summed: None }
     }
 
     /// What it writes to.
@@ -33,7 +27,7 @@ impl<W: Write> Lines<W> {
         &mut self.out
     }
 
-    fn summary(&mut self, client: &Client, frame: u32, time: Micros) -> Result<()> {
+    fn summary(&mut self, client: &Client, frame: u32, time: Micros) -> taxel::Result<()> {
         let (last, first) = *self.summed.get_or_insert((time, frame));
         let passed = time.since(last);
         if passed < 1_000_000 {
@@ -54,8 +48,14 @@ impl<W: Write> Lines<W> {
     }
 }
 
-impl<W: Write> Show<anyhow::Error> for Lines<W> {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl<W: Write> Observer for Lines<W> {
+    fn opened(&mut self, source: &Source) -> taxel::Result<()> {
+        self.label.clone_from(&source.label);
+        self.narrator = Narrator::new(source.counts_per_newton);
+        Ok(())
+    }
+
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if let Event::Frame { frame, time, .. } = event {
             return self.summary(client, *frame, *time);
         }
@@ -72,16 +72,11 @@ impl<W: Write> Show<anyhow::Error> for Lines<W> {
         true
     }
 
-    fn tells_remarks(&self) -> bool {
-        true
+    fn idle(&mut self, _: &mut Client) -> taxel::Result<()> {
+        Ok(self.out.flush()?)
     }
 
-    fn idle(&mut self, _: &mut Client) -> Result<bool> {
-        self.out.flush()?;
-        Ok(true)
-    }
-
-    fn end(&mut self, client: &Client) -> Result<()> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         write!(self.out, "{}", total(client))?;
         Ok(self.out.flush()?)
     }

@@ -116,15 +116,16 @@ mod tests {
     use super::*;
     use crate::watch::{LiveArgs, watch};
     use taxel::client::Event;
-    use taxel::session::Show;
+    use taxel::client::Stamp;
+    use taxel::session::Observer;
     use taxel::source::{SourceOptions, open};
 
     /// The bar, and the reported activation, of each announced intention.
     #[derive(Default)]
     struct Bars(Vec<[String; 2]>);
 
-    impl Show<anyhow::Error> for Bars {
-        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+    impl Observer for Bars {
+        fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
             let Event::Intent(report) = event else { return Ok(()) };
             let mut buffer = Buffer::empty(Rect::new(0, 0, 40, 12));
             concepts(client, buffer.area, &mut buffer);

@@ -6,8 +6,8 @@ use anyhow::Result;
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, KeyCode, KeyEventKind, KeyModifiers};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
-use taxel::session::Show;
+use taxel::client::{Client, Event, Stamp};
+use taxel::session::Observer;
 use taxel_core::wire::Request;
 
 /// Time between two redraws.
@@ -24,6 +24,8 @@ pub struct Screen {
     token: u32,
     /// The terminal has been restored.
     left: bool,
+    /// A key has ended it.
+    is_done: bool,
 }
 
 impl Screen {
@@ -36,11 +38,12 @@ impl Screen {
             asked: Instant::now(),
             token: 0,
             left: false,
+            is_done: false,
         })
     }
 
     /// Handles a key. Returns false to stop.
-    fn key(&mut self, client: &mut Client, key: event::KeyEvent) -> Result<bool> {
+    fn key(&mut self, client: &mut Client, key: event::KeyEvent) -> taxel::Result<bool> {
         match key.code {
             KeyCode::Char('q') | KeyCode::Esc => return Ok(false),
             KeyCode::Char('c') if key.modifiers.contains(KeyModifiers::CONTROL) => return Ok(false),
@@ -58,8 +61,8 @@ impl Screen {
     }
 }
 
-impl Show<anyhow::Error> for Screen {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Screen {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if matches!(event, Event::Sync(report) if report.token == self.token) {
             self.view.latency = Some(self.asked.elapsed() / 2);
         }
@@ -71,16 +74,11 @@ impl Show<anyhow::Error> for Screen {
         true
     }
 
-    fn tells_remarks(&self) -> bool {
-        true
-    }
-
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
-        let mut go_on = true;
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         while event::poll(Duration::ZERO)? {
             match event::read()? {
                 event::Event::Key(key) if key.kind == KeyEventKind::Press => {
-                    go_on &= self.key(client, key)?
+                    self.is_done |= !self.key(client, key)?
                 }
                 event::Event::Resize(..) => self.drawn = None,
                 _ => {}
@@ -96,10 +94,14 @@ impl Show<anyhow::Error> for Screen {
             self.terminal.draw(|frame| view.draw(client, frame.buffer_mut()))?;
             self.drawn = Some(Instant::now());
         }
-        Ok(go_on)
+        Ok(())
     }
 
-    fn end(&mut self, client: &Client) -> Result<()> {
+    fn is_done(&self) -> bool {
+        self.is_done
+    }
+
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         self.left = true;
         ratatui::try_restore()?;
         print!("{}", lines::total(client));

@@ -1,11 +1,11 @@
 //! Prints one taxel over time, to bring up a block, a multiplexer or a line.
 
+use crate::fault::own;
 use crate::watch::TaxelPlace;
-use anyhow::Result;
 use serde_json::json;
 use std::io::Write;
-use taxel::client::{Client, Event};
-use taxel::session::Show;
+use taxel::client::{Client, Event, Stamp};
+use taxel::session::Observer;
 use taxel_core::format::Micros;
 
 /// Prints a taxel: time, raw code if the board sends it, pressure.
@@ -28,7 +28,7 @@ impl<W: Write> TaxelLines<W> {
         TaxelLines { place, json, out, taxel: 0, asked: false, raw: false, value: None }
     }
 
-    fn line(&mut self, frame: u32, time: Micros, code: Option<u16>, value: Option<u16>) -> Result<()> {
+    fn line(&mut self, frame: u32, time: Micros, code: Option<u16>, value: Option<u16>) -> taxel::Result<()> {
         if self.json {
             let TaxelPlace { panel, row, column } = &self.place;
             let line = json!({
@@ -43,7 +43,7 @@ impl<W: Write> TaxelLines<W> {
     }
 
     /// Prints an image whose raw codes did not come in time.
-    fn late(&mut self) -> Result<()> {
+    fn late(&mut self) -> taxel::Result<()> {
         match self.value.take() {
             Some((frame, time, value)) => self.line(frame, time, None, Some(value)),
             None => Ok(()),
@@ -51,11 +51,11 @@ impl<W: Write> TaxelLines<W> {
     }
 }
 
-impl<W: Write> Show<anyhow::Error> for TaxelLines<W> {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl<W: Write> Observer for TaxelLines<W> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
-                self.taxel = self.place.taxel(client)?;
+                self.taxel = self.place.taxel(client).map_err(own)?;
                 self.raw = client.raw_hz() > 0;
             }
             Event::Frame { frame, time, .. } => {
@@ -79,15 +79,15 @@ impl<W: Write> Show<anyhow::Error> for TaxelLines<W> {
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         self.out.flush()?;
         if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
             client.request_codes()?;
         }
-        Ok(true)
+        Ok(())
     }
 
-    fn end(&mut self, _: &Client) -> Result<()> {
+    fn ended(&mut self, _: &Client, _: Stamp) -> taxel::Result<()> {
         self.late()?;
         Ok(self.out.flush()?)
     }

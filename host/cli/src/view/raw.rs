@@ -1,6 +1,5 @@
 //! Requests raw codes from the board while a pointer is on a taxel.
 
-use anyhow::Result;
 use std::time::{Duration, Instant};
 use taxel::client::Client;
 
@@ -19,7 +18,7 @@ pub struct RawCodes {
 
 impl RawCodes {
     /// Starts or stops raw codes as needed.
-    pub fn tend(&mut self, client: &mut Client, looked_at: bool, now: Instant) -> Result<()> {
+    pub fn tend(&mut self, client: &mut Client, looked_at: bool, now: Instant) -> taxel::Result<()> {
         if client.worn().is_none() {
             return Ok(());
         }

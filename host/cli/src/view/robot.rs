@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel::mind::{BoardSense, ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
-use taxel::robot::{BoardEvent, ReadRobot, RobotEvent};
+use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent};
 use taxel::tell::words;
 
 /// Shortest time between two messages of a kind.
@@ -80,19 +80,25 @@ impl<'a> RobotPages<'a> {
                     board.contacts = contacts.len();
                 }
             }
-            BoardEvent::Met | BoardEvent::Back { .. } => {
+            BoardEvent::State(BoardState::Met | BoardState::Back { .. }) => {
                 (board.state, board.since_us, board.why) = ("live", None, None);
             }
-            BoardEvent::Absent { why } => (board.state, board.why) = ("absent", Some(why.clone())),
-            BoardEvent::Lost { since_us, why } => board.gone("lost", *since_us, Some(why.clone())),
-            BoardEvent::Other { why } => {
+            BoardEvent::State(BoardState::Absent { why }) => {
+                (board.state, board.why) = ("absent", Some(why.clone()))
+            }
+            BoardEvent::State(BoardState::Lost { since_us, why }) => {
+                board.gone("lost", *since_us, Some(why.clone()))
+            }
+            BoardEvent::State(BoardState::Other { why }) => {
                 let since_us = board.since_us.unwrap_or(host_us);
                 board.gone("other", since_us, Some(why.clone()));
             }
-            BoardEvent::Over => board.gone("over", host_us, None),
-            BoardEvent::Failed(error) => board.gone("failed", host_us, Some(words::sentence(error))),
+            BoardEvent::State(BoardState::Over { .. }) => board.gone("over", host_us, None),
+            BoardEvent::State(BoardState::Failed(error)) => {
+                board.gone("failed", host_us, Some(words::sentence(error)))
+            }
             // Of scans: pages get their images from the board's thread.
-            BoardEvent::Dropped { .. } => {}
+            BoardEvent::State(BoardState::Dropped { .. }) => {}
         }
         self.is_new |= *board != before;
     }

@@ -3,8 +3,7 @@
 use super::line_kind::LineKind;
 use super::lines::SayLine;
 use crate::watch::narrate::{Narrator, seconds};
-use taxel::client::{Client, Event};
-use taxel::record::time_of;
+use taxel::client::{Client, Event, time_of};
 use taxel_core::contact::Phase;
 use taxel_core::format::Micros;
 

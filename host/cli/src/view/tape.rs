@@ -3,8 +3,8 @@
 use anyhow::Result;
 use std::sync::Arc;
 use taxel::client::clock::SteadyTime;
-use taxel::client::{Client, Event, Worn};
-use taxel::record::{Origin, RecordingFile, Stamp, time_of};
+use taxel::client::{Client, Event, Stamp, Worn, time_of};
+use taxel::record::{BoardPart, Origin, RecordingFile};
 use taxel::recording::Store;
 use taxel_core::format::Micros;
 
@@ -29,6 +29,7 @@ pub enum Tape {
 /// A recording written frame by frame.
 pub struct Copy<S: Store> {
     file: RecordingFile<S>,
+    part: BoardPart,
     client: Client,
     origin: Origin,
     worn: Option<Worn>,
@@ -38,8 +39,9 @@ pub struct Copy<S: Store> {
 impl<S: Store> Copy<S> {
     /// Begins the recording.
     pub fn begin(store: S, origin: Origin) -> Result<Copy<S>> {
-        let file = RecordingFile::create(store, None)?;
-        Ok(Copy { file, client: Client::new(), origin, worn: None, chunk_us: 0 })
+        let mut file = RecordingFile::create(store, None)?;
+        let part = file.board(None, None)?;
+        Ok(Copy { file, part, client: Client::new(), origin, worn: None, chunk_us: 0 })
     }
 
     /// Adds a frame of the wire.
@@ -56,19 +58,22 @@ impl<S: Store> Copy<S> {
         if *event == Event::Hello && self.client.worn() != self.worn.as_ref() {
             self.worn = self.client.worn().cloned();
             if let Some(worn) = &self.worn {
-                self.file.attach(worn, self.client.line(), &self.origin, stamp)?;
+                self.file.attach(&mut self.part, worn, self.client.line(), &self.origin, stamp)?;
             }
         }
         if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {
             self.chunk_us = stamp.board_us;
-            self.file.close()?;
+            self.part.close();
         }
-        self.file.put(|messages| messages.frames(&self.client, stamp))?;
-        Ok(self.file.event(&self.client, event, stamp, self.origin.counts_per_newton)?)
+        self.part.put(|messages| messages.frames(&self.client, stamp))?;
+        self.part.event(&self.client, event, stamp, self.origin.counts_per_newton)?;
+        Ok(self.file.write(&mut self.part)?)
     }
 
     /// Writes the end.
-    pub fn finish(self) -> Result<()> {
+    pub fn finish(mut self) -> Result<()> {
+        self.part.close();
+        self.file.write(&mut self.part)?;
         Ok(self.file.finish().map(drop)?)
     }
 }

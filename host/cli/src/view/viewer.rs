@@ -7,14 +7,18 @@ use super::message;
 use super::raw::RawCodes;
 use super::said::{Said, Teller};
 use super::shot::{Shot, text};
+use super::tape::Tape;
+use crate::fault::own;
 use crate::folding::Folding;
 use crate::watch::rate::Rate;
 use anyhow::Result;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, ImageNews};
+use taxel::client::{Client, Event, ImageNews, Stamp};
+use taxel::files::calibrate::Calibration;
 use taxel::json;
-use taxel::session::{JointPositions, Show};
+use taxel::record::Origin;
+use taxel::session::{JointPositions, Observer};
 use taxel::source::Source;
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
@@ -29,6 +33,7 @@ pub struct Viewer {
     hub: Arc<PageHub>,
     label: String,
     counts_per_newton: Option<f32>,
+    calibration: Option<Calibration>,
     /// Where the garment folds; none without a table.
     folding: Option<Folding>,
     teller: Teller,
@@ -46,16 +51,16 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A viewer of a source.
-    pub fn new(source: &Source, hub: Arc<PageHub>) -> Viewer {
+    /// A viewer for the pages of a hub, which can save the stream with this calibration.
+    pub fn new(hub: Arc<PageHub>, calibration: Option<Calibration>) -> Viewer {
         let now = Instant::now();
-        source.hand.iter().for_each(|hand| hub.hand(PageHand::new(hand.clone())));
         Viewer {
             hub,
-            label: source.label.clone(),
-            counts_per_newton: source.counts_per_newton,
+            label: String::new(),
+            counts_per_newton: None,
+            calibration,
             folding: None,
-            teller: Teller::new(source.counts_per_newton),
+            teller: Teller::new(None),
             rate: Rate::default(),
             raw: RawCodes::default(),
             told: now,
@@ -145,13 +150,23 @@ impl Viewer {
     }
 }
 
-impl Show<anyhow::Error> for Viewer {
-    fn asked(&mut self, client: &Client, requests: &[u8]) -> Result<()> {
+impl Observer for Viewer {
+    fn opened(&mut self, source: &Source) -> taxel::Result<()> {
+        source.hand.iter().for_each(|hand| self.hub.hand(PageHand::new(hand.clone())));
+        (self.label, self.counts_per_newton) = (source.label.clone(), source.counts_per_newton);
+        self.teller = Teller::new(source.counts_per_newton);
+        let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
+        let origin = Origin { label, counts_per_newton, calibration: self.calibration.clone() };
+        self.hub.tape(Tape::Live(Arc::new(origin)));
+        Ok(())
+    }
+
+    fn sent(&mut self, client: &Client, requests: &[u8], _: Stamp) -> taxel::Result<()> {
         self.folding.iter_mut().for_each(|folding| folding.asked(client, requests));
         Ok(())
     }
 
-    fn joints(&mut self, _: &Client, taken: &JointPositions) -> Result<()> {
+    fn joints(&mut self, _: &Client, taken: &JointPositions, _: Stamp) -> taxel::Result<()> {
         // Cloth that slides off its panel is no reason to show nothing any more.
         if let Err(error) = self.hub.joints(&taken.positions) {
             self.hub.say(&Said::note(format!("{error:#}")));
@@ -159,16 +174,23 @@ impl Show<anyhow::Error> for Viewer {
         Ok(())
     }
 
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         self.hub.keep(client, event);
-        self.show(client, event)
+        match self.show(client, event) {
+            // What is recorded is what would be without pages.
+            Err(error) if !self.is_curious => {
+                self.hub.say(&Said::note(format!("{error:#}")));
+                Ok(())
+            }
+            shown => shown.map_err(own),
+        }
     }
 
     fn follows_another(&self) -> bool {
         true
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         let now = Instant::now();
         if self.is_curious && client.worn().is_some() && now.saturating_duration_since(self.asked) > ROUND {
             self.token = self.token.wrapping_add(1);
@@ -187,10 +209,10 @@ impl Show<anyhow::Error> for Viewer {
             self.hub.tell_hand();
             self.link(client);
         }
-        Ok(true)
+        Ok(())
     }
 
-    fn end(&mut self, client: &Client) -> Result<()> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         self.link(client);
         self.hub.state("end", &EndLine { text: format!("{} has ended", self.label) });
         Ok(())
@@ -208,7 +230,8 @@ mod tests {
     fn a_lost_page_shows_no_touch() {
         let source = source::open(&"sim:press".parse().unwrap(), &SourceOptions::default()).unwrap();
         let hub = Arc::new(PageHub::default());
-        let (mut viewer, page) = (Viewer::new(&source, hub.clone()), hub.join().unwrap());
+        let (mut viewer, page) = (Viewer::new(hub.clone(), None), hub.join().unwrap());
+        viewer.opened(&source).unwrap();
         let mut session = taxel::session::Session::over(source).unwrap();
         let shown = |page: &super::super::mailbox::Mailbox| {
             let Some(Parcel::Image(bytes)) = page.take() else { panic!("no image") };
@@ -217,12 +240,13 @@ mod tests {
             let head: Value = serde_json::from_slice(head).unwrap();
             (head["frame"].clone(), rest[..rest.len() / 2].iter().any(|byte| *byte > 0))
         };
+        let stamp = Stamp { board_us: 0, host_us: 0, uncertainty_us: None };
         while session.client().contacts().is_empty() {
             let event = session.wait().unwrap().expect("it presses");
-            viewer.event(session.client(), &event).unwrap();
+            viewer.event(session.client(), &event, stamp).unwrap();
         }
         while let Some(event) = session.wait().unwrap() {
-            viewer.event(session.client(), &event).unwrap();
+            viewer.event(session.client(), &event, stamp).unwrap();
             if matches!(event, Event::Frame { .. }) {
                 break;
             }
@@ -231,7 +255,7 @@ mod tests {
         assert!(presses && !before["contacts"].as_array().unwrap().is_empty(), "{before}");
         session.parts().0.lost("it is gone".into(), 5);
         while let Some(event) = session.note() {
-            viewer.event(session.client(), &event).unwrap();
+            viewer.event(session.client(), &event, stamp).unwrap();
         }
         let (frame, presses) = shown(&page);
         assert!(!presses && frame["contacts"].as_array().unwrap().is_empty(), "{frame}");

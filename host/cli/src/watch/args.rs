@@ -160,6 +160,9 @@ pub struct LiveArgs {
     /// The board may refuse the body, and reports of what presses on it: whoever watches can do without.
     #[arg(skip)]
     pub body_may_fail: bool,
+    /// Whoever watches tells remarks itself; else they are printed to the standard error.
+    #[arg(skip)]
+    pub tells_remarks: bool,
     /// Pace simulations to real time
     #[arg(long)]
     pub realtime: bool,
@@ -181,6 +184,7 @@ impl LiveArgs {
             pixels: false,
             taxel: None,
             body_may_fail: false,
+            tells_remarks: false,
             realtime: false,
         }
     }

@@ -115,14 +115,15 @@ mod tests {
     use super::*;
     use crate::watch::{LiveArgs, watch};
     use taxel::client::Event;
-    use taxel::session::Show;
+    use taxel::client::Stamp;
+    use taxel::session::Observer;
     use taxel::source::{SourceOptions, SourceSpec, open};
 
     /// The sentences of a script, each once.
     struct Ear(Option<f32>, Vec<String>);
 
-    impl Show<anyhow::Error> for Ear {
-        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+    impl Observer for Ear {
+        fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
             let Event::Frame { .. } = event else { return Ok(()) };
             let text = Felt::of(client, self.0).text();
             if !self.1.contains(&text) {

@@ -1,5 +1,5 @@
 //! Watching a board: the options that set it, the loop that hands its stream to a
-//! [`Show`](taxel::session::Show), and events as sentences.
+//! [`Observer`](taxel::session::Observer), and events as sentences.
 
 mod args;
 mod felt;
@@ -15,6 +15,6 @@ pub mod stop;
 
 pub use args::{BoardArgs, LiveArgs, seconds};
 pub use felt::{Basis, Felt};
-pub use follow::watch;
+pub use follow::{Remarks, run_limit, watch};
 pub use overwrite::Overwrite;
 pub use place::TaxelPlace;

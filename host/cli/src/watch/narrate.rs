@@ -223,7 +223,8 @@ pub fn force(total: u32, counts_per_newton: Option<f32>) -> String {
 mod tests {
     use super::*;
     use crate::watch::{LiveArgs, watch};
-    use taxel::session::Show;
+    use taxel::client::Stamp;
+    use taxel::session::Observer;
     use taxel::source::{SourceOptions, SourceSpec, open};
     use taxel_core::shape::Base;
     use taxel_core::symbol::{Span, Strength, Words};
@@ -245,8 +246,8 @@ mod tests {
     /// A narrator, and what it has told.
     struct Heard(Narrator, String);
 
-    impl Show<anyhow::Error> for Heard {
-        fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+    impl Observer for Heard {
+        fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
             self.0.tell(client, event).iter().for_each(|line| self.1 += &format!("{line}\n"));
             Ok(())
         }

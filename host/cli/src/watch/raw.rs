@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, Worn, cleaned, scene_bytes};
-use taxel::session::{Returns, Session, Turn};
+use taxel::session::{Poll, Returns, Session};
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
 use taxel_core::garment::Garment;
 use taxel_core::health::TaxelHealth;
@@ -162,26 +162,28 @@ impl RawBoard {
             if !self.leaving {
                 stop::check()?;
             }
-            while let Some(event) = self.session.next_event() {
-                if let Event::Other { why } = event {
+            let found = self.session.poll()?;
+            let label = &self.session.source().label;
+            match found {
+                Poll::Event(Event::Other { why }) => {
                     // It is not the board whose garment and scene are to be restored.
                     self.borrowed = false;
                     bail!(Fault::board(why));
                 }
-                event.remark().iter().for_each(|remark| eprintln!("{remark}"));
-                if is_it(self.session.client(), &event) {
-                    return Ok(());
+                Poll::Event(event) => {
+                    event.remark().iter().for_each(|remark| eprintln!("{remark}"));
+                    if is_it(self.session.client(), &event) {
+                        return Ok(());
+                    }
                 }
-            }
-            let turn = self.session.turn::<taxel::Error>(&mut |_, _| Ok(()))?;
-            let label = &self.session.source().label;
-            if turn == Turn::End {
-                bail!(Fault::board(format!("{label} ended before {what} came")));
-            }
-            // The session itself limits the wait for a lost board.
-            if began.elapsed() > PATIENCE && turn != Turn::Waiting && !self.session.client().is_restoring() {
-                let seconds = PATIENCE.as_secs();
-                bail!(Fault::board(format!("{label}: {what} did not come in {seconds} s")));
+                // The session itself limits the wait for a lost board.
+                Poll::Nothing if self.session.is_gone() || self.session.client().is_restoring() => {}
+                Poll::Nothing if began.elapsed() > PATIENCE => {
+                    let seconds = PATIENCE.as_secs();
+                    bail!(Fault::board(format!("{label}: {what} did not come in {seconds} s")));
+                }
+                Poll::Nothing => {}
+                Poll::End => bail!(Fault::board(format!("{label} ended before {what} came"))),
             }
         }
     }

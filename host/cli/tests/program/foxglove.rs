@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::json::message;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::foxglove::{FoxgloveHub, Publisher, channel, serve};
 use taxel_cli::watch::{LiveArgs, watch};
@@ -54,13 +54,13 @@ fn subscribe(socket: &mut WebSocket<TcpStream>, hub: &FoxgloveHub, id: u32, topi
 /// Sends to the clients, and keeps the messages about contacts.
 struct Both(Publisher, Vec<Value>);
 
-impl Show<anyhow::Error> for Both {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Both {
+    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<()> {
         if let Event::Contacts { .. } = event {
             // Parsed again, because the last digit of a number may differ.
             self.1.push(serde_json::from_str(&message(client, event).to_string())?);
         }
-        self.0.event(client, event)
+        self.0.event(client, event, stamp)
     }
 }
 
@@ -168,7 +168,8 @@ fn clients_that_say_nothing_shut_nobody_out_and_subscriptions_are_bounded() {
     }
     assert!(refused > 0, "it is said that there are too many");
     let said = Event::Log { time: Micros(1), level: Level::Info, text: "one".into() };
-    Publisher::new(hub).event(&Client::new(), &said).unwrap();
+    let stamp = Stamp { board_us: 1, host_us: 1, uncertainty_us: None };
+    Publisher::new(hub).event(&Client::new(), &said, stamp).unwrap();
     one.get_ref().set_read_timeout(Some(Duration::from_secs(1))).unwrap();
     let told = std::iter::from_fn(|| one.read().ok()).filter(Message::is_binary).count();
     assert!((1..=64).contains(&told), "{told}");

@@ -9,12 +9,12 @@ use ratatui::style::Color;
 use serde_json::Value;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use taxel::client::{Client, Event, ImageNews};
+use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::files::bases::Base;
 use taxel::json::MessagePrinter;
 use taxel::recording::{Format, WIRE, Writer};
 use taxel::robot::GestureModel;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::session::setting::set_shapes;
 use taxel::source::{self, Source, SourceOptions};
 use taxel_cli::palette;
@@ -114,8 +114,8 @@ fn a_run_is_repeated_to_the_byte_and_a_kept_one_reads_the_same() {
 #[derive(Default)]
 struct Bytes(Vec<u8>);
 
-impl Show<anyhow::Error> for Bytes {
-    fn event(&mut self, client: &Client, _event: &Event) -> anyhow::Result<()> {
+impl Observer for Bytes {
+    fn event(&mut self, client: &Client, _event: &Event, _: Stamp) -> taxel::Result<()> {
         client.lines().for_each(|line| self.0.extend_from_slice(line));
         Ok(())
     }
@@ -214,7 +214,7 @@ fn one_taxel_is_printed_with_code_and_pressure() {
 fn plain_lines_hold_no_control_code() {
     let args = args("sim:lash", None);
     let (sink, source) = (Sink::default(), open(&args));
-    let mut lines = Lines::new(&source, sink.clone());
+    let mut lines = Lines::new(sink.clone());
     watch(&args, source, &mut lines).unwrap();
     let text = sink.text();
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text}");
@@ -238,13 +238,13 @@ struct Drawn {
     pictures: Vec<Buffer>,
 }
 
-impl Show<anyhow::Error> for Drawn {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Drawn {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         self.view.event(client, event);
         Ok(())
     }
 
-    fn end(&mut self, client: &Client) -> anyhow::Result<()> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         for (width, height) in &self.sizes {
             let mut terminal = Terminal::new(TestBackend::new(*width, *height)).unwrap();
             terminal.draw(|frame| self.view.draw(client, frame.buffer_mut())).unwrap();
@@ -408,8 +408,8 @@ struct Teacher {
     compared: usize,
 }
 
-impl Show<anyhow::Error> for Teacher {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Teacher {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if let Event::Shapes { names, prototypes } = event {
             assert_eq!(
                 (names, usize::from(*prototypes)),
@@ -443,11 +443,11 @@ impl Show<anyhow::Error> for Teacher {
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> anyhow::Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         if client.worn().is_some() && !std::mem::replace(&mut self.taught, true) {
             set_shapes(client, &self.base)?;
         }
-        Ok(true)
+        Ok(())
     }
 }
 

@@ -41,6 +41,7 @@ mod reference;
 mod repair;
 mod robot;
 mod robot_cost;
+mod robot_recorded;
 mod robot_view;
 #[cfg(feature = "ros2")]
 mod ros2;

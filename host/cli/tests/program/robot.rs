@@ -103,8 +103,8 @@ hand   sim:press  block-4x16  64      left_hand       -      -            32
         assert_eq!(refused.status.code(), Some(2), "{words:?}");
         assert!(text(&refused.stderr).contains(why), "{words:?}: {}", text(&refused.stderr));
     }
-    let frames = run(&good, &["live", "robot.toml", "--frames", "3"]);
-    assert!(text(&frames.stderr).contains("--frames is for a board"), "{}", text(&frames.stderr));
+    let taxel = run(&good, &["live", "robot.toml", "--taxel", "chest,0,0"]);
+    assert!(text(&taxel.stderr).contains("--taxel is for a board"), "{}", text(&taxel.stderr));
 }
 
 /// JSON lines by board, in order, without the board's name and the messages about boards.

@@ -46,7 +46,7 @@ fn stream(words: &[&str], board: Option<&str>) -> Vec<Value> {
     // When a long request has been read depends on the threads of the host.
     let is_late = |line: &Value| line["time_us"].as_u64().is_none_or(|time| time > 200_000);
     lines.retain(|line| line["type"] == "hello" || is_late(line));
-    lines.sort_by_key(|line| line["type"] == "answer");
+    lines.sort_by_cached_key(|line| (line["type"] == "answer").then(|| line.to_string()));
     lines
 }
 

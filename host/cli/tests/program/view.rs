@@ -8,8 +8,8 @@ use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
-use taxel::client::{Client, Event, ImageNews};
-use taxel::session::Show;
+use taxel::client::{Client, Event, ImageNews, Stamp};
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::on_robot::Wearer;
 use taxel_cli::view::{PageHub, Said, Shot, Viewer, serve};
@@ -82,7 +82,7 @@ fn watched(hub: &Arc<PageHub>, scene: &str, frames: u64, realtime: bool) -> Join
     let hub = hub.clone();
     thread::spawn(move || {
         let source = source::open(&args.board.source(), &options).unwrap();
-        let mut viewer = Viewer::new(&source, hub);
+        let mut viewer = Viewer::new(hub, None);
         watch(&args, source, &mut viewer).unwrap();
     })
 }
@@ -91,8 +91,8 @@ fn watched(hub: &Arc<PageHub>, scene: &str, frames: u64, realtime: bool) -> Join
 #[derive(Default)]
 struct Images(BTreeMap<u64, Vec<u16>>);
 
-impl Show<anyhow::Error> for Images {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Images {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if let (Event::Frame { frame, image: ImageNews::Whole, .. }, Some((_, image))) =
             (event, client.image())
         {
@@ -378,7 +378,7 @@ fn a_body_that_does_not_fit_the_garment_is_named() {
     let options =
         SourceOptions { garment: Some("mat-64x32".into()), frames: Some(9), ..SourceOptions::default() };
     let source = source::open(&args.board.source(), &options).unwrap();
-    let mut viewer = Viewer::new(&source, hub);
+    let mut viewer = Viewer::new(hub, None);
     let error = watch(&args, source, &mut viewer).unwrap_err();
     let text = format!("{error:#}");
     assert!(

@@ -9,9 +9,9 @@ use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::recording::{Messages, WIRE};
-use taxel::session::Show;
+use taxel::session::Observer;
 
 /// Messages of a board with their times, us.
 #[derive(Default)]
@@ -20,8 +20,8 @@ struct Said {
     time: u64,
 }
 
-impl Show<anyhow::Error> for Said {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Said {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if let Event::Frame { time, .. } = event {
             self.time = time.0;
         }

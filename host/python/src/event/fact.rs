@@ -26,19 +26,19 @@ impl Fact {
     }
 }
 
-/// Tells facts about a client's events.
+/// Reads facts from a client's events.
 #[derive(Debug)]
-pub struct Teller {
+pub struct FactReader {
     panels: Panels,
 }
 
-impl Default for Teller {
-    fn default() -> Teller {
-        Teller { panels: Panels::from([]) }
+impl Default for FactReader {
+    fn default() -> FactReader {
+        FactReader { panels: Panels::from([]) }
     }
 }
 
-impl Teller {
+impl FactReader {
     /// The fact of an event that the client has just returned, at this time of the host.
     pub fn fact(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
         if *event == Event::Hello {

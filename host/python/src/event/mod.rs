@@ -15,7 +15,7 @@ mod plain;
 
 pub use arrays::{Contacts, Frame, Raw};
 pub use base::Event;
-pub use fact::{Fact, Teller};
+pub use fact::{Fact, FactReader};
 
 use pyo3::prelude::*;
 

@@ -6,10 +6,10 @@
 
 use super::lines::{FrameLine, JsonLine, PanelPixels};
 use super::messages::line;
-use crate::client::{Client, Event, ImageNews};
-use crate::error::{Error, Result};
+use crate::client::{Client, Event, ImageNews, Stamp};
+use crate::error::Result;
 use crate::files::calibrate::{Calibration, Forces};
-use crate::session::Show;
+use crate::session::Observer;
 use serde_json::{Value, json};
 use std::io::Write;
 use taxel_core::body::Placed;
@@ -64,27 +64,22 @@ impl<W: Write> MessagePrinter<W> {
     }
 }
 
-impl<W: Write, E: From<Error>> Show<E> for MessagePrinter<W> {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
+impl<W: Write> Observer for MessagePrinter<W> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<()> {
         let line = self.message(client, event)?;
-        Ok(writeln!(self.out, "{line}").map_err(Error::from)?)
+        Ok(writeln!(self.out, "{line}")?)
     }
 
     fn follows_another(&self) -> bool {
         true
     }
 
-    fn tells_remarks(&self) -> bool {
-        true
+    fn idle(&mut self, _: &mut Client) -> Result<()> {
+        Ok(self.out.flush()?)
     }
 
-    fn idle(&mut self, _: &mut Client) -> Result<bool, E> {
-        self.out.flush().map_err(Error::from)?;
-        Ok(true)
-    }
-
-    fn end(&mut self, _: &Client) -> Result<(), E> {
-        Ok(self.out.flush().map_err(Error::from)?)
+    fn ended(&mut self, _: &Client, _: Stamp) -> Result<()> {
+        Ok(self.out.flush()?)
     }
 }
 

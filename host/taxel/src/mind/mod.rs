@@ -47,7 +47,7 @@ pub use mover::{Approach, BasePlace, Mover, SurfaceSpot};
 pub use place::BodyPlace;
 pub use probe::{Probe, ProbeCourse};
 pub use reasons::{ReasonInput, RobotReasons};
-pub use recorded::{MindRecord, MindRecordTeller, RecordedMind};
+pub use recorded::RecordedMind;
 pub use robot_mind::{RobotMeaning, RobotMind};
 pub use sensed_board::SensedTouch;
 pub use senses::{SenseCause, SensedValue, Senses};

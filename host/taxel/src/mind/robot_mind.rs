@@ -7,7 +7,7 @@ use super::told::{ToldLine, fraction};
 use crate::error::{Context, MapFileError, Result, UsageError};
 use crate::fcm::map::MapFile;
 use crate::fcm::robot_source::{RobotInput, RobotSource};
-use crate::robot::{BoardEvent, ReadRobot, RobotEvent};
+use crate::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent};
 use crate::tell::words;
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{CONCEPTS, EDGES, Felt, Intent, IntentConfig, IntentState, Leading, Outcome};
@@ -165,10 +165,10 @@ impl RobotMind {
         let RobotEvent { board, stamp, what } = event;
         match what {
             BoardEvent::News(news) => self.board(*board, sense(news)?, stamp.host_us),
-            BoardEvent::Lost { .. } | BoardEvent::Over | BoardEvent::Failed(_) => {
+            BoardEvent::State(BoardState::Lost { .. } | BoardState::Over { .. } | BoardState::Failed(_)) => {
                 self.forget(*board, stamp.host_us)
             }
-            _ => None,
+            BoardEvent::State(_) => None,
         }
     }
 

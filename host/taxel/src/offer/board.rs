@@ -2,11 +2,11 @@
 
 use super::asks::Asks;
 use super::state::OfferState;
-use crate::client::{Client, Event};
+use crate::client::{Client, Event, Stamp};
 use crate::error::{Error, Result, SourceError, UsageError};
 use crate::json;
 use crate::network::{self, BoardPlace, FrameCutter, PieceKind, PieceStamp};
-use crate::session::Show;
+use crate::session::Observer;
 use crate::tell::verbose;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -185,10 +185,9 @@ impl BoardOffer {
     }
 }
 
-impl<E: From<Error>> Show<E> for BoardOffer {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<(), E> {
+impl Observer for BoardOffer {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> Result<()> {
         self.publish(client);
-        event.remark().iter().for_each(|remark| eprintln!("{remark}"));
         let done = match event {
             Event::Hello | Event::Back { .. } => self.meet(client),
             Event::Lost { .. } | Event::Other { .. } => self.part(),
@@ -198,22 +197,17 @@ impl<E: From<Error>> Show<E> for BoardOffer {
             },
             _ => Ok(()),
         };
-        Ok(self.done(done)?)
+        self.done(done)
     }
 
-    fn tells_remarks(&self) -> bool {
-        true
-    }
-
-    fn idle(&mut self, client: &mut Client) -> Result<bool, E> {
+    fn idle(&mut self, client: &mut Client) -> Result<()> {
         self.asks.hand_over(client, self.token.is_some());
-        self.done(Ok(()))?;
-        Ok(true)
+        self.done(Ok(()))
     }
 
-    fn end(&mut self, _: &Client) -> Result<(), E> {
+    fn ended(&mut self, _: &Client, _: Stamp) -> Result<()> {
         let parted = self.part();
-        Ok(self.done(parted)?)
+        self.done(parted)
     }
 }
 

@@ -1,9 +1,8 @@
 //! The messages of a board, encoded where the chunks of a recording are filled.
 
 use super::message::{self, JointLine, JointsLine, LinkPoseLine, PosesLine, PostureLine};
-use super::stamps::Stamp;
 use super::topics::{self, RecordTopic, Topics};
-use crate::client::{Client, Event};
+use crate::client::{Client, Event, Stamp};
 use crate::error::Result;
 use crate::recording::{Filler, FullChunk};
 use crate::session::JointPositions;

@@ -75,7 +75,7 @@ impl BoardSummary {
         let mut play = Play::open(recording)?;
         let mut leading = Leading::None;
         while let Some((header, event)) = play.next_event()? {
-            let us = header.log_time / super::NS;
+            let us = header.log_time / crate::client::NS;
             let [first, last] = summary.time_us.unwrap_or([us; 2]);
             summary.time_us = Some([first.min(us), last.max(us)]);
             summary.take(play.client(), &event, &mut leading);

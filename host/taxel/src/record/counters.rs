@@ -1,48 +1,57 @@
-//! Progress of a recording.
+//! What has been recorded of a board so far.
 
-use crate::client::{Client, Event};
-use std::fmt::Write;
-use std::path::Path;
+use super::tally::Tally;
+use crate::client::passed::Passed;
+use crate::client::{Client, Event, Stamp};
 
-/// Counters shown while recording.
+/// Counters of a board, over all files.
 #[derive(Debug, Default)]
 pub struct Counters {
-    frames: u64,
+    /// Images.
+    pub frames: u64,
+    /// Those before the current file.
     earlier_frames: u64,
-    lost: u64,
-    thinned: u64,
+    /// Board time since the current file began.
+    passed: Passed,
+    /// The same, us.
     passed_us: u64,
+    /// Board time of earlier files, us.
     earlier_us: u64,
-    written: u64,
-    files: u32,
+    /// Counters of the line so far, and when the current file began.
+    tally: [Tally; 2],
 }
 
 impl Counters {
-    /// Handles an event, `passed_us` after the start of the file.
-    pub fn take(&mut self, client: &Client, event: &Event, passed_us: u64) {
+    /// Handles an event, and its time if the board has told it.
+    pub fn take(&mut self, client: &Client, event: &Event, stamp: Option<Stamp>) {
         self.frames += u64::from(matches!(event, Event::Frame { .. }));
-        (self.lost, self.thinned) = (client.counts().lost, client.counts().thinned);
-        self.passed_us = self.passed_us.max(passed_us);
+        self.tally[0] = Tally::of(client.counts());
+        if let Some(stamp) = stamp {
+            self.passed_us = self.passed_us.max(self.passed.until(stamp.board_us));
+        }
     }
 
-    /// Handles the end of a file.
-    pub fn ended(&mut self, bytes: u64) {
+    /// Board time since the current file began, us, at an event of this time.
+    pub fn passed_until(&mut self, stamp: Stamp) -> u64 {
+        self.passed.until(stamp.board_us)
+    }
+
+    /// Begins another file.
+    pub fn next_file(&mut self) {
         self.earlier_us = self.board_us();
-        self.passed_us = 0;
-        self.earlier_frames += std::mem::take(&mut self.frames);
-        self.written += bytes;
-        self.files += 1;
+        (self.passed, self.passed_us) = (Passed::default(), 0);
+        self.earlier_frames = self.frames;
+        self.tally[1] = self.tally[0];
     }
 
-    /// Handles the premature end of a file with this many frames.
-    pub fn cut(&mut self, bytes: u64, frames: u64) {
-        self.frames = frames;
-        self.ended(bytes);
+    /// Of the current file, only this many images are whole.
+    pub fn cut(&mut self, frames: u64) {
+        self.frames = self.earlier_frames + frames;
     }
 
-    /// Frames of the current file.
-    pub fn frames(&self) -> u64 {
-        self.frames
+    /// Images of the current file.
+    pub fn file_frames(&self) -> u64 {
+        self.frames - self.earlier_frames
     }
 
     /// Board time recorded so far, us.
@@ -50,21 +59,8 @@ impl Counters {
         self.earlier_us.saturating_add(self.passed_us)
     }
 
-    /// Formats one line; `bytes` is the size of the current file.
-    pub fn line(&self, path: &Path, bytes: u64) -> String {
-        let seconds = self.board_us() as f64 / 1e6;
-        let megabytes = (self.written + bytes) as f64 / 1e6;
-        let mut line = format!(
-            "{}: {seconds:.1} s, {} frames, {megabytes:.2} MB, {} lost, {} thinned",
-            path.display(),
-            self.earlier_frames + self.frames,
-            self.lost,
-            self.thinned
-        );
-        if self.files > 1 {
-            // Writing to a string cannot fail.
-            let _ = write!(line, ", {} files", self.files);
-        }
-        line
+    /// Counters of the line, now and when the current file began.
+    pub fn tally(&self) -> [Tally; 2] {
+        self.tally
     }
 }

@@ -1,8 +1,7 @@
 //! Events as JSON messages.
 
 use super::panel_image::{self, PanelImage, PanelValues};
-use super::stamps::Stamp;
-use crate::client::{Client, Event, ImageNews};
+use crate::client::{Client, Event, ImageNews, Stamp};
 use crate::error::Result;
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;

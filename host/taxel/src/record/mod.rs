@@ -15,8 +15,8 @@
 //! `taxel` names versions, host, board and source, and who calibrated when, how and how well.
 
 mod angles;
-mod bag;
 mod board_messages;
+mod board_recorder;
 mod board_summary;
 mod counters;
 mod file;
@@ -24,27 +24,34 @@ mod limit;
 mod message;
 mod names;
 mod panel_image;
+mod plan;
 mod play;
 mod provenance;
+mod recorded_board;
 mod recorder;
+mod recording;
+mod recording_files;
+mod robot_topic;
+mod ros2_messages;
 mod schemas;
-mod stamps;
 mod standing;
 mod tally;
 mod topics;
 
 pub use angles::Angles;
 pub use board_messages::BoardMessages;
+pub use board_recorder::BoardRecorder;
 pub use board_summary::BoardSummary;
-pub use file::RecordingFile;
+pub use file::{BoardPart, RecordingFile};
 pub use limit::Rotate;
 pub use message::json_message;
+pub use plan::{Plan, PlannedBoard, PlannedRobot};
 pub use play::Play;
 pub use provenance::{CALIBRATION, Origin, attach};
-pub use recorder::{Plan, Recorder};
+pub use recorder::Recorder;
+pub use robot_topic::RobotTopic;
 #[cfg(feature = "schema")]
 pub use schemas::derived;
 pub use schemas::{JSON as TOPICS, JsonTopic};
-pub use stamps::{NS, Stamp, Stamps, time_of};
 pub use tally::{COUNTS, Tally};
 pub use topics::{REQUESTS, RecordTopic, Topics, of as topic};

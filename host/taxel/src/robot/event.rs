@@ -1,9 +1,7 @@
 //! Events of a robot: what its boards say, and how they are.
 
-use crate::client::{Client, Event};
-use crate::error::{Error, Result};
-use crate::record::Stamp;
-use crate::source::Source;
+use crate::client::Stamp;
+use crate::error::Error;
 use std::time::Duration;
 
 /// An event of one of a robot's boards.
@@ -20,8 +18,15 @@ pub struct RobotEvent<T> {
 /// What a board says, or how it is.
 #[derive(Debug)]
 pub enum BoardEvent<T> {
-    /// What a [`Teller`] has made of an event of the board.
+    /// What an observer has [made](super::BoardQueue::add) of the board's stream.
     News(T),
+    /// How the board is from now on.
+    State(BoardState),
+}
+
+/// How a board is.
+#[derive(Debug)]
+pub enum BoardState {
     /// It is not there at the start, and is waited for.
     Absent {
         /// Why it cannot be opened.
@@ -51,38 +56,11 @@ pub enum BoardEvent<T> {
         /// Number of images of this board dropped so far.
         images: u64,
     },
-    /// Its simulation or recording is over.
-    Over,
+    /// Its simulation or recording is over, or the time for which it was to be followed.
+    Over {
+        /// What was left out, of a recording that is damaged.
+        remark: Option<String>,
+    },
     /// It cannot be followed any longer, for example because it refuses what it had accepted before.
     Failed(Error),
-}
-
-/// Makes of a board's events what a robot's stream is to hold, in the board's own thread.
-pub trait Teller<T>: Send {
-    /// Its source is open, and everything else follows.
-    fn opened(&mut self, _source: &Source) {}
-
-    /// Of an event, which the client already includes; none if it is not wanted.
-    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<T>>;
-
-    /// Of requests that are sent to the board, as bytes.
-    fn asked(&mut self, _client: &Client, _bytes: &[u8], _stamp: Stamp) -> Result<Option<T>> {
-        Ok(None)
-    }
-
-    /// After bytes of the recognised board, or a while without any, also while it is lost: may queue requests.
-    fn idle(&mut self, _client: &mut Client) -> Result<()> {
-        Ok(())
-    }
-
-    /// Of the end of the stream.
-    fn ended(&mut self, _client: &Client, _stamp: Stamp) -> Result<Option<T>> {
-        Ok(None)
-    }
-}
-
-impl<T, F: FnMut(&Client, &Event, Stamp) -> Option<T> + Send> Teller<T> for F {
-    fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<Option<T>> {
-        Ok(self(client, event, stamp))
-    }
 }

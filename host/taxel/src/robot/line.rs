@@ -1,6 +1,6 @@
 //! How a board of a robot is, as JSON.
 
-use super::event::BoardEvent;
+use super::event::BoardState;
 use crate::tell::words;
 use serde::Serialize;
 
@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct BoardLine<'a> {
     /// Name of the board.
     pub board: &'a str,
-    /// `absent`, `met`, `lost`, `back`, `other`, `dropped`, `over` or `failed`, as [`BoardEvent`].
+    /// `absent`, `met`, `lost`, `back`, `other`, `dropped`, `over` or `failed`, as [`BoardState`].
     pub state: &'static str,
     /// The host's time, us since 1970.
     pub host_time_us: u64,
@@ -29,25 +29,24 @@ pub struct BoardLine<'a> {
 }
 
 impl<'a> BoardLine<'a> {
-    /// The message of an event at a host time; none for what the board itself says.
-    pub fn of<T>(board: &'a str, host_time_us: u64, event: &BoardEvent<T>) -> Option<BoardLine<'a>> {
-        let state = |state| {
+    /// The message of a state that began at a host time, us.
+    pub fn of(board: &'a str, host_time_us: u64, state: &BoardState) -> BoardLine<'a> {
+        let line = |state| {
             let (since_us, after_s, images, why) = (None, None, None, None);
             BoardLine { board, state, host_time_us, since_us, after_s, images, why }
         };
         let because = |line: BoardLine<'a>, why: &str| BoardLine { why: Some(why.into()), ..line };
-        Some(match event {
-            BoardEvent::News(_) => return None,
-            BoardEvent::Absent { why } => because(state("absent"), why),
-            BoardEvent::Met => state("met"),
-            BoardEvent::Lost { since_us, why } => {
-                because(BoardLine { since_us: Some(*since_us), ..state("lost") }, why)
+        match state {
+            BoardState::Absent { why } => because(line("absent"), why),
+            BoardState::Met => line("met"),
+            BoardState::Lost { since_us, why } => {
+                because(BoardLine { since_us: Some(*since_us), ..line("lost") }, why)
             }
-            BoardEvent::Back { after } => BoardLine { after_s: Some(after.as_secs_f64()), ..state("back") },
-            BoardEvent::Other { why } => because(state("other"), why),
-            BoardEvent::Dropped { images } => BoardLine { images: Some(*images), ..state("dropped") },
-            BoardEvent::Over => state("over"),
-            BoardEvent::Failed(error) => because(state("failed"), &words::sentence(error)),
-        })
+            BoardState::Back { after } => BoardLine { after_s: Some(after.as_secs_f64()), ..line("back") },
+            BoardState::Other { why } => because(line("other"), why),
+            BoardState::Dropped { images } => BoardLine { images: Some(*images), ..line("dropped") },
+            BoardState::Over { remark } => BoardLine { why: remark.clone(), ..line("over") },
+            BoardState::Failed(error) => because(line("failed"), &words::sentence(error)),
+        }
     }
 }

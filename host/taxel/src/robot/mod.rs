@@ -13,25 +13,24 @@
 //! | `line.rs` | how a board is, as JSON |
 //! | `queue.rs` | the events that wait, bounded for each board |
 //! | `refused.rs` | refusals of what a board is asked first |
-//! | `follow.rs` | follows one board in a thread of its own |
+//! | `follow.rs` | the loop that follows a board, alone or in a thread of its own |
+//! | `board_queue.rs` | [`BoardQueue`]: a board's end of the queue |
+//! | `plans.rs` | the boards of a file, to be followed |
 //! | `order.rs` | [`BoardOrder`]: what boards are asked while they are followed |
-//! | `session.rs` | [`RobotSession`]: all boards as one stream |
+//! | `stream.rs` | [`RobotStream`]: all boards as one stream |
 //! | `contact.rs` | [`BoardContact`]: a contact of a board, with its force if a calibration is in force |
 //! | `contact_reader.rs` | [`ContactReader`]: the contacts of a board's events |
 //! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
-//! | `recorded_board.rs` | a board's part of a recording, filled in the board's thread |
 //! | `alone.rs` | a board that is followed alone |
-//! | `record_teller.rs` | records a board, in its thread |
-//! | `recorder.rs` | [`RobotRecorder`]: one recording of all boards |
-//! | `open.rs` | the boards of a file, followed |
 //!
 //! A board is followed by a [`Session`](crate::session::Session) like any other. Before anything is asked of
 //! it, at the start and each time that it comes back, it is [recognised](crate::client::Identity): another board under
-//! its name is an event ([`BoardEvent::Other`]), and nothing that it sends is passed on. A board that is lost does not
+//! its name is an event ([`BoardState::Other`]), and nothing that it sends is passed on. A board that is lost does not
 //! hold up the others.
 
 mod alone;
 mod board;
+mod board_queue;
 mod board_reader;
 mod config;
 mod contact;
@@ -44,34 +43,30 @@ mod forms_in_frame;
 mod gesture_model;
 mod line;
 mod moments;
-mod open;
 mod order;
 mod place;
+mod plans;
 mod queue;
 mod recognise;
-mod record_teller;
-mod recorded_board;
-mod recorder;
 mod refused;
-mod session;
+mod stream;
 
 pub use alone::read_board;
 pub use board::{BoardGarment, RobotBoard};
+pub use board_queue::BoardQueue;
 pub use board_reader::ConfigPlace;
 pub use config::{BoardConfig, RobotConfig};
 pub use contact::BoardContact;
 pub use contact_reader::ContactReader;
-pub use event::{BoardEvent, RobotEvent, Teller};
+pub use event::{BoardEvent, BoardState, RobotEvent};
 pub use feed::feed;
 pub use file::ReadRobot;
-pub use follow::{Ask, Begin, BoardPlan, Opener};
+pub use follow::{Ask, Begin, BoardPlan, Opener, Supervisor, follow_alone};
 pub use forms_in_frame::FormsInFrame;
 pub use gesture_model::GestureModel;
 pub use line::BoardLine;
 pub use moments::{BoardMoment, RobotMoments};
 pub use order::BoardOrder;
 pub use queue::{WAITING, WhenFull};
-pub use record_teller::{BoardRecord, RecordTeller};
-pub use recorder::{RobotRecorder, RobotTopic};
 pub use refused::Required;
-pub use session::RobotSession;
+pub use stream::RobotStream;

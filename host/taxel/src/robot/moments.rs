@@ -1,7 +1,7 @@
 //! What boards have said lately, aligned by the time that they share.
 
 use super::contact::BoardContact;
-use crate::record::Stamp;
+use crate::client::Stamp;
 use std::collections::VecDeque;
 use std::time::Duration;
 

@@ -1,7 +1,7 @@
 //! The events that wait to be taken: bounded for each board.
 
-use super::event::{BoardEvent, RobotEvent};
-use crate::record::Stamp;
+use super::event::{BoardEvent, BoardState, RobotEvent};
+use crate::client::Stamp;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -39,7 +39,7 @@ pub struct EventQueue<T> {
 #[derive(Debug)]
 struct WaitingEvents<T> {
     events: VecDeque<Waiter<T>>,
-    boards: Vec<BoardQueue>,
+    boards: Vec<QueuedBoard>,
     /// Whoever takes events waits for one.
     is_awaited: bool,
     /// Nobody takes events any longer.
@@ -54,7 +54,7 @@ struct Waiter<T> {
 
 /// The queue's counters of a board.
 #[derive(Debug, Default, Clone, Copy)]
-struct BoardQueue {
+struct QueuedBoard {
     waiting: usize,
     /// Images among them that may be dropped.
     images: usize,
@@ -74,7 +74,7 @@ impl<T> EventQueue<T> {
     /// An empty queue for this number of boards.
     pub fn new(boards: usize) -> EventQueue<T> {
         let waiting =
-            WaitingEvents { boards: vec![BoardQueue::default(); boards], ..WaitingEvents::default() };
+            WaitingEvents { boards: vec![QueuedBoard::default(); boards], ..WaitingEvents::default() };
         let room = (0..boards).map(|_| Condvar::new()).collect();
         EventQueue { waiting: Mutex::new(waiting), came: Condvar::new(), room, closed: Condvar::new() }
     }
@@ -226,6 +226,10 @@ impl<T> WaitingEvents<T> {
             return None;
         }
         counts.told = counts.dropped;
-        Some(RobotEvent { board, stamp, what: BoardEvent::Dropped { images: counts.dropped } })
+        Some(RobotEvent {
+            board,
+            stamp,
+            what: BoardEvent::State(BoardState::Dropped { images: counts.dropped }),
+        })
     }
 }

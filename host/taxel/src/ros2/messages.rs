@@ -116,7 +116,7 @@ const STALE: u8 = 3;
 
 /// State of a board, as its diagnostics tell it.
 #[derive(Debug, Clone, Copy)]
-pub enum BoardState<'a> {
+pub enum DiagnosticState<'a> {
     /// Its counters, and its number of faulty taxels. A warning if anything was lost or failed.
     Reports(&'a Health, usize),
     /// Its source is lost, and why: stale.
@@ -124,10 +124,10 @@ pub enum BoardState<'a> {
 }
 
 /// `diagnostic_msgs/msg/DiagnosticArray` of a board with this firmware; a simulated one says that it is.
-pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: BoardState<'_>) -> Vec<u8> {
+pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: DiagnosticState<'_>) -> Vec<u8> {
     let mut values = Vec::new();
     let (level, said) = match state {
-        BoardState::Reports(health, faulty) => {
+        DiagnosticState::Reports(health, faulty) => {
             let bad = health.failed + health.overruns + health.lost > 0 || faulty > 0;
             values.extend([
                 ("scans", u64::from(health.scans)),
@@ -143,7 +143,7 @@ pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: BoardState<
             ]);
             (u8::from(bad), if bad { "scans, messages or taxels are missing" } else { "all is well" })
         }
-        BoardState::Lost(why) => (STALE, why),
+        DiagnosticState::Lost(why) => (STALE, why),
     };
     let simulated = if is_simulated(firmware) { "simulated: " } else { "" };
     let name = format!("taxel: {}", if board.is_empty() { "board" } else { board });

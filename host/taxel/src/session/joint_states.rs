@@ -1,8 +1,9 @@
 //! Positions of joints as lines: of a file, or of the standard input.
 
 use super::joint_time::JointTime;
+use super::observer::Observer;
 use super::posing::Posing;
-use crate::client::Client;
+use crate::client::{Client, Event, Stamp};
 use crate::error::{Context, Result, UsageError};
 use crate::files::input;
 use serde::Deserialize;
@@ -83,7 +84,7 @@ impl JointStates {
 
     /// Hands over the positions whose time has come, and the first ones after it: between two readings a
     /// posture is known better than after the last one. Errors name file and line.
-    pub fn turn(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
+    pub fn hand_over(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
         let Some(now) = posing.now() else { return Ok(()) };
         while self.until_us <= now.0 {
             if self.next.is_none() {
@@ -132,6 +133,20 @@ impl JointStates {
             }
             return Ok(Some(line));
         }
+    }
+}
+
+impl Observer for JointStates {
+    fn event(&mut self, _: &Client, _: &Event, _: Stamp) -> Result<()> {
+        Ok(())
+    }
+
+    fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {
+        self.hand_over(client, posing)
+    }
+
+    fn follows_another(&self) -> bool {
+        true
     }
 }
 

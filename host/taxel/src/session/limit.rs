@@ -1,4 +1,4 @@
-//! The end of a run that is limited in time.
+//! The end of a run that is limited in images or time.
 
 use super::Session;
 use crate::client::passed::Passed;
@@ -12,14 +12,18 @@ pub const PATIENCE: Duration = Duration::from_secs(10);
 /// Most that counts as waiting between two looks: whoever looks more rarely was busy or asleep, not waiting.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// The limit of a run, by the board's time as its images tell it.
+/// Where a run ends: after so many images, or so much of the board's time as its images tell it.
 ///
 /// A board that sends none, because its scene asks for none or its scan fails, must not make a run endless: without
-/// an image for [`PATIENCE`], or for the whole limit if that is longer, the limit is reached, too, and the session
-/// notes why.
+/// an image for [`PATIENCE`], or for the whole time if that is longer, the limit is reached, too, and the session
+/// notes why. A run that waits for a number of images fails then.
 #[derive(Debug, Clone)]
-pub struct TimeLimit {
-    longest: Duration,
+pub struct RunLimit {
+    /// Whole images that are still awaited; none: any number.
+    frames: Option<u64>,
+    /// The raw codes of the last image, which follow it, are awaited, too.
+    codes: bool,
+    longest: Option<Duration>,
     passed: Passed,
     /// How long an image has been waited for.
     imageless: Duration,
@@ -27,10 +31,12 @@ pub struct TimeLimit {
     is_reached: bool,
 }
 
-impl TimeLimit {
-    /// Ends a run after so much time.
-    pub fn of(longest: Duration) -> TimeLimit {
-        TimeLimit {
+impl RunLimit {
+    /// Ends a run after so many images, or so much time, whatever comes first; without both it goes on.
+    pub fn of(frames: Option<u64>, longest: Option<Duration>) -> RunLimit {
+        RunLimit {
+            frames,
+            codes: false,
             longest,
             passed: Passed::default(),
             imageless: Duration::ZERO,
@@ -39,35 +45,53 @@ impl TimeLimit {
         }
     }
 
+    /// The same, and the raw codes of the last image are awaited, too.
+    pub fn with_codes(self) -> RunLimit {
+        RunLimit { codes: true, ..self }
+    }
+
+    /// True if the run ends at all.
+    pub fn is_any(&self) -> bool {
+        self.frames.is_some() || self.longest.is_some()
+    }
+
     /// Handles an event. Returns true once the limit is reached.
     pub fn take(&mut self, event: &Event) -> bool {
+        if self.frames == Some(0) {
+            // None was wanted, or the codes of the last one are.
+            self.is_reached |= matches!(event, Event::Raw { .. } | Event::Frame { .. });
+        }
         if let Event::Frame { time, image: ImageNews::Whole, .. } = event {
             self.imageless = Duration::ZERO;
-            self.is_reached |= Duration::from_micros(self.passed.until(time.0)) >= self.longest;
+            if let Some(frames) = &mut self.frames {
+                *frames = frames.saturating_sub(1);
+                self.is_reached |= *frames == 0 && !self.codes;
+            }
+            let passed = Duration::from_micros(self.passed.until(time.0));
+            self.is_reached |= self.longest.is_some_and(|longest| passed >= longest);
         }
         self.is_reached
     }
 
-    /// Looks at the clock. Returns true once the limit is reached.
-    pub fn look(&mut self, session: &mut Session) -> bool {
+    /// Looks at the clock. Returns true once the limit is reached. Error of a run that waits for images, once none has
+    /// come for [`PATIENCE`].
+    pub fn look(&mut self, session: &mut Session) -> Result<bool, SourceError> {
         let passed = std::mem::replace(&mut self.looked, Instant::now()).elapsed();
         // A recording ends by itself, and a lost board is waited for elsewhere.
         self.imageless = match session.source().listens && !session.is_gone() {
             true => self.imageless + passed.min(LOOK),
             false => Duration::ZERO,
         };
-        if !self.is_reached && self.imageless >= self.longest.max(PATIENCE) {
+        let is_late = |longest: Duration| self.imageless >= longest.max(PATIENCE);
+        if !self.is_reached && self.longest.is_some_and(is_late) {
             self.is_reached = true;
             session.say(Level::Info, self.missing(session));
         }
-        self.is_reached
-    }
-
-    /// Error of a run that waits for images, whatever its limit, once none has come for [`PATIENCE`].
-    pub fn check_images(&self, session: &Session) -> Result<(), SourceError> {
-        match self.imageless < PATIENCE {
-            true => Ok(()),
-            false => Err(SourceError::Silent(self.missing(session))),
+        match self.frames {
+            Some(_) if !self.is_reached && self.imageless >= PATIENCE => {
+                Err(SourceError::Silent(self.missing(session)))
+            }
+            _ => Ok(self.is_reached),
         }
     }
 

@@ -29,8 +29,8 @@
 //! | `moving.rs` | how the links move that wear a garment |
 //! | `posing.rs` | [`Posing`]: a robot's posture, told to the board |
 //! | `joint_states.rs` | positions of joints as lines |
-//! | `limit.rs` | [`TimeLimit`]: the end of a run that is limited in time |
-//! | `show.rs` | [`Show`]: who is handed the stream |
+//! | `limit.rs` | [`RunLimit`]: the end of a run that is limited in images or time |
+//! | `observer.rs` | [`Observer`]: who is handed the stream |
 
 mod absence;
 mod gather;
@@ -38,16 +38,16 @@ mod joint_states;
 mod joint_time;
 mod limit;
 mod moving;
+mod observer;
 mod outgoing;
 mod posing;
 pub mod setting;
-mod show;
 
 pub use joint_states::JointStates;
 pub use joint_time::JointTime;
-pub use limit::{PATIENCE, TimeLimit};
+pub use limit::{PATIENCE, RunLimit};
+pub use observer::Observer;
 pub use posing::{JointPositions, POSES, POSES_HZ, Posing};
-pub use show::Show;
 
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Identity, Restored, request_name};
@@ -108,11 +108,11 @@ pub enum Returns {
 }
 
 /// Receives the requests that go to the board, as bytes.
-pub type OnSent<'a, E> = dyn FnMut(&Client, &[u8]) -> Result<(), E> + 'a;
+pub(crate) type OnSent<'a> = dyn FnMut(&Client, &[u8]) -> Result<()> + 'a;
 
 /// Result of [`Session::turn`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Turn {
+pub(crate) enum Turn {
     /// Bytes, or none within a short while.
     Bytes,
     /// The source is lost, and waited for.
@@ -249,7 +249,7 @@ impl Session {
         if let Some(event) = self.next_event() {
             return Ok(Poll::Event(event));
         }
-        Ok(match self.turn::<Error>(&mut |_, _| Ok(()))? {
+        Ok(match self.turn(&mut |_, _| Ok(()))? {
             Turn::Bytes | Turn::Waiting => Poll::Nothing,
             Turn::End => Poll::End,
         })
@@ -270,14 +270,14 @@ impl Session {
     /// Sends queued requests after passing them to `sent`, and reads; requests of the source itself are
     /// passed to `sent`, too. Error if the source is lost for good, or if its board refuses a setting that it
     /// had accepted before; `sent` has errors of the caller's own.
-    pub fn turn<E: From<Error>>(&mut self, sent: &mut OnSent<'_, E>) -> Result<Turn, E> {
+    pub(crate) fn turn(&mut self, sent: &mut OnSent<'_>) -> Result<Turn> {
         self.buffer.clear();
         self.taken = 0;
         if self.absence.is_some() {
-            return Ok(self.come_back()?);
+            return self.come_back();
         }
         if let Some(why) = self.client.refused() {
-            return Ok(self.lose(SourceError::Other(why).into())?);
+            return self.lose(SourceError::Other(why).into());
         }
         self.check_stranger()?;
         self.restored()?;
@@ -304,8 +304,8 @@ impl Session {
             }
             // Recordings and simulations end; a board streams as long as there is a link.
             Ok(false) if self.source.returns.is_none() => Ok(Turn::End),
-            Ok(false) => Ok(self.lose(std::io::Error::other("the connection was closed").into())?),
-            Err(error) => Ok(self.lose(error)?),
+            Ok(false) => self.lose(std::io::Error::other("the connection was closed").into()),
+            Err(error) => self.lose(error),
         }
     }
 
@@ -334,7 +334,7 @@ impl Session {
         self.client.next_event(&[]).1
     }
 
-    fn say(&mut self, level: Level, text: String) {
+    pub(crate) fn say(&mut self, level: Level, text: String) {
         let time = self.client.board_time().unwrap_or(Micros(0));
         self.client.say(Event::Note { time, level, text });
     }

@@ -33,9 +33,7 @@ pub use spec::SourceSpec;
 pub(crate) use stranger::Stranger;
 pub use usb::{PortKind, listed as ports};
 
-use crate::error::Result;
-#[cfg(not(feature = "zenoh"))]
-use crate::error::UsageError;
+use crate::error::{Result, UsageError};
 use crate::recording::GapMark;
 use crate::sim::Script;
 use crate::tell::verbose;

@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 use std::time::Duration;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::json::{MessagePrinter, Replay, message};
-use taxel::record::{Stamp, json_message};
-use taxel::session::{Session, Show};
+use taxel::record::json_message;
+use taxel::session::{Observer, Session};
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::format::{Celsius, Micros, Q15, name};
 use taxel_core::react::Reaction;
@@ -56,9 +56,7 @@ fn simulate(scene: &str, lines: &mut Lines) {
         keep(lines, &format!("{scene} recorded"), std::str::from_utf8(&recorded).unwrap());
         if let Event::Frame { .. } = event {
             let mut printed = Vec::new();
-            let told: Result<(), taxel::Error> =
-                MessagePrinter::new(true, &mut printed).event(client, &event);
-            told.unwrap();
+            MessagePrinter::new(true, &mut printed).event(client, &event, STAMP).unwrap();
             keep(lines, &format!("{scene} printed"), std::str::from_utf8(&printed).unwrap());
         }
         if let (Event::Hello, Some(worn)) = (&event, client.worn()) {

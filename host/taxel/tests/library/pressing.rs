@@ -5,7 +5,7 @@ use taxel::body::{self, DVec3};
 use taxel::client::{Client, Event, ImageNews};
 use taxel::error::Error;
 use taxel::json::computed_pressing;
-use taxel::session::{Returns, Session, Turn};
+use taxel::session::{Returns, Session};
 use taxel::source::{self, SourceOptions};
 use taxel_core::wire::PressingReport;
 
@@ -54,10 +54,8 @@ fn the_host_computes_what_a_board_says() {
     session.parts().0.start(tare).unwrap();
     session.parts().0.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
     let mut both = Both::default();
-    while session.turn(&mut |_, _| Ok::<(), Error>(())).unwrap() != Turn::End {
-        while let Some(event) = session.next_event() {
-            both.event(session.client(), &event).unwrap();
-        }
+    while let Some(event) = session.wait().unwrap() {
+        both.event(session.client(), &event).unwrap();
     }
     let (mut compared, mut farthest, mut worst) = (0, 0.0f64, 0.0f64);
     for report in &both.told {

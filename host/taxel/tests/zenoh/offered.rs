@@ -6,6 +6,7 @@ use std::time::Duration;
 use taxel::client::{Event, ImageNews};
 use taxel::error::ErrorKind;
 use taxel::network::{FrameCutter, PieceKind, PieceStamp};
+use taxel::session::Poll;
 use taxel_core::format::Code;
 use zenoh::Wait;
 
@@ -30,9 +31,9 @@ fn a_board_arrives_unchanged_and_losses_are_counted_exactly() {
             offered.rig.lock().unwrap().codes = [Code(if turn % 120 == 0 { 900 } else { 100 }); 64];
         }
         for (viewer, received) in viewers.iter_mut().zip(&mut received) {
-            viewer.turn::<taxel::Error>(&mut |_, _| Ok(())).unwrap();
-            received.extend_from_slice(viewer.bytes());
-            while viewer.next_event().is_some() {}
+            while let Poll::Event(_) = viewer.poll().unwrap() {
+                viewer.client().lines().for_each(|line| received.extend_from_slice(line));
+            }
         }
     }
     let sent = frames(&offered.sent.lock().unwrap());

@@ -8,11 +8,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
-use taxel::Error;
-use taxel::client::Event;
+use taxel::client::{Event, Stamps};
 use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
-use taxel::session::{Poll, Session, Show};
+use taxel::session::{Observer, Poll, Session};
 use taxel::source::{self, SourceOptions, SourceSpec};
 use zenoh::Wait;
 
@@ -110,7 +109,8 @@ impl Offered {
             while !told.load(Ordering::Relaxed) {
                 turn(&mut session, &mut offer, &kept).unwrap();
             }
-            Show::<Error>::end(&mut offer, session.client()).unwrap();
+            let stamp = Stamps::start().now(session.client());
+            offer.ended(session.client(), stamp).unwrap();
         });
         Offered { rig, sent, ends, thread: Some(thread) }
     }
@@ -125,13 +125,14 @@ impl Drop for Offered {
 }
 
 /// Handles what has come, as the program does.
-fn turn(session: &mut Session, offer: &mut dyn Show<Error>, sent: &Mutex<Vec<u8>>) -> taxel::Result<()> {
-    session.turn::<Error>(&mut |_, _| Ok(()))?;
-    sent.lock().unwrap().extend_from_slice(session.bytes());
-    while let Some(event) = session.next_event() {
-        offer.event(session.client(), &event)?;
+fn turn(session: &mut Session, offer: &mut dyn Observer, sent: &Mutex<Vec<u8>>) -> taxel::Result<()> {
+    while let Poll::Event(event) = session.poll()? {
+        let client = session.client();
+        client.lines().for_each(|line| sent.lock().unwrap().extend_from_slice(line));
+        let stamp = Stamps::start().of(client, &event);
+        offer.event(client, &event, stamp)?;
     }
-    offer.idle(session.parts().0).map(drop)
+    offer.idle(session.parts().0)
 }
 
 /// Waits for an event that `is` what is expected, and returns it.

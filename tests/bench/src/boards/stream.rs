@@ -2,8 +2,7 @@
 
 use anyhow::{Context, Result};
 use std::path::Path;
-use taxel::client::{Client, Event, ImageNews};
-use taxel::record::time_of;
+use taxel::client::{Client, Event, ImageNews, time_of};
 use taxel::session::Session;
 use taxel::source::{self, SourceOptions};
 use taxel_core::wire::{self, Report};

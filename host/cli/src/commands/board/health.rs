@@ -11,10 +11,10 @@ use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use taxel::client::{Client, Event, Worn};
+use taxel::client::{Client, Event, Stamp, Worn};
 use taxel::files::garments;
 use taxel::robot::BoardConfig;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::health::TaxelHealth;
@@ -126,8 +126,8 @@ impl Known {
     }
 }
 
-impl Show<anyhow::Error> for Known {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Known {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
                 self.garment = client.worn().map(|worn| worn.garment.clone());
@@ -144,18 +144,18 @@ impl Show<anyhow::Error> for Known {
                 self.answered = true;
             }
             Event::Answer { refusal: Some(why), .. } => {
-                bail!(Fault::board(format!("the board refuses: {why}")))
+                return Err(Fault::board(format!("the board refuses: {why}")).into());
             }
             _ => {}
         }
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         if std::mem::take(&mut self.wanted) {
             client.request(&Request::SelfTest)?;
         }
-        Ok(true)
+        Ok(())
     }
 }
 

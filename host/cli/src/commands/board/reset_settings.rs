@@ -5,8 +5,8 @@ use crate::watch::{self, LiveArgs};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
-use taxel::session::Show;
+use taxel::client::{Client, Event, Stamp};
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::wire::Request;
 
@@ -53,27 +53,32 @@ struct Asking {
     done: bool,
 }
 
-impl Show<anyhow::Error> for Asking {
-    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+impl Observer for Asking {
+    fn event(&mut self, _: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         match refusal {
             None => self.done |= *request == Request::ResetSettings { undo: false }.number(),
             Some(_) if self.asked && *request == UNREADABLE => {
-                bail!(Fault::board("the board's firmware cannot do this: flash the firmware of this version"))
+                let why = "the board's firmware cannot do this: flash the firmware of this version";
+                return Err(Fault::board(why).into());
             }
-            Some(why) => bail!(Fault::board(format!("the board refuses: {why}"))),
+            Some(why) => return Err(Fault::board(format!("the board refuses: {why}")).into()),
         }
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         if !self.asked && client.worn().is_some() {
             client.request(&Request::ResetSettings { undo: self.undo })?;
             self.asked = true;
         }
         if !self.done && self.begun.elapsed() > PATIENCE {
-            bail!(Fault::board("the board does not answer"));
+            return Err(Fault::board("the board does not answer").into());
         }
-        Ok(!self.done)
+        Ok(())
+    }
+
+    fn is_done(&self) -> bool {
+        self.done
     }
 }

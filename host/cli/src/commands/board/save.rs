@@ -4,8 +4,8 @@ use crate::fault::Fault;
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, Worn};
-use taxel::session::Show;
+use taxel::client::{Client, Event, Stamp, Worn};
+use taxel::session::Observer;
 use taxel::source::SourceOptions;
 use taxel_core::wire::Request;
 
@@ -48,31 +48,34 @@ struct Saving {
     simulated: bool,
 }
 
-impl Show<anyhow::Error> for Saving {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Saving {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         self.simulated = client.worn().is_some_and(Worn::is_simulated);
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         if let Some(why) = refusal {
-            bail!(Fault::board(format!("the board refuses: {why}")));
+            return Err(Fault::board(format!("the board refuses: {why}")).into());
         }
         self.waits_for &= *request != Request::Tare { frames: 0 }.number();
         self.done |= *request == Request::Save.number();
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
+        let silent = || Err(Fault::board("the board does not answer").into());
         match self.asked {
             None if client.worn().is_some() && !self.waits_for => {
                 client.request(&Request::Save)?;
                 self.asked = Some(Instant::now());
             }
             // A tare over many frames may take longer.
-            None if client.worn().is_none() && self.begun.elapsed() > PATIENCE => {
-                bail!(Fault::board("the board does not answer"))
-            }
-            Some(asked) if asked.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
+            None if client.worn().is_none() && self.begun.elapsed() > PATIENCE => return silent(),
+            Some(asked) if asked.elapsed() > PATIENCE => return silent(),
             _ => {}
         }
-        Ok(!self.done)
+        Ok(())
+    }
+
+    fn is_done(&self) -> bool {
+        self.done
     }
 }

@@ -3,8 +3,8 @@
 use anyhow::{Result, ensure};
 use std::collections::HashMap;
 use taxel::body::fit::{FeltTouch, KnownTouch, Mark, TouchGatherer};
-use taxel::client::{Client, Event};
-use taxel::session::Show;
+use taxel::client::{Client, Event, Stamp};
+use taxel::session::Observer;
 
 /// Asks for the marks and takes what the board feels. A touch of a panel on another link does not count.
 pub struct MarkDialogue {
@@ -57,8 +57,8 @@ impl MarkDialogue {
     }
 }
 
-impl Show<anyhow::Error> for MarkDialogue {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for MarkDialogue {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if let Event::Frame { time, .. } | Event::Contacts { time, .. } = event
             && let Some(touch) = self.gatherer.frame(*time, client.contacts())
         {
@@ -67,11 +67,11 @@ impl Show<anyhow::Error> for MarkDialogue {
         Ok(())
     }
 
-    fn idle(&mut self, _client: &mut Client) -> Result<bool> {
-        Ok(self.touches.len() < self.marks.len())
+    fn is_done(&self) -> bool {
+        self.touches.len() >= self.marks.len()
     }
 
-    fn end(&mut self, client: &Client) -> Result<()> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         if let Some(touch) = self.gatherer.ended() {
             self.take(client, touch);
         }

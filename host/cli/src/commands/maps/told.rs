@@ -1,14 +1,15 @@
 //! Captures a board's report of an intention to be explained: from any source, when an intention is announced
 //! or at a given time.
 
+use crate::fault::own;
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::fcm::map::MapFile;
 use taxel::fcm::told::Told;
 use taxel::robot::{BoardConfig, ReadRobot, feed};
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{SourceOptions, SourceSpec};
 use taxel_core::format::Micros;
 use taxel_core::intent::{Feed, Leading};
@@ -115,8 +116,8 @@ impl Ear {
     }
 }
 
-impl Show<anyhow::Error> for Ear {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Ear {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         if self.done {
             return Ok(());
         }
@@ -125,7 +126,7 @@ impl Show<anyhow::Error> for Ear {
             Event::Intent(report) => {
                 self.clock(report.time);
                 if !self.done {
-                    self.take(client, report)?;
+                    self.take(client, report).map_err(own)?;
                 }
             }
             _ => {}
@@ -133,7 +134,7 @@ impl Show<anyhow::Error> for Ear {
         Ok(())
     }
 
-    fn idle(&mut self, _client: &mut Client) -> Result<bool> {
-        Ok(!self.done)
+    fn is_done(&self) -> bool {
+        self.done
     }
 }

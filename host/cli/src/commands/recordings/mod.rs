@@ -8,4 +8,3 @@ pub mod record;
 pub mod repair;
 pub mod replay;
 pub mod report;
-mod viewed;

@@ -1,10 +1,9 @@
 //! The command `taxel record`.
 
-use super::viewed::ViewedRecorder;
 use crate::commands::views::view::{announce, bind, wearer};
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
-use crate::view::{PageHub, Tape, Viewer};
+use crate::view::{PageHub, Viewer};
 use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
 use anyhow::{Error, Result};
 use clap::Args;
@@ -12,8 +11,10 @@ use std::net::TcpListener;
 use std::path::PathBuf;
 use std::sync::Arc;
 use taxel::body;
-use taxel::record::{Origin, Plan, Recorder, Rotate};
-use taxel::source::{Source, SourceOptions};
+use taxel::files::calibrate::Calibration;
+use taxel::record::{Origin, Plan, PlannedBoard, Recorder, Rotate};
+use taxel::session::Observer;
+use taxel::source::SourceOptions;
 
 /// Arguments of `taxel record`.
 #[derive(Debug, Clone, Args)]
@@ -70,13 +71,12 @@ impl Pages {
         })
     }
 
-    /// Serves them, and shows them what is recorded.
-    fn open(self, source: &Source, origin: Origin, open: bool) -> Result<(Viewer, Arc<PageHub>)> {
+    /// Serves them, and shows them what is recorded of this source.
+    fn open(self, label: &str, calibration: Option<Calibration>, open: bool) -> Result<Viewer> {
         let hub = Arc::new(PageHub::default());
-        hub.tape(Tape::Live(Arc::new(origin)));
         self.wearer.into_iter().for_each(|wearer| hub.wear(wearer));
-        announce(&source.label, self.listener, hub.clone(), open)?;
-        Ok((Viewer::new(source, hub.clone()).folding(self.folding).beside_recording(), hub))
+        announce(label, self.listener, hub.clone(), open)?;
+        Ok(Viewer::new(hub, calibration).folding(self.folding).beside_recording())
     }
 }
 
@@ -91,31 +91,28 @@ pub fn run(args: RecordArgs) -> Result<()> {
     let (source, calibration) = args.board.open(options)?;
     let pages = args.view.then(|| Pages::prepare(&args)).transpose()?;
     stop::catch()?;
-    let origin =
-        Origin { label: source.label.clone(), counts_per_newton: source.counts_per_newton, calibration };
-    let mut recorder = Recorder::create(Plan {
-        path: args.output,
+    let body = args.board.config.body.as_deref().map(body::read).transpose()?;
+    let origin = Origin { calibration: calibration.clone(), ..Origin::default() };
+    let recorder = Recorder::create(Plan {
         rotate: args.rotate,
         ros2: args.ros2,
-        body: args.board.config.body.as_deref().map(body::read).transpose()?,
         force: args.force.force,
         inputs: args.board.files(),
-        origin: origin.clone(),
+        ..Plan::of(args.output, PlannedBoard { origin, body, ..PlannedBoard::default() })
     })?;
     let label = source.label.clone();
     let unlimited = args.frames.is_none() && args.seconds.is_none();
     recorder.expect(args.seconds.unwrap_or(0.0));
     let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
-    let pages = pages.map(|pages| pages.open(&source, origin, args.open)).transpose()?;
-    let done = match pages {
-        Some((viewer, hub)) => {
-            watch::watch(&watched, source, &mut ViewedRecorder { recorder: &mut recorder, viewer, hub })
-        }
-        None => watch::watch(&watched, source, &mut recorder),
-    };
+    let mut viewer = pages.map(|pages| pages.open(&label, calibration, args.open)).transpose()?;
+    let mut record = recorder.board(0);
+    let viewers = viewer.iter_mut().map(|viewer| viewer as &mut dyn Observer);
+    let mut observers: Vec<&mut dyn Observer> = viewers.collect();
+    observers.push(&mut record);
+    let done = watch::watch(&watched, source, &mut observers);
     // The recording is completed even if the source fails.
     let ended = recorder.finish();
-    eprintln!("{}", recorder.progress());
+    eprintln!("{}", recorder.summary());
     if label.starts_with("sim:") && unlimited && done.is_ok() && !stop::asked() {
         eprintln!("{label} is over: a simulated scene is played once, --seconds S records for longer");
     }

@@ -8,11 +8,11 @@ use crate::watch::{self, LiveArgs, Overwrite};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use taxel::client::Event;
+use taxel::client::{Event, Stamp};
 use taxel::files::output::Output;
 use taxel::record::Play;
 use taxel::recording::BoardRecording;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel::tell::progress::{Progress, Unit};
 
@@ -95,8 +95,10 @@ fn recorded(
     let scale = overview.counts_per_newton(recording.board.as_deref()).map(|counts| counts as f32);
     let mut seen = Seen::new(recording.to_string(), scale).on(wearer).folding(folding);
     let mut began = None;
-    while let Some((_, event)) = play.next_event()? {
-        seen.event(play.client(), &event)?;
+    let mut stamp = Stamp::recorded(0, 0);
+    while let Some((header, event)) = play.next_event()? {
+        stamp = Stamp::recorded(header.log_time, header.publish_time);
+        seen.event(play.client(), &event, stamp)?;
         if let Event::Frame { time, .. } = event {
             progress.at(play.passed()[0]);
             let passed = time.since(*began.get_or_insert(time)) as f64 / 1e6;
@@ -105,7 +107,7 @@ fn recorded(
             }
         }
     }
-    seen.end(play.client())?;
+    seen.ended(play.client(), stamp)?;
     seen.skipped = play.skipped();
     Ok(seen)
 }

@@ -1,14 +1,15 @@
 //! `taxel live` of a robot: all boards as lines of text or JSON.
 
+use super::lines::{BoardNews, JsonLines, TextLines};
 use super::requests::RequestLines;
-use super::tellers::{BoardNews, JsonTeller, TextTeller};
 use crate::fault::Fault;
-use crate::watch::{LiveArgs, stop};
+use crate::watch::{LiveArgs, run_limit, stop};
 use anyhow::{Context, Error, Result, bail};
 use std::io::{BufWriter, Write, stdout};
 use std::time::Duration;
-use taxel::mind::{RobotMeaning, RobotMeaningLine, RobotMind};
-use taxel::robot::{BoardEvent, BoardLine, ReadRobot, RobotSession, Teller, WhenFull};
+use taxel::mind::{MindReader, RobotMeaning, RobotMeaningLine, RobotMind};
+use taxel::robot::{BoardEvent, BoardLine, BoardQueue, BoardState, ReadRobot, RobotStream, WhenFull};
+use taxel::session::Observer;
 use taxel::source::SourceOptions;
 use taxel::tell::words;
 
@@ -20,17 +21,17 @@ const ROBOT: &str = "robot";
 
 /// Runs the command. Error if a board cannot be followed, once all are over.
 pub fn run(args: &LiveArgs, robot: &ReadRobot) -> Result<()> {
-    let of_one = [("--frames", args.frames.is_some()), ("--taxel", args.taxel.is_some())];
-    if let Some((option, _)) = of_one.into_iter().find(|(_, is_there)| *is_there) {
+    if args.taxel.is_some() {
         let file = &robot.file;
         bail!(Fault::usage(format!(
-            "{option} is for a board, {file} is a robot's file: name one, {file}#BOARD"
+            "--taxel is for a board, {file} is a robot's file: name one, {file}#BOARD"
         )));
     }
     let mut requests = RequestLines::of(args.board.requests.as_deref())?;
     let options = SourceOptions {
         seed: args.board.seed,
         realtime: args.realtime,
+        frames: args.frames,
         seconds: args.seconds,
         ..SourceOptions::default()
     };
@@ -38,15 +39,15 @@ pub fn run(args: &LiveArgs, robot: &ReadRobot) -> Result<()> {
     let mut mind = is_minded.then(|| RobotMind::new(robot)).transpose()?;
     let names = robot.boards.iter().map(|board| board.name.len());
     let wide = names.chain(is_minded.then_some(ROBOT.len())).max().unwrap_or(0);
-    let teller = |number: usize| -> Box<dyn Teller<BoardNews>> {
-        let name = &robot.boards[number].name;
+    let observer = |number: usize, queue: &BoardQueue<BoardNews>| -> Box<dyn Observer + Send> {
+        let (board, mind) = (&robot.boards[number], is_minded.then(|| MindReader::new(robot, number)));
         match args.json {
-            true => Box::new(JsonTeller::new(robot, number, args.pixels, is_minded)),
-            false => Box::new(TextTeller::new(robot, number, format!("{name:wide$} "), is_minded)),
+            true => Box::new(JsonLines::new(board, args.pixels, mind, queue)),
+            false => Box::new(TextLines::new(format!("{:wide$} ", board.name), mind, queue)),
         }
     };
-    let plans = robot.plans(&options, limit(args.seconds), teller);
-    let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
+    let plans = robot.plans(&options, &run_limit(args.frames, args.seconds));
+    let mut session = RobotStream::start(plans, WhenFull::DropImages, observer)?;
     let mut out = BufWriter::new(stdout());
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
@@ -62,10 +63,15 @@ pub fn run(args: &LiveArgs, robot: &ReadRobot) -> Result<()> {
             continue;
         };
         let name = &robot.boards[event.board].name;
-        match (BoardLine::of(name, event.stamp.host_us, &event.what), &event.what) {
-            (_, BoardEvent::News(news)) => write!(out, "{}", news.lines)?,
-            (Some(line), _) if args.json => writeln!(out, "{}", serde_json::to_string(&line)?)?,
-            (_, what) => said(what).map_or(Ok(()), |said| writeln!(out, "{name:wide$} {said}"))?,
+        match &event.what {
+            BoardEvent::News(news) => write!(out, "{}", news.lines)?,
+            BoardEvent::State(state) if args.json => {
+                let line = BoardLine::of(name, event.stamp.host_us, state);
+                writeln!(out, "{}", serde_json::to_string(&line)?)?;
+            }
+            BoardEvent::State(state) => {
+                said(state).map_or(Ok(()), |said| writeln!(out, "{name:wide$} {said}"))?;
+            }
         }
         if let Some(mind) = &mut mind {
             meant(args.json, wide, mind, &mut out, |mind| mind.event(&event, |news| news.sense.as_ref()))?;
@@ -105,12 +111,13 @@ fn write_meaning(
 }
 
 /// How a board is, in words; none if its lines say it: it is met, lost, back, over.
-fn said(what: &BoardEvent<BoardNews>) -> Option<String> {
-    Some(match what {
-        BoardEvent::Absent { why } => format!("absent: {why}; waiting for it"),
-        BoardEvent::Other { why } => format!("refused: {why}"),
-        BoardEvent::Dropped { images } => format!("{images} images dropped: the reader is too slow"),
-        BoardEvent::Failed(error) => format!("failed: {}", words::sentence(error)),
+fn said(state: &BoardState) -> Option<String> {
+    Some(match state {
+        BoardState::Absent { why } => format!("absent: {why}; waiting for it"),
+        BoardState::Other { why } => format!("refused: {why}"),
+        BoardState::Dropped { images } => format!("{images} images dropped: the reader is too slow"),
+        BoardState::Over { remark: Some(remark) } => remark.clone(),
+        BoardState::Failed(error) => format!("failed: {}", words::sentence(error)),
         _ => return None,
     })
 }
@@ -118,13 +125,9 @@ fn said(what: &BoardEvent<BoardNews>) -> Option<String> {
 /// The error of a board that cannot be followed any longer.
 pub fn failed<T>(name: &str, what: BoardEvent<T>) -> Result<()> {
     match what {
-        BoardEvent::Failed(error) => Err(Error::from(error)).with_context(|| format!("board {name}")),
+        BoardEvent::State(BoardState::Failed(error)) => {
+            Err(Error::from(error)).with_context(|| format!("board {name}"))
+        }
         _ => Ok(()),
     }
-}
-
-/// A time of the command line that limits a stream.
-pub fn limit(seconds: Option<f64>) -> Option<Duration> {
-    // A time that is too long for a `Duration` is none.
-    seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
 }

@@ -3,6 +3,7 @@
 pub mod check;
 mod controllers;
 pub mod doctor;
+mod lines;
 pub mod live;
 pub mod record;
 mod requests;
@@ -10,8 +11,5 @@ mod requests;
 pub mod ros2;
 #[cfg(feature = "zenoh")]
 pub mod serve;
-mod shown;
-mod tellers;
 pub mod view;
-mod viewed;
 pub mod why;

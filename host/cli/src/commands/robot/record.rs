@@ -1,31 +1,31 @@
 //! `taxel record` of a robot: all boards in one recording.
 
-use super::live::{failed, limit};
+use super::live::failed;
 use super::requests::{RequestLines, Told};
-use super::view::pages;
-use super::viewed::ViewedTeller;
+use super::view::{pages, viewer};
 use crate::commands::recordings::record::RecordArgs;
 use crate::commands::views::view::{announce, bind};
-use crate::fault::Fault;
 use crate::view::RobotPages;
-use crate::watch::stop;
-use anyhow::{Error, Result, bail};
+use crate::watch::{Remarks, run_limit, stop};
+use anyhow::{Error, Result};
 use std::thread;
 use std::time::Duration;
-use taxel::mind::{MindRecord, MindRecordTeller, RecordedMind, RobotMind};
-use taxel::robot::{BoardEvent, ReadRobot, RobotEvent, RobotRecorder, RobotSession, Teller, WhenFull};
+use taxel::mind::{BoardSense, MindReader, RecordedMind, RobotMind};
+use taxel::record::{Plan, Recorder};
+use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent, RobotStream, WhenFull};
+use taxel::session::Observer;
 use taxel::source::SourceOptions;
 
-/// Longest wait before the file is flushed.
+/// Longest wait before Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
 /// Time in which a board's bytes gather: pages show them so much later.
 const GATHER: Duration = Duration::from_millis(40);
 /// Time in which events gather once all are taken: of many boards, each would wake this thread.
 const REST: Duration = Duration::from_millis(5);
 
-/// What becomes of a robot's events.
+/// What becomes of the events of all boards; those of each are recorded in its thread.
 struct Recording<'a> {
-    recorder: RobotRecorder,
+    recorder: Recorder,
     /// None if boards are not at one time.
     mind: Option<RecordedMind>,
     /// None without a view.
@@ -34,21 +34,18 @@ struct Recording<'a> {
 
 /// Runs the command. Error if a board cannot be followed, once all are over: the others are recorded.
 pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
-    let of_one =
-        [("--frames", args.frames.is_some()), ("--rotate", args.rotate.is_some()), ("--ros2", args.ros2)];
-    if let Some((option, _)) = of_one.into_iter().find(|(_, is_there)| *is_there) {
-        let file = &robot.file;
-        bail!(Fault::usage(format!(
-            "{option} is for a board, {file} is a robot's file: name one, {file}#BOARD"
-        )));
-    }
     let mut requests = RequestLines::of(args.board.requests.as_deref())?;
     let is_minded = robot.is_at_one_time(args.realtime);
     let mind = is_minded.then(|| RobotMind::new(robot)).transpose()?;
     let view = args.view.then(|| anyhow::Ok((bind(args.port)?, pages(robot)?))).transpose()?;
     stop::catch()?;
-    let mut recorder = RobotRecorder::create(robot, &args.output, args.force.into())?;
-    let mind = mind.map(|mind| RecordedMind::begin(mind, &mut recorder)).transpose()?;
+    let recorder = Recorder::create(Plan {
+        rotate: args.rotate,
+        ros2: args.ros2,
+        force: args.force.force,
+        ..robot.recording(args.output.clone())?
+    })?;
+    let mind = mind.map(|mind| RecordedMind::begin(mind, &recorder)).transpose()?;
     let pages = view.map(|(port, pages)| {
         announce(&format!("robot {}", robot.name), port, pages.hubs(), args.open).map(|()| pages)
     });
@@ -56,19 +53,23 @@ pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
     let options = SourceOptions {
         seed: args.board.seed,
         realtime: args.realtime,
+        frames: args.frames,
         seconds: args.seconds,
         ..SourceOptions::default()
     };
-    let mut plans = robot.plans(&options, limit(args.seconds), |number| -> Box<dyn Teller<MindRecord>> {
-        let records = recording.recorder.teller(number);
-        let records = MindRecordTeller::new(robot, number, records);
-        match &recording.pages {
-            Some(pages) => Box::new(ViewedTeller::new(robot, number, records, pages.hub(number))),
-            None => Box::new(records),
-        }
-    });
+    let mut plans = robot.plans(&options, &run_limit(args.frames, args.seconds));
     plans.iter_mut().for_each(|plan| plan.gather = GATHER);
-    let mut session = RobotSession::start(plans, WhenFull::Wait)?;
+    let mut session = RobotStream::start(plans, WhenFull::Wait, |number, queue| {
+        let mut mind = MindReader::new(robot, number);
+        let mut all: Vec<Box<dyn Observer + Send>> = Vec::new();
+        if let Some(pages) = &recording.pages {
+            all.push(Box::new(viewer(pages, robot, number).beside_recording()));
+        }
+        all.push(Box::new(recording.recorder.board(number)));
+        all.push(Box::new(Remarks::of(&robot.boards[number].name)));
+        all.push(queue.make(move |client, event, _| mind.sense(client, event)));
+        Box::new(all)
+    })?;
     let mut ended = Ok(());
     let mut written = Ok(());
     while written.is_ok() && !session.is_over() && !stop::asked() {
@@ -86,31 +87,28 @@ pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
     }
     drop(session);
     // The recording is completed even if a board fails.
-    let Recording { mut recorder, .. } = recording;
+    let Recording { recorder, .. } = recording;
     written = written.and(recorder.finish());
-    eprint!("{}", recorder.summary());
+    eprintln!("{}", recorder.summary());
     written.map_err(Error::from).and(ended)
 }
 
 impl Recording<'_> {
-    /// Writes and shows an event of a board, or that the time passes, and what the mind was told before.
+    /// Shows an event of a board, or that the time passes, and records what that means and what the mind was told
+    /// before.
     fn take(
         &mut self,
-        event: Option<&RobotEvent<MindRecord>>,
+        event: Option<&RobotEvent<BoardSense>>,
         told: &[Told],
         now_us: u64,
     ) -> taxel::Result<()> {
-        self.recorder.keep()?;
-        if let Some(RobotEvent { board, what: BoardEvent::News(news), .. }) = event {
-            self.recorder.take(*board, &news.record)?;
-        }
         if let Some(mind) = &mut self.mind {
-            write_mind(&mut self.recorder, mind, told, event, now_us)?;
+            write_mind(&self.recorder, mind, told, event, now_us)?;
         }
         let Some(pages) = &mut self.pages else { return Ok(()) };
         told.iter().for_each(|told| pages.told(&told.line));
         if let Some(event) = event {
-            pages.event(event, |news| news.sense.as_ref());
+            pages.event(event, |sense| Some(sense));
         }
         pages.turn(self.mind.as_mut().map(|mind| &*mind.mind()));
         Ok(())
@@ -119,10 +117,10 @@ impl Recording<'_> {
 
 /// Writes what the mind was told, and what an event means to it; without one, that the time passes.
 fn write_mind(
-    recorder: &mut RobotRecorder,
+    recorder: &Recorder,
     mind: &mut RecordedMind,
     told: &[Told],
-    event: Option<&RobotEvent<MindRecord>>,
+    event: Option<&RobotEvent<BoardSense>>,
     now_us: u64,
 ) -> taxel::Result<()> {
     for Told { host_us, line, news } in told {
@@ -134,15 +132,15 @@ fn write_mind(
     }
 }
 
-/// Says how a board is: a recording may not be looked at for days.
-fn say(name: &str, what: &BoardEvent<MindRecord>) {
+/// Says how a board is where its remarks do not: a recording may not be looked at for days.
+fn say(name: &str, what: &BoardEvent<BoardSense>) {
     match what {
-        BoardEvent::News(MindRecord { record, .. }) => {
-            record.refusal.iter().for_each(|why| eprintln!("board {name}: {why}"));
+        BoardEvent::State(BoardState::Absent { why }) => {
+            eprintln!("board {name} is not there: {why}; waiting for it");
         }
-        BoardEvent::Absent { why } => eprintln!("board {name} is not there: {why}; waiting for it"),
-        BoardEvent::Lost { why, .. } | BoardEvent::Other { why } => eprintln!("board {name}: {why}"),
-        BoardEvent::Back { after } => eprintln!("board {name} is back after {:.1} s", after.as_secs_f64()),
+        BoardEvent::State(BoardState::Other { why } | BoardState::Over { remark: Some(why) }) => {
+            eprintln!("board {name}: {why}");
+        }
         _ => {}
     }
 }

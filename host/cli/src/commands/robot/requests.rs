@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use taxel::files::input;
 use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
-use taxel::robot::{BoardOrder, RobotSession};
+use taxel::robot::{BoardOrder, RobotStream};
 use taxel::source::SceneFile;
 use taxel::tell::words;
 
@@ -64,7 +64,7 @@ impl RequestLines {
     /// cannot be asked is told, and the rest goes on. Returns what the mind was told.
     pub fn ask<T: Send + 'static>(
         &mut self,
-        session: &RobotSession<T>,
+        session: &RobotStream<T>,
         mut mind: Option<&mut RobotMind>,
     ) -> Vec<Told> {
         let mut all = Vec::new();
@@ -114,7 +114,7 @@ fn told(line: &str) -> Result<Option<ToldLine>> {
 /// Tells the mind, and the boards the robot's posture.
 fn tell<T: Send + 'static>(
     line: ToldLine,
-    session: &RobotSession<T>,
+    session: &RobotStream<T>,
     mind: Option<&mut RobotMind>,
 ) -> Result<Told> {
     let host_us = session.now_us();
@@ -125,7 +125,7 @@ fn tell<T: Send + 'static>(
 }
 
 /// Asks what a line says: `tare [BOARD] [N]`, `scene [BOARD] FILE`, `self-test [BOARD]`.
-fn ask<T: Send + 'static>(line: &str, session: &RobotSession<T>) -> Result<()> {
+fn ask<T: Send + 'static>(line: &str, session: &RobotStream<T>) -> Result<()> {
     let parts: Vec<&str> = line.split_whitespace().collect();
     let Some((what, rest)) = parts.split_first() else { return Ok(()) };
     let (board, order) = match (*what, rest) {

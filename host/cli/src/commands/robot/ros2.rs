@@ -1,19 +1,18 @@
 //! `taxel ros2` of a robot: a node for each board, and one for the robot.
 
-use super::live::{failed, limit};
+use super::live::failed;
 use super::requests::RequestLines;
-use super::shown::ShownTeller;
 use crate::commands::views::ros2::Ros2Args;
 use crate::fault::Fault;
 use crate::ros2::{RobotNode, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::stop;
-use anyhow::{Context, Result, ensure};
+use crate::watch::{run_limit, stop};
+use anyhow::{Result, ensure};
 use std::time::Duration;
 use taxel::body;
-use taxel::mind::BoardSense;
-use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
+use taxel::mind::MindReader;
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
 use taxel::ros2::topic_part;
-use taxel::source::Source;
+use taxel::session::Observer;
 
 /// Longest wait before Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
@@ -32,16 +31,19 @@ pub fn run(args: &Ros2Args, robot: &ReadRobot) -> Result<()> {
     // One after the other: of nodes that join the network in the same moment, one may stay unknown to others.
     let boards = robot.boards.iter();
     let nodes = boards.map(|board| open(place.of_board(&board.name), board.source.to_string()));
-    let mut nodes = nodes.map(|node| node.map(Some)).collect::<Result<Vec<_>>>()?;
-    let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
-        let (mut node, body) = (nodes[number].take(), robot.boards[number].body.clone());
-        let open = move |source: &Source| shown(node.take(), source, body.as_deref());
-        Box::new(ShownTeller::new(robot, number, open))
-    };
-    let plans = robot.plans(&options, limit(args.seconds), teller);
+    let shown = nodes.zip(&robot.boards).map(|(node, board)| {
+        let body = board.body.as_deref().map(body::read).transpose()?;
+        Ok(Box::new(RosShow::new(node?, args.clock, body)) as Box<dyn Observer + Send>)
+    });
+    let mut shown = shown.collect::<Result<Vec<_>>>()?.into_iter();
+    let plans = robot.plans(&options, &run_limit(None, args.seconds));
     // The nodes leave the network before the program ends.
     stop::catch()?;
-    let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
+    let mut session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
+        let mut mind = MindReader::new(robot, number);
+        let mind = queue.make(move |client, event, _| mind.sense(client, event));
+        Box::new(shown.next().into_iter().chain([mind]).collect::<Vec<_>>())
+    })?;
     println!("{at} (Ctrl-C ends)");
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {
@@ -55,12 +57,6 @@ pub fn run(args: &Ros2Args, robot: &ReadRobot) -> Result<()> {
         }
     }
     ended
-}
-
-/// Offers a board on its node.
-fn shown(node: Option<RosNode>, source: &Source, body: Option<&str>) -> Result<RosShow> {
-    let body = body.map(body::read).transpose()?;
-    RosShow::open(node.context("the node is in use")?, source, false, body)
 }
 
 /// Error if two boards have one name in ROS, which knows no `-`.

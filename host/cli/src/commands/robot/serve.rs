@@ -1,18 +1,16 @@
 //! `taxel serve` of a robot: offers all boards of a robot to other machines over Zenoh.
 
-use super::live::{failed, limit};
+use super::live::failed;
 use super::requests::RequestLines;
-use super::shown::ShownTeller;
 use crate::commands::views::serve::ServeArgs;
 use crate::fault::Fault;
-use crate::watch::stop;
-use anyhow::{Context, Result};
+use crate::watch::{run_limit, stop};
+use anyhow::Result;
 use std::time::Duration;
-use taxel::mind::BoardSense;
 use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
-use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
-use taxel::source::Source;
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
+use taxel::session::Observer;
 
 /// Longest wait before Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
@@ -24,19 +22,16 @@ pub fn run(args: &ServeArgs, robot: &ReadRobot) -> Result<()> {
     let places: Result<Vec<_>, _> = places.collect();
     let places = places.map_err(|why| Fault::usage(format!("{}: {why}", robot.file)))?;
     let network = network::open(NetworkEnd::Offer, args.network.zenoh.as_deref())?;
-    let offers: Result<Vec<_>, _> =
-        places.iter().map(|place| BoardOffer::open(&network, place).map(Some)).collect();
-    let mut offers = offers?;
+    let offers = places
+        .iter()
+        .map(|place| Ok(Box::new(BoardOffer::open(&network, place)?) as Box<dyn Observer + Send>));
+    let mut offers = offers.collect::<Result<Vec<_>>>()?.into_iter();
     let options = args.board.at_real_time(args.seconds);
-    let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
-        let mut offer = offers[number].take();
-        let open = move |_: &Source| offer.take().context("the board is offered already");
-        Box::new(ShownTeller::new(robot, number, open))
-    };
-    let plans = robot.plans(&options, limit(args.seconds), teller);
+    let plans = robot.plans(&options, &run_limit(None, args.seconds));
     // Others learn at once that the boards are no longer offered.
     stop::catch()?;
-    let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
+    let mut session: RobotStream<()> =
+        RobotStream::start(plans, WhenFull::DropImages, |_, _| Box::new(Vec::from_iter(offers.next())))?;
     println!("robot {} as zenoh:{0}/BOARD (Ctrl-C ends)", robot.name);
     let mut ended = Ok(());
     while !session.is_over() && !stop::asked() {

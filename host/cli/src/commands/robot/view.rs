@@ -1,21 +1,18 @@
 //! `taxel view` of a robot: all boards in the browser.
 
-use super::live::{failed, limit};
+use super::live::failed;
 use super::requests::RequestLines;
-use super::shown::ShownTeller;
 use crate::commands::views::view::{ViewArgs, announce, bind};
 use crate::fault::Fault;
 use crate::on_robot::Wearer;
-use crate::view::{PageHub, RobotPages, Tape, Viewer};
+use crate::view::{RobotPages, Viewer};
+use crate::watch::run_limit;
 use anyhow::{Result, bail};
-use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
-use taxel::files::calibrate::Calibration;
-use taxel::mind::{BoardSense, RobotMind};
-use taxel::record::Origin;
-use taxel::robot::{ReadRobot, RobotSession, Teller, WhenFull};
-use taxel::source::Source;
+use taxel::mind::{MindReader, RobotMind};
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
+use taxel::session::Observer;
 
 /// Longest wait before pages are told what is new.
 const LOOK: Duration = Duration::from_millis(50);
@@ -30,13 +27,12 @@ pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
     let mut pages = pages(robot)?;
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
     let options = args.board.at_real_time(args.seconds);
-    let teller = |number: usize| -> Box<dyn Teller<BoardSense>> {
-        let (hub, calibration) = (pages.hub(number), robot.boards[number].calibration.clone());
-        let open = move |source: &Source| Ok(viewer(source, &hub, calibration.clone()));
-        Box::new(ShownTeller::new(robot, number, open))
-    };
-    let plans = robot.plans(&options, limit(args.seconds), teller);
-    let mut session = RobotSession::start(plans, WhenFull::DropImages)?;
+    let plans = robot.plans(&options, &run_limit(None, args.seconds));
+    let mut session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
+        let mut mind = MindReader::new(robot, number);
+        let viewer = Box::new(viewer(&pages, robot, number)) as Box<dyn Observer + Send>;
+        Box::new(vec![viewer, queue.make(move |client, event, _| mind.sense(client, event))])
+    })?;
     let mut ended = Ok(());
     while !session.is_over() {
         let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(&mut mind)));
@@ -71,10 +67,8 @@ pub fn pages(robot: &ReadRobot) -> Result<RobotPages<'_>> {
 }
 
 /// Shows a board to the pages of its hub, which can save it with its calibration.
-pub fn viewer(source: &Source, hub: &Arc<PageHub>, calibration: Option<Calibration>) -> Viewer {
-    let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
-    hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
-    Viewer::new(source, hub.clone())
+pub fn viewer(pages: &RobotPages<'_>, robot: &ReadRobot, number: usize) -> Viewer {
+    Viewer::new(pages.hub(number), robot.boards[number].calibration.clone())
 }
 
 /// The robot that wears the garment of a board; none without a body.

@@ -3,13 +3,11 @@
 use super::live::failed;
 use super::requests::RequestLines;
 use crate::commands::maps::why::WhyArgs;
-use crate::watch::stop;
+use crate::watch::{run_limit, stop};
 use anyhow::{Result, bail};
 use std::time::Duration;
-use taxel::client::{Client, Event};
-use taxel::mind::{BoardSense, MindReader, RobotMeaning, RobotMind, RobotReasons};
-use taxel::record::Stamp;
-use taxel::robot::{ReadRobot, RobotSession, WhenFull};
+use taxel::mind::{MindReader, RobotMeaning, RobotMind, RobotReasons};
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
 use taxel::source::SourceOptions;
 use taxel_core::intent::Leading;
 
@@ -33,11 +31,11 @@ pub fn run(args: &WhyArgs, robot: &ReadRobot) -> Result<()> {
 fn listen(args: &WhyArgs, robot: &ReadRobot, mut mind: RobotMind) -> Result<(RobotMind, f64)> {
     let mut requests = RequestLines::of(args.told.requests.as_deref())?;
     let options = SourceOptions { realtime: true, ..SourceOptions::default() };
-    let plans = robot.plans(&options, None, |number| {
+    let plans = robot.plans(&options, &run_limit(None, None));
+    let mut session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
         let mut reader = MindReader::new(robot, number);
-        Box::new(move |client: &Client, event: &Event, _: Stamp| reader.sense(client, event))
-    });
-    let mut session: RobotSession<BoardSense> = RobotSession::start(plans, WhenFull::DropImages)?;
+        queue.make(move |client, event, _| reader.sense(client, event))
+    })?;
     let begun_us = session.now_us();
     let since = |now_us: u64| now_us.saturating_sub(begun_us) as f64 / 1e6;
     let is_found = |meaning: &RobotMeaning| args.told.at.is_none() && meaning.leading != Leading::None;

@@ -1,9 +1,8 @@
 //! Turns objects held against a board into prototypes.
 
-use anyhow::Result;
-use taxel::client::{Client, Event, ImageNews};
+use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::learn::shapes::cluster::centres;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactState};
 use taxel_core::format::Micros;
@@ -43,10 +42,10 @@ impl<'a> Hold<'a> {
     }
 
     /// Handles an image scanned at `time`.
-    fn frame(&mut self, client: &Client, time: Micros) -> Result<()> {
+    fn frame(&mut self, client: &Client, time: Micros) -> taxel::Result<()> {
         let (Some(worn), Some((_, values))) = (client.worn(), client.image()) else { return Ok(()) };
         let image = Image { values, rows: &Rows::ALL };
-        let stage = worn.scene.contact.build()?;
+        let stage = worn.scene.contact.build().map_err(taxel::Error::other)?;
         let touches = stage.process(&mut self.contacts, &worn.layout, &image, time);
         let (present, released) = (touches.present.to_vec(), touches.released.to_vec());
         for (index, contact) in present.iter().enumerate() {
@@ -93,8 +92,8 @@ impl<'a> Hold<'a> {
     }
 }
 
-impl Show<anyhow::Error> for Hold<'_> {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Hold<'_> {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             // Another garment: present contacts will not end.
             Event::Hello => {
@@ -107,13 +106,13 @@ impl Show<anyhow::Error> for Hold<'_> {
         }
     }
 
-    fn idle(&mut self, _: &mut Client) -> Result<bool> {
-        Ok(self.held.len() < self.wanted)
+    fn is_done(&self) -> bool {
+        self.held.len() >= self.wanted
     }
 
-    fn end(&mut self, _: &Client) -> Result<()> {
+    fn ended(&mut self, _: &Client, _: Stamp) -> taxel::Result<()> {
         for open in std::mem::take(&mut self.open) {
-            Hold::end(self, &open);
+            self.end(&open);
         }
         Ok(())
     }

@@ -2,12 +2,12 @@
 
 use crate::fault::Fault;
 use crate::watch::{self, LiveArgs};
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::files::bases::Base;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::session::setting::set_shapes;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::wire::Request;
@@ -49,15 +49,15 @@ struct Installing {
     installed: Option<(usize, u16)>,
 }
 
-impl Show<anyhow::Error> for Installing {
-    fn event(&mut self, _: &Client, event: &Event) -> Result<()> {
+impl Observer for Installing {
+    fn event(&mut self, _: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Answer { request, refusal: Some(why) }
                 if [Request::SetShapes(&[]), Request::AddShapes(&[])]
                     .iter()
                     .any(|r| r.number() == *request) =>
             {
-                bail!(Fault::board(format!("the board refuses: {why}")))
+                return Err(Fault::board(format!("the board refuses: {why}")).into());
             }
             Event::Shapes { names, prototypes } if self.begun.is_some() && *prototypes > 0 => {
                 self.installed = Some((names.len(), *prototypes));
@@ -67,16 +67,22 @@ impl Show<anyhow::Error> for Installing {
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
+        let silent = || Err(Fault::board("the board does not answer").into());
         match self.begun {
             None if client.worn().is_some() => {
-                set_shapes(client, &self.base).context("the base is too long for a request")?;
+                let too_long = |error: taxel::Error| error.context("the base is too long for a request");
+                set_shapes(client, &self.base).map_err(too_long)?;
                 self.begun = Some(Instant::now());
             }
-            None if self.opened.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
-            Some(begun) if begun.elapsed() > PATIENCE => bail!(Fault::board("the board does not answer")),
+            None if self.opened.elapsed() > PATIENCE => return silent(),
+            Some(begun) if begun.elapsed() > PATIENCE => return silent(),
             _ => {}
         }
-        Ok(self.installed.is_none())
+        Ok(())
+    }
+
+    fn is_done(&self) -> bool {
+        self.installed.is_some()
     }
 }

@@ -5,7 +5,7 @@ use crate::watch::{LiveArgs, watch};
 use anyhow::Result;
 use std::io::{IsTerminal, stdout};
 use taxel::json::MessagePrinter;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::SourceOptions;
 
 /// Runs the command; `bare` if the program was called without one.
@@ -22,14 +22,15 @@ pub fn run(args: LiveArgs, bare: bool) -> Result<()> {
     };
     let (source, calibration) = args.board.open_to_show(options, bare || is_seen)?;
     let out = std::io::BufWriter::new(stdout());
-    let mut show: Box<dyn Show<anyhow::Error>> = if let Some(place) = &args.taxel {
+    let mut observer: Box<dyn Observer> = if let Some(place) = &args.taxel {
         Box::new(TaxelLines::new(place.clone(), args.json, out))
     } else if args.json {
         Box::new(MessagePrinter::new(args.pixels, out).calibrated(calibration))
     } else if terminal {
         Box::new(Screen::open(View::new(&source))?)
     } else {
-        Box::new(Lines::new(&source, out))
+        Box::new(Lines::new(out))
     };
-    watch(&args, source, show.as_mut())
+    let tells_remarks = args.taxel.is_none();
+    watch(&LiveArgs { tells_remarks, ..args }, source, observer.as_mut())
 }

@@ -75,7 +75,7 @@ pub fn run(args: Ros2Args) -> Result<()> {
     let (source, _) = args.board.open(options)?;
     let parameters = RosParameters { source: source.label.clone(), image_hz: args.node.image_hz };
     let at = format!("{} as node {} in domain {}", source.label, place.absolute(&place.name), place.domain);
-    let mut show = RosShow::open(RosNode::open(place, &parameters)?, &source, args.clock, body)?;
+    let mut show = RosShow::new(RosNode::open(place, &parameters)?, args.clock, body);
     // The node leaves the network before the program ends.
     stop::catch()?;
     println!("{at} (Ctrl-C ends)");

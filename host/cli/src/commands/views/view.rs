@@ -3,7 +3,7 @@
 use crate::fault::Fault;
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
-use crate::view::{PageHub, PageHubs, Player, Tape, Viewer, browser, serve};
+use crate::view::{PageHub, PageHubs, Player, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, LiveArgs};
 use anyhow::{Context, Result, ensure};
 use std::io::{IsTerminal, stdout};
@@ -11,7 +11,6 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::thread;
 use taxel::files::calibrate::Calibration;
-use taxel::record::Origin;
 use taxel::recording::BoardRecording;
 use taxel::robot::BoardConfig;
 use taxel::source::{SourceOptions, SourceSpec, Speed};
@@ -83,8 +82,6 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
     let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
-    let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
-    hub.tape(Tape::Live(Arc::new(Origin { label, counts_per_newton, calibration })));
     // The garment that is played where nothing was named is worn by a robot, too.
     let unnamed = waits && source.hand.is_some() && args.board.config.garment.is_none();
     let reference = || Wearer::read(REFERENCE, Some(REFERENCE), "");
@@ -92,7 +89,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     wearer.into_iter().for_each(|wearer| hub.wear(wearer));
     announce(&source.label, listener, hub.clone(), args.open)?;
     let folding = args.board.config.folds.as_deref().map(Folding::read).transpose()?;
-    let mut viewer = Viewer::new(&source, hub).folding(folding);
+    let mut viewer = Viewer::new(hub, calibration).folding(folding);
     // Where a board does not listen, the host alone knows the body.
     let mut board = args.board;
     if !source.listens {

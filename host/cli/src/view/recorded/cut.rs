@@ -5,8 +5,8 @@ use super::survey::Survey;
 use crate::view::tape::{Copy, Saved};
 use anyhow::{Context, Result};
 use std::sync::Arc;
-use taxel::client::{Client, Event};
-use taxel::record::{NS, Origin, Stamp};
+use taxel::client::{Client, Event, Stamp};
+use taxel::record::Origin;
 use taxel::recording::{ClipMessage, Clips, Store, renumbered, sequence};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Frame, Report, encode, encode_image, frame_bound, image_bound, image_sum};
@@ -60,8 +60,7 @@ impl Saved for Cut {
 
 /// Recorded times of a message.
 fn stamp(piece: &ClipMessage) -> Stamp {
-    let header = &piece.header;
-    Stamp { board_us: header.publish_time / NS, host_us: header.log_time / NS, uncertainty_us: None }
+    Stamp::recorded(piece.header.log_time, piece.header.publish_time)
 }
 
 /// The client's image as a key frame; none if it is longer than any frame.

@@ -2,9 +2,9 @@
 
 use super::stage::{events, frame, hello};
 use crate::sink::Sink;
-use taxel::client::Client;
+use taxel::client::{Client, Stamp};
 use taxel::json::MessagePrinter;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::terminal::Lines;
 use taxel_core::format::{Micros, Name, name};
@@ -78,10 +78,12 @@ fn gesture() -> GestureReport {
 fn control_codes_of_a_board_never_reach_a_terminal() {
     let source = source::open(&"sim:idle".parse().unwrap(), &SourceOptions::default()).unwrap();
     let (mut client, lines, json) = (Client::new(), Sink::default(), Sink::default());
-    let mut shows: [Box<dyn Show<anyhow::Error>>; 2] =
-        [Box::new(Lines::new(&source, lines.clone())), Box::new(MessagePrinter::new(false, json.clone()))];
+    let mut shows: Vec<Box<dyn Observer>> =
+        vec![Box::new(Lines::new(lines.clone())), Box::new(MessagePrinter::new(false, json.clone()))];
+    shows.opened(&source).unwrap();
+    let stamp = Stamp { board_us: 5, host_us: 7, uncertainty_us: None };
     for event in events(&mut client, &says()) {
-        shows.iter_mut().for_each(|show| show.event(&client, &event).unwrap());
+        shows.event(&client, &event, stamp).unwrap();
     }
     assert!(client.worn().is_some(), "a board with such names is of use all the same");
     for text in [lines.text(), json.text()] {

@@ -5,15 +5,18 @@ use crate::sink::Sink;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use std::sync::Arc;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::json::MessagePrinter;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{self, Source, SourceOptions};
 use taxel_cli::terminal::{Lines, View};
 use taxel_cli::view::{PageHub, Viewer};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
+
+/// Some time.
+const STAMP: Stamp = Stamp { board_us: 5, host_us: 7, uncertainty_us: None };
 
 fn idle() -> Source {
     source::open(&"sim:idle".parse().unwrap(), &SourceOptions::default()).unwrap()
@@ -28,7 +31,7 @@ fn a_map_with_an_edge_to_a_concept_that_is_not_there_is_refused() {
     let [Event::Unusable(why)] = heard.as_slice() else { panic!("{heard:?}") };
     assert!(why.starts_with("scene in Hello: "), "{why}");
     assert!(client.worn().is_none());
-    Viewer::new(&idle(), Arc::new(PageHub::default())).event(&client, &heard[0]).unwrap();
+    Viewer::new(Arc::new(PageHub::default()), None).event(&client, &heard[0], STAMP).unwrap();
 }
 
 /// All ways to show a board.
@@ -43,11 +46,13 @@ struct Shows {
 fn whatever_a_hello_says_the_page_and_the_terminal_stand_it() {
     let source = idle();
     let mut shows = Shows {
-        page: Viewer::new(&source, Arc::new(PageHub::default())),
-        lines: Lines::new(&source, Sink::default()),
+        page: Viewer::new(Arc::new(PageHub::default()), None),
+        lines: Lines::new(Sink::default()),
         json: MessagePrinter::new(true, Sink::default()),
         picture: View::new(&source),
     };
+    shows.page.opened(&source).unwrap();
+    shows.lines.opened(&source).unwrap();
     let good = [
         postcard::to_allocvec(&Garment::reference()).unwrap(),
         postcard::to_allocvec(&Scene::shipped()).unwrap(),
@@ -64,9 +69,9 @@ fn whatever_a_hello_says_the_page_and_the_terminal_stand_it() {
         let frame = hello_of(seq, &bytes[0], &bytes[1], "taxel", Micros(noise.u64(..)));
         for event in events(&mut client, &frame) {
             *(if event == Event::Hello { &mut known } else { &mut refused }) += 1;
-            shows.page.event(&client, &event).unwrap();
-            shows.lines.event(&client, &event).unwrap();
-            Show::<anyhow::Error>::event(&mut shows.json, &client, &event).unwrap();
+            shows.page.event(&client, &event, STAMP).unwrap();
+            shows.lines.event(&client, &event, STAMP).unwrap();
+            shows.json.event(&client, &event, STAMP).unwrap();
             shows.picture.event(&client, &event);
         }
         let mut buffer = Buffer::empty(Rect::new(0, 0, 100, 30));

@@ -4,10 +4,10 @@ use super::stage::{frame, hello, hello_of};
 use crate::sink::Sink;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use taxel::client::Client;
+use taxel::client::{Client, Stamps};
 use taxel::json::MessagePrinter;
-use taxel::record::{Origin, Plan, Recorder};
-use taxel::session::Show;
+use taxel::record::{Plan, PlannedBoard, Recorder};
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::commands::recordings::export::{self, ExportArgs, Form};
 use taxel_cli::report::{self, Seen};
@@ -84,26 +84,20 @@ fn folder(name: &str) -> PathBuf {
 fn shown(name: &str, ros2: bool) -> PathBuf {
     let path = folder(name).join("it.mcap");
     let source = source::open(&"sim:idle".parse().unwrap(), &SourceOptions::default()).unwrap();
-    let plan = Plan {
-        path: path.clone(),
-        rotate: None,
-        ros2,
-        force: true,
-        inputs: Vec::new(),
-        origin: Origin::default(),
-        body: None,
-    };
+    let plan = Plan { ros2, force: true, ..Plan::of(&path, PlannedBoard::default()) };
     let recorder = Recorder::create(plan).unwrap();
-    let mut shows: Vec<Box<dyn Show<anyhow::Error>>> = vec![
-        Box::new(Viewer::new(&source, Arc::new(PageHub::default()))),
-        Box::new(Lines::new(&source, Sink::default())),
+    let mut shows: Vec<Box<dyn Observer>> = vec![
+        Box::new(Viewer::new(Arc::new(PageHub::default()), None)),
+        Box::new(Lines::new(Sink::default())),
         Box::new(MessagePrinter::new(true, Sink::default())),
-        Box::new(recorder),
+        Box::new(recorder.board(0)),
     ];
     #[cfg(feature = "foxglove")]
     shows.push(Box::new(taxel_cli::foxglove::Publisher::new(Arc::new(
         taxel_cli::foxglove::FoxgloveHub::default(),
     ))));
+    shows.opened(&source).unwrap();
+    let mut stamps = Stamps::start();
     let (mut client, mut view) = (Client::new(), View::new(&source));
     let mut seen = Seen::new("it".into(), Some(1000.0));
     // A host that requests the time, so that answers count as round trips.
@@ -114,13 +108,16 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
         for byte in part {
             let Some(event) = client.push(*byte) else { continue };
             view.event(&client, &event);
-            seen.event(&client, &event).unwrap();
-            shows.iter_mut().for_each(|show| show.event(&client, &event).unwrap());
+            let stamp = stamps.of(&client, &event);
+            seen.event(&client, &event, stamp).unwrap();
+            shows.event(&client, &event, stamp).unwrap();
         }
-        shows.iter_mut().for_each(|show| _ = show.idle(&mut client).unwrap());
+        shows.idle(&mut client).unwrap();
     }
-    shows.iter_mut().for_each(|show| show.end(&client).unwrap());
-    seen.end(&client).unwrap();
+    let stamp = stamps.now(&client);
+    shows.ended(&client, stamp).unwrap();
+    seen.ended(&client, stamp).unwrap();
+    recorder.finish().unwrap();
     assert!(report::page(&seen).unwrap().contains("tick"));
     path
 }

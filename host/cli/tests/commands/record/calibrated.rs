@@ -4,7 +4,7 @@ use super::stage::{file, plan};
 use crate::mat::{box_for, knee};
 use std::path::Path;
 use taxel::files::calibrate::Calibration;
-use taxel::record::{CALIBRATION, Origin, Plan, Recorder};
+use taxel::record::{CALIBRATION, Origin, Plan, PlannedBoard, Recorder};
 use taxel::recording::Overview;
 use taxel::robot::BoardConfig;
 use taxel::source::{self, SourceOptions};
@@ -19,10 +19,17 @@ fn recorded(name: &str, calibration: &Calibration) {
     let spec: source::SourceSpec = format!("sim:{}", scene.display()).parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let origin = Origin { calibration: Some(calibration.clone()), ..Origin::default() };
-    let mut recorder =
-        Recorder::create(Plan { origin, ..plan(&format!("{name}.mcap"), "sim", None, false) }).unwrap();
+    let recorder = recorder(origin, &format!("{name}.mcap"));
     let config = BoardConfig { calibration: Some(certificate), raw: true, ..BoardConfig::of(spec) };
-    watch(&LiveArgs::on(BoardArgs { config, ..BoardArgs::default() }), source, &mut recorder).unwrap();
+    watch(&LiveArgs::on(BoardArgs { config, ..BoardArgs::default() }), source, &mut recorder.board(0))
+        .unwrap();
+    recorder.finish().unwrap();
+}
+
+/// A recorder of a board of this origin.
+fn recorder(origin: Origin, name: &str) -> Recorder {
+    let boards = vec![PlannedBoard { origin, ..PlannedBoard::default() }];
+    Recorder::create(Plan { boards, ..plan(name, "sim", None, false) }).unwrap()
 }
 
 fn table(path: &Path, output: &str, counts: bool) -> Vec<Vec<String>> {
@@ -59,9 +66,9 @@ fn one_that_is_not_in_force_is_not_in_it() {
     let spec: source::SourceSpec = "sim:pat".parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let origin = Origin { calibration: Some(calibration), ..Origin::default() };
-    let mut recorder =
-        Recorder::create(Plan { origin, ..plan("not-told.mcap", "sim", None, false) }).unwrap();
-    watch(&LiveArgs::of(spec), source, &mut recorder).unwrap();
+    let recorder = recorder(origin, "not-told.mcap");
+    watch(&LiveArgs::of(spec), source, &mut recorder.board(0)).unwrap();
+    recorder.finish().unwrap();
     let scan = taxel::recording::scan(&file("not-told.mcap")).unwrap();
     assert!(Overview::of(&file("not-told.mcap")).unwrap().attached(CALIBRATION).unwrap().is_none());
     assert!(scan.metadata.iter().all(|metadata| !metadata.metadata.contains_key("calibration_by")));

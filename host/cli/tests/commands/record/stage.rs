@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use taxel::client::{Client, Event, ImageNews};
-use taxel::record::{Origin, Plan, Recorder, Rotate};
-use taxel::session::Show;
+use taxel::client::{Client, Event, ImageNews, Stamp};
+use taxel::record::{Origin, Plan, PlannedBoard, Recorder, Rotate};
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::watch::{LiveArgs, watch};
 
@@ -19,8 +19,8 @@ pub struct Seen {
     pub wire: Vec<u8>,
 }
 
-impl Show<anyhow::Error> for Seen {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Seen {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         client.lines().for_each(|line| self.wire.extend_from_slice(line));
         match event {
             Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
@@ -29,28 +29,6 @@ impl Show<anyhow::Error> for Seen {
             other => self.others.push(format!("{other:?} {:?}", client.contacts())),
         }
         Ok(())
-    }
-}
-
-/// Shows and records at once.
-struct Both<'a>(&'a mut Seen, &'a mut Recorder);
-
-impl Show<anyhow::Error> for Both<'_> {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
-        self.0.event(client, event)?;
-        self.1.event(client, event)
-    }
-
-    fn asked(&mut self, client: &Client, bytes: &[u8]) -> anyhow::Result<()> {
-        self.1.asked(client, bytes)
-    }
-
-    fn idle(&mut self, client: &mut Client) -> anyhow::Result<bool> {
-        self.1.idle(client)
-    }
-
-    fn end(&mut self, client: &Client) -> anyhow::Result<()> {
-        self.1.end(client)
     }
 }
 
@@ -68,27 +46,23 @@ pub fn file(name: &str) -> PathBuf {
 
 /// Plan of a recording.
 pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan {
-    Plan {
-        path: file(name),
-        rotate,
-        ros2,
-        body: None,
-        force: true,
-        inputs: Vec::new(),
-        origin: Origin { label: label.into(), counts_per_newton: Some(1000.0), calibration: None },
-    }
+    let origin = Origin { label: label.into(), counts_per_newton: Some(1000.0), calibration: None };
+    let board = PlannedBoard { origin, ..PlannedBoard::default() };
+    Plan { rotate, ros2, force: true, ..Plan::of(file(name), board) }
 }
 
 /// Records a source. Returns its events.
 pub fn record(spec: &str, plan: Plan) -> Seen {
-    let (mut seen, mut recorder) = (Seen::default(), Recorder::create(plan).unwrap());
-    play(spec, &mut Both(&mut seen, &mut recorder));
+    let (mut seen, recorder) = (Seen::default(), Recorder::create(plan).unwrap());
+    let mut board = recorder.board(0);
+    play(spec, &mut vec![&mut seen as &mut dyn Observer, &mut board]);
+    recorder.finish().unwrap();
     seen
 }
 
 /// Shows a source to its end.
-pub fn play(spec: &str, show: &mut dyn Show<anyhow::Error>) {
+pub fn play(spec: &str, observer: &mut dyn Observer) {
     let spec = spec.parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
-    watch(&LiveArgs::of(spec), source, show).unwrap();
+    watch(&LiveArgs::of(spec), source, observer).unwrap();
 }

@@ -2,10 +2,10 @@
 
 use super::stage::{Moment, PROGRAM, View, file, moments, recorded};
 use serde_json::{Value, json};
-use taxel::client::{Client, Event};
-use taxel::record::{Origin, Plan, Recorder};
+use taxel::client::{Client, Event, Stamps};
+use taxel::record::{Plan, PlannedBoard, Recorder};
 use taxel::recording::{WIRE, chunk_indexes, repair, scan};
-use taxel::session::Show;
+use taxel::session::Observer;
 
 /// The frame shown at a time.
 fn at(all: &[Moment], seconds: f64) -> &Moment {
@@ -41,18 +41,12 @@ fn any_moment_is_that_of_a_recording_played_from_its_beginning() {
 #[test]
 fn nothing_is_felt_once_the_board_of_a_recording_is_lost() {
     let path = file("lost.mcap");
-    let plan = Plan {
-        path: path.clone(),
-        rotate: None,
-        ros2: false,
-        body: None,
-        force: true,
-        inputs: Vec::new(),
-        origin: Origin::default(),
-    };
-    let (mut recorder, mut session) = (Recorder::create(plan).unwrap(), taxel::open("sim:press").unwrap());
+    let plan = Plan { force: true, ..Plan::of(&path, PlannedBoard::default()) };
+    let (recorder, mut session) = (Recorder::create(plan).unwrap(), taxel::open("sim:press").unwrap());
+    let (mut board, mut stamps) = (recorder.board(0), Stamps::start());
     let mut record = |client: &Client, event: &Event| {
-        Show::<taxel::Error>::event(&mut recorder, client, event).unwrap();
+        let stamp = stamps.of(client, event);
+        board.event(client, event, stamp).unwrap();
     };
     loop {
         let event = session.wait().unwrap().expect("it presses");

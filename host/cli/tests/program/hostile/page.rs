@@ -4,10 +4,10 @@ use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::record::Origin;
 use taxel::robot::BoardConfig;
-use taxel::session::Show;
+use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::view::{PageHub, Tape, serve};
 use taxel_cli::watch::{BoardArgs, LiveArgs, watch};
@@ -15,8 +15,8 @@ use taxel_cli::watch::{BoardArgs, LiveArgs, watch};
 /// Keeps the bytes of a board for the pages.
 struct Keeper(Arc<PageHub>);
 
-impl Show<anyhow::Error> for Keeper {
-    fn event(&mut self, client: &Client, event: &Event) -> anyhow::Result<()> {
+impl Observer for Keeper {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         self.0.keep(client, event);
         Ok(())
     }

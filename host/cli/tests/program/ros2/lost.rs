@@ -6,7 +6,8 @@ use serde::Deserialize;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use taxel::body;
-use taxel::session::{Poll, Session, Show};
+use taxel::client::Stamps;
+use taxel::session::{Observer, Poll, Session};
 use taxel::source::{self, SourceOptions};
 use taxel_cli::ros2::{RosNode, RosParameters, RosPlace, RosShow};
 
@@ -73,7 +74,9 @@ fn a_lost_board_has_a_last_wrench_of_zero_and_is_stale_again_and_again() {
         ..SourceOptions::default()
     };
     let source = source::open(&"sim:press".parse().unwrap(), &options).unwrap();
-    let mut show = RosShow::open(node, &source, false, Some(body::read("reference").unwrap())).unwrap();
+    let mut show = RosShow::new(node, false, Some(body::read("reference").unwrap()));
+    show.opened(&source).unwrap();
+    let mut stamps = Stamps::start();
     let mut session = Session::over(source).unwrap();
     session.parts().0.change_scene(taxel::client::SceneChange::pressing(u16::MAX));
     let mut peer = Peer::open("lost_listener");
@@ -86,7 +89,8 @@ fn a_lost_board_has_a_last_wrench_of_zero_and_is_stale_again_and_again() {
     let mut told = Heard::<Diagnostics>::of(&mut peer, "/diagnostics", states);
     until("forces", || {
         while let Poll::Event(event) = session.poll().unwrap() {
-            show.event(session.client(), &event).unwrap();
+            let stamp = stamps.of(session.client(), &event);
+            show.event(session.client(), &event, stamp).unwrap();
         }
         show.idle(session.parts().0).unwrap();
         contacts.listen();
@@ -96,7 +100,8 @@ fn a_lost_board_has_a_last_wrench_of_zero_and_is_stale_again_and_again() {
     session.parts().0.lost("it is gone".into(), 5);
     let lost = Instant::now();
     while let Some(event) = session.note() {
-        show.event(session.client(), &event).unwrap();
+        let stamp = stamps.of(session.client(), &event);
+        show.event(session.client(), &event, stamp).unwrap();
     }
     while lost.elapsed() < Duration::from_secs(4) {
         show.idle(session.parts().0).unwrap();

@@ -3,12 +3,11 @@
 use std::fs::File;
 use std::path::Path;
 use std::time::Duration;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamp};
 use taxel::json::message;
-use taxel::record::Stamp;
 use taxel::recording::{Format, WIRE, Writer};
-use taxel::robot::{BoardEvent, ReadRobot, RobotSession, WAITING, WhenFull};
-use taxel::session::{Session, Turn};
+use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotStream, WAITING, WhenFull};
+use taxel::session::{RunLimit, Session};
 use taxel::source::{self, SourceOptions};
 
 /// Name, script and garment of a board.
@@ -40,21 +39,23 @@ pub fn alone((_, spec, garment): SimulatedBoard) -> Vec<String> {
     lines
 }
 
-/// Each message of a board; of the host's clock it holds nothing.
-fn line(client: &Client, event: &Event, _: Stamp) -> Option<String> {
-    Some(message(client, event).to_string())
+/// Each message of the boards; of the host's clock it holds nothing.
+fn lines(robot: &ReadRobot, when_full: WhenFull) -> RobotStream<String> {
+    let plans = robot.plans(&SourceOptions::default(), &RunLimit::of(None, None));
+    let line = |client: &Client, event: &Event, _: Stamp| Some(message(client, event).to_string());
+    RobotStream::start(plans, when_full, |_, queue| queue.make(line)).unwrap()
 }
 
 #[test]
 fn each_board_of_a_robot_says_what_it_says_alone() {
-    let mut robot = RobotSession::open(&robot(), WhenFull::Wait, |_| Box::new(line)).unwrap();
+    let mut robot = lines(&robot(), WhenFull::Wait);
     let mut together = [const { Vec::new() }; 3];
     let mut states = [const { Vec::new() }; 3];
     while let Some(event) = robot.wait(Duration::from_secs(30)) {
         match event.what {
             BoardEvent::News(line) => together[event.board].push(line),
-            BoardEvent::Met => states[event.board].push("met"),
-            BoardEvent::Over => states[event.board].push("over"),
+            BoardEvent::State(BoardState::Met) => states[event.board].push("met"),
+            BoardEvent::State(BoardState::Over { .. }) => states[event.board].push("over"),
             other => panic!("{other:?}"),
         }
     }
@@ -70,11 +71,11 @@ fn each_board_of_a_robot_says_what_it_says_alone() {
 
 #[test]
 fn a_simulation_waits_for_a_slow_reader_and_nothing_is_dropped() {
-    let mut robot = RobotSession::open(&robot(), WhenFull::DropImages, |_| Box::new(line)).unwrap();
+    let mut robot = lines(&robot(), WhenFull::DropImages);
     std::thread::sleep(Duration::from_millis(300));
     let mut count = [0; 3];
     while let Some(event) = robot.wait(Duration::from_secs(30)) {
-        assert!(!matches!(event.what, BoardEvent::Dropped { .. }));
+        assert!(!matches!(event.what, BoardEvent::State(BoardState::Dropped { .. })));
         count[event.board] += 1;
     }
     assert!(count[1] > 2 * WAITING, "{count:?}");
@@ -86,12 +87,12 @@ fn a_board_that_refuses_its_scene_fails_and_the_others_go_on() {
     let mut read = robot();
     let scene = "[stream]\ncontacts_hz = 20000\n";
     read.boards[1].scene = Some(taxel::source::SceneFile::named(scene).unwrap());
-    let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(line)).unwrap();
+    let mut robot = lines(&read, WhenFull::Wait);
     let (mut failed, mut over) = (Vec::new(), 0);
     while let Some(event) = robot.wait(Duration::from_secs(30)) {
         match event.what {
-            BoardEvent::Failed(error) => failed.push((event.board, error.to_string())),
-            BoardEvent::Over => over += 1,
+            BoardEvent::State(BoardState::Failed(error)) => failed.push((event.board, error.to_string())),
+            BoardEvent::State(BoardState::Over { .. }) => over += 1,
             _ => {}
         }
     }
@@ -119,19 +120,19 @@ fn what_is_not_the_stream_of_the_board_fails_and_says_why() {
     let options = SourceOptions { garment: Some("block-4x16".into()), ..SourceOptions::default() };
     let mut session = Session::over(source::open(&"sim:press".parse().unwrap(), &options).unwrap()).unwrap();
     let mut bytes = Vec::new();
-    while session.turn::<taxel::Error>(&mut |_, _| Ok(())).unwrap() != Turn::End {
-        bytes.extend_from_slice(session.bytes());
+    while session.wait().unwrap().is_some() {
+        session.client().lines().for_each(|line| bytes.extend_from_slice(line));
     }
     keep("block.mcap", &bytes);
     let text = "name = \"two\"\n[[boards]]\nname = \"noise\"\nsource = \"replay:noise.mcap\"\n\
                 [[boards]]\nname = \"other\"\nsource = \"replay:block.mcap\"\ngarment = \"reference\"\n";
     let read = ReadRobot::parse("two.toml".into(), text.into(), folder).unwrap();
-    let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(line)).unwrap();
+    let mut robot = lines(&read, WhenFull::Wait);
     let (mut failed, mut others) = ([const { String::new() }; 2], 0);
     while let Some(event) = robot.wait(Duration::from_secs(30)) {
         match event.what {
-            BoardEvent::Failed(error) => failed[event.board] = format!("{error:#}"),
-            BoardEvent::Other { .. } => others += 1,
+            BoardEvent::State(BoardState::Failed(error)) => failed[event.board] = format!("{error:#}"),
+            BoardEvent::State(BoardState::Other { .. }) => others += 1,
             other => panic!("{other:?}"),
         }
     }

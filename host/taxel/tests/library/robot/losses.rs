@@ -6,10 +6,10 @@ use crate::session::rig::{self, Rig};
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, Identity};
+use taxel::client::{Client, Event, Identity, Stamp};
 use taxel::error::SourceError;
-use taxel::record::Stamp;
-use taxel::robot::{BoardEvent, BoardPlan, RobotEvent, RobotSession, WhenFull};
+use taxel::robot::{BoardEvent, BoardPlan, BoardState, Required, RobotEvent, RobotStream, WhenFull};
+use taxel::session::Session;
 use taxel::source::Source;
 use taxel_core::format::{Code, name};
 use taxel_core::garment::Garment;
@@ -56,26 +56,20 @@ impl Bench {
         thread: &str,
         identity: impl Fn(usize) -> Identity,
         with_serial: bool,
-    ) -> RobotSession<Told> {
+    ) -> RobotStream<Told> {
         let plan = |number: usize| {
             let bench = self.clone();
-            BoardPlan {
-                name: format!("{thread}{number}"),
-                open: Box::new(move || bench.clone().open(number, with_serial)),
-                waits: true,
-                listens: true,
-                identity: identity(number),
-                begin: Box::new(|session| {
-                    let client = session.parts().0;
-                    client.start(0)?;
-                    Ok(client.stream_raw(u16::MAX)?)
-                }),
-                teller: Box::new(tell),
-                gather: Duration::ZERO,
-                limit: None,
-            }
+            let open = move || bench.clone().open(number, with_serial);
+            let begin = |session: &mut Session| {
+                let client = session.parts().0;
+                client.start(0)?;
+                client.stream_raw(u16::MAX)?;
+                Ok(Required::of(client))
+            };
+            let plan = BoardPlan::of(format!("{thread}{number}"), open, begin);
+            BoardPlan { identity: Some(identity(number)), ..plan }
         };
-        RobotSession::start([0, 1, 2].map(plan).into(), WhenFull::Wait).unwrap()
+        RobotStream::start([0, 1, 2].map(plan).into(), WhenFull::Wait, |_, queue| queue.make(tell)).unwrap()
     }
 
     /// Plugs boards in: at each place the one of this number.
@@ -125,22 +119,22 @@ impl Seen {
                 assert_eq!((worn.as_str(), usize::from(code)), (NAMES[board], 100 + 100 * board));
                 self.news[board] += 1;
             }
-            BoardEvent::Lost { since_us, .. } => {
+            BoardEvent::State(BoardState::Lost { since_us, .. }) => {
                 assert!(since_us <= event.stamp.host_us && since_us + 10_000_000 > event.stamp.host_us);
                 self.lost[board] += 1;
             }
-            BoardEvent::Back { .. } => self.back[board] += 1,
-            BoardEvent::Other { why } => {
+            BoardEvent::State(BoardState::Back { .. }) => self.back[board] += 1,
+            BoardEvent::State(BoardState::Other { why }) => {
                 assert!(why.starts_with(&format!("place {board} answers with another board: ")), "{why}");
                 self.others[board] += 1;
             }
-            BoardEvent::Met => {}
+            BoardEvent::State(BoardState::Met) => {}
             other => panic!("{other:?}"),
         }
     }
 
     /// Takes events until the condition holds.
-    fn until(&mut self, robot: &mut RobotSession<Told>, what: &str, is_met: impl Fn(&Seen) -> bool) {
+    fn until(&mut self, robot: &mut RobotStream<Told>, what: &str, is_met: impl Fn(&Seen) -> bool) {
         let begun = Instant::now();
         while !is_met(self) {
             robot.wait(Duration::from_millis(100)).into_iter().for_each(|event| self.take(event));
@@ -243,8 +237,8 @@ fn a_board_that_is_not_there_at_the_start_is_waited_for() {
         assert!(begun.elapsed() < Duration::from_secs(30));
         let Some(event) = robot.wait(Duration::from_millis(100)) else { continue };
         match event.what {
-            BoardEvent::Absent { why } => absent.push((event.board, why)),
-            BoardEvent::Met => drop(met.insert(event.board)),
+            BoardEvent::State(BoardState::Absent { why }) => absent.push((event.board, why)),
+            BoardEvent::State(BoardState::Met) => drop(met.insert(event.board)),
             BoardEvent::News(_) => news[event.board] += 1,
             other => panic!("{other:?}"),
         }
@@ -260,23 +254,22 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
     let bench = Bench::new();
     let plan = |number: usize| {
         let bench = bench.clone();
-        BoardPlan {
-            name: NAMES[number].into(),
-            open: Box::new(move || bench.clone().open(number, false)),
-            waits: true,
-            listens: true,
-            identity: Identity::default(),
-            begin: Box::new(|session| Ok(session.parts().0.start(0)?)),
-            teller: Box::new(|_: &Client, event: &Event, _: Stamp| match event {
-                Event::Frame { frame, .. } => Some(("frame", *frame)),
-                Event::Contacts { frame, .. } => Some(("contacts", *frame)),
-                _ => None,
-            }),
-            gather: Duration::ZERO,
-            limit: None,
-        }
+        BoardPlan::of(
+            NAMES[number],
+            move || bench.clone().open(number, false),
+            |session| {
+                session.parts().0.start(0)?;
+                Ok(Required::default())
+            },
+        )
     };
-    let mut robot = RobotSession::start(vec![plan(0)], WhenFull::DropImages).unwrap();
+    let tell = |_: &Client, event: &Event, _: Stamp| match event {
+        Event::Frame { frame, .. } => Some(("frame", *frame)),
+        Event::Contacts { frame, .. } => Some(("contacts", *frame)),
+        _ => None,
+    };
+    let mut robot =
+        RobotStream::start(vec![plan(0)], WhenFull::DropImages, |_, queue| queue.make(tell)).unwrap();
     let begun = Instant::now();
     while robot.dropped(0) < 20 {
         std::thread::sleep(Duration::from_millis(20));
@@ -288,7 +281,7 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
         match robot.wait(Duration::from_secs(5)).expect("a board streams").what {
             BoardEvent::News(("frame", frame)) => frames.push(frame),
             BoardEvent::News((_, frame)) => contacts.push(frame),
-            BoardEvent::Dropped { images } => told = images,
+            BoardEvent::State(BoardState::Dropped { images }) => told = images,
             _ => {}
         }
     }

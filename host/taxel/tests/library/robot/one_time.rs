@@ -5,7 +5,7 @@
 use crate::delays::{Delays, Link};
 use crate::timed_line::{DriftingClock, EPOCH, TimedLine};
 use std::time::Duration;
-use taxel::record::Stamp;
+use taxel::client::Stamp;
 use taxel::robot::{BoardContact, RobotMoments};
 use taxel_core::garment::Rect;
 

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, Identity};
+use taxel::client::{Client, Event, Stamp};
 use taxel::error::SourceError;
-use taxel::record::Stamp;
-use taxel::robot::{BoardEvent, BoardOrder, BoardPlan, ReadRobot, RobotSession, WhenFull};
-use taxel::source::SceneFile;
+use taxel::robot::{
+    BoardEvent, BoardOrder, BoardPlan, BoardState, ReadRobot, Required, RobotStream, WhenFull,
+};
+use taxel::session::RunLimit;
+use taxel::source::{SceneFile, SourceOptions};
 use taxel::tell::words;
 use taxel_core::wire::Request;
 
@@ -24,29 +26,24 @@ fn tell(_: &Client, event: &Event, _: Stamp) -> Option<Answered> {
 }
 
 /// Three boards, each of which can be unplugged for good.
-fn three(names: [&str; 3]) -> ([Arc<Mutex<Rig>>; 3], RobotSession<Answered>) {
+fn three(names: [&str; 3]) -> ([Arc<Mutex<Rig>>; 3], RobotStream<Answered>) {
     let rigs = [(); 3].map(|()| Arc::new(Mutex::new(Rig::new())));
     let plan = |number: usize| {
         let rig = rigs[number].clone();
-        BoardPlan {
-            name: names[number].into(),
-            open: Box::new(move || {
-                let is_plugged = rig.lock().unwrap().plugged;
-                if is_plugged {
-                    return rig::open(&rig);
-                }
-                Err(SourceError::NoBoard("nothing is plugged in".into()).into())
-            }),
-            waits: true,
-            listens: true,
-            identity: Identity::default(),
-            begin: Box::new(|session| Ok(session.parts().0.start(0)?)),
-            teller: Box::new(tell),
-            gather: Duration::ZERO,
-            limit: None,
-        }
+        let open = move || {
+            let is_plugged = rig.lock().unwrap().plugged;
+            if is_plugged {
+                return rig::open(&rig);
+            }
+            Err(SourceError::NoBoard("nothing is plugged in".into()).into())
+        };
+        BoardPlan::of(names[number], open, |session| {
+            session.parts().0.start(0)?;
+            Ok(Required::default())
+        })
     };
-    let session = RobotSession::start([0, 1, 2].map(plan).into(), WhenFull::Wait).unwrap();
+    let plans = [0, 1, 2].map(plan).into();
+    let session = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(tell)).unwrap();
     (rigs, session)
 }
 
@@ -59,7 +56,7 @@ struct Heard {
 }
 
 impl Heard {
-    fn until(&mut self, robot: &mut RobotSession<Answered>, what: &str, is_met: impl Fn(&Heard) -> bool) {
+    fn until(&mut self, robot: &mut RobotStream<Answered>, what: &str, is_met: impl Fn(&Heard) -> bool) {
         let begun = Instant::now();
         while !is_met(self) {
             assert!(begun.elapsed() < Duration::from_secs(30), "{what} did not come");
@@ -69,9 +66,9 @@ impl Heard {
                     assert_eq!(refusal, None, "board {}, request {request}", event.board);
                     *self.answers.entry((event.board, request)).or_default() += 1;
                 }
-                BoardEvent::Met => self.met[event.board] = true,
-                BoardEvent::Lost { .. } => self.lost[event.board] = true,
-                BoardEvent::Back { .. } => self.lost[event.board] = false,
+                BoardEvent::State(BoardState::Met) => self.met[event.board] = true,
+                BoardEvent::State(BoardState::Lost { .. }) => self.lost[event.board] = true,
+                BoardEvent::State(BoardState::Back { .. }) => self.lost[event.board] = false,
                 other => panic!("{other:?}"),
             }
         }
@@ -127,7 +124,8 @@ fn who_cannot_be_ordered_is_named() {
     let text = "name = \"one\"\n[[boards]]\nname = \"old\"\nsource = \"replay:old.mcap\"\n\
                 [[boards]]\nname = \"new\"\nsource = \"sim:press\"\n";
     let read = ReadRobot::parse("one.toml".into(), text.into(), Path::new(".")).unwrap();
-    let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(tell)).unwrap();
+    let plans = read.plans(&SourceOptions::default(), &RunLimit::of(None, None));
+    let mut robot = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(tell)).unwrap();
     let told = robot.order(Some("old"), &BoardOrder::Tare(8)).unwrap_err().to_string();
     assert_eq!(told, "board old is a recording, whose board does not listen");
     while !robot.is_over() {

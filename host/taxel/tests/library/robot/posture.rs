@@ -4,9 +4,9 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use taxel::body::robot;
 use taxel::body::{self, DVec3};
-use taxel::client::{Client, Event};
-use taxel::record::Stamp;
-use taxel::robot::{BoardEvent, ReadRobot, RobotSession, WhenFull};
+use taxel::client::{Client, Event, Stamp};
+use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotStream, WhenFull};
+use taxel::session::RunLimit;
 use taxel::source::SourceOptions;
 use taxel_core::wire::PressingReport;
 
@@ -51,8 +51,8 @@ fn pressing(_: &Client, event: &Event, _: Stamp) -> Option<PressingReport> {
 fn every_board_with_a_body_tells_where_its_contacts_are_on_a_robot_that_moves() {
     let read = ReadRobot::parse("three.toml".into(), ROBOT.into(), Path::new(".")).unwrap();
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
-    let plans = read.plans(&options, None, |_| Box::new(pressing));
-    let mut session = RobotSession::start(plans, WhenFull::Wait).unwrap();
+    let plans = read.plans(&options, &RunLimit::of(None, None));
+    let mut session = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(pressing)).unwrap();
     let posture = JOINTS.map(|joint| (joint, 0.4));
     let robot = robot::read("reference").unwrap();
     let worn = read.boards[0].garment.as_ref().unwrap();
@@ -82,16 +82,16 @@ fn every_board_with_a_body_tells_where_its_contacts_are_on_a_robot_that_moves() 
 #[test]
 fn joints_that_the_robot_does_not_have_do_no_harm() {
     let read = ReadRobot::parse("three.toml".into(), ROBOT.into(), Path::new(".")).unwrap();
-    let plans =
-        read.plans(&SourceOptions::default(), Some(Duration::from_millis(300)), |_| Box::new(pressing));
-    let mut session = RobotSession::start(plans, WhenFull::Wait).unwrap();
+    let limit = RunLimit::of(None, Some(Duration::from_millis(300)));
+    let plans = read.plans(&SourceOptions::default(), &limit);
+    let mut session = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(pressing)).unwrap();
     let mut over = 0;
     while !session.is_over() {
         session.take_joints(session.now_us(), [("tail", 0.6), ("waist", f64::NAN)]);
         session.take_joints(0, [("waist", 0.6)]);
         match session.wait(Duration::from_millis(10)).map(|event| event.what) {
-            Some(BoardEvent::Over) => over += 1,
-            Some(BoardEvent::Failed(error)) => panic!("{error}"),
+            Some(BoardEvent::State(BoardState::Over { .. })) => over += 1,
+            Some(BoardEvent::State(BoardState::Failed(error))) => panic!("{error}"),
             Some(BoardEvent::News(report)) => assert_eq!(report.posed, None),
             _ => {}
         }

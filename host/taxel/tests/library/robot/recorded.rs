@@ -4,28 +4,27 @@ use super::boards::{BOARDS, alone, robot};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use taxel::files::output::Force;
 use taxel::json::message;
-use taxel::record::{COUNTS, Play, Tally};
+use taxel::record::{COUNTS, Plan, Play, Recorder, Tally};
 use taxel::recording::{
     BoardRecording, Clips, LinkRecord, Messages, Overview, WIRE, WireReader, boards, chunk_indexes, scan,
 };
-use taxel::robot::{BoardEvent, RobotRecorder, RobotSession, WhenFull};
-use taxel::session::Session;
+use taxel::robot::{BoardEvent, BoardState, RobotStream, WhenFull};
+use taxel::session::{RunLimit, Session};
+use taxel::source::SourceOptions;
 
 /// Records the three boards to their ends.
 fn record(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let read = robot();
-    let mut recorder = RobotRecorder::create(&read, &path, Force { force: true }).unwrap();
-    let mut session =
-        RobotSession::open(&read, WhenFull::Wait, |number| Box::new(recorder.teller(number))).unwrap();
+    let recorder = Recorder::create(Plan { force: true, ..read.recording(path.clone()).unwrap() }).unwrap();
+    let plans = read.plans(&SourceOptions::default(), &RunLimit::of(None, None));
+    let mut session: RobotStream<()> =
+        RobotStream::start(plans, WhenFull::Wait, |number, _| Box::new(recorder.board(number))).unwrap();
     while let Some(event) = session.wait(Duration::from_secs(30)) {
-        if let BoardEvent::News(record) = event.what {
-            recorder.take(event.board, &record).unwrap();
-        }
-        recorder.keep().unwrap();
+        assert!(!matches!(event.what, BoardEvent::State(BoardState::Failed(_))), "{event:?}");
     }
+    drop(session);
     recorder.finish().unwrap();
     path
 }
@@ -133,11 +132,12 @@ fn a_recording_of_a_robot_is_opened_by_the_name_of_a_board() {
 fn a_recording_is_not_replaced_unless_asked() {
     let path = record("robot-kept.mcap");
     let before = std::fs::read(&path).unwrap();
-    let error = RobotRecorder::create(&robot(), &path, Force { force: false }).unwrap_err();
+    let error = Recorder::create(robot().recording(path.clone()).unwrap()).unwrap_err();
     assert!(error.to_string().contains("robot-kept.mcap already exists"), "{error}");
     assert_eq!(std::fs::read(&path).unwrap(), before);
     let mut read = robot();
     read.inputs.push(path.display().to_string());
-    let error = RobotRecorder::create(&read, &path, Force { force: true }).unwrap_err();
+    let plan = read.recording(path.clone()).unwrap();
+    let error = Recorder::create(Plan { force: true, ..plan }).unwrap_err();
     assert_eq!(std::fs::read(&path).unwrap(), before, "{error}");
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use taxel::body::{self, DVec3, Pose};
 use taxel::client::{Client, Event, SIMULATED};
 use taxel::json::message;
-use taxel::ros2::messages::{self, BoardState};
+use taxel::ros2::messages::{self, DiagnosticState};
 use taxel::ros2::{own, schemas};
 use taxel::session::Session;
 use taxel_core::format::name;
@@ -140,7 +140,7 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
                 assert_eq!(read[key], line[key], "{key}");
             }
             assert_eq!(read["scan"], json!(line["scan_us"].as_f64().unwrap() / 1e6));
-            let told = messages::diagnostics("", US, "x", BoardState::Reports(health, 3));
+            let told = messages::diagnostics("", US, "x", DiagnosticState::Reports(health, 3));
             let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &told);
             assert_eq!(read["status"][0]["values"][9], json!({ "key": "ill_taxels", "value": "3" }));
             Some("Health")
@@ -255,14 +255,14 @@ fn small_messages_are_as_their_definitions() {
         Definitions::of_text("J", joints).read("J", &messages::joints((4, 5), &["a", "bc"], &[1.0, -2.0]));
     assert_eq!(read["header"]["stamp"], json!({ "sec": 4, "nanosec": 5 }));
     assert_eq!([&read["name"], &read["position"]], [&json!(["a", "bc"]), &json!([1.0, -2.0])]);
-    let lost = messages::diagnostics("", US, "taxel-fw", BoardState::Lost("usb is gone"));
+    let lost = messages::diagnostics("", US, "taxel-fw", DiagnosticState::Lost("usb is gone"));
     let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &lost);
     assert_eq!(
         [&read["status"][0]["level"], &read["status"][0]["message"]],
         [&json!(3), &json!("usb is gone")]
     );
     let health = Health::default();
-    let simulated = messages::diagnostics("", US, SIMULATED, BoardState::Reports(&health, 0));
+    let simulated = messages::diagnostics("", US, SIMULATED, DiagnosticState::Reports(&health, 0));
     let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &simulated);
     assert_eq!(
         [&read["status"][0]["message"], &read["status"][0]["hardware_id"]],

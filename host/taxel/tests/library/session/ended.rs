@@ -6,12 +6,12 @@ use crate::lines::pressing;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, Stamps};
 use taxel::json::message;
-use taxel::record::{Origin, Plan, Play, Recorder};
+use taxel::record::{Origin, Plan, PlannedBoard, Play, Recorder};
 use taxel::recording::Messages;
 use taxel::ros2::topic_part;
-use taxel::session::{Poll, Returns, Session, Show};
+use taxel::session::{Observer, Poll, Returns, Session};
 use taxel_core::contact::Phase;
 use taxel_core::format::{Code, Micros, Q15, name};
 use taxel_core::intent::{Leading, Outcome};
@@ -187,19 +187,13 @@ fn is_zero(wrench: &[u8]) -> bool {
 fn recorded(name: &str) -> (PathBuf, Session) {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let origin = Origin { counts_per_newton: Some(100.0), ..Origin::default() };
-    let plan = Plan {
-        path: path.clone(),
-        rotate: None,
-        ros2: true,
-        body: None,
-        force: true,
-        inputs: Vec::new(),
-        origin,
-    };
-    let mut recorder = Recorder::create(plan).unwrap();
+    let board = PlannedBoard { origin, ..PlannedBoard::default() };
+    let recorder = Recorder::create(Plan { ros2: true, force: true, ..Plan::of(&path, board) }).unwrap();
+    let (mut board, mut stamps) = (recorder.board(0), Stamps::start());
     let mut session = taxel::open("sim:press").unwrap();
     let mut record = |client: &Client, event: &Event| {
-        Show::<taxel::Error>::event(&mut recorder, client, event).unwrap();
+        let stamp = stamps.of(client, event);
+        board.event(client, event, stamp).unwrap();
     };
     until(&mut session, |event| *event == Event::Hello);
     record(session.client(), &Event::Hello);

@@ -183,7 +183,7 @@ fn played(path: &Path, mut each: impl FnMut(u64, u64)) -> Result<usize, taxel::E
     let mut taken = 0;
     loop {
         let (client, posing) = session.posing().unwrap();
-        lines.turn(client, posing)?;
+        lines.hand_over(client, posing)?;
         for positions in posing.taken() {
             each(positions.time.0, posing.now().unwrap().0);
             taken += 1;

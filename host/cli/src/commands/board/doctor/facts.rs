@@ -1,8 +1,7 @@
 //! Observations of a board over some seconds.
 
-use anyhow::Result;
-use taxel::client::{Buses, Client, Event, Worn};
-use taxel::session::Show;
+use taxel::client::{Buses, Client, Event, Stamp, Worn};
+use taxel::session::Observer;
 use taxel_core::boot::Boot;
 use taxel_core::garment::Garment;
 use taxel_core::selftest::Findings;
@@ -57,8 +56,8 @@ impl Facts {
     }
 }
 
-impl Show<anyhow::Error> for Facts {
-    fn event(&mut self, client: &Client, event: &Event) -> Result<()> {
+impl Observer for Facts {
+    fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
                 self.firmware = client.worn().map(|worn| worn.firmware.clone());
@@ -89,15 +88,15 @@ impl Show<anyhow::Error> for Facts {
         Ok(())
     }
 
-    fn idle(&mut self, client: &mut Client) -> Result<bool> {
+    fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
             client.share(self.buses.clone());
             client.request(&Request::SelfTest)?;
         }
-        Ok(true)
+        Ok(())
     }
 
-    fn end(&mut self, client: &Client) -> Result<()> {
+    fn ended(&mut self, client: &Client, _: Stamp) -> taxel::Result<()> {
         let counts = client.counts();
         self.images = [counts.frames, counts.thinned, counts.undecoded];
         self.lost = [counts.lost, counts.refused()];

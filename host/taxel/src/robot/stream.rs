@@ -1,13 +1,14 @@
 //! All boards of a robot, each followed in a thread of its own, as one stream.
 
-use super::event::RobotEvent;
-use super::follow::{Ask, BoardPlan, follow};
+use super::board_queue::BoardQueue;
+use super::event::{BoardState, RobotEvent};
+use super::follow::{Ask, BoardPlan, Supervisor, follow};
 use super::order::BoardOrder;
 use super::queue::{EventQueue, WhenFull};
 use crate::client::clock::SteadyTime;
 use crate::client::{Buses, Client};
 use crate::error::{Result, UsageError};
-use crate::session::{JointTime, Session};
+use crate::session::{JointTime, Observer, Session};
 use crate::tell::words;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,15 +25,18 @@ const STACK: usize = 8 << 20;
 /// use std::path::Path;
 /// use std::time::Duration;
 /// use taxel::client::Event;
-/// use taxel::robot::{BoardEvent, ReadRobot, RobotSession, WhenFull};
+/// use taxel::robot::{BoardEvent, ReadRobot, RobotStream, WhenFull};
+/// use taxel::source::SourceOptions;
 ///
 /// let text = "name = \"two\"\n[[boards]]\nname = \"left\"\nsource = \"sim:pat\"\n\
 ///             [[boards]]\nname = \"right\"\nsource = \"sim:pat\"\n";
 /// let read = ReadRobot::parse("two.toml".into(), text.into(), Path::new("."))?;
-/// let contacts = |client: &taxel::client::Client, event: &Event, _| {
-///     matches!(event, Event::Contacts { .. }).then(|| client.contacts().len())
-/// };
-/// let mut robot = RobotSession::open(&read, WhenFull::Wait, |_| Box::new(contacts))?;
+/// let plans = read.plans(&SourceOptions::default(), None);
+/// let mut robot = RobotStream::start(plans, WhenFull::Wait, |_, queue| {
+///     queue.make(|client, event, _| {
+///         matches!(event, Event::Contacts { .. }).then(|| client.contacts().len())
+///     })
+/// })?;
 /// let mut most = [0, 0];
 /// while let Some(event) = robot.wait(Duration::from_secs(1)) {
 ///     if let BoardEvent::News(contacts) = event.what {
@@ -42,7 +46,7 @@ const STACK: usize = 8 << 20;
 /// assert!(robot.is_over() && most[0] > 0 && most[0] == most[1]);
 /// # Ok::<(), taxel::Error>(())
 /// ```
-pub struct RobotSession<T> {
+pub struct RobotStream<T> {
     queue: Arc<EventQueue<T>>,
     /// Events that were taken together and are not handed out yet.
     taken: VecDeque<RobotEvent<T>>,
@@ -67,31 +71,41 @@ impl<T> Drop for FollowEnd<T> {
     }
 }
 
-impl<T: Send + 'static> RobotSession<T> {
-    /// Follows these boards.
-    pub fn start(plans: Vec<BoardPlan<T>>, when_full: WhenFull) -> Result<RobotSession<T>> {
+impl<T: Send + 'static> RobotStream<T> {
+    /// Follows these boards; `observer` is asked for that of each, by its number and with its end of the queue.
+    pub fn start(
+        plans: Vec<BoardPlan>,
+        when_full: WhenFull,
+        mut observer: impl FnMut(usize, &BoardQueue<T>) -> Box<dyn Observer + Send>,
+    ) -> Result<RobotStream<T>> {
         let queue = Arc::new(EventQueue::new(plans.len()));
         let time = SteadyTime::start();
-        let mut session =
-            RobotSession { queue: queue.clone(), taken: VecDeque::new(), boards: Vec::new(), time };
+        let mut stream =
+            RobotStream { queue: queue.clone(), taken: VecDeque::new(), boards: Vec::new(), time };
         let buses = Buses::default();
         for (board, plan) in plans.into_iter().enumerate() {
             let (asks, asked) = channel();
-            let (name, listens, queue) = (plan.name.clone(), plan.listens, queue.clone());
-            let buses = buses.clone();
+            let (name, listens, buses) = (plan.name.clone(), plan.listens, buses.clone());
+            let end = FollowEnd(queue.clone(), board);
+            let mut supervisor = BoardQueue::new(board, queue.clone(), time, when_full);
+            let mut observer = observer(board, &supervisor);
             let thread = Builder::new().name(name.clone()).stack_size(STACK).spawn(move || {
-                let end = FollowEnd(queue.clone(), board);
-                follow(board, plan, queue, when_full, &asked, (time, buses));
+                let ended = follow(plan, &mut *observer, &mut supervisor, &asked, (time, buses));
+                supervisor.state(match ended {
+                    Ok(remark) => BoardState::Over { remark },
+                    Err(error) => BoardState::Failed(error),
+                });
+                supervisor.hand_over();
                 // Whoever hears that the board is over can no longer ask anything of it.
                 drop(asked);
                 drop(end);
             })?;
-            session.boards.push(FollowedBoard { name, listens, asks, thread: Some(thread) });
+            stream.boards.push(FollowedBoard { name, listens, asks, thread: Some(thread) });
         }
-        Ok(session)
+        Ok(stream)
     }
 
-    /// Takes the next event; none if there is none within this time, or [no more](RobotSession::is_over).
+    /// Takes the next event; none if there is none within this time, or [no more](RobotStream::is_over).
     /// Events of a board come in their order, those of several boards as they arrive.
     pub fn wait(&mut self, patience: Duration) -> Option<RobotEvent<T>> {
         if self.taken.is_empty() {
@@ -122,7 +136,7 @@ impl<T: Send + 'static> RobotSession<T> {
 
     /// Asks something of a board, in its thread: its client takes requests, also while the board is lost, and
     /// lasting settings are sent once it is back. An error ends the board with
-    /// [`BoardEvent::Failed`](super::BoardEvent::Failed). Error if there is no such board or it is over.
+    /// [`BoardState::Failed`]. Error if there is no such board or it is over.
     pub fn ask(
         &self,
         board: usize,
@@ -196,7 +210,7 @@ impl<T: Send + 'static> RobotSession<T> {
     }
 }
 
-impl<T> Drop for RobotSession<T> {
+impl<T> Drop for RobotStream<T> {
     fn drop(&mut self) {
         self.queue.close();
         for board in &mut self.boards {

@@ -20,6 +20,11 @@ pub struct Stamp {
 }
 
 impl Stamp {
+    /// As a recording has it: the host's time and the board's, ns.
+    pub fn recorded(host_ns: u64, board_ns: u64) -> Stamp {
+        Stamp { board_us: board_ns / NS, host_us: host_ns / NS, uncertainty_us: None }
+    }
+
     /// The host's time, ns since 1970, as stored in recordings; saturates.
     pub fn host_ns(&self) -> u64 {
         self.host_us.saturating_mul(NS)
