@@ -33,7 +33,6 @@ use crate::commands::recordings::export::{self, ExportArgs};
 use crate::commands::recordings::index::{self, IndexArgs};
 use crate::commands::recordings::info::{self, InfoArgs};
 use crate::commands::recordings::record::{self, RecordArgs};
-use crate::commands::recordings::replay::{self, ReplayArgs};
 use crate::commands::recordings::report::{self, ReportArgs};
 use crate::commands::robot;
 use crate::commands::shapes::{self, ShapesArgs};
@@ -69,7 +68,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Watch a board; `taxel` alone does this, and plays a simulated one if none is plugged in
+    /// Watch a board or a recording; `taxel` alone watches the board, or a simulated one
     #[command(after_help = LIVE)]
     Live(LiveArgs),
     /// Watch a board or a recording in the browser: panels, surface, body, map, health
@@ -93,9 +92,6 @@ enum Command {
     /// Show a recording's contents; repair a damaged or truncated one
     #[command(after_help = INFO)]
     Info(InfoArgs),
-    /// Play a recording as if its board were connected
-    #[command(after_help = REPLAY)]
-    Replay(ReplayArgs),
     /// Convert recordings to CSV, NumPy arrays, images or a LeRobot data set
     #[command(after_help = EXPORT)]
     Export(ExportArgs),
@@ -210,7 +206,6 @@ impl Cli {
                 None => record::run(args),
             },
             Command::Info(args) => info::run(args),
-            Command::Replay(args) => replay::run(args),
             Command::Export(args) => export::run(args),
             #[cfg(feature = "index")]
             Command::Index(args) => index::run(&args),

@@ -220,7 +220,7 @@ def test_a_recording_has_the_events_of_each_board(file: Path, tmp_path: Path) ->
     for board, taxels in (("torso", 2048), ("hand", 64)):
         part = taxel.read(f"{touch}#{board}")
         assert part.images().values.shape == (part.topics[f"/taxel/{board}/frames"], taxels)
-        lines = program("replay", f"{touch}#{board}", "--json").splitlines()
+        lines = program("live", f"{touch}#{board}", "--json").splitlines()
         contacts = [json.loads(line) for line in lines if '"type":"contacts"' in line]
         assert [event.to_dict() for event in part.contacts()] == contacts
     with pytest.raises(taxel.UsageError, match="name one, .*touch.mcap#torso"):

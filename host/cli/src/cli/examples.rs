@@ -15,6 +15,8 @@ pub(super) const LIVE: &str = "Examples:
   taxel live
   taxel live sim:lash --frames 200 --json
   taxel live /dev/ttyACM0
+  taxel live touch.mcap
+  taxel live touch.mcap@0.25
   taxel live robot.toml --json
   taxel live robot.toml#hand";
 
@@ -67,11 +69,6 @@ pub(super) const RECORD: &str = "Examples:
 pub(super) const INFO: &str = "Examples:
   taxel info touch.mcap
   taxel info touch.mcap --repair";
-
-pub(super) const REPLAY: &str = "Examples:
-  taxel replay touch.mcap
-  taxel replay touch.mcap --speed 0.25
-  taxel live --source replay:touch.mcap@max --json";
 
 pub(super) const EXPORT: &str = "Examples:
   taxel export touch.mcap --to npz -o touch.npz

@@ -163,7 +163,7 @@ pub struct LiveArgs {
     /// Whoever watches tells remarks itself; else they are printed to the standard error.
     #[arg(skip)]
     pub tells_remarks: bool,
-    /// Pace simulations to real time
+    /// Pace simulations and recordings to real time
     #[arg(long)]
     pub realtime: bool,
 }

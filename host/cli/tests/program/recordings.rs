@@ -1,4 +1,4 @@
-//! `taxel info`, `report`, `replay` and `export` on long, damaged and truncated recordings.
+//! `taxel info`, `report`, `live` and `export` on long, damaged and truncated recordings.
 
 use serde_json::Value;
 use std::fs;
@@ -101,7 +101,7 @@ fn what_is_damaged_is_passed_over_and_told() {
     for args in [
         &["export", text(&path), "--to", "npz", "--force", "-o", text(&npz)][..],
         &["report", text(&path), "--force", "-o", text(&page)],
-        &["replay", text(&path), "--json"],
+        &["live", text(&path), "--json"],
     ] {
         let done = taxel(args);
         assert!(done.status.success(), "{args:?}: {}", String::from_utf8_lossy(&done.stderr));

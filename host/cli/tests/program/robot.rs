@@ -185,7 +185,7 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
         assert!(rows(&contacts) > 100, "{board}");
         let page = run(&folder, &["report", &part, "-o", "-"]);
         assert!(page.status.success() && text(&page.stdout).contains(&part), "{}", text(&page.stderr));
-        let replayed = run(&folder, &["replay", &part, "--json"]);
+        let replayed = run(&folder, &["live", &part, "--json"]);
         let source = format!("replay:{part}");
         assert_eq!(replayed.stdout, run(&folder, &["live", "--source", &source, "--json"]).stdout, "{board}");
     }
@@ -193,7 +193,7 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
     for args in [
         &["export", "touch.mcap", "--to", "csv", "-o", "-"][..],
         &["report", "touch.mcap", "-o", "-"],
-        &["replay", "touch.mcap", "--json"],
+        &["live", "touch.mcap", "--json"],
         &["view", "touch.mcap"],
         &["body", "learn", "touch.mcap", "-o", "folds.taxel"],
     ] {

@@ -6,5 +6,4 @@ pub mod index;
 pub mod info;
 pub mod record;
 pub mod repair;
-pub mod replay;
 pub mod report;

@@ -6,15 +6,17 @@ use anyhow::Result;
 use std::io::{IsTerminal, stdout};
 use taxel::json::MessagePrinter;
 use taxel::session::Observer;
-use taxel::source::SourceOptions;
+use taxel::source::{SourceOptions, SourceSpec};
 
 /// Runs the command; `bare` if the program was called without one.
 pub fn run(args: LiveArgs, bare: bool) -> Result<()> {
     let is_seen = stdout().is_terminal();
     let terminal = is_seen && !args.json && args.taxel.is_none();
+    // Who looks at a recording sees it as it was, however it is written.
+    let is_played = is_seen && matches!(args.board.named(), Some(SourceSpec::Replay { .. }));
     let bounded = args.frames.is_some() || args.seconds.is_some();
     let options = SourceOptions {
-        realtime: args.realtime || terminal,
+        realtime: args.realtime || terminal || is_played,
         repeat: terminal && !bounded,
         frames: args.frames,
         seconds: args.seconds,

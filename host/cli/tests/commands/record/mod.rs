@@ -1,4 +1,4 @@
-//! `taxel record`, `replay`, `export` and `report` through the library: nothing that a board sends is lost or
+//! `taxel record`, replays, `export` and `report` through the library: nothing that a board sends is lost or
 //! changed.
 
 mod belonging;

@@ -39,7 +39,7 @@ fn a_range_is_saved_to_the_image_and_every_command_reads_it() {
     let later = first.as_u64().unwrap() - of.as_u64().unwrap();
     assert!((540_000..=550_000).contains(&later), "it begins {later} us later");
     for arguments in [
-        vec!["replay", saved.to_str().unwrap(), "--json"],
+        vec!["live", saved.to_str().unwrap(), "--json"],
         vec!["report", saved.to_str().unwrap(), "-o", file("saved.html").to_str().unwrap()],
         vec!["export", saved.to_str().unwrap(), "--to", "csv", "-o", file("saved.csv").to_str().unwrap()],
     ] {

@@ -71,7 +71,7 @@ fn a_repaired_recording_is_played_and_exported_and_the_damaged_one_stays() {
     assert_eq!(repaired["whole"], true);
     assert!(repaired["frames"].as_u64().unwrap() >= 50, "{repaired}");
     assert_eq!(repaired["frames"], found["frames"]);
-    let played = folder.good(&["replay", "touch.repaired.mcap", "--speed", "max", "--json"]);
+    let played = folder.good(&["live", "touch.repaired.mcap@max", "--json"]);
     assert!(played.lines().count() > 50);
     folder.good(&["export", "touch.repaired.mcap", "--to", "npz", "-o", "touch.npz"]);
     assert!(folder.at("touch.npz").exists());
@@ -112,7 +112,7 @@ fn a_recording_without_its_first_chunk_is_played() {
     folder.damaged("touch.mcap", 0);
     folder.good(&["info", "touch.mcap", "--repair"]);
     for name in ["touch.mcap", "touch.repaired.mcap"] {
-        let played = folder.good(&["replay", name, "--speed", "max", "--json"]);
+        let played = folder.good(&["live", &format!("{name}@max"), "--json"]);
         let lines: Vec<serde_json::Value> =
             played.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         assert_eq!(lines[0]["type"], "hello", "{name}: what the board is was told in the chunk that is lost");
