@@ -14,7 +14,6 @@ use crate::commands::frames::features::{self, FeaturesArgs};
 use crate::commands::frames::process::{self, ProcessArgs};
 use crate::commands::garment::calibrate::{self, CalibrateArgs};
 use crate::commands::garment::config::{self, ConfigArgs};
-use crate::commands::garment::scenes::{self, ScenesArgs};
 use crate::commands::garment::settle::{self, SettleArgs};
 use crate::commands::garment::setup::{self, SetupArgs};
 use crate::commands::maps::{self, FcmArgs};
@@ -147,15 +146,12 @@ enum Command {
     /// Write the firmware to a board
     #[command(after_help = FLASH)]
     Flash(FlashArgs),
-    /// Create and validate garment files
+    /// Create and check garment and scene files; list the scripts of touches
     #[command(after_help = CONFIG)]
     Config(ConfigArgs),
     /// Place a garment's taxels on the robot's links
     #[command(after_help = BODY)]
     Body(BodyArgs),
-    /// List the scripts of touches that a simulation plays
-    #[command(after_help = SCENES)]
-    Scenes(ScenesArgs),
     /// Print the completions of this command line for a shell
     #[command(after_help = COMPLETIONS)]
     Completions(CompletionsArgs),
@@ -235,7 +231,6 @@ impl Cli {
             Command::Flash(args) => flash::run(&args),
             Command::Config(args) => config::run(&args),
             Command::Body(args) => body::run(&args),
-            Command::Scenes(args) => scenes::run(args),
             Command::Completions(args) => completions::run(&args, Cli::command()),
         }
     }

@@ -54,7 +54,7 @@ def test_the_command() -> None:
     done = subprocess.run([sys.executable, "-m", "taxel", "live", "--source", "radio"], capture_output=True)
     assert done.returncode == 2
     script = Path(sys.executable).with_name("taxel")
-    assert subprocess.run([script, "scenes"], capture_output=True, check=True).stdout.startswith(b"pat")
+    assert subprocess.run([script, "config", "touches"], capture_output=True, check=True).stdout.startswith(b"pat")
 
 
 def test_all_is_documented() -> None:

@@ -3,7 +3,7 @@
 pub(super) const TAXEL: &str = "Examples:
   taxel
   taxel live --source sim:lash
-  taxel scenes
+  taxel config touches
 
 Exit status:
   0  done
@@ -167,7 +167,8 @@ pub(super) const FLASH: &str = "Examples:
 pub(super) const CONFIG: &str = "Examples:
   taxel config new mine.toml --like block-4x16
   taxel config check mine.toml --scene scene.toml
-  taxel config schema";
+  taxel config schema
+  taxel config touches";
 
 pub(super) const BODY: &str = "Examples:
   taxel body check reference
@@ -177,10 +178,6 @@ pub(super) const BODY: &str = "Examples:
   taxel body places reference --robot reference --joints left_elbow=30deg --frame base -o places.csv
   taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt
   taxel body fit reference --marks marks.txt -o worn.toml";
-
-pub(super) const SCENES: &str = "Examples:
-  taxel scenes
-  taxel scenes --json";
 
 pub(super) const COMPLETIONS: &str = "Examples:
   taxel completions bash > ~/.local/share/bash-completion/completions/taxel

@@ -161,11 +161,12 @@ fn features_are_those_of_the_reference() {
 }
 
 #[test]
-fn scenes_are_listed() {
-    let scenes = json(&["scenes", "--json"]);
-    let names: Vec<&str> = scenes.as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+fn scripts_of_touches_are_listed() {
+    let touches = json(&["config", "touches", "--json"]);
+    let names: Vec<&str> =
+        touches.as_array().unwrap().iter().map(|script| script["name"].as_str().unwrap()).collect();
     assert!(names.contains(&"pat") && names.contains(&"lash"));
-    let table = answer(&["scenes"]);
+    let table = answer(&["config", "touches"]);
     assert_eq!(table.lines().count(), names.len());
     assert!(names.iter().zip(table.lines()).all(|(name, line)| line.starts_with(name)));
 }
@@ -173,7 +174,7 @@ fn scenes_are_listed() {
 #[test]
 fn every_subcommand_has_a_help_with_an_example() {
     assert!(answer(&["--help"]).contains("Example"));
-    for command in ["process", "features", "fcm", "scenes", "body"] {
+    for command in ["process", "features", "fcm", "config", "body"] {
         let help = answer(&[command, "--help"]);
         assert!(help.contains("Example") && help.contains(&format!("taxel {command}")), "{help}");
     }

@@ -262,7 +262,7 @@ fn a_standard_output_on_a_full_disk_is_named() {
     fs::write(folder.0.join("frames.csv"), "0,0\n0,9\n").unwrap();
     let commands: [&[&str]; 7] = [
         &["info", "in.mcap"],
-        &["scenes"],
+        &["config", "touches"],
         &["config", "schema"],
         &["process", "frames.csv", "--json"],
         &["live", "--source", "sim:press", "--frames", "5", "--json"],

@@ -26,7 +26,7 @@ fn ends(args: &[&str], status: i32, words: &str) {
 
 #[test]
 fn what_is_done_is_0() {
-    ends(&["scenes"], 0, "");
+    ends(&["config", "touches"], 0, "");
     ends(&["health", "--source", "sim:idle", "--frames", "40"], 0, "");
 }
 

@@ -1,7 +1,9 @@
-//! `taxel config`: creates garment and scene files, checks them, and prints their schemas.
+//! `taxel config`: creates garment and scene files, checks them, and prints their schemas; lists the scripts of
+//! touches.
 
 mod check;
 mod scene;
+mod touches;
 
 pub use check::check;
 
@@ -12,6 +14,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
 use taxel::files::output::{Force, Output};
 use taxel::files::{garments, input, schemas};
+use touches::TouchesArgs;
 
 /// Kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -96,6 +99,9 @@ enum What {
         #[arg(value_enum, default_value_t = FileKind::Garment)]
         of: FileKind,
     },
+    /// List the scripts of touches that a simulation plays
+    #[command(after_help = "Examples:\n  taxel config touches\n  taxel config touches --json")]
+    Touches(TouchesArgs),
 }
 
 /// Runs the command.
@@ -123,6 +129,7 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
             print!("{}", of.schema());
             Ok(())
         }
+        What::Touches(args) => touches::run(args),
     }
 }
 

@@ -1,19 +1,19 @@
-//! `taxel scenes`: lists the scripts of touches that the simulated board can play.
+//! `taxel config touches`: lists the scripts of touches that the simulated board can play.
 
 use anyhow::Result;
 use serde_json::{Value, json};
 use taxel::sim::{self, SceneInfo};
 
-/// Arguments of `taxel scenes`.
+/// Arguments of `taxel config touches`.
 #[derive(Debug, Clone, clap::Args)]
-pub struct ScenesArgs {
+pub struct TouchesArgs {
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
 }
 
 /// Runs the command.
-pub fn run(args: ScenesArgs) -> Result<()> {
+pub fn run(args: &TouchesArgs) -> Result<()> {
     let scenes = sim::list();
     if args.json {
         println!("{}", report(&scenes));
