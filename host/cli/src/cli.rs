@@ -14,7 +14,6 @@ use crate::commands::frames::features::{self, FeaturesArgs};
 use crate::commands::frames::process::{self, ProcessArgs};
 use crate::commands::garment::calibrate::{self, CalibrateArgs};
 use crate::commands::garment::config::{self, ConfigArgs};
-use crate::commands::garment::settle::{self, SettleArgs};
 use crate::commands::garment::setup::{self, SetupArgs};
 use crate::commands::maps::{self, FcmArgs};
 #[cfg(not(all(feature = "foxglove", feature = "index", feature = "ros2", feature = "zenoh")))]
@@ -119,12 +118,9 @@ enum Command {
     /// Identify a garment's wires by touch, and write its garment file
     #[command(after_help = SETUP)]
     Setup(SetupArgs),
-    /// Calibrate force with known weights
+    /// Calibrate force with known weights; find the settling time
     #[command(after_help = CALIBRATE)]
     Calibrate(CalibrateArgs),
-    /// Find the shortest settling time of a garment
-    #[command(after_help = SETTLE)]
-    Settle(SettleArgs),
     /// List faulty taxels, lines and inputs
     #[command(after_help = HEALTH)]
     Health(HealthArgs),
@@ -218,7 +214,6 @@ impl Cli {
             Command::Intent(args) => intent::run(args),
             Command::Setup(args) => setup::run(&args),
             Command::Calibrate(args) => calibrate::run(&args),
-            Command::Settle(args) => settle::run(&args),
             Command::Health(args) => health::run(args),
             Command::Save(args) => save::run(args),
             Command::ResetSettings(args) => reset_settings::run(&args),

@@ -124,11 +124,8 @@ pub(super) const SETUP: &str = "Examples:
 pub(super) const CALIBRATE: &str = "Examples:
   taxel calibrate --simulate 7
   taxel calibrate --source usb --over block --weights 0.5,1,2,5,10 --kg --by Anna --save -o anna.toml
-  taxel calibrate check anna.toml";
-
-pub(super) const SETTLE: &str = "Examples:
-  taxel settle --garment garment.toml -o settled.toml
-  taxel settle --source serial:/dev/ttyACM0 --error 2 --json";
+  taxel calibrate check anna.toml
+  taxel calibrate settle --garment garment.toml -o settled.toml";
 
 pub(super) const HEALTH: &str = "Examples:
   taxel health

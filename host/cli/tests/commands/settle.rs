@@ -3,7 +3,7 @@
 use anyhow::Result;
 use taxel::files::scripts;
 use taxel::sim::{PINS, SimBoard, Timing};
-use taxel_cli::commands::garment::settle::{Scanner, settle};
+use taxel_cli::commands::garment::calibrate::settle::{Scanner, settle};
 use taxel_core::acquire::{Acquire, MuxScan, Plan};
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::run::block_on;

@@ -150,7 +150,7 @@ pub const CASES: &[Case] = &[
     case("body drape", "body drape board.obj --panel chest --at 0,0,0 -o chest.txt", &[file("chest.txt")]),
     case("body fit", "body fit reference --touches known.csv -o worn.toml", &[file("worn.toml")]),
     case("setup", "setup --simulate 7 -o out.toml", &[file("out.toml")]),
-    case("settle", "settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),
+    case("calibrate settle", "calibrate settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),
     case("fcm combine", "fcm combine tactile tactile -o map.toml", &[file("map.toml")]),
     case("fcm merge", "fcm merge tactile tactile -o map.toml", &[file("map.toml")]),
     case("fcm draw", "fcm draw tactile -o map.dot", &[file("map.dot")]),

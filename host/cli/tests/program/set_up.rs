@@ -1,4 +1,4 @@
-//! `taxel setup` and `taxel settle` from outside: a garment's wiring, found by touch and by itself.
+//! `taxel setup` and `taxel calibrate settle` from outside: a garment's wiring, found by touch and by itself.
 
 use crate::called::{file, run};
 use serde_json::Value;
@@ -35,7 +35,7 @@ fn nobody_touches_and_nothing_is_claimed() {
         said.status.code() == Some(1) && why.contains("not sure: Nothing was felt on any panel"),
         "{why}"
     );
-    let said = run(&["settle", "--source", &source, "--json"]);
+    let said = run(&["calibrate", "settle", "--source", &source, "--json"]);
     let why = String::from_utf8(said.stderr).unwrap();
     assert!(said.status.code() == Some(1) && why.contains("too few edges"), "{why}");
 }
@@ -44,7 +44,7 @@ fn nobody_touches_and_nothing_is_claimed() {
 fn settling_is_found_and_written() {
     let weights = concat!("sim:", env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes/weights.toml");
     let output = file("settled.toml", b"");
-    let said = run(&["settle", "--source", weights, "--json", "--force", "-o", &output]);
+    let said = run(&["calibrate", "settle", "--source", weights, "--json", "--force", "-o", &output]);
     assert!(said.status.success(), "{said:?}");
     let settled: Value = serde_json::from_slice(&said.stdout).unwrap();
     // 800 ns and 4 of 4,095 counts: 5,545 ns, three conversions; a second round of the four inputs takes less

@@ -2,7 +2,6 @@
 
 pub mod calibrate;
 pub mod config;
-pub mod settle;
 pub mod setup;
 
 use anyhow::Result;

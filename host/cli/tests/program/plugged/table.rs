@@ -34,7 +34,7 @@ const REST: &[&str] = &[
     "view --source auto --port 0",
     "record --view --port 0 -o {}/b.mcap",
     "reset-settings",
-    "settle",
+    "calibrate settle",
     "calibrate check {}/calibration.toml",
     "shapes install drawn",
     "shapes learn ball -o {}/base.json",

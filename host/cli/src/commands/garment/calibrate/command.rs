@@ -1,6 +1,7 @@
 //! The command `taxel calibrate`.
 
 use super::check::{self, CalibrationCheckArgs};
+use super::settle::{self, SettleArgs};
 use super::task::{CalibrationTask, calibrate};
 use super::{install, operator};
 use crate::fault::Fault;
@@ -98,12 +99,19 @@ enum Also {
         after_help = "Examples:\n  taxel calibrate check calibration.toml\n  taxel calibrate check calibration.toml --press 20"
     )]
     Check(CalibrationCheckArgs),
+    /// Find the shortest settling time of a garment
+    #[command(
+        after_help = "Examples:\n  taxel calibrate settle --garment garment.toml -o settled.toml\n  taxel calibrate settle --source serial:/dev/ttyACM0 --error 2 --json"
+    )]
+    Settle(SettleArgs),
 }
 
 /// Runs the command.
 pub fn run(args: &CalibrateArgs) -> Result<()> {
-    if let Some(Also::Check(args)) = &args.also {
-        return check::run(args);
+    match &args.also {
+        Some(Also::Check(args)) => return check::run(args),
+        Some(Also::Settle(args)) => return settle::run(args),
+        None => {}
     }
     let weights = weights(args)?;
     ensure!(args.wait.is_finite() && args.wait > 0.0, Fault::usage("--wait must be a time above 0"));

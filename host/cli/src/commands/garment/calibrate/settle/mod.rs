@@ -1,5 +1,5 @@
-//! `taxel settle`: finds the shortest settling time of a real garment at which its codes agree with a slow
-//! scan.
+//! `taxel calibrate settle`: finds the shortest settling time of a real garment at which its codes agree with a
+//! slow scan.
 //!
 //! The residue of the previous taxel on a line is measured from an image. With an object on the garment,
 //! taxels that are neighbours in scan order differ, and a scan that does not wait long enough shows a share

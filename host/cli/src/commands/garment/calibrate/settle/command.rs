@@ -1,4 +1,4 @@
-//! The command `taxel settle`.
+//! The command `taxel calibrate settle`.
 
 use super::search::{Scanner, Settled, settle};
 use crate::commands::garment;
@@ -20,7 +20,7 @@ use taxel_core::wire::Request;
 /// Frames after a change of the settling time that may still have the old one.
 const OLD: u32 = 2;
 
-/// Arguments of `taxel settle`.
+/// Arguments of `taxel calibrate settle`.
 #[derive(Debug, Clone, Args)]
 pub struct SettleArgs {
     /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
@@ -99,7 +99,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
         return Ok(());
     }
     let comment = format!(
-        "Settling found by taxel settle: {:.1} counts are left of a full-scale step.",
+        "Settling found by taxel calibrate settle: {:.1} counts are left of a full-scale step.",
         settled.residue_counts
     );
     garment::write(&garment, &comment, output)
