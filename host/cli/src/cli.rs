@@ -2,6 +2,7 @@
 
 mod completions;
 mod examples;
+mod groups;
 
 use crate::commands::board::doctor::{self, DoctorArgs};
 use crate::commands::board::flash::{self, FlashArgs};
@@ -46,7 +47,7 @@ use crate::commands::views::serve::{self, ServeArgs};
 use crate::commands::views::view::{self, ViewArgs};
 use crate::watch::LiveArgs;
 use anyhow::Result;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
 use examples::*;
 use std::ffi::OsString;
@@ -156,7 +157,11 @@ enum Command {
 impl Cli {
     /// Reads a command line; the program ends here where it is wrong, or asks for help.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Cli {
-        Cli::try_parse_from(words).unwrap_or_else(|error| in_words(error).exit())
+        let mut command = groups::grouped(Cli::command());
+        let read = command.try_get_matches_from_mut(words);
+        let read =
+            read.and_then(|read| Cli::from_arg_matches(&read).map_err(|error| error.format(&mut command)));
+        read.unwrap_or_else(|error| in_words(error).exit())
     }
 
     /// Runs what was asked for.

@@ -1,0 +1,81 @@
+//! The help of the program: its commands under headings, by what they are for.
+
+use clap::Command;
+use std::fmt::Write;
+
+/// Headings, and the commands under each.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Look", &["live", "view", "ros2", "foxglove", "serve"]),
+    ("Record", &["record", "info", "export", "index", "report"]),
+    (
+        "Set up",
+        &[
+            "ports",
+            "flash",
+            "doctor",
+            "health",
+            "setup",
+            "calibrate",
+            "config",
+            "body",
+            "save",
+            "reset-settings",
+        ],
+    ),
+    ("Teach", &["fcm", "shapes", "gestures", "intent", "process", "features"]),
+    ("Other", &["completions", "help"]),
+];
+
+/// The command line with a help that lists its commands in groups: clap has one heading for all of them.
+pub(super) fn grouped(command: Command) -> Command {
+    let template = template(&command);
+    command.help_template(template)
+}
+
+/// What clap fills in, around the lists of the commands, which say what the commands themselves say.
+fn template(command: &Command) -> String {
+    let mut built = command.clone();
+    // Only then it has the command `help`.
+    built.build();
+    let (header, literal) = (built.get_styles().get_header(), built.get_styles().get_literal());
+    let width = built.get_subcommands().map(|command| command.get_name().len()).max().unwrap_or(0);
+    let mut text = String::from("{about-with-newline}\n{usage-heading} {usage}\n");
+    for (heading, names) in GROUPS {
+        _ = writeln!(text, "\n{header}{heading}:{header:#}");
+        for command in names.iter().filter_map(|name| built.find_subcommand(name)) {
+            let (name, about) = (command.get_name(), command.get_about().cloned().unwrap_or_default());
+            _ = writeln!(text, "  {literal}{name:width$}{literal:#}  {about}");
+        }
+    }
+    text + &format!("\n{header}Options:{header:#}\n{{options}}{{after-help}}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::Cli;
+    use clap::CommandFactory;
+
+    #[test]
+    fn every_command_is_in_one_group() {
+        let mut command = Cli::command();
+        command.build();
+        let mut all: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
+        let mut named: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        all.sort_unstable();
+        named.sort_unstable();
+        assert_eq!(named, all);
+    }
+
+    #[test]
+    fn the_help_has_what_clap_would_list() {
+        let (plain, grouped) = (Cli::command().render_help(), grouped(Cli::command()).render_help());
+        let lines = |text: String| {
+            let mut lines: Vec<String> = text.lines().map(String::from).collect();
+            lines.retain(|line| line.starts_with(' '));
+            lines.sort_unstable();
+            lines
+        };
+        assert_eq!(lines(grouped.to_string()), lines(plain.to_string()));
+    }
+}
