@@ -78,4 +78,28 @@ mod tests {
         };
         assert_eq!(lines(grouped.to_string()), lines(plain.to_string()));
     }
+
+    #[test]
+    fn options_of_a_board_have_headings_of_their_own() {
+        let command = Cli::command();
+        let of_boards = command.get_subcommands().filter(|command| {
+            let mut ids = command.get_arguments().map(|arg| arg.get_id().as_str());
+            ids.any(|id| id == "joint_states")
+        });
+        for command in of_boards {
+            let under = |heading| {
+                let args = command.get_arguments().filter(move |arg| arg.get_help_heading() == heading);
+                args.map(|arg| arg.get_id().as_str()).collect::<Vec<_>>()
+            };
+            let name = command.get_name();
+            assert_eq!(under(Some("Connect")), ["source", "wait", "once", "seed"], "{name}");
+            let set = under(Some("Set"));
+            let of_set = ["garment", "scene", "calibration", "body", "robot", "poses", "requests"];
+            assert!(of_set.iter().all(|id| set.contains(id)), "{name}: {set:?}");
+            let rest = under(None);
+            let of_rest = ["place", "frames", "seconds", "json", "output", "port", "pixels"];
+            let has = |id: &&str| command.get_arguments().any(|arg| arg.get_id() == *id);
+            assert!(of_rest.iter().filter(|id| has(id)).all(|id| rest.contains(id)), "{name}: {rest:?}");
+        }
+    }
 }

@@ -10,6 +10,11 @@ use taxel::robot::{BoardConfig, ConfigPlace, ReadRobot, RobotBoard, read_board};
 use taxel::session::{POSES, POSES_HZ, Posing};
 use taxel::source::{SourceOptions, SourceSpec};
 
+/// Heading of the options about the way to a board, in the help.
+const CONNECT: &str = "Connect";
+/// Heading of the options about what is asked of a board.
+const SET: &str = "Set";
+
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Default, Args)]
 pub struct BoardArgs {
@@ -21,32 +26,32 @@ pub struct BoardArgs {
     #[command(flatten)]
     pub config: BoardConfig,
     /// Wait for the board if it cannot be opened yet, instead of ending with an error
-    #[arg(long)]
+    #[arg(long, help_heading = CONNECT)]
     pub wait: bool,
     /// Robot that wears the garment: a URDF file or `reference`. Positions of its joints become poses of the
     /// body's links, for contacts in the robot's base
-    #[arg(long, value_name = "URDF", requires = "body")]
+    #[arg(long, value_name = "URDF", requires = "body", help_heading = SET)]
     pub robot: Option<String>,
     /// Positions of the joints, a JSON object a line: {"time_us": 5128, "positions": {"left_elbow": 0.5}}, in
     /// rad or m, at the board's time, the host's (host_time_us), or now; - for the standard input
-    #[arg(long, value_name = "FILE", requires = "robot")]
+    #[arg(long, value_name = "FILE", requires = "robot", help_heading = SET)]
     pub joint_states: Option<PathBuf>,
     /// Poses of the links sent to the board per second [default: 50]
-    #[arg(long, value_name = "HZ", value_parser = poses_hz, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = poses_hz, allow_negative_numbers = true, help_heading = SET)]
     pub poses: Option<f64>,
     /// What bounds the joints' motion, for the error of places in the base: angular=20 rad/s2, linear=5 m/s2,
     /// angular_velocity=10 rad/s, angular_error=0 rad, linear_error=0 m
-    #[arg(long, value_name = "NAME=VALUE,...")]
+    #[arg(long, value_name = "NAME=VALUE,...", help_heading = SET)]
     pub motion: Option<Motion>,
     /// End when the connection to the board is lost, instead of waiting for the board
-    #[arg(long)]
+    #[arg(long, help_heading = CONNECT)]
     pub once: bool,
     /// Seed of the simulation
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = CONNECT)]
     pub seed: Option<u64>,
     /// Ask the boards of a robot's file while they are followed, by lines: `tare [BOARD] [N]`, `scene [BOARD] FILE`,
     /// `self-test [BOARD]`, `told NAME VALUE [AGE_MS]`; - is the standard input
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = SET)]
     pub requests: Option<PathBuf>,
 }
 

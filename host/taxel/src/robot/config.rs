@@ -35,6 +35,8 @@ pub struct RobotConfig {
 /// follow a board, and the keywords of Python.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
+// clap would go on with the heading in the struct that has these options: the second form is called behind them.
+#[cfg_attr(feature = "clap", command(next_help_heading = "Set", next_help_heading(None::<&'static str>)))]
 #[serde(deny_unknown_fields)]
 pub struct BoardConfig {
     /// Its name in a robot: 1 to 32 letters, digits, `_` and `-`.
@@ -43,7 +45,7 @@ pub struct BoardConfig {
     /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,
     /// `zenoh:ROBOT/BOARD[@FILE]` or `replay:FILE[#BOARD][@SPEED]`
     /// [default: auto, the board that is plugged in]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "SOURCE"))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "SOURCE", help_heading = "Connect"))]
     #[serde(default, deserialize_with = "source")]
     pub source: Option<SourceSpec>,
     /// Garment to send to the board, real or simulated: a preset or a TOML file. In a robot's file the garment by
