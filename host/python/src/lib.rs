@@ -10,11 +10,12 @@
 //! | `contact` | contacts as a structured array |
 //! | `event` | events as Python objects |
 //! | `request` | requests to a board |
-//! | `stream` | `Stream`: a board's stream |
+//! | `keywords` | keywords as a board's configuration |
+//! | `board` | `Board`: a board's stream |
 //! | `moments` | `Moment`: what the boards of a robot have said lately, by the time that they share |
 //! | `robot` | `Robot`: all boards of a robot as one stream |
-//! | `board` | `Board`: the very board, stepped by hand |
-//! | `stepped_robot` | `SteppedRobot`: the very boards of a robot and its mind, stepped by hand |
+//! | `virtual_board` | `VirtualBoard`: a board's own code, stepped by hand |
+//! | `virtual_robot` | `VirtualRobot`: the very boards of a robot and its mind, stepped by hand |
 //! | `recording` | recordings: contents, events, messages |
 //! | `features` | features of a touch, moments of an image |
 //! | `folds` | what the garment's folds press |
@@ -35,15 +36,16 @@ mod event;
 mod request;
 
 mod keywords;
-mod stream;
+
+mod board;
 
 mod moments;
 
 mod robot;
 
-mod board;
+mod virtual_board;
 
-mod stepped_robot;
+mod virtual_robot;
 
 mod recording;
 
@@ -68,11 +70,11 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(program::run_program, module)?)?;
-    module.add_class::<stream::Stream>()?;
+    module.add_class::<board::Board>()?;
     module.add_class::<moments::Moment>()?;
     module.add_class::<robot::Robot>()?;
-    module.add_class::<board::Board>()?;
-    module.add_class::<stepped_robot::SteppedRobot>()?;
+    module.add_class::<virtual_board::VirtualBoard>()?;
+    module.add_class::<virtual_robot::VirtualRobot>()?;
     module.add_class::<recording::RecordedEvents>()?;
     module.add_class::<recording::RecordedMessages>()?;
     module.add_function(wrap_pyfunction!(recording::overview, module)?)?;

@@ -1,4 +1,4 @@
-"""`taxel.Board`: the very board, stepped by hand."""
+"""`taxel.VirtualBoard`: the very board, stepped by hand."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def test_it_perceives_what_the_simulation_perceives(scene: str) -> None:
     with taxel.open(f"sim:{scene}", raw=True, tare=0) as stream:
         events = list(stream)
     scans = [event for event in events if isinstance(event, taxel.Raw)]
-    board = taxel.Board()
+    board = taxel.VirtualBoard()
     stepped: list[taxel.Event] = []
     for scan in scans:
         assert scan.codes is not None
@@ -34,7 +34,7 @@ def test_it_perceives_what_the_simulation_perceives(scene: str) -> None:
 
 
 def test_the_box_of_a_contact_holds_its_taxels() -> None:
-    board = taxel.Board("block-4x16")
+    board = taxel.VirtualBoard("block-4x16")
     board.tare(frames=8)
     codes = np.full((4, 16), 100, np.uint16)
     images: list[taxel.Frame] = []
@@ -51,7 +51,7 @@ def test_the_box_of_a_contact_holds_its_taxels() -> None:
 
 
 def test_codes_are_checked() -> None:
-    board = taxel.Board("block-4x16")
+    board = taxel.VirtualBoard("block-4x16")
     assert board.taxels == 64
     with pytest.raises(taxel.UsageError, match="63 codes for a garment of 64 taxels"):
         board.step(np.zeros(63, np.uint16), 0)
@@ -65,11 +65,11 @@ def test_codes_are_checked() -> None:
     with pytest.raises(taxel.UsageError, match="before the last one"):
         board.step([100] * 64, 4999)
     with pytest.raises(taxel.UsageError, match='no garment "shirt"'):
-        taxel.Board("shirt")
+        taxel.VirtualBoard("shirt")
 
 
 def test_requests_reach_it_with_the_next_step() -> None:
-    board = taxel.Board("block-4x16", "rate_hz = 0\nname = \"mine\"")
+    board = taxel.VirtualBoard("block-4x16", "rate_hz = 0\nname = \"mine\"")
     hello = [event for event in board.step([100] * 64, 0) if isinstance(event, taxel.Hello)]
     assert hello[0].scene == "mine" and hello[0].taxels == 64
     board.tare(4)

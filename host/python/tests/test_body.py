@@ -13,7 +13,7 @@ import taxel
 
 
 def test_a_body_on_the_board_tells_what_presses_where() -> None:
-    board = taxel.Board()
+    board = taxel.VirtualBoard()
     rest = np.full(board.taxels, 100, dtype=np.uint16)
     board.set_body("reference")
     board.set_pressing()
@@ -86,7 +86,7 @@ def test_joints_become_poses_of_the_links() -> None:
     assert 0 < sorted(errors)[len(errors) // 2] < 0.1
 
 
-def is_refused(board: taxel.Stream, positions: dict[str, float]) -> bool:
+def is_refused(board: taxel.Board, positions: dict[str, float]) -> bool:
     """Tells positions of joints."""
     try:
         board.set_joints(positions)

@@ -181,7 +181,7 @@ def test_a_robot_is_stepped_by_hand(tmp_path: Path) -> None:
         'name = "one"\nurdf = "reference"\n[[boards]]\nname = "torso"\nsource = "sim:idle"\n'
         'garment = "reference"\nbody = "reference"\ntare = 16\n'
     )
-    robot = taxel.SteppedRobot(file)
+    robot = taxel.VirtualRobot(file)
     assert (robot.boards, robot.taxels("torso")) == (["torso"], 2048)
     with pytest.raises(taxel.UsageError, match='did you mean "torso"'):
         robot.taxels("torsi")
@@ -211,7 +211,7 @@ def test_a_robot_is_stepped_by_hand(tmp_path: Path) -> None:
 def test_a_robot_by_hand_needs_garments(file: Path) -> None:
     file.write_text('name = "one"\n[[boards]]\nname = "a"\nsource = "sim:idle"\n')
     with pytest.raises(taxel.UsageError, match="board a has no `garment`"):
-        taxel.SteppedRobot(file)
+        taxel.VirtualRobot(file)
 
 
 def test_a_recording_has_the_events_of_each_board(file: Path, tmp_path: Path) -> None:

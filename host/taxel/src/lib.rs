@@ -23,7 +23,7 @@
 //! | [`network`] | boards between machines: names, order, configuration |
 //! | [`source`] | sources of bytes: simulation, USB, serial port, TCP, Zenoh, recording |
 //! | [`session`] | the loop that connects a source and a client, reconnects, and restores settings |
-//! | [`stepped`] | the very board, stepped by hand with codes and a time |
+//! | [`virtual_board`] | a board's own code, stepped by hand with codes and a time |
 //! | [`json`] | a stream's JSON |
 //! | `offer` | a board, offered to other machines over Zenoh (feature `zenoh`) |
 //! | [`moments`] | moments, NMI and axis of one image |
@@ -80,7 +80,7 @@ pub mod source;
 
 pub mod session;
 
-pub mod stepped;
+pub mod virtual_board;
 
 pub mod json;
 

@@ -9,7 +9,7 @@ use taxel::body::DVec3;
 use taxel::body::robot::RobotJoint;
 use taxel::mind::{BoardSense, MindReader, RobotMind, ToldLine};
 use taxel::robot::ReadRobot;
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -107,7 +107,7 @@ fn robot(boards: usize) -> Result<ReadRobot> {
 /// What a board says of touches in each of its scans, and what reading that takes, us a scan.
 fn senses() -> Result<(Vec<Vec<BoardSense>>, f64)> {
     let robot = robot(1)?;
-    let mut board = Stepped::new(Garment::reference(), Scene::shipped())?;
+    let mut board = VirtualBoard::new(Garment::reference(), Scene::shipped())?;
     board.client().request(&Request::Tare { frames: TARE })?;
     let mut reader = MindReader::new(&robot, 0);
     let (mut all, mut took) = (Vec::new(), Duration::ZERO);

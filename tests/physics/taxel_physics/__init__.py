@@ -2,7 +2,7 @@
 
 The solver of a simulator that nobody of this project wrote says what presses where.
 :mod:`~taxel_physics.spread` spreads that over the taxels, whose places the program ``taxel`` gives, and
-:mod:`~taxel_physics.fabric` makes codes of it for ``taxel.Board``.
+:mod:`~taxel_physics.fabric` makes codes of it for ``taxel.VirtualBoard``.
 """
 
 from .crease import Creases

@@ -181,7 +181,7 @@ class Bumps:
         world, model, data = self.world, self.world.model, self.world.data
         rng = np.random.default_rng(seed)
         fabric = Fabric(self.places.taxels, seed)
-        robot = taxel.SteppedRobot(self.file)
+        robot = taxel.VirtualRobot(self.file)
         felt = Felt(bump)
         now_us, began, first = 0, 200_000, None
         readings: list[tuple[int, dict[str, float]]] = []

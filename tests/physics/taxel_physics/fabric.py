@@ -3,7 +3,7 @@
 A fabric is what the simulated garment of ``taxel`` is by default, with a spread of gains: a code at rest with
 its spread, so many counts a newton, noise on every sample, whole codes of 12 bits. The board is the very one,
 with its tare, floor, filter and drift tracking. Gains are found from raw codes by known weights on whole
-panels, as by ``taxel calibrate``, and used on the host: ``taxel.Board`` takes no calibration.
+panels, as by ``taxel calibrate``, and used on the host: ``taxel.VirtualBoard`` takes no calibration.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class Chain:
     def __init__(self, fabric: Fabric, garment: str = "reference", scene: str | Path | None = FORCES) -> None:
         """Tares the board, which has the shipped scene if none is given, and calibrates."""
         self.fabric = fabric
-        self._board = taxel.Board(garment, scene)
+        self._board = taxel.VirtualBoard(garment, scene)
         self._nothing = np.zeros(self._board.taxels)
         self._time_us = 0
         self._board.tare(frames=64)

@@ -26,7 +26,7 @@ class Felt:
         self.fabric = fabric
         self._newtons_per_count = chain.newtons_per_count
         self._nothing = np.zeros(fabric.rest.size)
-        self._board = taxel.Board("reference")
+        self._board = taxel.VirtualBoard("reference")
         self._time_us = 0
         self._board.set_body(str(body))
         self._board.set_pressing()

@@ -118,7 +118,7 @@ class Folding:
         """
         self.fabric = Fabric(places.taxels, seed)
         self.scan_us = scan_us
-        self.board = taxel.Board(str(garment))
+        self.board = taxel.VirtualBoard(str(garment))
         self.touch = np.zeros(places.taxels)
         """(taxels,) Forces of what else presses, N: to be set between two moments."""
         self.told = True

@@ -55,7 +55,7 @@ class Feeling:
 
     def __init__(self, seed: int) -> None:
         self._fabric = Fabric(2048, seed)
-        self._board = taxel.Board("reference")
+        self._board = taxel.VirtualBoard("reference")
         self._board.tare(frames=64)
         self._time_us = 0
         self._panels: list[str] = []

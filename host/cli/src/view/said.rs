@@ -32,15 +32,15 @@ impl Said {
 
 /// Turns events into lines.
 #[derive(Debug, Clone)]
-pub struct Teller {
+pub struct EventLines {
     narrator: Narrator,
     lost: u64,
 }
 
-impl Teller {
+impl EventLines {
     /// Starts at the beginning of a stream.
-    pub fn new(counts_per_newton: Option<f32>) -> Teller {
-        Teller { narrator: Narrator::new(counts_per_newton), lost: 0 }
+    pub fn new(counts_per_newton: Option<f32>) -> EventLines {
+        EventLines { narrator: Narrator::new(counts_per_newton), lost: 0 }
     }
 
     /// Lines for an event, and for messages lost before it.

@@ -5,7 +5,7 @@ use super::hub::PageHub;
 use super::lines::{EndLine, PageFrame};
 use super::message;
 use super::raw::RawCodes;
-use super::said::{Said, Teller};
+use super::said::{EventLines, Said};
 use super::shot::{Shot, text};
 use super::tape::Tape;
 use crate::fault::own;
@@ -36,7 +36,7 @@ pub struct Viewer {
     calibration: Option<Calibration>,
     /// Where the garment folds; none without a table.
     folding: Option<Folding>,
-    teller: Teller,
+    lines: EventLines,
     rate: Rate,
     raw: RawCodes,
     told: Instant,
@@ -60,7 +60,7 @@ impl Viewer {
             counts_per_newton: None,
             calibration,
             folding: None,
-            teller: Teller::new(None),
+            lines: EventLines::new(None),
             rate: Rate::default(),
             raw: RawCodes::default(),
             told: now,
@@ -103,7 +103,7 @@ impl Viewer {
             }
             _ => {}
         }
-        for said in self.teller.tell(client, event) {
+        for said in self.lines.tell(client, event) {
             self.hub.say(&said);
         }
         Ok(())
@@ -154,7 +154,7 @@ impl Observer for Viewer {
     fn opened(&mut self, source: &Source) -> taxel::Result<()> {
         source.hand.iter().for_each(|hand| self.hub.hand(PageHand::new(hand.clone())));
         (self.label, self.counts_per_newton) = (source.label.clone(), source.counts_per_newton);
-        self.teller = Teller::new(source.counts_per_newton);
+        self.lines = EventLines::new(source.counts_per_newton);
         let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
         let origin = Origin { label, counts_per_newton, calibration: self.calibration.clone() };
         self.hub.tape(Tape::Live(Arc::new(origin)));

@@ -32,7 +32,7 @@ class TouchEnv(gymnasium.Env[Image, np.int64]):
         self.scenes = scenes
         self.render_mode = render_mode
         self._garment = garment
-        self._stream: taxel.Stream | None = None
+        self._stream: taxel.Board | None = None
         self._frame: taxel.Frame | None = None
         with taxel.open(f"sim:{scenes[0]}", garment=garment, frames=1) as stream:
             taxels = next(event for event in stream if isinstance(event, taxel.Hello)).taxels

@@ -48,7 +48,7 @@ class TaxelRobot(Wrapped, Robot):  # type: ignore[misc,unused-ignore]
     def __init__(self, config: TaxelRobotConfig) -> None:
         Robot.__init__(self, config)
 
-        def open_garment() -> taxel.Stream:
+        def open_garment() -> taxel.Board:
             return taxel.open(config.source, realtime=True, repeat=True, tare=config.tare, body=config.body)
 
         Wrapped.__init__(self, make_robot_from_config(config.robot), Touch(open_garment, config.rows, config.links))

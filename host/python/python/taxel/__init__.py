@@ -6,7 +6,7 @@
 >>> frames[0].panels["back"].shape
 (32, 16)
 
-``taxel.open`` iterates over the events of a board, ``taxel.Board`` is the board itself, ``taxel.read``
+``taxel.open`` iterates over the events of a board, ``taxel.VirtualBoard`` is the board itself, ``taxel.read``
 reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
 docs/python.md of the project.
 """
@@ -101,13 +101,13 @@ __all__ = [
     "SelfTest",
     "Shapes",
     "StartOfFrame",
-    "SteppedRobot",
-    "Stream",
     "Symbols",
     "Sync",
     "Temperature",
     "Unusable",
     "UsageError",
+    "VirtualBoard",
+    "VirtualRobot",
     "__version__",
     "fcm",
     "folds",
@@ -119,7 +119,7 @@ __all__ = [
 ]
 
 
-class Stream(_taxel.Stream, Requests):
+class Board(_taxel.Board, Requests):
     """An open board: an iterator over its events, to be used with ``with``."""
 
     def set_joints(
@@ -134,7 +134,7 @@ class Stream(_taxel.Stream, Requests):
         told = {joint: float(position) for joint, position in positions.items()}
         super()._set_joints(told, host_ns, time_us)
 
-    def __enter__(self) -> Stream:
+    def __enter__(self) -> Board:
         return self
 
     def __exit__(
@@ -183,14 +183,14 @@ class Robot(_taxel.Robot):
         self.close()
 
 
-class SteppedRobot(_taxel.SteppedRobot):
+class VirtualRobot(_taxel.VirtualRobot):
     """The very boards of a robot and its map, stepped by hand: the codes of a scan and a time in, meanings out.
 
     ``path`` is a robot's file; its boards need a ``garment``, and their sources are not opened. All go by the time of
     the steps. ``step`` gives a ``RobotIntent`` when touches mean something else than before.
 
     >>> import numpy as np, taxel
-    >>> robot = taxel.SteppedRobot("robot.toml")  # doctest: +SKIP
+    >>> robot = taxel.VirtualRobot("robot.toml")  # doctest: +SKIP
     >>> robot.set_joints({"left_elbow": 0.5}, 0)  # doctest: +SKIP
     >>> robot.step("torso", np.full(robot.taxels("torso"), 100, np.uint16), 5000)  # doctest: +SKIP
     """
@@ -210,14 +210,14 @@ class SteppedRobot(_taxel.SteppedRobot):
         return found
 
 
-class Board(_taxel.Board, Requests):
+class VirtualBoard(_taxel.VirtualBoard, Requests):
     """The very board, stepped by hand: the codes of a scan and a time in, events out. Nothing waits.
 
     ``garment`` is the name of a preset or a TOML file, ``scene`` a TOML file or its text; by default those
     that ship. Requests reach it with the next step.
 
     >>> import numpy as np, taxel
-    >>> board = taxel.Board("block-4x16")
+    >>> board = taxel.VirtualBoard("block-4x16")
     >>> board.tare(frames=8)
     >>> codes = np.full(board.taxels, 100, np.uint16)
     >>> for frame in range(30):
@@ -231,7 +231,7 @@ class Board(_taxel.Board, Requests):
 
     def __new__(
         cls, garment: str | os.PathLike[str] = "reference", scene: str | os.PathLike[str] | None = None
-    ) -> Board:
+    ) -> VirtualBoard:
         return super().__new__(cls, os.fspath(garment), None if scene is None else os.fspath(scene))
 
     def folds(self) -> tuple[npt.NDArray[np.uint16], npt.NDArray[np.uint16], npt.NDArray[np.uint16]]:
@@ -273,7 +273,7 @@ def open(
     seconds: float | None = None,
     wait: bool = False,
     once: bool = False,
-) -> Stream:
+) -> Board:
     """Opens a board, and iterates over its events.
 
     ``source`` is ``auto``, ``usb[:SERIAL]``, ``sim[:TOUCHES]``, ``serial:PATH[@BAUD]``, ``tcp:HOST:PORT``,
@@ -301,7 +301,7 @@ def open(
 
     Who wears it, and how it is read:
 
-    - ``robot``: that wears the body, ``reference`` or a URDF file: ``Stream.set_joints`` tells its joints, and contacts
+    - ``robot``: that wears the body, ``reference`` or a URDF file: ``Board.set_joints`` tells its joints, and contacts
       of ``Pressing`` events have a place in its base
     - ``motion``: what bounds the joints' motion, for ``pose_error_m``: ``angular`` (rad/s2), ``linear`` (m/s2),
       ``angular_velocity`` (rad/s), ``angular_error`` (rad), ``linear_error`` (m)
@@ -339,7 +339,7 @@ def open(
         "folds": folds,
         "pressing": pressing,
     }
-    return Stream(
+    return Board(
         source,
         keywords,
         seed=seed,

@@ -7,9 +7,9 @@ from typing import Any, TypeVar, final
 import numpy as np
 import numpy.typing as npt
 
-_B = TypeVar("_B", bound=Board)
+_B = TypeVar("_B", bound=VirtualBoard)
 _R = TypeVar("_R", bound=Robot)
-_S = TypeVar("_S", bound=SteppedRobot)
+_S = TypeVar("_S", bound=VirtualRobot)
 
 __version__: str
 
@@ -468,7 +468,7 @@ class Robot:
     def _why(self, of: str | None = None) -> str: ...
     def self_test(self, *, board: str | None = None) -> None: ...
 
-class Stream:
+class Board:
     def __init__(
         self,
         source: str,
@@ -485,7 +485,7 @@ class Stream:
         wait: bool = False,
         once: bool = False,
     ) -> None: ...
-    def __iter__(self) -> Stream: ...
+    def __iter__(self) -> Board: ...
     def __next__(self) -> Event: ...
     def close(self) -> None: ...
     @property
@@ -495,7 +495,7 @@ class Stream:
         self, positions: dict[str, float], host_ns: int | None, time_us: int | None
     ) -> None: ...
 
-class Board:
+class VirtualBoard:
     def __new__(cls: type[_B], garment: str = "reference", scene: str | None = None) -> _B: ...
     @property
     def taxels(self) -> int: ...
@@ -503,7 +503,7 @@ class Board:
     def _folds(self) -> list[npt.NDArray[np.uint16]]: ...
     def _request(self, name: str, values: str) -> None: ...
 
-class SteppedRobot:
+class VirtualRobot:
     def __new__(cls: type[_S], path: str | PathLike[str]) -> _S: ...
     @property
     def boards(self) -> list[str]: ...

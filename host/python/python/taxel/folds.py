@@ -11,7 +11,7 @@ days, put the garment on anew between them, and give the table to the board:
 >>> learned = learn([Sweep({"left_elbow": angles}, felt)], garment="block-4x16")
 >>> [(fold["joints"], fold["pressed"]) for fold in learned.folds]
 [(['left_elbow'], 4)]
->>> learned.save("elbow.folds")                                # for Stream.set_folds, Board.set_folds
+>>> learned.save("elbow.folds")                                # for Board.set_folds, VirtualBoard.set_folds
 """
 
 from __future__ import annotations

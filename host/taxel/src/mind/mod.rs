@@ -16,7 +16,7 @@
 //! | `line.rs` | what it means, as JSON and in words |
 //! | `intent_ros2.rs` | the same as a message of ROS 2 |
 //! | `reasons.rs` | why, down to the contacts |
-//! | `stepped_robot.rs` | [`SteppedRobot`]: the boards of a robot and its mind, stepped by hand |
+//! | `virtual_robot.rs` | [`VirtualRobot`]: the boards of a robot and its mind, stepped by hand |
 //!
 //! The map is a file like those of boards ([`crate::fcm`]), and the stage that infers and announces is the
 //! board's own; only its inputs are others ([`crate::fcm::robot_source`]). An input of which nothing is known
@@ -35,8 +35,8 @@ mod robot_mind;
 mod sensed_board;
 mod senses;
 mod speeds;
-mod stepped_robot;
 mod told;
+mod virtual_robot;
 
 pub use felt::{BoardSense, FeltContact, MindReader, WornMind};
 pub use intent_ros2::robot_intent_message;
@@ -52,7 +52,7 @@ pub use robot_mind::{RobotMeaning, RobotMind};
 pub use sensed_board::SensedTouch;
 pub use senses::{SenseCause, SensedValue, Senses};
 pub use speeds::{LinkSpeeds, LinksAt};
-pub use stepped_robot::SteppedRobot;
 #[cfg(feature = "schema")]
 pub use told::robot_told_schema;
 pub use told::{ROBOT_TOLD, ROBOT_TOLD_SCHEMA, RobotToldLine, ToldLine};
+pub use virtual_robot::VirtualRobot;

@@ -8,7 +8,7 @@ use taxel::files::scripts;
 use taxel::learn::folds::{FoldSettings, FoldSweep, LearnedFolds, learn};
 use taxel::session::setting;
 use taxel::sim::{FRAME_PERIOD_US, Player, Script};
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::fold::{FoldTable, JointAngle, Posture};
 use taxel_core::format::Micros;
 use taxel_core::garment::Layout;
@@ -53,7 +53,7 @@ fn layout(script: &Script) -> Layout {
 /// Plays a script to a board that is told the angles at 50 Hz, with a table in force or none.
 fn play(script: &Script, folds: Option<&LearnedFolds>) -> Seen {
     let garment = scripts::garment(script).expect("it is a preset");
-    let mut board = Stepped::new(garment.clone(), Scene::shipped()).expect("they fit");
+    let mut board = VirtualBoard::new(garment.clone(), Scene::shipped()).expect("they fit");
     let mut player = Player::new(script, &garment).expect("the script is checked");
     let mut codes = vec![0u16; board.taxels()];
     let mut seen = Seen { sweep: FoldSweep::new(vec!["left_elbow".into()], codes.len()), ..Seen::default() };
@@ -252,8 +252,8 @@ fn worn(
     const PREPARED: u64 = 400;
     let script = scripts::load("elbow").expect("built in");
     let mut board =
-        Stepped::new(scripts::garment(&script).expect("it is a preset"), Scene::shipped()).unwrap();
-    let request = |board: &mut Stepped, request| board.client().request(&request).expect("it fits");
+        VirtualBoard::new(scripts::garment(&script).expect("it is a preset"), Scene::shipped()).unwrap();
+    let request = |board: &mut VirtualBoard, request| board.client().request(&request).expect("it fits");
     request(&mut board, Request::Tare { frames: 16 });
     let (mut contacts, mut expected) = (0, 0);
     for step in 0..PREPARED + frames {

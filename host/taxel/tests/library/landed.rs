@@ -4,7 +4,7 @@ use crate::random::Noise;
 use taxel::body::{self, Body, DVec3, Surface, wrenches};
 use taxel::client::{Client, Event, SceneChange};
 use taxel::session::setting;
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::contact::{Contact, ContactConfig, ContactState, Contacts};
 use taxel_core::format::Micros;
@@ -375,10 +375,10 @@ fn a_pose_that_is_none_is_refused() {
 #[test]
 fn a_board_takes_a_body_and_tells_what_presses_on_it() {
     let garment = Garment::reference();
-    let mut board = Stepped::new(garment.clone(), Scene::shipped()).unwrap();
+    let mut board = VirtualBoard::new(garment.clone(), Scene::shipped()).unwrap();
     let (mut codes, mut frame) = (vec![100; board.taxels()], 0);
     let (mut answers, mut pressed) = (Vec::new(), Vec::new());
-    let mut steps = |board: &mut Stepped, codes: &[u16], count: u64| {
+    let mut steps = |board: &mut VirtualBoard, codes: &[u16], count: u64| {
         for _ in 0..count {
             frame += 1;
             let mut told = |_: &Client, event: &Event| {

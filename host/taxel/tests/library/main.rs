@@ -33,10 +33,10 @@ mod session;
 #[path = "../../../../core/tests/core/shape/rig.rs"]
 mod shape_of;
 mod shapes;
-mod stepped;
 mod timed_line;
 mod touch;
 #[cfg(feature = "schema")]
 mod validator;
 mod versions;
+mod virtual_board;
 mod watchdog;

@@ -5,7 +5,7 @@ use super::standing::Standing;
 use super::told::with_report;
 use crate::view::hub::PageHub;
 use crate::view::line_kind::LineKind;
-use crate::view::said::{Said, Teller, gap};
+use crate::view::said::{EventLines, Said, gap};
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -47,7 +47,7 @@ impl Survey {
             overview: Overview::new(clock.duration()),
             standing: beginning,
             client: Client::new(),
-            teller: Teller::new(scale),
+            lines: EventLines::new(scale),
         };
         for frame in surveyor.standing.frames() {
             surveyor.tell(0, &frame);
@@ -131,7 +131,7 @@ struct Surveyor {
     overview: Overview,
     standing: Standing,
     client: Client,
-    teller: Teller,
+    lines: EventLines,
 }
 
 impl Surveyor {
@@ -179,7 +179,7 @@ impl Surveyor {
     fn tell(&mut self, at: u64, frame: &[u8]) {
         let client = &mut self.client;
         let Some(event) = client.push_all(frame).1 else { return };
-        for said in self.teller.lines(client, &event) {
+        for said in self.lines.lines(client, &event) {
             self.overview.say(at, said);
         }
         match &event {

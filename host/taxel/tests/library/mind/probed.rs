@@ -5,7 +5,7 @@
 use fastrand::Rng;
 use std::path::Path;
 use taxel::body::{self, DVec3, TaxelPlace, robot};
-use taxel::mind::{SteppedRobot, ToldLine};
+use taxel::mind::{ToldLine, VirtualRobot};
 use taxel::robot::ReadRobot;
 
 /// Time from scan to scan, and from reading to reading of the joints, us.
@@ -216,7 +216,7 @@ pub fn probe(read: &ReadRobot, thing: &Thing, rng: &mut Rng) -> Found {
     let (rate, full) = (within(rng, 0.25, 0.8), within(rng, 4.0, 8.0));
     let (rest, gain): (Vec<f64>, Vec<f64>) =
         (0..2048).map(|_| (within(rng, 70.0, 110.0), within(rng, 0.85, 1.15))).unzip();
-    let mut stepped = SteppedRobot::new(read).unwrap();
+    let mut stepped = VirtualRobot::new(read).unwrap();
     let (mut angle, mut stopped, mut touched) = (start, None, None);
     let mut readings: Vec<(u64, f64)> = Vec::new();
     let mut now = 0;

@@ -6,7 +6,7 @@ use fastrand::Rng;
 use std::path::Path;
 use taxel::mind::{BoardSense, MindReader, RobotMind, RobotReasons, ToldLine};
 use taxel::robot::ReadRobot;
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
 use taxel_core::scene::Scene;
@@ -71,9 +71,9 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
     let flipped = |is_right: bool| if is_right { friendly } else { -friendly };
     let vision = flipped(rng.u32(..4) > 0);
     let voice = rng.bool().then(|| flipped(rng.u32(..8) > 0));
-    let mut boards: Vec<(Stepped, MindReader, u64)> = Vec::new();
+    let mut boards: Vec<(VirtualBoard, MindReader, u64)> = Vec::new();
     for (number, part) in touch.parts.iter().enumerate() {
-        let mut board = Stepped::new(part.garment.clone(), Scene::shipped()).unwrap();
+        let mut board = VirtualBoard::new(part.garment.clone(), Scene::shipped()).unwrap();
         board.client().request(&Request::Tare { frames: (TARE_US / part.period_us) as u16 }).unwrap();
         boards.push((board, MindReader::new(&robot, number), rng.u64(..part.period_us)));
     }
@@ -140,9 +140,9 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
 pub fn explained(robot: &ReadRobot, mut touch: SpreadTouch, concept: &str) -> RobotReasons {
     let mut mind = RobotMind::new(robot).unwrap();
     let at = mind.map().find(concept).unwrap();
-    let mut boards: Vec<(Stepped, MindReader)> = Vec::new();
+    let mut boards: Vec<(VirtualBoard, MindReader)> = Vec::new();
     for (number, part) in touch.parts.iter().enumerate() {
-        let mut board = Stepped::new(part.garment.clone(), Scene::shipped()).unwrap();
+        let mut board = VirtualBoard::new(part.garment.clone(), Scene::shipped()).unwrap();
         board.client().request(&Request::Tare { frames: 20 }).unwrap();
         boards.push((board, MindReader::new(robot, number)));
     }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use taxel::client::Event;
 use taxel::files::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
 use taxel::robot::{BoardContact, ContactReader, ReadRobot};
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::condition::UNITY;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Layout};
@@ -57,7 +57,7 @@ fn read(calibrations: [Option<&str>; 2]) -> taxel::Result<ReadRobot> {
 fn told(robot: &ReadRobot, number: usize) -> BoardContact {
     let of = &robot.boards[number];
     let reader = ContactReader::new(of);
-    let mut board = Stepped::new(Garment::block(), Scene::shipped()).unwrap();
+    let mut board = VirtualBoard::new(Garment::block(), Scene::shipped()).unwrap();
     let requests = of.calibration.iter().flat_map(Calibration::requests);
     requests.chain([Request::Tare { frames: 8 }]).for_each(|it| board.client().request(&it).unwrap());
     let (mut codes, mut told) = (vec![200; TAXELS], Vec::new());

@@ -6,7 +6,7 @@ use taxel::body::fit::{FeltTouch, TouchGatherer};
 use taxel::body::{DVec3, WornShift};
 use taxel::client::Event;
 use taxel::sim::{Player, Script};
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
@@ -28,7 +28,7 @@ fn felt(case: &Case, presses: &[(usize, f64, f64)], seed: u64) -> Vec<Option<Fel
     }
     let script: Script = text.parse().unwrap();
     let mut player = Player::new(&script, &case.garment).unwrap();
-    let mut board = Stepped::new(case.garment.clone(), Scene::shipped()).unwrap();
+    let mut board = VirtualBoard::new(case.garment.clone(), Scene::shipped()).unwrap();
     board.client().request(&Request::Tare { frames: 16 }).unwrap();
     let (mut gatherer, mut all) = (TouchGatherer::default(), vec![None; presses.len()]);
     let mut codes = vec![0; board.taxels()];

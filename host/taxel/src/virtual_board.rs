@@ -3,13 +3,13 @@
 //!
 //! ```
 //! use taxel::client::Event;
-//! use taxel::stepped::Stepped;
+//! use taxel::virtual_board::VirtualBoard;
 //! use taxel_core::format::Micros;
 //! use taxel_core::garment::Garment;
 //! use taxel_core::scene::Scene;
 //! use taxel_core::wire::Request;
 //!
-//! let mut board = Stepped::new(Garment::block(), Scene::shipped())?;
+//! let mut board = VirtualBoard::new(Garment::block(), Scene::shipped())?;
 //! board.client().request(&Request::Tare { frames: 8 })?;
 //! let mut touched = 0;
 //! for frame in 0..30 {
@@ -50,7 +50,7 @@ const MOST_JOBS: usize = 1000;
 pub type EventSink<'a> = dyn FnMut(&Client, &Event) -> Result<()> + 'a;
 
 /// A board without pins, without a converter and without a clock.
-pub struct Stepped {
+pub struct VirtualBoard {
     board: Box<Shipped>,
     client: Client,
     codes: Vec<Code>,
@@ -61,10 +61,10 @@ pub struct Stepped {
     is_due: bool,
 }
 
-impl Stepped {
+impl VirtualBoard {
     /// A board as after power-up, whose whole stream is requested. Error if the garment or the scene does not
     /// fit the board.
-    pub fn new(garment: Garment, scene: Scene) -> Result<Stepped> {
+    pub fn new(garment: Garment, scene: Scene) -> Result<VirtualBoard> {
         let build = move || Board::new(simulated_info(&garment), garment, scene).map(Box::new);
         let builder = thread::Builder::new().name("board".into()).stack_size(STACK).spawn(build)?;
         let mut board =
@@ -72,7 +72,7 @@ impl Stepped {
         board.booted(Boot::default());
         let mut client = Client::new();
         client.start(0)?;
-        Ok(Stepped { board, client, codes: Vec::new(), table: Vec::new(), last: None, is_due: false })
+        Ok(VirtualBoard { board, client, codes: Vec::new(), table: Vec::new(), last: None, is_due: false })
     }
 
     /// Number of taxels: the length of a scan.

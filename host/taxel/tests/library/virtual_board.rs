@@ -6,7 +6,7 @@ use taxel::files::scripts;
 use taxel::json::message;
 use taxel::session::Session;
 use taxel::source::{self, SourceOptions, SourceSpec, scene_of};
-use taxel::stepped::Stepped;
+use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
 
 /// Events that depend on codes and time alone.
@@ -30,7 +30,8 @@ fn simulated(scene: &str) -> (Vec<Value>, Vec<(Micros, Vec<u16>)>) {
 /// Lines of the board stepped through these scans.
 fn stepped(scene: &str, scans: &[(Micros, Vec<u16>)]) -> Vec<Value> {
     let script = scripts::load(scene).unwrap();
-    let mut board = Stepped::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
+    let mut board =
+        VirtualBoard::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
     let tare = taxel_core::wire::Request::Tare { frames: script.tare_frames as u16 };
     if script.tare_frames > 0 {
         board.client().request(&tare).unwrap();
@@ -68,7 +69,8 @@ fn by_hand_it_perceives_what_a_simulation_perceives() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let script = scripts::load("pat").unwrap();
-    let mut board = Stepped::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
+    let mut board =
+        VirtualBoard::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
     let codes = vec![0; board.taxels()];
     let mut quiet = |_: &_, _: &_| Ok(());
     let why = board.step(&codes[1..], Micros(0), &mut quiet).unwrap_err().to_string();

@@ -13,13 +13,13 @@ use taxel::tell::words;
 
 /// The boards of a robot without pins and without a clock, and what touches mean to it.
 #[pyclass(frozen, subclass, module = "taxel")]
-pub struct SteppedRobot {
+pub struct VirtualRobot {
     robot: ReadRobot,
-    stepped: Mutex<mind::SteppedRobot>,
+    stepped: Mutex<mind::VirtualRobot>,
 }
 
-impl SteppedRobot {
-    fn lock(&self) -> MutexGuard<'_, mind::SteppedRobot> {
+impl VirtualRobot {
+    fn lock(&self) -> MutexGuard<'_, mind::VirtualRobot> {
         self.stepped.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -34,18 +34,18 @@ impl SteppedRobot {
     }
 }
 
-fn build(path: &Path) -> anyhow::Result<(ReadRobot, mind::SteppedRobot)> {
+fn build(path: &Path) -> anyhow::Result<(ReadRobot, mind::VirtualRobot)> {
     let robot = ReadRobot::read(path)?;
-    let stepped = mind::SteppedRobot::new(&robot)?;
+    let stepped = mind::VirtualRobot::new(&robot)?;
     Ok((robot, stepped))
 }
 
 #[pymethods]
-impl SteppedRobot {
+impl VirtualRobot {
     #[new]
-    fn new(py: Python<'_>, path: PathBuf) -> PyResult<SteppedRobot> {
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<VirtualRobot> {
         let (robot, stepped) = py.detach(|| build(&path)).map_err(raised)?;
-        Ok(SteppedRobot { robot, stepped: Mutex::new(stepped) })
+        Ok(VirtualRobot { robot, stepped: Mutex::new(stepped) })
     }
 
     /// Names of the boards, in the order of the file.

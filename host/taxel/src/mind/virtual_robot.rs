@@ -5,27 +5,27 @@ use super::felt::MindReader;
 use super::robot_mind::{RobotMeaning, RobotMind};
 use crate::error::{Context, Result, UsageError};
 use crate::robot::ReadRobot;
-use crate::stepped::Stepped;
+use crate::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
 use taxel_core::scene::Scene;
 use taxel_core::wire::Request;
 
 /// The boards of a robot, and its mind.
-pub struct SteppedRobot {
-    boards: Vec<SteppedRobotBoard>,
+pub struct VirtualRobot {
+    boards: Vec<VirtualRobotBoard>,
     mind: RobotMind,
 }
 
-struct SteppedRobotBoard {
+struct VirtualRobotBoard {
     name: String,
-    stepped: Stepped,
+    stepped: VirtualBoard,
     reader: MindReader,
 }
 
-impl SteppedRobot {
+impl VirtualRobot {
     /// The boards of a robot's file as after power-up, each with its garment, its scene and its tare. Their
     /// sources are not opened. Error if a board of the file has no garment.
-    pub fn new(robot: &ReadRobot) -> Result<SteppedRobot> {
+    pub fn new(robot: &ReadRobot) -> Result<VirtualRobot> {
         let mut boards = Vec::new();
         for (number, board) in robot.boards.iter().enumerate() {
             let name = &board.name;
@@ -34,14 +34,14 @@ impl SteppedRobot {
             };
             let scene = board.scene.as_ref().map_or_else(Scene::shipped, |file| file.scene.clone());
             let mut stepped =
-                Stepped::new(worn.garment.clone(), scene).with_context(|| format!("board {name}"))?;
+                VirtualBoard::new(worn.garment.clone(), scene).with_context(|| format!("board {name}"))?;
             if let Some(frames) = board.tare.filter(|frames| *frames > 0) {
                 stepped.client().request(&Request::Tare { frames })?;
             }
             let reader = MindReader::new(robot, number);
-            boards.push(SteppedRobotBoard { name: name.clone(), stepped, reader });
+            boards.push(VirtualRobotBoard { name: name.clone(), stepped, reader });
         }
-        Ok(SteppedRobot { boards, mind: RobotMind::new(robot)? })
+        Ok(VirtualRobot { boards, mind: RobotMind::new(robot)? })
     }
 
     /// Number of a board's taxels: the length of a scan. Error if there is no such board.
@@ -62,7 +62,7 @@ impl SteppedRobot {
     /// taxels, or the time is before that of its last step.
     pub fn step(&mut self, board: usize, codes: &[u16], time_us: u64) -> Result<Option<RobotMeaning>> {
         self.taxels(board)?;
-        let SteppedRobotBoard { name, stepped, reader } = &mut self.boards[board];
+        let VirtualRobotBoard { name, stepped, reader } = &mut self.boards[board];
         let mind = &mut self.mind;
         let mut news = None;
         stepped
