@@ -73,12 +73,16 @@ impl BoardSummary {
             ..BoardSummary::default()
         };
         let mut play = Play::open(recording)?;
-        let mut leading = Leading::None;
+        let (mut leading, mut has_image) = (Leading::None, false);
         while let Some((header, event)) = play.next_event()? {
             let us = header.log_time / crate::client::NS;
             let [first, last] = summary.time_us.unwrap_or([us; 2]);
             summary.time_us = Some([first.min(us), last.max(us)]);
-            summary.take(play.client(), &event, &mut leading);
+            // What precedes the first image of a file that continues another had begun before.
+            has_image |= matches!(event, Event::Frame { .. });
+            if has_image {
+                summary.take(play.client(), &event, &mut leading);
+            }
         }
         summary.tally = Tally::of(play.client().counts());
         summary.faulty_taxels = play.client().ill().len() as u64;

@@ -34,7 +34,6 @@ mod recording_files;
 mod robot_topic;
 mod ros2_messages;
 mod schemas;
-mod standing;
 mod tally;
 mod topics;
 

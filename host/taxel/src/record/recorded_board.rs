@@ -3,8 +3,7 @@
 use super::counters::Counters;
 use super::file::BoardPart;
 use super::provenance::Origin;
-use super::standing::Standing;
-use crate::client::Worn;
+use crate::client::{RetainedState, Worn};
 use std::time::Instant;
 
 /// What is recorded of a board.
@@ -25,7 +24,7 @@ pub struct RecordedBoard {
     /// When its chunk was ended last, so that a kill loses no more.
     pub kept: Instant,
     /// What a file that continues another begins with.
-    pub standing: Standing,
+    pub retained: RetainedState,
     /// What it wears, as its file describes it.
     pub worn: Option<Worn>,
     /// It has told its time.
@@ -47,7 +46,7 @@ impl RecordedBoard {
             is_real_time: true,
             counters: Counters::default(),
             kept: Instant::now(),
-            standing: Standing::default(),
+            retained: RetainedState::default(),
             worn: None,
             is_timed: false,
             key_us: 0,

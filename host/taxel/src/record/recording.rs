@@ -3,8 +3,7 @@
 use super::limit::Rotate;
 use super::recorded_board::RecordedBoard;
 use super::recording_files::RecordingFiles;
-use super::standing::Standing;
-use crate::client::{Client, Event, Stamp, time_of};
+use crate::client::{Client, Event, RetainedState, Stamp, time_of};
 use crate::error::Result;
 use crate::recording;
 use crate::tell::progress::Progress;
@@ -74,7 +73,7 @@ impl Recording {
     /// Adds an event. What is ready goes to the files.
     fn add(&self, board: &mut RecordedBoard, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let files = &self.files;
-        board.standing.take(client, event);
+        retain(&mut board.retained, client, event);
         board.is_timed |= time_of(client, event).is_some();
         self.rotate(board, client, event, stamp)?;
         board.counters.take(client, event, board.is_timed.then_some(stamp));
@@ -96,7 +95,7 @@ impl Recording {
         board.part.event(client, event, stamp, board.origin.counts_per_newton)?;
         if matches!(event, Event::Other { .. }) && files.rotates().is_some() {
             // A file is of one board: the `Hello` of this one follows.
-            (board.standing, board.worn) = (Standing::default(), None);
+            (board.retained, board.worn) = (RetainedState::default(), None);
             self.go_on(board)?;
         }
         match event {
@@ -127,12 +126,17 @@ impl Recording {
             }
         }
         self.go_on(board)?;
-        let hello = board.standing.hello().to_vec();
-        self.attach(board, &hello, stamp)?;
+        if let Some(hello) = board.retained.hello() {
+            self.attach(board, &hello, stamp)?;
+        }
         // The host's own events have no frame that these could precede.
         let Some(line) = client.lines().next() else { return Ok(()) };
-        for bytes in board.standing.frames(recording::sequence(line)?)? {
-            board.part.put(|messages| messages.wire(stamp, &bytes))?;
+        let lasting = board.retained.lasting();
+        // Numbered so that this event's follows them.
+        let first = recording::sequence(line)?.wrapping_sub(lasting.len() as u32);
+        for (frame, number) in lasting.iter().zip(0u32..) {
+            let frame = recording::renumbered(frame, first.wrapping_add(number))?;
+            board.part.put(|messages| messages.wire(stamp, &frame))?;
         }
         Ok(())
     }
@@ -150,5 +154,22 @@ impl Recording {
     fn attach(&self, board: &mut RecordedBoard, hello: &[u8], stamp: Stamp) -> Result<()> {
         let RecordedBoard { worn: Some(worn), origin, part, file, .. } = board else { return Ok(()) };
         self.files.attach(*file, part, |file, part| file.attach(part, worn, hello, origin, stamp))
+    }
+}
+
+/// Retains what an event's frames of the wire say that lasts. Those of most events say only what is now.
+fn retain(retained: &mut RetainedState, client: &Client, event: &Event) {
+    let is_of_now = matches!(
+        event,
+        Event::Frame { .. }
+            | Event::Raw { .. }
+            | Event::Contacts { .. }
+            | Event::Symbols(_)
+            | Event::Intent(_)
+            | Event::Pressing(_)
+            | Event::Folds(_)
+    );
+    if !is_of_now || client.lines().nth(1).is_some() {
+        client.lines().for_each(|line| retained.take_frame(line));
     }
 }

@@ -44,9 +44,9 @@ impl Saved for Cut {
                 piece.data.to_vec()
             }
         };
-        let (standing, next) = (reel.standing().frames(), sequence(&piece.data)?);
-        let first = next.wrapping_sub(standing.len() as u32);
-        for (bytes, number) in standing.iter().zip(0u32..) {
+        let (retained, next) = (reel.retained().frames(), sequence(&piece.data)?);
+        let first = next.wrapping_sub(retained.len() as u32);
+        for (bytes, number) in retained.iter().zip(0u32..) {
             copy.take(stamp(&piece), &renumbered(bytes, first.wrapping_add(number))?)?;
         }
         copy.take(stamp(&piece), &frame)?;

@@ -9,7 +9,6 @@
 //! |---|---|
 //! | `deck.rs` | time: position, speed, range, loop |
 //! | `reel.rs` | the recording, read from any image on |
-//! | `standing.rs` | state at a moment |
 //! | `survey.rs` | reads the recording once |
 //! | `told.rs` | the message of a piece of it |
 //! | `overview.rs` | summary for the timeline |
@@ -21,7 +20,6 @@ mod deck;
 mod overview;
 mod reel;
 mod screen;
-mod standing;
 mod survey;
 mod told;
 

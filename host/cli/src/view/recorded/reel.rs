@@ -1,11 +1,10 @@
 //! Reads a recording from any image on.
 
-use super::standing::Standing;
 use super::survey::{RecordedTime, Survey};
 use super::told::with_report;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, RetainedState};
 use taxel::recording::{ClipMessage, Clips, GapMark};
 use taxel_core::wire::Report;
 
@@ -16,7 +15,7 @@ const REACH: usize = 64;
 const FADE_US: u64 = 800_000;
 
 /// Topics with lasting state, except for maps of health, which come in parts.
-const LASTING: [&str; 8] = [
+const LASTING: [&str; 9] = [
     "/taxel/hello",
     "/taxel/contacts",
     "/taxel/symbols",
@@ -25,6 +24,7 @@ const LASTING: [&str; 8] = [
     "/taxel/budget",
     "/taxel/temperature",
     "/taxel/self_test",
+    "/taxel/regions",
 ];
 /// Most chunks to search backwards for maps of health.
 const MAPS: usize = 16;
@@ -142,8 +142,8 @@ impl Reel {
         let key = self.key_of(first);
         self.client = Client::new();
         self.glow.clear();
-        let standing = self.survey.known(key.chunk).unwrap_or_else(|| self.gathered(key.chunk));
-        for frame in standing.frames() {
+        let retained = self.survey.known(key.chunk).unwrap_or_else(|| self.gathered(key.chunk));
+        for frame in retained.frames() {
             self.push(&frame);
         }
         let mut last = None;
@@ -194,18 +194,18 @@ impl Reel {
     }
 
     /// State just before the current image.
-    pub fn standing(&mut self) -> Standing {
-        let Some(image) = self.shown else { return Standing::default() };
-        let mut standing = self.survey.standing(image.chunk);
+    pub fn retained(&mut self) -> RetainedState {
+        let Some(image) = self.shown else { return RetainedState::default() };
+        let mut retained = self.survey.retained(image.chunk);
         for piece in self.clip(image.chunk).iter().take(image.index) {
-            with_report(piece, |seq, report| _ = standing.take(seq, report, &piece.data));
+            with_report(piece, |seq, report| _ = retained.take(seq, report, &piece.data));
         }
-        standing
+        retained
     }
 
     /// State at the beginning of a chunk that the survey has not reached: the last message of each topic, by
     /// the file's index.
-    fn gathered(&mut self, end: usize) -> Standing {
+    fn gathered(&mut self, end: usize) -> RetainedState {
         let last = |topic| self.clips.with_topic(topic, end).next();
         let mut chunks: BTreeSet<usize> = LASTING.into_iter().filter_map(last).collect();
         chunks.extend(self.clips.with_topic("/taxel/health_map", end).take(MAPS));
@@ -213,14 +213,18 @@ impl Reel {
         chunks.extend(self.clips.with_topic("/taxel/intent", end).take(2));
         // A board reports its base of shapes after its hello.
         chunks.extend(last("/taxel/hello").map(|hello| hello + 1).filter(|next| *next < end));
-        let mut standing = self.survey.beginning();
+        // Names of regions precede the first list of regions after it.
+        let since = last("/taxel/hello").unwrap_or(0);
+        let lists = self.clips.with_topic("/taxel/regions", end);
+        chunks.extend(lists.take_while(|chunk| *chunk >= since).last());
+        let mut retained = self.survey.beginning();
         for chunk in chunks {
             for piece in self.clip(chunk).iter() {
-                with_report(piece, |seq, report| _ = standing.take(seq, report, &piece.data));
+                with_report(piece, |seq, report| _ = retained.take(seq, report, &piece.data));
             }
         }
         // Without an index, nothing is known before the survey.
-        if standing.is_empty() { self.survey.standing(end) } else { standing }
+        if retained.is_empty() { self.survey.retained(end) } else { retained }
     }
 
     /// Messages from the beginning of the chunk of `key` up to an image, without unneeded images.

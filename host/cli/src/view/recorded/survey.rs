@@ -1,7 +1,6 @@
 //! Reads a recording once, beside its player: for the overview, and so that any part of it can be shown.
 
 use super::overview::Overview;
-use super::standing::Standing;
 use super::told::with_report;
 use crate::view::hub::PageHub;
 use crate::view::line_kind::LineKind;
@@ -9,7 +8,7 @@ use crate::view::said::{EventLines, Said, gap};
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event};
+use taxel::client::{Client, Event, RetainedState};
 use taxel::recording::{ClipMessage, Clips, HELLO, lost};
 use taxel::source::shared::Shared;
 use taxel::tell::words;
@@ -22,12 +21,12 @@ const TOLD: Duration = Duration::from_millis(500);
 #[derive(Debug, Default)]
 pub struct Survey {
     found: Shared<Surveyed>,
-    beginning: Standing,
+    beginning: RetainedState,
 }
 
 #[derive(Debug, Default)]
 struct Surveyed {
-    standing: Vec<Standing>,
+    retained: Vec<RetainedState>,
     done: bool,
 }
 
@@ -45,11 +44,11 @@ impl Survey {
             clips,
             clock,
             overview: Overview::new(clock.duration()),
-            standing: beginning,
+            retained: beginning,
             client: Client::new(),
             lines: EventLines::new(scale),
         };
-        for frame in surveyor.standing.frames() {
+        for frame in surveyor.retained.frames() {
             surveyor.tell(0, &frame);
         }
         let found = survey.clone();
@@ -61,25 +60,25 @@ impl Survey {
     }
 
     /// State before the first message.
-    pub fn beginning(&self) -> Standing {
+    pub fn beginning(&self) -> RetainedState {
         self.beginning.clone()
     }
 
     /// State at the beginning of a chunk; none if it is not known yet.
-    pub fn known(&self, chunk: usize) -> Option<Standing> {
+    pub fn known(&self, chunk: usize) -> Option<RetainedState> {
         let found = self.found.lock();
-        found.standing.get(chunk).or(found.standing.last().filter(|_| found.done)).cloned()
+        found.retained.get(chunk).or(found.retained.last().filter(|_| found.done)).cloned()
     }
 
     /// State at the beginning of a chunk; waits until it is known.
-    pub fn standing(&self, chunk: usize) -> Standing {
+    pub fn retained(&self, chunk: usize) -> RetainedState {
         loop {
-            if let Some(standing) = self.known(chunk) {
-                return standing;
+            if let Some(retained) = self.known(chunk) {
+                return retained;
             }
             let found = self.found.lock();
             if found.done {
-                return found.standing.last().cloned().unwrap_or_default();
+                return found.retained.last().cloned().unwrap_or_default();
             }
             drop(self.found.wait(found, Duration::from_millis(50)));
         }
@@ -87,16 +86,16 @@ impl Survey {
 }
 
 /// State before the first message: the attached `Hello`, in case its chunk is lost.
-fn beginning(clips: &mut Clips) -> Standing {
+fn beginning(clips: &mut Clips) -> RetainedState {
     let first = (0..clips.places().len()).find_map(|chunk| clips.clip(chunk).ok()?.first().cloned());
-    let mut standing = Standing::default();
+    let mut retained = RetainedState::default();
     if let (Some(first), Some(hello)) = (first, clips.attached(HELLO))
         && let Some(frame) = lost(hello, &first.data)
     {
         let piece = ClipMessage { data: frame.into(), ..first };
-        with_report(&piece, |seq, report| _ = standing.take(seq, report, &piece.data));
+        with_report(&piece, |seq, report| _ = retained.take(seq, report, &piece.data));
     }
-    standing
+    retained
 }
 
 /// Converts log times to microseconds since the recording began.
@@ -129,7 +128,7 @@ struct Surveyor {
     clips: Clips,
     clock: RecordedTime,
     overview: Overview,
-    standing: Standing,
+    retained: RetainedState,
     client: Client,
     lines: EventLines,
 }
@@ -138,7 +137,7 @@ impl Surveyor {
     fn go(&mut self, survey: &Survey, hub: &PageHub) {
         let mut told = Instant::now();
         for chunk in 0..self.clips.places().len() {
-            survey.found.change(|found| found.standing.push(self.standing.clone()));
+            survey.found.change(|found| found.retained.push(self.retained.clone()));
             let at = self.clips.places().get(chunk).map_or(0, |place| self.clock.at(place.start));
             match self.clips.clip(chunk) {
                 Ok(clip) => clip.iter().for_each(|piece| self.take(piece)),
@@ -165,7 +164,7 @@ impl Surveyor {
         let message = wire::open(&mut bytes).ok();
         let read = message.and_then(|message| wire::decode::<(u32, Report<'_>)>(message).ok());
         let Some((seq, report)) = read else { return self.tell(at, &piece.data) };
-        let lost = self.standing.take(seq, &report, &piece.data);
+        let lost = self.retained.take(seq, &report, &piece.data);
         if lost > 0 {
             self.overview.say(at, gap(lost, None));
         }

@@ -2,5 +2,6 @@
 
 mod moments;
 mod pages;
+mod retained;
 mod saved;
 mod stage;
