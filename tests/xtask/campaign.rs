@@ -218,7 +218,6 @@ const RUNS: &[(&str, Run, &str)] = &[
         Run::Program("table::"),
         "every command without a board, with one that hangs, is busy or not permitted, is lost or another one, and with two: what is told, and when",
     ),
-    ("index", Run::Program("many_recordings"), "taxel index: 10,000 recordings of a second (simulated)"),
     (
         "fleet",
         Run::Beside(guests::RAY),

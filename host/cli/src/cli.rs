@@ -17,19 +17,15 @@ use crate::commands::garment::calibrate::{self, CalibrateArgs};
 use crate::commands::garment::config::{self, ConfigArgs};
 use crate::commands::garment::setup::{self, SetupArgs};
 use crate::commands::maps::{self, FcmArgs};
-#[cfg(not(all(feature = "foxglove", feature = "index", feature = "ros2", feature = "zenoh")))]
+#[cfg(not(all(feature = "foxglove", feature = "ros2", feature = "zenoh")))]
 use crate::commands::not_built;
 #[cfg(not(feature = "foxglove"))]
 use crate::commands::not_built::NotBuiltArgs as FoxgloveArgs;
-#[cfg(not(feature = "index"))]
-use crate::commands::not_built::NotBuiltArgs as IndexArgs;
 #[cfg(not(feature = "ros2"))]
 use crate::commands::not_built::NotBuiltArgs as Ros2Args;
 #[cfg(not(feature = "zenoh"))]
 use crate::commands::not_built::NotBuiltArgs as ServeArgs;
 use crate::commands::recordings::export::{self, ExportArgs};
-#[cfg(feature = "index")]
-use crate::commands::recordings::index::{self, IndexArgs};
 use crate::commands::recordings::info::{self, InfoArgs};
 use crate::commands::recordings::record::{self, RecordArgs};
 use crate::commands::recordings::report::{self, ReportArgs};
@@ -91,13 +87,9 @@ enum Command {
     /// Show a recording's contents; repair a damaged or truncated one
     #[command(after_help = INFO)]
     Info(InfoArgs),
-    /// Convert recordings to CSV, NumPy arrays, images or a LeRobot data set
+    /// Convert a recording to CSV, NumPy arrays or images
     #[command(after_help = EXPORT)]
     Export(ExportArgs),
-    /// Write a table of many recordings, for DuckDB, Polars and others
-    #[cfg_attr(not(feature = "index"), doc = "(needs a build with `--features index`)")]
-    #[command(after_help = INDEX)]
-    Index(IndexArgs),
     /// Write one page about a recording or a board
     #[command(after_help = REPORT)]
     Report(ReportArgs),
@@ -204,10 +196,6 @@ impl Cli {
             },
             Command::Info(args) => info::run(args),
             Command::Export(args) => export::run(args),
-            #[cfg(feature = "index")]
-            Command::Index(args) => index::run(&args),
-            #[cfg(not(feature = "index"))]
-            Command::Index(args) => not_built::index(&args),
             Command::Report(args) => report::run(args),
             Command::Process(args) => process::run(args),
             Command::Features(args) => features::run(args),

@@ -1,9 +1,8 @@
-"""The features of every recording of an index, on as many cores or machines as Ray has.
+"""The features of every recording of a folder, on as many cores or machines as Ray has.
 
-    taxel index recordings -o index.parquet
-    python fleet.py recordings index.parquet features.parquet                     # every core of this machine
-    python fleet.py recordings index.parquet features.parquet --address auto      # a cluster that sees that folder
-    python fleet.py recordings index.parquet features.parquet --one               # this process, without Ray
+    python fleet.py recordings features.parquet                     # every core of this machine
+    python fleet.py recordings features.parquet --address auto      # a cluster that sees that folder
+    python fleet.py recordings features.parquet --one               # this process, without Ray
 
 Needs polars and ray. A row a recording: its file, the panel that was pressed hardest, the pressure there (counts), and
 the 127 features of the second around that moment, by which gestures are recognised; or the error that came instead.
@@ -72,17 +71,14 @@ def by_ray(folder: str, pieces: list[list[str]], address: str | None, workers: i
 
 def main() -> None:
     told = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    told.add_argument("folder", help="folder that the index is of; each machine sees it by this path")
-    told.add_argument("index", help="table that `taxel index` wrote")
+    told.add_argument("folder", help="folder of the recordings; each machine sees it by this path")
     told.add_argument("output", help="table to write (.parquet)")
     told.add_argument("--address", help="a Ray cluster: auto, HOST:PORT, ray://HOST:PORT")
     told.add_argument("--workers", type=int, help="cores of this machine to use, without a cluster")
     told.add_argument("--one", action="store_true", help="no Ray: this process alone")
     args = told.parse_args()
-    # Boards of a robot share a file: `replay:FILE#BOARD` plays one of them.
-    index = pl.read_parquet(args.index).filter(pl.col("error").is_null() & pl.col("board").is_null())
-    files = sorted(index["file"])
     folder = str(Path(args.folder).resolve())
+    files = sorted(str(path.relative_to(folder)) for path in Path(folder).rglob("*.mcap"))
     pieces = [files[at : at + PIECE] for at in range(0, len(files), PIECE)]
     if args.one:
         found = [rows(folder, piece) for piece in pieces]

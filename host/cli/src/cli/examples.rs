@@ -73,18 +73,7 @@ pub(super) const INFO: &str = "Examples:
 pub(super) const EXPORT: &str = "Examples:
   taxel export touch.mcap --to npz -o touch.npz
   taxel export touch.mcap --to csv --touched -o touch.csv
-  taxel export touch.mcap --to png -o images
-  taxel export *.mcap --to lerobot --task \"pat the robot\" -o data";
-
-pub(super) const INDEX: &str = if cfg!(feature = "index") { TABLE } else { NO_INDEX };
-
-/// The example of a build without the feature.
-const NO_INDEX: &str = "Example, in the folder of taxel:
-  cargo run --release --features index -- index recordings -o index.parquet";
-
-const TABLE: &str = "Examples:
-  taxel index recordings -o index.parquet
-  duckdb -c \"select garment, sum(contacts) from 'index.parquet' group by garment\"";
+  taxel export touch.mcap --to png -o images";
 
 pub(super) const REPORT: &str = "Examples:
   taxel report touch.mcap -o report.html

@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// Headings, and the commands under each.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Look", &["live", "view", "ros2", "foxglove", "serve"]),
-    ("Record", &["record", "info", "export", "index", "report"]),
+    ("Record", &["record", "info", "export", "report"]),
     (
         "Set up",
         &[

@@ -17,12 +17,6 @@ pub fn foxglove(args: &NotBuiltArgs) -> Result<()> {
     refuse("Foxglove", "foxglove", "foxglove", args)
 }
 
-/// Stand-in for `taxel index`: returns the error that says how the command is built in.
-#[cfg(not(feature = "index"))]
-pub fn index(args: &NotBuiltArgs) -> Result<()> {
-    refuse("the index", "index", "index", args)
-}
-
 /// Stand-in for `taxel ros2`: returns the error that says how the command is built in.
 #[cfg(not(feature = "ros2"))]
 pub fn ros2(args: &NotBuiltArgs) -> Result<()> {

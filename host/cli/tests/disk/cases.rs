@@ -110,8 +110,6 @@ pub const CASES: &[Case] = &[
     case("export contacts", "export in.mcap --to csv --contacts -o out.csv", &[file("out.csv")]),
     case("export npz", "export in.mcap --to npz --every 10 -o out.npz", &[file("out.npz")]),
     case("export png", "export in.mcap --to png --every 40 -o images", &[folder("images")]),
-    case("export lerobot", "export in.mcap --to lerobot -o set", &[folder("set")]),
-    case("index", "index . -o out.parquet", &[file("out.parquet")]),
     case("report", "report in.mcap -o out.html", &[ends("out.html", "</html>\n")]),
     case("record", "record --source sim:press --seconds 2 -o out.mcap", &[recording("out.mcap")]),
     case("robot record", "record robot.toml --seconds 2 -o out.mcap", &[recording("out.mcap")]),

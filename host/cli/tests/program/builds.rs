@@ -42,24 +42,6 @@ fn a_build_without_zenoh_says_how_to_build_it() {
 }
 
 #[test]
-#[cfg(not(feature = "index"))]
-fn a_build_without_the_index_says_how_to_build_it() {
-    let output = taxel(&["index", "recordings", "-o", "index.parquet"]);
-    let error = String::from_utf8(output.stderr).unwrap();
-    let how = "`cargo run --release --features index -- index recordings -o index.parquet`";
-    assert!(output.status.code() == Some(2) && error.contains(how), "{error}");
-}
-
-#[test]
-#[cfg(not(feature = "lerobot"))]
-fn a_build_without_lerobot_says_how_to_build_it() {
-    let output = taxel(&["export", "no-such.mcap", "--to", "lerobot", "-o", "no-such-folder"]);
-    let error = String::from_utf8(output.stderr).unwrap();
-    let how = "`cargo run --release --features lerobot -- export ...`";
-    assert!(output.status.code() == Some(2) && error.contains(how), "{error}");
-}
-
-#[test]
 fn shells_complete_subcommands_and_options() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let output = taxel(&["completions", shell]);

@@ -8,14 +8,8 @@ use std::path::{Path, PathBuf};
 use taxel_cli::cli::Cli;
 
 /// Commands, formats and sources that need a feature, and the feature.
-const NEEDS: [(&str, &str); 6] = [
-    ("foxglove", "foxglove"),
-    ("index", "index"),
-    ("lerobot", "lerobot"),
-    ("ros2", "ros2"),
-    ("serve", "zenoh"),
-    ("zenoh:", "zenoh"),
-];
+const NEEDS: [(&str, &str); 4] =
+    [("foxglove", "foxglove"), ("ros2", "ros2"), ("serve", "zenoh"), ("zenoh:", "zenoh")];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

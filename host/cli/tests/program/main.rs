@@ -17,8 +17,6 @@ mod folded;
 mod foxglove;
 mod hostile;
 mod imageless;
-#[cfg(feature = "index")]
-mod index;
 mod inputs;
 mod joints;
 mod live;

@@ -2,9 +2,7 @@
 //! examples. `cargo xtask test` provides the interpreter with the readers (`TAXEL_PYTHON`).
 
 mod examples;
-mod index;
 mod killed;
-mod lerobot;
 mod scenes;
 #[path = "../commands/record/stage.rs"]
 mod stage;

@@ -1,6 +1,6 @@
 """Reads a recording with other people's readers and prints what was found as JSON.
 
-usage: read.py mcap FILE | ros2 FILE | rerun FILE | lerobot FOLDER | duckdb FILE | polars FILE
+usage: read.py mcap FILE | ros2 FILE | rerun FILE
 """
 
 import array
@@ -88,53 +88,6 @@ def depth(kind):
     return lists, str(kind)
 
 
-def flat(column):
-    """All numbers of a column of lists in lists."""
-    column = column.combine_chunks()
-    while hasattr(column.type, "value_type"):
-        column = column.flatten()
-    return column
-
-
-def read_lerobot(folder):
-    from pyarrow import parquet
-
-    folder = Path(folder)
-    info = json.loads((folder / "meta/info.json").read_text())
-    stats = json.loads((folder / "meta/stats.json").read_text())
-    episodes = parquet.read_table(folder / "meta/episodes/chunk-000/file-000.parquet").to_pylist()
-    tasks = parquet.read_table(folder / "meta/tasks.parquet")
-    panels, numbers = {}, {"index": [], "episode_index": [], "frame_index": [], "timestamp": []}
-    for episode in episodes:
-        place = {"chunk_index": episode["data/chunk_index"], "file_index": episode["data/file_index"]}
-        table = parquet.read_table(folder / info["data_path"].format(**place))
-        assert table.num_rows == episode["length"] == episode["dataset_to_index"] - episode["dataset_from_index"]
-        assert sorted(table.column_names) == sorted(info["features"])
-        for name, feature in info["features"].items():
-            column, shape = table[name], feature["shape"]
-            lists, kind = depth(column.type)
-            assert (lists, kind) == (0 if shape == [1] else len(shape), {"float32": "float"}.get(feature["dtype"], "int64"))
-            values, size = flat(column).to_pylist(), 1
-            for part in shape:
-                size *= part
-            assert len(values) == size * table.num_rows, name
-            if lists == 2:
-                row = column[0].as_py()
-                assert [len(row), len(row[0])] == shape
-                panels[name] = zlib.crc32(array.array("f", values).tobytes(), panels.get(name, 0))
-                least = stats[name]["min"]
-                assert [len(least), len(least[0])] == shape
-            if name in numbers:
-                numbers[name] += values
-    assert numbers["index"] == list(range(info["total_frames"]))
-    for frame, time in zip(numbers["frame_index"], numbers["timestamp"]):
-        # As near as 32 bits are.
-        assert abs(time - frame / info["fps"]) <= 1e-6 * (1 + time)
-    index = json.loads(tasks.schema.metadata[b"pandas"])["index_columns"]
-    lengths = [episode["length"] for episode in episodes]
-    return {"info": info, "panels": panels, "lengths": lengths, "tasks": tasks.to_pydict(), "index": index}
-
-
 def read_rerun(path):
     """What Rerun makes of a recording or of ROS 2's: messages in the order of their times, images as depth images."""
     from rerun.chunk import McapReader
@@ -161,36 +114,5 @@ def read_rerun(path):
     return {"counts": counts, "panels": panels, "images": images}
 
 
-def read_duckdb(path):
-    """What `taxel index` has written, by garment."""
-    import duckdb
-
-    query = """
-        select garment, count(*), coalesce(sum(frames), 0)::bigint, coalesce(sum(contacts), 0)::bigint,
-            coalesce(sum(attack), 0)::bigint, coalesce(sum(epoch_us("end") - epoch_us("start")), 0)::bigint,
-            epoch_us(min("start")), count(error)
-        from read_parquet(?) group by garment order by garment nulls first
-    """
-    return duckdb.execute(query, [path]).fetchall()
-
-
-def read_polars(path):
-    """The same."""
-    import polars as pl
-
-    us = lambda name: pl.col(name).dt.epoch("us")
-    columns = [
-        pl.len(),
-        pl.col("frames").sum(),
-        pl.col("contacts").sum(),
-        pl.col("attack").sum(),
-        (us("end") - us("start")).sum().alias("us"),
-        us("start").min(),
-        pl.col("error").count(),
-    ]
-    return pl.scan_parquet(path).group_by("garment").agg(columns).sort("garment").collect().rows()
-
-
-READERS = {"mcap": read_mcap, "ros2": read_ros2, "rerun": read_rerun, "lerobot": read_lerobot}
-READERS |= {"duckdb": read_duckdb, "polars": read_polars}
+READERS = {"mcap": read_mcap, "ros2": read_ros2, "rerun": read_rerun}
 print(json.dumps(READERS[sys.argv[1]](sys.argv[2])))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import importlib.util
 
+from .recorded import observations
 from .touch import Seen, Touch
 from .window import ROWS, Window, Windows
 from .wrap import Wrapped
 
-__all__ = ["ROWS", "Seen", "Touch", "Window", "Windows", "Wrapped"]
+__all__ = ["ROWS", "Seen", "Touch", "Window", "Windows", "Wrapped", "observations"]
 
 
 def _has_lerobot() -> bool:

@@ -16,7 +16,7 @@ import pytest
 import taxel
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from lerobot_robot_taxel import ROWS, Touch, Windows, Wrapped, schema  # noqa: E402
+from lerobot_robot_taxel import ROWS, Touch, Windows, Wrapped, observations, schema  # noqa: E402
 
 
 class Arm:
@@ -96,6 +96,20 @@ def test_every_image_of_the_board_is_in_a_window() -> None:
     assert [row[:2] for row in rows] == [(event.frame, event.time_us) for event in told]
     for (*_, values), event in zip(rows, told, strict=True):
         assert event.image is not None and np.array_equal(values, event.image)
+
+
+def test_a_recording_has_the_observations_of_its_images(tmp_path: Path) -> None:
+    file = tmp_path / "pat.mcap"
+    record = ["record", "--source", "sim:pat", "--seconds", "2", "-o", str(file)]
+    subprocess.run([sys.executable, "-m", "taxel", *record], check=True, capture_output=True)
+    recording = taxel.read(file)
+    seen = list(observations(recording, fps=30))
+    assert 58 <= len(seen) <= 60
+    images = [event for event in recording.frames() if event.image is not None]
+    told = [number for one in seen for number in one.window.frames[: one.window.images].tolist()]
+    assert told == [event.frame for event in images[: len(told)]] and len(images) - len(told) <= ROWS
+    assert max(one.felt["kindness"] for one in seen) > 0.5
+    assert set(schema.dataset_frame(seen[0])) == set(schema.dataset_features(ROWS, 2048, simulated=True))
 
 
 def test_rows_of_a_data_set_have_its_features() -> None:

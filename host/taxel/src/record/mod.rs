@@ -17,7 +17,6 @@
 mod angles;
 mod board_messages;
 mod board_recorder;
-mod board_summary;
 mod counters;
 mod file;
 mod limit;
@@ -40,7 +39,6 @@ mod topics;
 pub use angles::Angles;
 pub use board_messages::BoardMessages;
 pub use board_recorder::BoardRecorder;
-pub use board_summary::BoardSummary;
 pub use file::{BoardPart, RecordingFile};
 pub use limit::Rotate;
 pub use message::json_message;

@@ -35,7 +35,7 @@ fn recorder(origin: Origin, name: &str) -> Recorder {
 fn table(path: &Path, output: &str, counts: bool) -> Vec<Vec<String>> {
     let output = file(output);
     let force = Overwrite { force: true };
-    run(ExportArgs { counts, force, ..ExportArgs::of(vec![path.into()], Form::Csv, output.clone()) })
+    run(ExportArgs { counts, force, ..ExportArgs::of(path.to_path_buf(), Form::Csv, output.clone()) })
         .unwrap();
     let text = std::fs::read_to_string(output).unwrap();
     text.lines().skip(1).map(|line| line.split(',').map(String::from).collect()).collect()

@@ -14,7 +14,7 @@ fn exported(seen_as: &str, to: Form, output: &str, every: u64) -> (Seen, PathBuf
     let seen = record("sim:two-hands", plan(&name, "sim", None, false));
     let output = file(output);
     let every = NonZeroU64::new(every).unwrap();
-    let plain = ExportArgs::of(vec![file(&name)], to, output.clone());
+    let plain = ExportArgs::of(file(&name), to, output.clone());
     let table = to == Form::Csv;
     let counts = to != Form::Npz;
     run(ExportArgs { force: Overwrite { force: true }, touched: table, counts, every, ..plain }).unwrap();

@@ -4,7 +4,6 @@
 mod belonging;
 mod calibrated;
 mod exports;
-mod lerobot;
 mod replayed;
 mod report;
 mod rotate;

@@ -33,9 +33,6 @@ pub struct RecordedGarment {
     pub units: Units,
     /// Concepts of the scene's map.
     pub concepts: Vec<Name>,
-    /// True of a simulated board.
-    #[cfg(feature = "lerobot")]
-    pub simulated: bool,
     /// Calibration, as described by the board.
     calibration: String,
 }
@@ -140,14 +137,7 @@ impl<'a> Frames<'a> {
                 let units = scale.unwrap_or_else(|| Ok(Units::counts(&now.layout)))?;
                 let concepts = client.concepts().to_vec();
                 let (layout, calibration) = (now.layout.clone(), now.calibration.clone());
-                Ok(Some(Rc::new(RecordedGarment {
-                    layout,
-                    units,
-                    concepts,
-                    #[cfg(feature = "lerobot")]
-                    simulated: now.is_simulated(),
-                    calibration,
-                })))
+                Ok(Some(Rc::new(RecordedGarment { layout, units, concepts, calibration })))
             }
         }
     }

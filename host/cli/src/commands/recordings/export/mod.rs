@@ -5,7 +5,6 @@
 //! | `csv` | one row per taxel and frame: place, volts, pressure with unit, see `csv.rs`; with `--contacts` one per contact and frame, see `contacts.rs` |
 //! | `npz` | NumPy arrays: an array of frames for each panel, times, contacts, see `npz.rs` |
 //! | `png` | a folder with a 16-bit image for each frame, see `png.rs` |
-//! | `lerobot` | a folder with a data set for LeRobot, one episode per recording, see `lerobot/mod.rs`; needs the feature `lerobot` |
 //!
 //! Each export reads the recording image by image: memory does not grow with its length.
 
@@ -15,8 +14,6 @@ mod contacts;
 mod csv;
 mod entries;
 mod frames;
-#[cfg(feature = "lerobot")]
-mod lerobot;
 mod npy;
 mod npz;
 mod png;
@@ -24,8 +21,7 @@ mod units;
 
 pub use args::{ExportArgs, Form};
 
-use crate::fault::Fault;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use frames::Frames;
 use std::io::Write;
 use taxel::files::output::{Folder, Output};
@@ -34,19 +30,15 @@ use taxel::files::output::{Folder, Output};
 pub fn run(args: ExportArgs) -> Result<()> {
     args.check()?;
     // The others hold counts, and describe them in their own way.
-    let in_units = matches!(args.to, Form::Csv | Form::Lerobot) && !args.counts;
-    let frames = |recording| Frames::new(recording, args.every, !in_units);
-    let recordings = args.files.iter().map(frames).collect::<Result<Vec<_>>>()?;
-    let done = match (args.to, recordings.as_slice()) {
-        #[cfg(feature = "lerobot")]
-        (Form::Lerobot, all) => lerobot(all, &args),
-        (Form::Csv, [one, ..]) => csv(one, &args),
-        (Form::Npz, [one, ..]) => npz(one, &args),
-        (Form::Png, [one, ..]) => png(one, &args),
-        _ => bail!(Fault::usage("no recording was given")),
-    };
-    eprintln!("{}: {} frames", args.output.display(), done?);
-    for frames in recordings.iter().filter(|frames| !frames.skipped().is_none()) {
+    let in_units = args.to == Form::Csv && !args.counts;
+    let frames = Frames::new(&args.file, args.every, !in_units)?;
+    let count = match args.to {
+        Form::Csv => csv(&frames, &args),
+        Form::Npz => npz(&frames, &args),
+        Form::Png => png(&frames, &args),
+    }?;
+    eprintln!("{}: {count} frames", args.output.display());
+    if !frames.skipped().is_none() {
         eprintln!("{}: {}", frames.recording(), frames.skipped());
     }
     Ok(())
@@ -93,11 +85,4 @@ fn taxels(frames: &Frames<'_>, args: &ExportArgs, out: &mut impl Write) -> Resul
         eprintln!("Raw codes were recorded with {with_volts} of {count} frames: the others have no volts.");
     }
     Ok(count)
-}
-
-#[cfg(feature = "lerobot")]
-fn lerobot(recordings: &[Frames<'_>], args: &ExportArgs) -> Result<u64> {
-    let folder = Folder::begin(&args.output, args.force, args.inputs(), lerobot::is_ours)?;
-    lerobot::write(recordings, &lerobot::Choices { fps: args.fps, task: &args.task }, folder)
-        .with_context(|| to(args))
 }
