@@ -302,6 +302,17 @@ mod tests {
         }
     }
 
+    /// A session is driven by its own iterator, and by the one loop that follows boards.
+    #[test]
+    fn one_loop_follows_boards() {
+        let layers = Layers::read(&root().join("host/taxel/src"));
+        let calls =
+            |source: &String| ["session.turn(", "self.turn("].iter().any(|call| source.contains(call));
+        let callers = layers.sources.iter().filter(|(_, source)| calls(source));
+        let callers: Vec<String> = callers.map(|(module, _)| module.join("/")).collect();
+        assert_eq!(callers, ["robot/follow", "session"]);
+    }
+
     #[test]
     fn a_type_name_stands_for_one_thing() {
         let groups: [&[&str]; 6] = [

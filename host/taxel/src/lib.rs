@@ -102,6 +102,8 @@ pub mod learn;
 use session::Session;
 
 pub use error::{Error, Result};
+/// The core, whose types messages, garments and scenes have.
+pub use taxel_core;
 
 /// Opens a source by its name: a board (`auto`, `usb`, `serial:PATH`, `tcp:HOST:PORT`), a simulated one
 /// (`sim:pat`), a file or a recording (`replay:touch.mcap`).

@@ -10,13 +10,13 @@ pub fn taxel() -> &'static Path {
     Path::new(env!("CARGO_BIN_EXE_taxel"))
 }
 
-/// The example `intentions`. Cargo builds it for a whole test run, but not for one target: it is built here
-/// if it is missing or older than its sources.
-pub fn intentions() -> PathBuf {
+/// An example. Cargo builds it for a whole test run, but not for one target: it is built here if it is missing or
+/// older than its sources.
+pub fn example(name: &str) -> PathBuf {
     let folder = taxel().parent().unwrap();
-    let example = folder.join("examples/intentions").with_extension(std::env::consts::EXE_EXTENSION);
+    let example = folder.join("examples").join(name).with_extension(std::env::consts::EXE_EXTENSION);
     if changed(&example).is_none_or(|built| built < newest_source()) {
-        build(folder, &["--example", "intentions"]);
+        build(folder, &["--example", name]);
     }
     example
 }

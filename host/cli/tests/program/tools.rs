@@ -1,10 +1,10 @@
 //! Commands about a board, an example, and the documents for other programs, tested from outside.
 
-use crate::start::{intentions, root, taxel};
+use crate::start::{example, root, taxel};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpListener;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 use taxel::source::{self, SourceOptions};
@@ -169,12 +169,30 @@ fn after_ctrl_c_the_board_wears_what_it_wore() {
 
 #[test]
 fn the_example_prints_intentions() {
-    let output = Command::new(intentions()).arg("sim:pat").output().unwrap();
+    let output = Command::new(example("intentions")).arg("sim:pat").output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success() && text.contains("Kindness"), "{text}");
     let code = std::fs::read_to_string(root().join("host/taxel/examples/intentions.rs")).unwrap();
     let lines = code.lines().filter(|line| !line.is_empty() && !line.starts_with("//")).count();
     assert!(lines <= 20, "{lines} lines");
+}
+
+#[test]
+fn each_example_runs() {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("example.mcap");
+    let file = file.to_str().unwrap();
+    let rows: [(&str, &[&str], &str); 5] = [
+        ("observer", &["sim:pat", file], "3 contacts; "),
+        ("recording", &[file], ": image 20, at most "),
+        ("robot", &[], "right: Attack\n"),
+        ("virtual_board", &[], "150000 us: 1 contacts\n"),
+        ("map", &["press=0.8", "time=-0.9"], "press -> kindness\n"),
+    ];
+    for (name, words, told) in rows {
+        let output = Command::new(example(name)).args(words).output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && text.contains(told), "{name}: {text}");
+    }
 }
 
 fn bytes(hex: &str) -> Vec<u8> {
