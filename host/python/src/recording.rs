@@ -1,13 +1,15 @@
 //! Recordings: contents, events in written order, and the messages of any topic.
 
-use crate::error::raised;
+use crate::error::{argument, raised};
 use crate::event::{self, Fact, FactReader};
 use crate::value;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde_json::json;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use taxel::client::{Event, ImageNews};
 use taxel::record::Play;
 use taxel::recording::{BoardRecording, Messages, Overview};
 
@@ -62,6 +64,52 @@ impl Range {
     fn is_past(self, time: u64) -> bool {
         time > self.last.saturating_add(DISORDER_NS)
     }
+}
+
+/// Images by number: the board's times, us, the host's, ns, and the values by taxel.
+type Images<'py> = (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u64>>, Bound<'py, PyArray2<u16>>);
+
+/// The images of a range, or the raw codes. They are read into the memory of the array that is returned.
+#[pyfunction]
+pub fn images(py: Python<'_>, path: PathBuf, raw: bool, first: u64, last: u64) -> PyResult<Images<'_>> {
+    let range = Range { first, last };
+    let read = || -> anyhow::Result<_> {
+        let recording = BoardRecording::from(path);
+        recording.overview()?;
+        let mut play = Play::open(&recording)?;
+        let (mut times, mut hosts, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        while let Some((header, event)) = play.next_event()? {
+            if range.is_past(header.log_time) {
+                break;
+            }
+            let client = play.client();
+            let (time, image) = match event {
+                Event::Frame { time, image: ImageNews::Whole, .. } if !raw => {
+                    (time, client.image().map_or(&[][..], |(_, image)| image))
+                }
+                Event::Raw { time, whole: true, .. } if raw => (time, client.raw()),
+                _ => continue,
+            };
+            if !range.has(header.log_time) {
+                continue;
+            }
+            if values.len() != times.len() * image.len() {
+                return Err(
+                    argument("images of another size follow: ask for a stretch of one garment").into()
+                );
+            }
+            let host = client.host_time(time).map_or(header.log_time, |time| time.us.saturating_mul(1000));
+            times.push(time.0);
+            hosts.push(host);
+            values.extend_from_slice(image);
+        }
+        values.shrink_to_fit();
+        Ok((times, hosts, values))
+    };
+    let (times, hosts, values) = py.detach(read).map_err(raised)?;
+    let shape = [times.len(), values.len() / times.len().max(1)];
+    let values = PyArray1::from_vec(py, values).reshape(shape)?;
+    Ok((PyArray1::from_vec(py, times), PyArray1::from_vec(py, hosts), values))
 }
 
 /// Iterator over the events of a recording.

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import taxel
+from conftest import program
 from mcap.reader import make_reader
 
 
@@ -42,12 +46,19 @@ def test_events_are_the_recorded_messages(recording: Path) -> None:
     for frame, line in zip(frames, told["frames"], strict=True):
         assert (frame.frame, frame.time_us, frame.host_ns) == (
             line["frame"], line["time_us"], line["host_time_us"] * 1000)
-        for panel in line["panels"]:
-            assert frame.panels[panel["name"]].tolist() == panel["rows"]
-    for kind in ("contacts", "intent", "symbols"):
+        assert frame.image is not None and line["total"] == frame.image.sum()
+    for frame, image in zip(frames, mine.messages("/taxel/image"), strict=True):
+        assert np.hstack(list(frame.panels.values())).astype("<u2").tobytes() in image.data
+    for kind in ("intent", "symbols"):
         events = [event.to_dict() for event in mine if event.type == kind]
         lines = [{key: line[key] for key in event} for event, line in zip(events, told[kind], strict=True)]
         assert events == lines, kind
+    for touches, line in zip(mine.contacts(), told["contacts"], strict=True):
+        assert touches.frame == line["frame"] and len(touches.contacts) == len(line["contacts"])
+        for contact, written in zip(touches.contacts, line["contacts"], strict=True):
+            for key in written.keys() & contact.dtype.names:
+                about = isinstance(written[key], float)
+                assert contact[key] == (pytest.approx(written[key], abs=6e-4) if about else written[key]), key
 
 
 def test_a_stretch_of_time_is_an_array(recording: Path) -> None:
@@ -60,6 +71,28 @@ def test_a_stretch_of_time_is_an_array(recording: Path) -> None:
     assert len(list(mine.contacts(start=1.0, end=2.0))) < len(list(mine.contacts()))
     assert mine.duration_s == pytest.approx(4.0, abs=0.1)
     assert next(iter(mine.events())).type == "hello"
+
+
+MEMORY = """
+import sys, taxel
+def most():
+    with open("/proc/self/status", encoding="ascii") as file:
+        return next(int(line.split()[1]) * 1024 for line in file if line.startswith("VmHWM"))
+read = taxel.read(sys.argv[1])
+next(iter(read.frames()))
+before = most()
+print(read.images().values.nbytes, most() - before)
+"""
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="needs /proc")
+def test_images_take_the_memory_of_their_array(tmp_path: Path) -> None:
+    file = tmp_path / "five.mcap"
+    program("record", "--source", "sim:five", "--seconds", "60", "-o", str(file))
+    told = subprocess.run([sys.executable, "-c", MEMORY, str(file)], check=True, capture_output=True, text=True)
+    array, taken = map(int, told.stdout.split())
+    print(f"images of {array / 1e6:.0f} MB: resident memory grows by {taken / 1e6:.0f} MB")
+    assert array > 40e6 and taken < 1.1 * array
 
 
 def test_a_replay_is_the_recording(recording: Path) -> None:

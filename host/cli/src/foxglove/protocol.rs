@@ -7,7 +7,7 @@
 //! | 1 (u8), subscription (u32), time (u64, ns), data | server, binary, little-endian | a message of a channel |
 
 use serde_json::{Value, json};
-use taxel::record::{JsonTopic, TOPICS};
+use taxel::record::{IMAGE, JsonTopic, PROTOBUF, RAW_IMAGE, TOPICS, image_schema};
 
 /// Names of the protocol, the newer first; the messages used here are the same in both.
 pub const PROTOCOLS: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
@@ -41,7 +41,10 @@ pub fn wish(text: &str) -> Option<ClientWish> {
     }
 }
 
-/// Channel of a topic.
+/// Channel of images, behind those of JSON.
+pub const IMAGES: Channel = TOPICS.len() as Channel + 1;
+
+/// Channel of a topic with JSON messages.
 pub fn channel(topic: &str) -> Option<Channel> {
     (1..).zip(TOPICS).find(|(_, (name, _))| *name == topic).map(|(channel, _)| channel)
 }
@@ -65,8 +68,26 @@ pub fn advertise() -> String {
             "schema": schema, "schemaEncoding": "jsonschema",
         })
     };
-    let channels: Vec<_> = (1..).zip(TOPICS).map(channel).collect();
+    let mut channels: Vec<_> = (1..).zip(TOPICS).map(channel).collect();
+    channels.push(json!({
+        "id": IMAGES, "topic": IMAGE, "encoding": PROTOBUF, "schemaName": RAW_IMAGE,
+        "schema": base64(&image_schema()), "schemaEncoding": PROTOBUF,
+    }));
     json!({ "op": "advertise", "channels": channels }).to_string()
+}
+
+/// Bytes as text: the protocol is JSON.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::new();
+    for three in bytes.chunks(3) {
+        let bits = three.iter().chain([&0; 2]).take(3).fold(0, |bits, byte| bits << 8 | usize::from(*byte));
+        for digit in 0..4 {
+            let is_there = digit <= three.len();
+            text.push(if is_there { DIGITS[bits >> (18 - 6 * digit) & 63].into() } else { '=' });
+        }
+    }
+    text
 }
 
 /// Message about a slow client's losses.
@@ -107,6 +128,9 @@ mod tests {
             assert_eq!(wish(other), None, "{other}");
         }
         assert_eq!((channel("hello"), channel("contacts"), channel("x")), (Some(1), Some(3), None));
+        let texts = ["", "f", "fo", "foo", "foob"].map(|text| base64(text.as_bytes()));
+        assert_eq!(texts, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg=="]);
+        assert_eq!(base64(&[0xFB, 0xFF]), "+/8=");
         assert_eq!(data(2, 3, b"{}"), [1, 2, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, b'{', b'}']);
     }
 }

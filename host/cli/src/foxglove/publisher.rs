@@ -5,12 +5,9 @@ use super::protocol;
 use super::subscriber::ChannelMessage;
 use std::sync::Arc;
 use taxel::Result;
-use taxel::client::{Client, Event, Stamp};
+use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::record;
 use taxel::session::Observer;
-
-/// Topic of images, the only one that is costly to encode; skipped if nobody subscribes.
-const LARGE: &str = "frames";
 
 /// Sends everything to the clients of a hub.
 #[derive(Debug)]
@@ -27,14 +24,16 @@ impl Publisher {
 
 impl Observer for Publisher {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
-        let Some((topic, channel)) =
-            record::topic(event).and_then(|topic| Some((topic, protocol::channel(topic)?)))
-        else {
-            return Ok(());
-        };
-        if topic != LARGE || self.hub.wants(channel) {
+        let ns = stamp.host_ns();
+        if let Some(channel) = record::topic(event).and_then(protocol::channel) {
             let data = record::json_message(client, event, stamp)?;
-            self.hub.tell(ChannelMessage { channel, ns: stamp.host_ns(), data });
+            self.hub.tell(ChannelMessage { channel, ns, data });
+        }
+        // Images are long: not unless somebody wants them.
+        if matches!(event, Event::Frame { image: ImageNews::Whole, .. }) && self.hub.wants(protocol::IMAGES) {
+            let mut data = Vec::new();
+            record::append_image(client, stamp, &mut data);
+            self.hub.tell(ChannelMessage { channel: protocol::IMAGES, ns, data });
         }
         Ok(())
     }

@@ -20,7 +20,7 @@ pub struct ChannelMessage {
     pub channel: Channel,
     /// Host time, ns since 1970.
     pub ns: u64,
-    /// JSON.
+    /// JSON; of images, protobuf.
     pub data: Vec<u8>,
 }
 

@@ -6,7 +6,7 @@ use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
 use taxel::client::{Client, Event, Stamp};
-use taxel::json::message;
+use taxel::record::json_message;
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::foxglove::{FoxgloveHub, Publisher, channel, serve};
@@ -57,8 +57,7 @@ struct Both(Publisher, Vec<Value>);
 impl Observer for Both {
     fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> taxel::Result<()> {
         if let Event::Contacts { .. } = event {
-            // Parsed again, because the last digit of a number may differ.
-            self.1.push(serde_json::from_str(&message(client, event).to_string())?);
+            self.1.push(serde_json::from_slice(&json_message(client, event, stamp)?)?);
         }
         self.0.event(client, event, stamp)
     }
@@ -89,9 +88,18 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     assert_eq!((&contacts["encoding"], &contacts["schemaEncoding"]), (&json!("json"), &json!("jsonschema")));
     let schema: Value = serde_json::from_str(contacts["schema"].as_str().unwrap()).unwrap();
     assert!(schema["properties"]["contacts"]["items"]["properties"]["azimuth"].is_object());
+    let images = channels.iter().find(|channel| channel["topic"] == "/taxel/image").unwrap();
+    assert_eq!(
+        (&images["encoding"], &images["schemaName"]),
+        (&json!("protobuf"), &json!("foxglove.RawImage"))
+    );
 
     let mut slow = connected(port, "foxglove.websocket.v1").unwrap();
-    subscribe(&mut slow, &hub, 1, "frames");
+    let wish = json!({ "op": "subscribe", "subscriptions": [{ "id": 1, "channelId": images["id"] }] });
+    slow.send(Message::text(wish.to_string())).unwrap();
+    while !hub.wants(images["id"].as_u64().unwrap() as u32) {
+        std::thread::yield_now();
+    }
     subscribe(&mut one, &hub, 77, "contacts");
     one.send(Message::Ping(Bytes::from_static(b"still there?"))).unwrap();
     let seen = play(hub.clone());
@@ -101,8 +109,8 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
         match one.read().unwrap() {
             Message::Binary(bytes) => {
                 assert_eq!((bytes[0], &bytes[1..5]), (1, &77u32.to_le_bytes()[..]));
-                let mut value: Value = serde_json::from_slice(&bytes[13..]).unwrap();
-                let host = value.as_object_mut().unwrap().remove("host_time_us").unwrap().as_u64().unwrap();
+                let value: Value = serde_json::from_slice(&bytes[13..]).unwrap();
+                let host = value["host_time_us"].as_u64().unwrap();
                 assert_eq!(u64::from_le_bytes(bytes[5..13].try_into().unwrap()), host * 1000);
                 told.push(value);
             }
@@ -114,6 +122,10 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     assert!(answered);
     let backs = told.iter().flat_map(|said| said["contacts"].as_array().unwrap());
     assert!(backs.filter(|contact| contact["panel_name"] == "back").count() > 10);
+
+    // Behind the server's own words, an image of 64 x 32 taxels.
+    let shown = std::iter::from_fn(|| slow.read().ok()).find(Message::is_binary).unwrap().into_data();
+    assert!(shown.len() > 2 * 2048 && shown.windows(6).any(|name| name == b"mono16"), "{}", shown.len());
 
     let mut late = connected(port, "foxglove.websocket.v1").unwrap();
     let _ = (line(&mut late), line(&mut late));

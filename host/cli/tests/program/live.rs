@@ -131,7 +131,7 @@ fn recorded(scene: &str, frames: u64) -> Vec<u8> {
 /// Writes a recording whose board has sent these bytes.
 fn keep(path: &Path, bytes: &[u8]) {
     let mut writer = Writer::create(File::create(path).unwrap(), "").unwrap();
-    let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: "" };
+    let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: b"" };
     let channel = writer.channel(WIRE, &format).unwrap();
     writer.message(channel, 0, 0, bytes).unwrap();
     writer.finish().unwrap();

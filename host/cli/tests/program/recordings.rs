@@ -1,10 +1,11 @@
 //! `taxel info`, `report`, `live` and `export` on long, damaged and truncated recordings.
 
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use taxel::recording::chunk_indexes;
+use taxel::recording::{Messages, chunk_indexes, summary};
 
 fn taxel(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_taxel")).args(args).output().unwrap()
@@ -41,7 +42,10 @@ fn info(path: &Path, more: &[&str]) -> Value {
 
 /// A copy with a flipped bit in the n-th chunk's data.
 fn damaged(path: &Path, name: &str, chunk: usize) -> (PathBuf, u64) {
-    let place = &chunk_indexes(path).unwrap()[chunk];
+    let mut places = chunk_indexes(path).unwrap();
+    // Those of the wire, which is the first channel.
+    places.retain(|place| place.message_index_offsets.contains_key(&1));
+    let place = &places[chunk];
     let mut bytes = fs::read(path).unwrap();
     bytes[(place.chunk_start_offset + place.chunk_length) as usize - 40] ^= 1;
     let copy = file(name);
@@ -75,6 +79,32 @@ fn a_large_recording_is_summed_up_without_reading_it() {
     assert_eq!(info(&hollow, &[])["frames"], told["frames"]);
     let checked = info(&hollow, &["--check"]);
     assert_eq!((&checked["whole"], checked["damaged_chunks"].as_u64() > Some(15)), (&false.into(), true));
+}
+
+#[test]
+fn a_frame_of_five_contacts_takes_at_most_1400_bytes() {
+    // As long as the touches last.
+    let path = recorded("sizes.mcap", 2, false);
+    let channels = summary(&path).unwrap().unwrap().channels;
+    let (mut messages, mut counts, mut plain) =
+        (Messages::open(&path).unwrap(), BTreeMap::new(), BTreeMap::new());
+    while let Some(message) = messages.next_message().unwrap() {
+        let topic = &channels[&message.header.channel_id].topic;
+        *counts.entry(topic).or_insert(0) += 1;
+        *plain.entry(topic).or_insert(0) += message.data.len();
+    }
+    // A chunk is of the wire, of JSON or of images.
+    let mut packed = BTreeMap::new();
+    for chunk in chunk_indexes(&path).unwrap() {
+        let topics: Vec<_> = chunk.message_index_offsets.keys().map(|id| &channels[id].topic).collect();
+        let topic = ["/taxel/wire", "/taxel/image", "/taxel/contacts"].into_iter();
+        let topic = topic.into_iter().find(|topic| topics.iter().any(|it| it == topic)).unwrap_or("others");
+        *packed.entry(topic).or_insert(0) += chunk.compressed_size;
+    }
+    let frames = counts[&"/taxel/frames".to_string()];
+    let each = packed.values().sum::<u64>() / frames;
+    println!("{each} bytes a frame");
+    assert!(each <= 1400, "{each} bytes a frame of {frames}: packed {packed:?}, not packed {plain:?}");
 }
 
 #[test]

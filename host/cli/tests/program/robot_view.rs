@@ -170,7 +170,8 @@ fn with_a_time_it_ends_and_a_board_that_never_comes_is_an_error() {
 const TWO: &str = "name = \"two\"\n[[boards]]\nname = \"torso\"\nsource = \"sim:five\"\ngarment = \"reference\"\n\
     body = \"reference\"\n[[boards]]\nname = \"hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n";
 
-/// What a recording holds below these topics, by topic: the bytes of the wire, and the JSON without the host's times.
+/// What a recording holds below these topics, by topic: the bytes of the wire, and images and JSON without the host's
+/// times.
 pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
     let overview = Overview::of(path).unwrap();
     let topics = overview.channels.iter().map(|info| info.channel.topic.clone());
@@ -183,6 +184,10 @@ pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
                     Ok(mut line) => {
                         line.as_object_mut().unwrap().remove("host_time_us");
                         line.to_string().into_bytes()
+                    }
+                    // The time is the first field: its tag, its length, itself.
+                    Err(_) if topic.ends_with("/image") => {
+                        message.data[2 + usize::from(message.data[1])..].to_vec()
                     }
                     Err(_) => message.data.to_vec(),
                 };

@@ -20,20 +20,42 @@ def crc_of(values, before):
     return zlib.crc32(numbers.tobytes(), before)
 
 
+def shapes_of(hello):
+    """Name, rows and columns of each panel."""
+    return [(panel["name"], panel["rows"], panel["columns"]) for panel in json.loads(hello)["panels"]]
+
+
+def take_image(panels, shapes, data):
+    """An image of the panels side by side: carries each panel's CRC-32 on."""
+    step = 2 * sum(columns for _, _, columns in shapes)
+    assert len(data) == step * max(rows for _, rows, _ in shapes)
+    start = 0
+    for name, rows, columns in shapes:
+        values = b"".join(data[row * step + start :][: 2 * columns] for row in range(rows))
+        panels[name] = zlib.crc32(values, panels.get(name, 0))
+        start += 2 * columns
+
+
 def read_mcap(path):
-    panels, wire, counts = {}, 0, {}
+    from mcap_protobuf.decoder import DecoderFactory
+
+    panels, wire, counts, shapes, factory = {}, 0, {}, [], DecoderFactory()
     with open(path, "rb") as file:
         reader = make_reader(file, validate_crcs=True)
         summary = reader.get_summary()
         # In the order of the file: the board's messages are not in the order of the times of which they tell.
-        for _, channel, message in reader.iter_messages(log_time_order=False):
+        for schema, channel, message in reader.iter_messages(log_time_order=False):
             counts[channel.topic] = counts.get(channel.topic, 0) + 1
             if channel.topic == "/taxel/wire":
                 wire = zlib.crc32(message.data, wire)
-            if channel.topic == "/taxel/frames":
-                for panel in json.loads(message.data)["panels"]:
-                    values = [value for row in panel["rows"] for value in row]
-                    panels[panel["name"]] = crc_of(values, panels.get(panel["name"], 0))
+            if channel.topic == "/taxel/hello":
+                shapes = shapes_of(message.data)
+            if channel.topic == "/taxel/image":
+                image = factory.decoder_for(channel.message_encoding, schema)(message.data)
+                assert (image.encoding, image.step, image.frame_id) == ("mono16", 2 * image.width, "reference")
+                assert image.timestamp.ToNanoseconds() == message.log_time
+                assert len(image.data) == image.step * image.height
+                take_image(panels, shapes, image.data)
         attachments = {found.name: len(found.data) for found in reader.iter_attachments()}
         metadata = {found.name: found.metadata for found in reader.iter_metadata()}
     told = {summary.channels[id].topic: n for id, n in summary.statistics.channel_message_counts.items()}
@@ -89,13 +111,13 @@ def depth(kind):
 
 
 def read_rerun(path):
-    """What Rerun makes of a recording or of ROS 2's: messages in the order of their times, images as depth images."""
+    """What Rerun makes of a recording or of ROS 2's: messages in the order of their times, images as (depth) images."""
     from rerun.chunk import McapReader
 
     rows, images = {}, {}
     for chunk in McapReader(path).stream():
         name, batch = str(chunk.entity_path), chunk.to_record_batch()
-        for column in ("McapMessage:data", "DepthImage:buffer"):
+        for column in ("McapMessage:data", "Image:buffer", "DepthImage:buffer"):
             if column in batch.schema.names:
                 times = batch["message_log_time"].cast("int64").to_pylist()
                 values = [bytes(value[0]) for value in batch[column].to_pylist()]
@@ -106,11 +128,10 @@ def read_rerun(path):
         counts[name] = len(messages)
         if column == "DepthImage:buffer":
             images[name.split("/")[2]] = zlib.crc32(b"".join(data for _, data in messages))
-        elif name == "/taxel/frames":
+        elif column == "Image:buffer":
+            shapes = shapes_of(rows["/taxel/hello", "McapMessage:data"][0][1])
             for _, data in messages:
-                for panel in json.loads(data)["panels"]:
-                    values = [value for row in panel["rows"] for value in row]
-                    panels[panel["name"]] = crc_of(values, panels.get(panel["name"], 0))
+                take_image(panels, shapes, data)
     return {"counts": counts, "panels": panels, "images": images}
 
 

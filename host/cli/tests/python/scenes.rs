@@ -58,5 +58,5 @@ fn rerun_reads_a_scene_bit_for_bit() {
     assert_eq!(found["panels"], sums(&seen, |panel| panel.into()));
     let ros2 = read("rerun", &file("rerun.ros2.mcap"));
     assert_eq!(ros2["images"], sums(&seen, |panel| panel.replace(' ', "_")));
-    println!("Rerun's reader finds a recording's messages, and ROS 2's images as depth images, bit for bit");
+    println!("Rerun's reader finds a recording's images as images, and ROS 2's as depth images, bit for bit");
 }

@@ -108,15 +108,7 @@ class Recording:
 
     def images(self, *, start: float | None = None, end: float | None = None, raw: bool = False) -> Images:
         """The images of a stretch of time as one array, or the raw codes."""
-        times, hosts, values = [], [], []
-        for event in self._events(["raw" if raw else "frame"], start, end):
-            image = event.codes if isinstance(event, Raw) else cast(Frame, event).image
-            if image is not None:
-                times.append(event.time_us)
-                hosts.append(event.host_ns)
-                values.append(image)
-        stacked = np.stack(values) if values else np.empty((0, 0), np.uint16)
-        return Images(np.array(times, np.uint64), np.array(hosts, np.uint64), stacked)
+        return Images(*_taxel.images(self.path, raw, *self._range(start, end)))
 
     def messages(
         self, topic: str | None = None, *, start: float | None = None, end: float | None = None

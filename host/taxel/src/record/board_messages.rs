@@ -1,8 +1,9 @@
 //! The messages of a board, encoded where the chunks of a recording are filled.
 
 use super::message::{self, JointLine, JointsLine, LinkPoseLine, PosesLine, PostureLine};
+use super::raw_image;
 use super::topics::{self, RecordTopic, Topics};
-use crate::client::{Client, Event, Stamp};
+use crate::client::{Client, Event, ImageNews, Stamp};
 use crate::error::Result;
 use crate::recording::{Filler, FullChunk};
 use crate::session::JointPositions;
@@ -16,28 +17,30 @@ use taxel_core::wire::{self, Poses, Request};
 #[derive(Debug)]
 pub struct BoardMessages {
     topics: Topics,
-    filler: Filler,
+    /// The wire, JSON and images, each in chunks of its own: whoever reads one passes over the others, and like packs
+    /// best with like.
+    fillers: [Filler; 3],
 }
 
 impl BoardMessages {
     /// None yet, for these topics.
     pub fn new(topics: Topics) -> BoardMessages {
-        BoardMessages { topics, filler: Filler::default() }
+        BoardMessages { topics, fillers: Default::default() }
     }
 
     /// Ends the chunk: readers can seek to the next one.
     pub fn close(&mut self) {
-        self.filler.close();
+        self.fillers.iter_mut().for_each(Filler::close);
     }
 
     /// True if a chunk is filled.
     pub fn is_ready(&self) -> bool {
-        self.filler.is_ready()
+        self.fillers.iter().any(Filler::is_ready)
     }
 
-    /// Takes the chunks that are filled, to be [written](crate::recording::Writer::write).
+    /// Takes the chunks that are filled, those of the wire first, to be [written](crate::recording::Writer::write).
     pub fn take(&mut self) -> Vec<FullChunk> {
-        self.filler.take()
+        self.fillers.iter_mut().flat_map(Filler::take).collect()
     }
 
     /// Adds the frames of the wire of the client's last event.
@@ -50,10 +53,17 @@ impl BoardMessages {
         self.add_bytes(RecordTopic::Wire, stamp, frame)
     }
 
-    /// Adds an event as JSON, unless it is only on the wire.
+    /// Adds an event as JSON, unless it is only on the wire, and its image.
     pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
         let Some(topic) = topics::of(event) else { return Ok(()) };
-        self.add(RecordTopic::Json(topic), stamp, |out| message::append(client, event, stamp, out))
+        self.add(RecordTopic::Json(topic), stamp, |out| message::append(client, event, stamp, out))?;
+        if !matches!(event, Event::Frame { image: ImageNews::Whole, .. }) {
+            return Ok(());
+        }
+        self.add(RecordTopic::Image, stamp, |out| {
+            raw_image::append(client, stamp, out);
+            Ok(())
+        })
     }
 
     /// Adds frames of the wire to the board, and as JSON what they tell it of the robot's posture.
@@ -122,6 +132,13 @@ impl BoardMessages {
         data: impl FnOnce(&mut Vec<u8>) -> Result<()>,
     ) -> Result<()> {
         let Some(channel) = self.topics.channel(topic) else { return Ok(()) };
-        self.filler.message(channel, stamp.host_ns(), stamp.board_ns(), data)
+        let [wire, json, images] = &mut self.fillers;
+        let filler = match topic {
+            RecordTopic::Image => images,
+            // Gaps are between frames of the wire.
+            RecordTopic::Wire | RecordTopic::Requests | RecordTopic::Json("lost" | "back") => wire,
+            RecordTopic::Json(_) => json,
+        };
+        filler.message(channel, stamp.host_ns(), stamp.board_ns(), data)
     }
 }

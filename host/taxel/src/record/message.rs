@@ -1,8 +1,9 @@
 //! Events as JSON messages.
 
-use super::panel_image::{self, PanelImage, PanelValues};
+use super::contacts_message::ContactsMessage;
 use crate::client::{Client, Event, ImageNews, Stamp};
 use crate::error::Result;
+use crate::json::lines::JsonLine;
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;
 use crate::json::{self, HostTimed, HostTimes};
@@ -18,28 +19,22 @@ pub fn json_message(client: &Client, event: &Event, stamp: Stamp) -> Result<Vec<
 
 /// Appends an event as JSON with its times.
 pub fn append(client: &Client, event: &Event, stamp: Stamp, out: &mut Vec<u8>) -> Result<()> {
-    let Event::Frame { frame, alone, image, .. } = event else {
-        return append_line(json::line(client, event), stamp, out);
-    };
-    let decoded = *image == ImageNews::Whole;
-    let panels = if decoded { panels(client) } else { Vec::new() };
-    let frame = FrameMessage {
-        frame: *frame,
-        time_us: stamp.board_us,
-        times: times(stamp),
-        key: *alone,
-        decoded,
-        lost: client.counts().lost,
-        thinned: client.counts().thinned,
-        total: panels.iter().map(|panel| panel.total).sum(),
-        panels: Vec::new(),
-    };
-    serde_json::to_writer(&mut *out, &frame)?;
-    // The panels are the last key: their text goes before the ends of the list and of the message.
-    out.truncate(out.len() - 2);
-    panel_image::append(out, &panels)?;
-    out.extend_from_slice(b"]}");
-    Ok(())
+    if let Event::Frame { frame, alone, image, .. } = event {
+        let image = client.image().filter(|_| *image == ImageNews::Whole);
+        let frame = FrameMessage {
+            frame: *frame,
+            time_us: stamp.board_us,
+            key: *alone,
+            lost: client.counts().lost,
+            thinned: client.counts().thinned,
+            total: image.map(|(_, values)| values.iter().map(|value| u32::from(*value)).sum()),
+        };
+        return append_line(frame, stamp, out);
+    }
+    match json::line(client, event) {
+        Some(JsonLine::Contacts(line)) => append_line(ContactsMessage::of(line), stamp, out),
+        line => append_line(line, stamp, out),
+    }
 }
 
 /// Appends a message with the host's time.
@@ -51,31 +46,25 @@ fn times(stamp: Stamp) -> HostTimes {
     HostTimes { host_time_us: stamp.host_us, host_time_uncertainty_us: stamp.uncertainty_us }
 }
 
-/// A frame with the pressure of every taxel; contacts and intention have their own topics.
-#[derive(Debug, Serialize)]
+/// A frame; its image, its contacts and the intention have their own topics.
+#[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("frame")))]
 #[serde(tag = "type", rename = "frame")]
-pub struct FrameMessage<'a> {
+pub struct FrameMessage {
     /// Number of the scan.
     frame: u32,
     /// Start of the scan, us of the board.
     time_us: u64,
-    /// The host's time, and the bound of its error.
-    #[serde(flatten)]
-    times: HostTimes,
     /// True for a key frame, which is decoded without the frames before it.
     key: bool,
-    /// True if the image could be decoded.
-    decoded: bool,
     /// Messages lost so far.
     lost: u64,
     /// Images left out so far, because the link had no room.
     thinned: u64,
-    /// Sum over the garment, counts.
-    total: u32,
-    /// The panels; empty if the image could not be decoded.
-    panels: Vec<PanelImage<'a>>,
+    /// Sum over the garment, counts; absent if the image could not be decoded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    total: Option<u32>,
 }
 
 /// A posture sent to the board.
@@ -134,16 +123,4 @@ pub struct LinkPoseLine<'a> {
     pub at_m: [f64; 3],
     /// Its rotation, a quaternion x, y, z, w.
     pub turn: [f64; 4],
-}
-
-/// Panels of the last image.
-fn panels(client: &Client) -> Vec<PanelValues<'_>> {
-    let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
-    let each = layout.areas().iter().map(|area| {
-        let start = usize::from(area.base);
-        let columns = usize::from(area.columns);
-        let values = image.get(start..start + usize::from(area.rows) * columns).unwrap_or(&[]);
-        PanelValues::new(area.name.as_str(), area.columns, values)
-    });
-    each.collect()
 }

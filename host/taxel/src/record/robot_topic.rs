@@ -13,7 +13,12 @@ impl RobotTopic {
     /// Declares `/taxel/NAME`, whose messages are JSON of this schema.
     pub(super) fn open<S: Store>(writer: &mut Writer<S>, name: &str, schema: &str) -> Result<RobotTopic> {
         let title = format!("taxel.{name}");
-        let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text: schema };
+        let format = Format {
+            encoding: "json",
+            schema: &title,
+            schema_encoding: "jsonschema",
+            text: schema.as_bytes(),
+        };
         Ok(RobotTopic(writer.channel(&format!("/taxel/{name}"), &format)?))
     }
 

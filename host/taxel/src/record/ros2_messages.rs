@@ -48,7 +48,8 @@ impl<S: Store> Ros2File<S> {
             let id = match self.ids.get(&topic) {
                 Some(id) => *id,
                 None => {
-                    let format = Format { encoding: "cdr", schema, schema_encoding: "ros2msg", text };
+                    let format =
+                        Format { encoding: "cdr", schema, schema_encoding: "ros2msg", text: text.as_bytes() };
                     let id = self.writer.channel(&topic, &format)?;
                     self.ids.insert(topic, id);
                     id

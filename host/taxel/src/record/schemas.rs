@@ -39,11 +39,12 @@ pub const JSON: [JsonTopic; 21] = [
 /// as they are.
 #[cfg(feature = "schema")]
 pub fn derived() -> [[serde_json::Value; 2]; 21] {
+    use super::contacts_message::ContactsMessage;
     use super::message::{FrameMessage, JointsLine, PosesLine, PostureLine};
     use crate::json::HostTimed;
     use crate::json::lines::{
-        BackLine, BudgetLine, ContactsLine, GestureLine, HealthLine, HealthMapLine, HelloLine, IntentLine,
-        LogLine, LostLine, OtherLine, PressingLine, ReactionLine, RegionsLine, SelfTestLine, SymbolsLine,
+        BackLine, BudgetLine, GestureLine, HealthLine, HealthMapLine, HelloLine, IntentLine, LogLine,
+        LostLine, OtherLine, PressingLine, ReactionLine, RegionsLine, SelfTestLine, SymbolsLine,
         TemperatureLine,
     };
     use crate::json::schema::{of, plain};
@@ -62,8 +63,8 @@ pub fn derived() -> [[serde_json::Value; 2]; 21] {
     }
     [
         timed::<HelloLine<'static>>(),
-        both::<FrameMessage<'static>>(),
-        timed::<ContactsLine<'static>>(),
+        timed::<FrameMessage>(),
+        timed::<ContactsMessage<'static>>(),
         timed::<SymbolsLine<'static>>(),
         timed::<IntentLine>(),
         timed::<ReactionLine<'static>>(),

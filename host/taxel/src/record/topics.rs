@@ -1,13 +1,17 @@
 //! Topics of a recording, and which events go to which.
 
+use super::raw_image::{PROTOBUF, RAW_IMAGE, schema};
 use super::schemas::JSON;
 use crate::client::Event;
 use crate::error::Result;
 use crate::recording::{Format, Store, WIRE, Writer, of_board};
+use serde_json::Value;
 
 /// Frames of the wire to the board.
 pub const REQUESTS: &str = "/taxel/requests";
-/// Encoding of both, described in `taxel_core::wire`.
+/// Images.
+pub const IMAGE: &str = "/taxel/image";
+/// Encoding of the wire, described in `taxel_core::wire`.
 const WIRE_ENCODING: &str = "taxel-wire";
 
 /// Where a message goes.
@@ -17,6 +21,8 @@ pub enum RecordTopic {
     Wire,
     /// Frames of the wire to the board.
     Requests,
+    /// Images.
+    Image,
     /// The JSON topic of this name.
     Json(&'static str),
 }
@@ -27,23 +33,34 @@ pub struct Topics {
     /// Channel of [`WIRE`].
     pub wire: u16,
     requests: u16,
+    image: u16,
     json: Vec<(&'static str, u16)>,
 }
 
 impl Topics {
     /// Declares the channels in a file: those of its only board, or of this one of a robot.
     pub fn open<S: Store>(writer: &mut Writer<S>, board: Option<&str>) -> Result<Topics> {
-        let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: "" };
+        let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: b"" };
         let (wire, requests) = (of_board(board, WIRE), of_board(board, REQUESTS));
         let (wire, requests) = (writer.channel(&wire, &plain)?, writer.channel(&requests, &plain)?);
+        let raw =
+            Format { encoding: PROTOBUF, schema: RAW_IMAGE, schema_encoding: PROTOBUF, text: &schema() };
+        let image = writer.channel(&of_board(board, IMAGE), &raw)?;
         let mut json = Vec::new();
         for (name, text) in JSON {
+            // Without the spaces of the file.
+            let text = serde_json::from_str::<Value>(text)?.to_string();
             let title = format!("taxel.{name}");
-            let format = Format { encoding: "json", schema: &title, schema_encoding: "jsonschema", text };
+            let format = Format {
+                encoding: "json",
+                schema: &title,
+                schema_encoding: "jsonschema",
+                text: text.as_bytes(),
+            };
             let topic = of_board(board, &format!("/taxel/{name}"));
             json.push((name, writer.channel(&topic, &format)?));
         }
-        Ok(Topics { wire, requests, json })
+        Ok(Topics { wire, requests, image, json })
     }
 
     /// The channel of a message.
@@ -51,6 +68,7 @@ impl Topics {
         match topic {
             RecordTopic::Wire => Some(self.wire),
             RecordTopic::Requests => Some(self.requests),
+            RecordTopic::Image => Some(self.image),
             RecordTopic::Json(name) => self.json.iter().find(|(known, _)| *known == name).map(|(_, id)| *id),
         }
     }

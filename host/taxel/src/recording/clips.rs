@@ -26,7 +26,7 @@ pub struct ChunkPlace {
     pub start: u64,
     /// Log time of its last message.
     pub end: u64,
-    /// Channels with messages in it, by its index.
+    /// Channels with messages in it, and in those without the topic behind it, by their index.
     channels: Vec<u16>,
 }
 
@@ -56,8 +56,8 @@ pub struct Clips {
 }
 
 impl Clips {
-    /// Opens the recording of a board; only its messages of this topic are read, and of a robot's file only the
-    /// chunks that hold any. Bodies of chunks are skipped, so this takes little time.
+    /// Opens the recording of a board; only its messages of this topic are read, and only the chunks that hold
+    /// any. Bodies of chunks are skipped, so this takes little time.
     pub fn open(recording: &BoardRecording, topic: &'static str) -> Result<Clips> {
         let mut clips = Clips {
             records: Records::open(&recording.path)?,
@@ -134,14 +134,21 @@ impl Clips {
         }
     }
 
-    /// Leaves out chunks of a robot's other boards, and brings the rest into order of time.
+    /// Leaves out chunks without the topic, whose channels count as those of the chunk before: they were written
+    /// together. Brings the rest into order of time.
     fn arrange(&mut self) {
-        if self.recording.board.is_some() {
-            let topic = self.recording.topic(self.topic);
-            // A channel that is not declared yet may be of this topic.
-            let may_be = |id: &u16| self.channels.get(id).is_none_or(|channel| channel.topic == topic);
-            self.places.retain(|place| place.channels.iter().any(may_be));
+        let topic = self.recording.topic(self.topic);
+        // A channel that is not declared yet may be of this topic, and a chunk without an index may hold any.
+        let may_be = |id: &u16| self.channels.get(id).is_none_or(|channel| channel.topic == topic);
+        let mut places: Vec<ChunkPlace> = Vec::new();
+        for place in std::mem::take(&mut self.places) {
+            match places.last_mut() {
+                _ if place.channels.is_empty() || place.channels.iter().any(may_be) => places.push(place),
+                Some(before) => before.channels.extend(place.channels),
+                None => {}
+            }
         }
+        self.places = places;
         let mut before = 0;
         for place in &mut self.places {
             // If a clock was set back, a chunk still begins no earlier than the one before it.

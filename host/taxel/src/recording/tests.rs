@@ -48,7 +48,7 @@ impl Store for &mut Disk {
 }
 
 const JSON: Format<'_> =
-    Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: "{\"type\":\"object\"}" };
+    Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: b"{\"type\":\"object\"}" };
 
 /// Writes three chunks of four messages. Returns the first error and the result of the end.
 fn write(disk: &mut Disk) -> Result<(Option<Error>, Result<u64>)> {

@@ -29,10 +29,10 @@ pub struct Format<'a> {
     pub encoding: &'a str,
     /// Name of the schema; empty if there is none.
     pub schema: &'a str,
-    /// Encoding of the schema: `jsonschema`, `ros2msg`.
+    /// Encoding of the schema: `jsonschema`, `ros2msg`, `protobuf`.
     pub schema_encoding: &'a str,
     /// The schema.
-    pub text: &'a str,
+    pub text: &'a [u8],
 }
 
 /// A recording being written.
@@ -117,8 +117,8 @@ impl<S: Store> Writer<S> {
         }
         let id = self.contents.schemas.len() as u16 + 1;
         let header = SchemaHeader { id, name: format.schema.into(), encoding: format.schema_encoding.into() };
-        append(out, op::SCHEMA, &header, &sized(format.text.as_bytes()))?;
-        self.contents.schemas.insert(id, (header, format.text.as_bytes().to_vec()));
+        append(out, op::SCHEMA, &header, &sized(format.text))?;
+        self.contents.schemas.insert(id, (header, format.text.to_vec()));
         Ok(id)
     }
 

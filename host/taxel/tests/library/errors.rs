@@ -50,7 +50,7 @@ fn failed<T>(result: Result<T, Error>) -> Error {
 fn recording(folder: &Folder) -> PathBuf {
     let path = folder.0.join("whole.mcap");
     let mut writer = Writer::create(File::create_new(&path).unwrap(), "").unwrap();
-    let format = Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: "{}" };
+    let format = Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: b"{}" };
     let channel = writer.channel("/a", &format).unwrap();
     (0..4).for_each(|time| writer.message(channel, time, time, &[b'x'; 50]).unwrap());
     writer.finish().unwrap();

@@ -26,7 +26,7 @@ fn they_are_recorded_with_the_event_that_they_belong_to() {
         .collect();
     let said = file("belonging-said.mcap");
     let mut writer = Writer::create(File::create(&said).unwrap(), "").unwrap();
-    let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: "" };
+    let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: b"" };
     let channel = writer.channel(WIRE, &format).unwrap();
     writer.message(channel, 0, 0, &[hello, &more].concat()).unwrap();
     writer.finish().unwrap();

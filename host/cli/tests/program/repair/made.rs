@@ -33,7 +33,7 @@ impl Drop for Scratch {
 pub fn recording() -> Vec<u8> {
     let scratch = Scratch::new(b"");
     let mut writer = Writer::create(File::create(&scratch.0).unwrap(), "").unwrap();
-    let format = Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: "{}" };
+    let format = Format { encoding: "json", schema: "a", schema_encoding: "jsonschema", text: b"{}" };
     let channels = ["/a", "/b"].map(|topic| writer.channel(topic, &format).unwrap());
     writer.attach("words.txt", "text/plain", b"hello", 1).unwrap();
     writer.metadata("m", [("k".to_string(), "v".to_string())].into()).unwrap();

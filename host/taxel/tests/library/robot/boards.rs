@@ -111,7 +111,7 @@ fn what_is_not_the_stream_of_the_board_fails_and_says_why() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let keep = |name: &str, bytes: &[u8]| {
         let mut writer = Writer::create(File::create(folder.join(name)).unwrap(), "").unwrap();
-        let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: "" };
+        let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: b"" };
         let channel = writer.channel(WIRE, &format).unwrap();
         writer.message(channel, 0, 0, bytes).unwrap();
         writer.finish().unwrap();
