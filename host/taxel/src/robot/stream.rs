@@ -26,12 +26,13 @@ const STACK: usize = 8 << 20;
 /// use std::time::Duration;
 /// use taxel::client::Event;
 /// use taxel::robot::{BoardEvent, ReadRobot, RobotStream, WhenFull};
+/// use taxel::session::RunLimit;
 /// use taxel::source::SourceOptions;
 ///
 /// let text = "name = \"two\"\n[[boards]]\nname = \"left\"\nsource = \"sim:pat\"\n\
 ///             [[boards]]\nname = \"right\"\nsource = \"sim:pat\"\n";
 /// let read = ReadRobot::parse("two.toml".into(), text.into(), Path::new("."))?;
-/// let plans = read.plans(&SourceOptions::default(), None);
+/// let plans = read.plans(&SourceOptions::default(), &RunLimit::of(None, None));
 /// let mut robot = RobotStream::start(plans, WhenFull::Wait, |_, queue| {
 ///     queue.make(|client, event, _| {
 ///         matches!(event, Event::Contacts { .. }).then(|| client.contacts().len())
