@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 #: Numbers of the reports that hold an image or raw codes, of the first one, and of contacts.
-IMAGES = (1, 10)
+IMAGES = (21, 22)
 HELLO = 0
-CONTACTS = 2
+CONTACTS = 8
 
 
 @dataclass(frozen=True)
