@@ -282,14 +282,15 @@ impl Client {
     /// Handles the message of an intact frame. No event, if it belongs to the next one.
     fn read(&mut self, message: &[u8]) -> Result<Option<Event>, WireError> {
         let (seq, rest) = postcard::take_from_bytes::<u32>(message).map_err(|_| WireError::Message)?;
-        if self.counts.sequence(seq) {
-            self.stepped_back();
-        }
         let (number, body) = postcard::take_from_bytes::<u32>(rest).map_err(|_| WireError::Message)?;
         if self.life.reopened && number != Report::HELLO {
-            // Another board may be at the link now: what it says belongs to nothing.
+            // Another board may be at the link now: what it says belongs to nothing. If it is the same one, these
+            // messages count as lost, because nobody gets them.
             self.line.clear();
             return Ok(None);
+        }
+        if self.counts.sequence(seq) {
+            self.stepped_back();
         }
         // A report is moved with the room of the longest one, 8 KiB. Images, the most frequent, are read without.
         if number == Report::FRAME {

@@ -4,12 +4,13 @@ use super::restored::{garment, told, until};
 use super::rig::{Rig, source};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use taxel::client::Event;
+use taxel::client::{Client, Event};
 use taxel::error::{Error, ErrorKind, SourceError};
 use taxel::session::{Returns, Session};
-use taxel_core::format::Code;
-use taxel_core::garment::Pins;
-use taxel_core::wire::Request;
+use taxel_core::format::{Celsius, Code, Micros};
+use taxel_core::garment::{Garment, Pins};
+use taxel_core::scene::Scene;
+use taxel_core::wire::{Hello, MAGIC, PROTOCOL, Report, Request, Temperature, encode};
 
 const TARE: Request<'_> = Request::Tare { frames: 8 };
 
@@ -159,4 +160,37 @@ fn a_tare_that_a_touched_board_refuses_when_it_is_back_ends_nothing() {
     let text = told(&mut session, "is back after");
     assert!(text.ends_with("; set again: start; no new tare: something touches the garment"), "{text}");
     until(&mut session, |event| matches!(event, Event::Frame { .. }));
+}
+
+#[test]
+fn messages_before_a_returned_board_is_known_count_as_lost() {
+    let (garment, scene, clock) = (
+        postcard::to_allocvec(&Garment::block()).unwrap(),
+        postcard::to_allocvec(&Scene::shipped()).unwrap(),
+        postcard::to_allocvec(&Micros(5)).unwrap(),
+    );
+    let hello = Report::Hello(Hello {
+        magic: MAGIC,
+        protocol: PROTOCOL,
+        garment: &garment,
+        firmware: b"taxel",
+        clock: &clock,
+        scene: &scene,
+        calibration: b"",
+        chip: b"",
+        boot: None,
+    });
+    let warm = Report::Temperature(Temperature { time: Micros(9), celsius: Celsius(2_500) });
+    let mut client = Client::new();
+    let say = |client: &mut Client, seq: u32, report: &Report<'_>| {
+        let mut room = vec![0; 8192];
+        let frame = encode(&(seq, report), &mut room).unwrap();
+        frame.iter().filter_map(|byte| client.push(*byte)).count()
+    };
+    assert_eq!(say(&mut client, 0, &hello) + say(&mut client, 1, &warm), 2);
+    client.reconnected();
+    // Nobody gets it: it may be another board's.
+    assert_eq!(say(&mut client, 5, &warm), 0);
+    assert_eq!(say(&mut client, 6, &hello) + say(&mut client, 7, &warm), 2);
+    assert_eq!((client.counts().lost, client.counts().restarts), (4, 0));
 }
