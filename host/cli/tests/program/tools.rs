@@ -6,6 +6,7 @@ use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::LazyLock;
 use std::time::Duration;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::watch::raw::RawBoard;
@@ -31,9 +32,14 @@ pub fn refused(status: i32, args: &[&str]) -> String {
 
 /// Path of a new file of these tests.
 pub fn file(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tools");
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(name);
+    // Without the files of an earlier run: a schema of then would not be replaced.
+    static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("tools");
+        _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        folder
+    });
+    let path = FOLDER.join(name);
     let _ = std::fs::remove_file(&path);
     path
 }
