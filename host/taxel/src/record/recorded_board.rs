@@ -1,4 +1,4 @@
-//! What is recorded of a board.
+//! A board's part of a recording.
 
 use super::counters::Counters;
 use super::file::BoardPart;
@@ -6,32 +6,32 @@ use super::provenance::Origin;
 use crate::client::{RetainedState, Worn};
 use std::time::Instant;
 
-/// What is recorded of a board.
+/// State of a board's part of a recording.
 #[derive(Debug)]
 pub struct RecordedBoard {
-    /// Its number.
+    /// Number of the board.
     pub board: usize,
     /// Number of the file in which its messages are.
     pub file: u32,
-    /// Its messages that are not written yet.
+    /// Messages that are not written yet.
     pub part: BoardPart,
-    /// Where its stream comes from.
+    /// Origin of its stream.
     pub origin: Origin,
-    /// It runs in real time, as all others do that do so.
+    /// True of a board in real time: it goes on to the next file with the others.
     pub is_real_time: bool,
-    /// What has been recorded so far.
+    /// Counters over all files.
     pub counters: Counters,
-    /// When its chunk was ended last, so that a kill loses no more.
+    /// Time of the last end of a chunk: a kill loses no more.
     pub kept: Instant,
-    /// What a file that continues another begins with.
+    /// Beginning of a file that continues another.
     pub retained: RetainedState,
-    /// What it wears, as its file describes it.
+    /// Garment and scene, as its file describes them.
     pub worn: Option<Worn>,
-    /// It has told its time.
+    /// True once it has told its time.
     pub is_timed: bool,
-    /// Its time since the file began at the last key frame, us.
+    /// Time since the file began at the last key frame, us of the board.
     pub key_us: u64,
-    /// Its time at the start of the chunk, us.
+    /// Start of the chunk, us of the board.
     pub chunk_us: u64,
 }
 

@@ -138,7 +138,9 @@ impl RecordingFiles {
             next.present[board.board] = true;
             board.file = next.number;
             if let Some(part) = next.parts[board.board].take() {
-                board.part = part;
+                let mut before = std::mem::replace(&mut board.part, part);
+                // Of a file that has ended while the board was away: all files have the same channels.
+                next.file.write(&mut before)?;
             }
         }
         state.end_left()
