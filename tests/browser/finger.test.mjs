@@ -94,7 +94,7 @@ test("a stroke keeps the force of a short press, and grows once it rests", () =>
     finger.next(now);
     if (now > 60) assert.ok(Math.abs(finger.force - 8) < 1e-9, `${finger.force} N after ${now} ms`);
   }
-  assert.ok(Math.abs(finger.speed(now) - 170) < 20, `${finger.speed(now)} mm/s`);
+  assert.ok(Math.abs(finger.speed(now - FRAME) - 170) < 1, `${finger.speed(now - FRAME)} mm/s`);
   for (const end = now + 3000; now < end; now += FRAME) finger.next(now);
   assert.equal(finger.force, 60);
 });
@@ -128,6 +128,19 @@ test("a first small step of the pointer is no lash", () => {
   finger.next(0);
   finger.move([7.7, 11], 1);
   finger.next(1);
+  assert.equal(finger.lashed, false);
+});
+
+test("a page that stood still has seen no lash", () => {
+  const finger = press(STRAP);
+  let [row, now] = [11, 0];
+  for (const frame of [...Array(8).fill(FRAME), 150, ...Array(8).fill(FRAME)]) {
+    now += frame;
+    row += 17 * (frame / 1000);
+    finger.move([7.5, row], now);
+    finger.next(now);
+    assert.ok(finger.speed(now) < 190, `${finger.speed(now)} mm/s after ${now} ms`);
+  }
   assert.equal(finger.lashed, false);
 });
 

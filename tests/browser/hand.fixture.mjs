@@ -59,7 +59,7 @@ export async function watch(browser, act) {
     look();
   })()`);
   await act();
-  await rest(browser);
+  await felt(browser, "touches.length === 0 && seen.some(({ contacts }) => contacts.length)");
   return browser.value("(cancelAnimationFrame(looking), seen)");
 }
 
@@ -67,16 +67,27 @@ export async function watch(browser, act) {
 export const choose = (browser, tool) =>
   browser.value(`[...document.querySelectorAll("#tools button")].find((button) => button.textContent === "${tool}").click()`);
 
-/** Drags from one place of a panel to another in so many ms, and lifts. */
+/**
+ * Drags from one place of a panel to another in so many ms, and lifts. The pointer goes by the page's own frames, so that
+ * it is as fast as wanted on a busy machine, too. Resolves to how long it took, ms.
+ */
 export async function drag(browser, panel, from, to, ms) {
   const [start, end] = [await onPanel(browser, panel, from), await onPanel(browser, panel, to)];
-  const at = (share) => start.map((part, axis) => part + share * (end[axis] - part));
   await browser.pointer(...start);
-  const began = performance.now();
   await browser.pointer(...start, "mousePressed");
-  for (let share = 0; share < 1; ) {
-    share = Math.min(1, (performance.now() - began) / ms);
-    await browser.pointer(...at(share));
-  }
+  const took = await browser.value(`new Promise((resolve) => {
+    const [start, end] = ${JSON.stringify([start, end])};
+    let began = null;
+    const step = (now) => {
+      began ??= now;
+      const share = Math.min(1, (now - began) / ${ms});
+      const [clientX, clientY] = start.map((part, axis) => part + share * (end[axis] - part));
+      dispatchEvent(new PointerEvent("pointermove", { pointerId: 1, pointerType: "mouse", clientX, clientY }));
+      if (share < 1) requestAnimationFrame(step);
+      else resolve(now - began);
+    };
+    requestAnimationFrame(step);
+  })`);
   await browser.pointer(...end, "mouseReleased");
+  return took;
 }

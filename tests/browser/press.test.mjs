@@ -103,9 +103,14 @@ test("from one panel to the next it is another touch", async () => {
 test("a flick of the strap is a lash: an attack", async () => {
   const { browser } = both;
   await choose(browser, "strap");
-  const seen = await watch(browser, () => drag(browser, BACK, [7.5, 8], [7.5, 22], 50));
+  // A busy machine draws a flick out: that is a stroke, and the hand tries again.
+  let [seen, took, tries] = [[], Infinity, 0];
+  for (; took > 75; tries += 1) {
+    assert.ok(tries < 20, `the last flick took ${took} ms`);
+    seen = await watch(browser, async () => (took = await drag(browser, BACK, [7.5, 8], [7.5, 22], 50)));
+  }
   const greatest = Math.max(...seen.flatMap(({ contacts }) => contacts.map(({ peak_total: total }) => total)));
-  // A busy machine draws the flick out; it is still three times a rested strap. `pure.test.mjs` has the law itself.
+  // Three times a rested strap. `pure.test.mjs` has the law itself.
   assert.ok(greatest > 25 * NEWTON, `${greatest / NEWTON} N`);
   await browser.until("taxel.store.marks.some(([, kind, said]) => kind === 'intention' && said.includes('attack'))");
 });

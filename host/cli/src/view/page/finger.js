@@ -45,7 +45,7 @@ export class Finger {
     this.pressure = null;
     /** @type {number | null} when the pointer lifted */
     this.lifted = null;
-    /** @type {{ time: number, mm: number }[]} the last steps */
+    /** @type {{ from: number, time: number, mm: number }[]} the last steps */
     this.steps = [];
     this.told = "";
   }
@@ -58,7 +58,9 @@ export class Finger {
   move(at, now) {
     const mm = Math.hypot((at[0] - this.at[0]) * this.panel.mm[0], (at[1] - this.at[1]) * this.panel.mm[1]);
     this.at = at;
-    this.steps.push({ time: now, mm });
+    // Since the frame or the step before: a page that stood still has seen no lash.
+    const from = Math.max(this.seen, this.steps.at(-1)?.time ?? this.pressed);
+    this.steps.push({ from, time: now, mm });
   }
 
   /** @param {number} now ms */
@@ -71,8 +73,11 @@ export class Finger {
    * @param {number} now ms
    */
   speed(now) {
-    this.steps = this.steps.filter(({ time }) => time > now - SPAN_MS);
-    const way = this.steps.reduce((sum, { mm }) => sum + mm, 0);
+    const began = now - SPAN_MS;
+    this.steps = this.steps.filter(({ time }) => time > began);
+    const part = (/** @type {number} */ from, /** @type {number} */ time) =>
+      from < began ? (time - began) / (time - from) : 1;
+    const way = this.steps.reduce((sum, { from, time, mm }) => sum + mm * part(from, time), 0);
     return (1000 * way) / Math.max(LEAST_MS, Math.min(SPAN_MS, now - this.pressed));
   }
 
