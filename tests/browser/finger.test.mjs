@@ -144,6 +144,29 @@ test("a page that stood still has seen no lash", () => {
   assert.equal(finger.lashed, false);
 });
 
+test("a page of few frames sees a stroke as a stroke", () => {
+  const finger = press();
+  finger.next(0);
+  // Each step is 10 ms behind its frame, or 10 ms before the next.
+  for (let [row, now] = [11, 0]; now < 3000; now += 100) {
+    row += 1.7;
+    finger.move([7.5, row], now + (now % 200 ? 10 : 90));
+    finger.next(now + 100);
+    assert.equal(finger.force, 8, `${finger.force} N after ${now} ms`);
+  }
+});
+
+test("a flick that lifts before the next frame has lashed", () => {
+  const flick = press(STRAP);
+  flick.next(0);
+  for (let now = 10; now <= 50; now += 10) flick.move([7.5, 11 + 0.28 * now], now);
+  flick.lift(52);
+  assert.equal(flick.isOver(130), false);
+  assert.deepEqual(flick.next(130).press.at, [7.5, 25]);
+  assert.ok(flick.lashed && flick.force > 20, `${flick.force} N`);
+  assert.equal(flick.isOver(150), true);
+});
+
 const canvas = (left, top, width, height) => ({ getBoundingClientRect: () => ({ left, top, width, height }) });
 
 test("a point of the page is a place on a panel, and the way back leads there", () => {

@@ -41,6 +41,8 @@ export class Finger {
     this.rested = 0;
     this.force = 0;
     this.lashed = false;
+    /** Whether it has moved since the program was told. */
+    this.moved = false;
     /** @type {number | null} pressure of a pen, 0 to 1 */
     this.pressure = null;
     /** @type {number | null} when the pointer lifted */
@@ -58,9 +60,10 @@ export class Finger {
   move(at, now) {
     const mm = Math.hypot((at[0] - this.at[0]) * this.panel.mm[0], (at[1] - this.at[1]) * this.panel.mm[1]);
     this.at = at;
+    this.moved = true;
     // Since the frame or the step before: a page that stood still has seen no lash.
     const from = Math.max(this.seen, this.steps.at(-1)?.time ?? this.pressed);
-    this.steps.push({ from, time: now, mm });
+    this.steps.push({ from, time: Math.max(now, from), mm });
   }
 
   /** @param {number} now ms */
@@ -69,24 +72,24 @@ export class Finger {
   }
 
   /**
-   * Speed over the last moments, mm/s.
+   * Speed over the last moments, or since the last frame if that is longer ago, mm/s.
    * @param {number} now ms
    */
   speed(now) {
-    const began = now - SPAN_MS;
-    this.steps = this.steps.filter(({ time }) => time > began);
+    const began = Math.min(now - SPAN_MS, this.seen);
+    this.steps = this.steps.filter(({ time }) => time >= began);
     const part = (/** @type {number} */ from, /** @type {number} */ time) =>
       from < began ? (time - began) / (time - from) : 1;
     const way = this.steps.reduce((sum, { from, time, mm }) => sum + mm * part(from, time), 0);
-    return (1000 * way) / Math.max(LEAST_MS, Math.min(SPAN_MS, now - this.pressed));
+    return (1000 * way) / Math.max(LEAST_MS, now - Math.max(began, this.pressed));
   }
 
   /**
-   * True once it is to be released: a short tap lasts longer than its pointer is down.
+   * True once it is to be released: a short tap lasts longer than its pointer is down, and the program is told each move.
    * @param {number} now ms
    */
   isOver(now) {
-    return this.lifted !== null && now - this.pressed >= (this.lashed ? LASH_MS : TAP_MS);
+    return this.lifted !== null && !this.moved && now - this.pressed >= (this.lashed ? LASH_MS : TAP_MS);
   }
 
   /**
@@ -98,6 +101,7 @@ export class Finger {
     const speed = this.speed(now);
     if (speed < REST_MM_S) this.rested += now - this.seen;
     this.seen = now;
+    this.moved = false;
     this.lashed ||= lashes(this.tool, speed);
     const { rested, pressure, tool, factor, panel, at, number, angle } = this;
     this.force = forceOf(tool, factor, { age: now - this.pressed + AHEAD_MS, rested, speed, pressure });
