@@ -11,7 +11,7 @@ use taxel::record::{Origin, Plan, PlannedBoard, Recorder};
 use taxel::session::Observer;
 use taxel::sim;
 use taxel::source::{self, SourceOptions, SourceSpec, Speed};
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{WatchOptions, watch};
 use taxel_core::capacity::{PARTS, RUNS, TAXELS};
 use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
@@ -185,7 +185,7 @@ fn record(spec: SourceSpec, path: PathBuf, ros2: bool) -> Result<()> {
 fn play(spec: SourceSpec, observer: &mut dyn Observer) -> Result<()> {
     let seconds = matches!(spec, SourceSpec::Sim(_)).then_some(SECONDS);
     let source = source::open(&spec, &SourceOptions { repeat: true, ..SourceOptions::default() })?;
-    watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, observer)
+    watch(&WatchOptions { seconds, ..WatchOptions::of(spec) }, source, observer)
 }
 
 /// Time (us) and values of each image.

@@ -3,8 +3,15 @@
 use anyhow::Result;
 use clap_complete::{Shell, generate};
 
-/// Arguments of `taxel completions`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel completions bash > ~/.local/share/bash-completion/completions/taxel
+  taxel completions zsh > ~/.zfunc/_taxel
+  taxel completions fish > ~/.config/fish/completions/taxel.fish";
+
+/// Print the completions of this command line for a shell
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct CompletionsArgs {
     /// The shell
     pub shell: Shell,

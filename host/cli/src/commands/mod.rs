@@ -5,10 +5,7 @@ pub mod body;
 pub mod frames;
 pub mod garment;
 pub mod maps;
-#[cfg(not(all(feature = "foxglove", feature = "ros2", feature = "zenoh")))]
-pub mod not_built;
 pub mod recordings;
-pub mod robot;
 pub mod shapes;
 pub mod touches;
 pub mod views;

@@ -73,7 +73,7 @@ impl Head {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::watch::{LiveArgs, watch};
+    use crate::watch::{WatchOptions, watch};
     use taxel::client::Event;
     use taxel::client::Stamp;
     use taxel::session::Observer;
@@ -109,7 +109,7 @@ mod tests {
         let source = open(&spec, &SourceOptions::default()).unwrap();
         let counts_per_newton = source.counts_per_newton;
         let mut first = FirstTouch { counts_per_newton, ..FirstTouch::default() };
-        watch(&LiveArgs::of(spec), source, &mut first).unwrap();
+        watch(&WatchOptions::of(spec), source, &mut first).unwrap();
         assert_eq!(first.ended, Some(first.most));
         assert!(first.most > 5.0, "{} N", first.most);
     }

@@ -114,7 +114,7 @@ fn bar(name: &str, value: Q15, colour: Rgb, space: Rect, buffer: &mut Buffer) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::watch::{LiveArgs, watch};
+    use crate::watch::{WatchOptions, watch};
     use taxel::client::Event;
     use taxel::client::Stamp;
     use taxel::session::Observer;
@@ -144,7 +144,7 @@ mod tests {
     fn the_bars_are_those_of_the_moment_at_which_the_heading_led() {
         let (spec, mut bars) = ("sim:pat".parse::<taxel::source::SourceSpec>().unwrap(), Bars::default());
         let source = open(&spec, &SourceOptions::default()).unwrap();
-        watch(&LiveArgs::of(spec), source, &mut bars).unwrap();
+        watch(&WatchOptions::of(spec), source, &mut bars).unwrap();
         assert!(bars.0.iter().any(|[_, told]| told == "0.00"), "announced a moment longer: {:?}", bars.0);
         assert!(bars.0.iter().all(|[bar, _]| !bar.ends_with("0.00")), "{:?}", bars.0);
     }

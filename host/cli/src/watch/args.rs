@@ -1,6 +1,5 @@
 //! Arguments of `taxel live`, and those shared by every command that configures a board before it watches it.
 
-use super::TaxelPlace;
 use crate::fault::Fault;
 use anyhow::{Result, bail};
 use clap::Args;
@@ -137,61 +136,6 @@ impl BoardArgs {
         let Some((robot, body)) = self.robot.as_ref().zip(self.config.body.as_ref()) else { return Ok(None) };
         let motion = self.motion.unwrap_or_default();
         Ok(Some(Posing::open(body, robot, motion, self.poses.unwrap_or(POSES_HZ))?))
-    }
-}
-
-/// Arguments of `taxel live`.
-#[derive(Debug, Clone, Args)]
-pub struct LiveArgs {
-    /// The board.
-    #[command(flatten)]
-    pub board: BoardArgs,
-    /// Stop after N images
-    #[arg(long, value_name = "N")]
-    pub frames: Option<u64>,
-    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal
-    /// repeats it]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
-    pub seconds: Option<f64>,
-    /// Print messages as JSON, one per line
-    #[arg(long)]
-    pub json: bool,
-    /// With --json: also print the pressure of every taxel
-    #[arg(long, requires = "json")]
-    pub pixels: bool,
-    /// Print one taxel's time, code and pressure, frame by frame
-    #[arg(long, value_name = "PANEL,ROW,COL")]
-    pub taxel: Option<TaxelPlace>,
-    /// The board may refuse the body, and reports of what presses on it: whoever watches can do without.
-    #[arg(skip)]
-    pub body_may_fail: bool,
-    /// Whoever watches tells remarks itself; else they are printed to the standard error.
-    #[arg(skip)]
-    pub tells_remarks: bool,
-    /// Pace simulations and recordings to real time
-    #[arg(long)]
-    pub realtime: bool,
-}
-
-impl LiveArgs {
-    /// Everything from a source, with all options at their defaults.
-    pub fn of(source: SourceSpec) -> LiveArgs {
-        LiveArgs::on(BoardArgs::of(source))
-    }
-
-    /// Everything from a board, without limits.
-    pub fn on(board: BoardArgs) -> LiveArgs {
-        LiveArgs {
-            board,
-            frames: None,
-            seconds: None,
-            json: false,
-            pixels: false,
-            taxel: None,
-            body_may_fail: false,
-            tells_remarks: false,
-            realtime: false,
-        }
     }
 }
 

@@ -113,7 +113,7 @@ impl Basis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::watch::{LiveArgs, watch};
+    use crate::watch::{WatchOptions, watch};
     use taxel::client::Event;
     use taxel::client::Stamp;
     use taxel::session::Observer;
@@ -138,7 +138,7 @@ mod tests {
         let spec: SourceSpec = script.parse().unwrap();
         let source = open(&spec, &SourceOptions::default()).unwrap();
         let mut ear = Ear(source.counts_per_newton.filter(|_| newtons), Vec::new());
-        watch(&LiveArgs::of(spec), source, &mut ear).unwrap();
+        watch(&WatchOptions::of(spec), source, &mut ear).unwrap();
         ear.1
     }
 

@@ -1,16 +1,52 @@
 //! Follows a board until it ends, or until the requested amount has come.
 
-use super::{LiveArgs, stop};
+use super::{BoardArgs, stop};
 use anyhow::Result;
 use std::time::Duration;
 use taxel::client::{Client, Event, Stamp, request_name};
 use taxel::robot::{BoardPlan, Required, Supervisor, follow_alone};
 use taxel::session::{JointStates, Observer, PATIENCE, Returns, RunLimit};
-use taxel::source::Source;
+use taxel::source::{Source, SourceSpec};
 use taxel_core::wire::Request;
 
+/// A board to be watched.
+#[derive(Debug, Clone)]
+pub struct WatchOptions {
+    /// The board.
+    pub board: BoardArgs,
+    /// Images after which it ends.
+    pub frames: Option<u64>,
+    /// Seconds of the board's time after which it ends.
+    pub seconds: Option<f64>,
+    /// Its raw codes are requested; an image counts once its codes have come.
+    pub codes: bool,
+    /// The board may refuse the body, and reports of what presses on it: the observer can do without.
+    pub body_may_fail: bool,
+    /// Remarks are printed to the standard error.
+    pub prints_remarks: bool,
+}
+
+impl WatchOptions {
+    /// Everything from a source, with all options at their defaults.
+    pub fn of(source: SourceSpec) -> WatchOptions {
+        WatchOptions::on(BoardArgs::of(source))
+    }
+
+    /// Everything from a board, without limits.
+    pub fn on(board: BoardArgs) -> WatchOptions {
+        WatchOptions {
+            board,
+            frames: None,
+            seconds: None,
+            codes: false,
+            body_may_fail: false,
+            prints_remarks: true,
+        }
+    }
+}
+
 /// Hands an open source to an observer until it ends, or until the requested amount has come.
-pub fn watch(args: &LiveArgs, source: Source, observer: &mut dyn Observer) -> Result<()> {
+pub fn watch(args: &WatchOptions, source: Source, observer: &mut dyn Observer) -> Result<()> {
     if !source.listens {
         args.board.check_recorded(&source.label)?;
     }
@@ -18,7 +54,7 @@ pub fn watch(args: &LiveArgs, source: Source, observer: &mut dyn Observer) -> Re
     let mut joints = args.board.joint_states.as_deref().map(JointStates::open).transpose()?;
     let posing = args.board.posing()?;
     let mut limit = run_limit(args.frames, args.seconds);
-    if args.taxel.is_some() {
+    if args.codes {
         limit = limit.with_codes();
     }
     let returns = match (args.board.once, limit.is_any()) {
@@ -28,7 +64,7 @@ pub fn watch(args: &LiveArgs, source: Source, observer: &mut dyn Observer) -> Re
     };
     let (name, listens) = (source.label.clone(), source.listens);
     let (is_tared, may_fail, codes) =
-        (args.board.config.tare.is_some(), args.body_may_fail, args.taxel.is_some() && listens);
+        (args.board.config.tare.is_some(), args.body_may_fail, args.codes && listens);
     let identity = (!board.is_dressed).then(|| board.identity());
     let mut source = Some(source);
     let plan = BoardPlan {
@@ -62,7 +98,7 @@ pub fn watch(args: &LiveArgs, source: Source, observer: &mut dyn Observer) -> Re
     let mut all: Vec<&mut dyn Observer> = Vec::new();
     all.extend(joints.iter_mut().map(|joints| joints as &mut dyn Observer));
     all.push(observer);
-    if !args.tells_remarks {
+    if args.prints_remarks {
         all.push(&mut remarks);
     }
     if let Some(remark) = follow_alone(plan, &mut all, &mut UntilStopped)? {

@@ -10,11 +10,15 @@ mod overwrite;
 mod place;
 pub mod rate;
 pub mod raw;
+mod requests;
+mod robot;
 pub mod shape;
 pub mod stop;
 
-pub use args::{BoardArgs, LiveArgs, seconds};
+pub use args::{BoardArgs, seconds};
 pub use felt::{Basis, Felt};
-pub use follow::{Remarks, run_limit, watch};
+pub use follow::{Remarks, WatchOptions, run_limit, watch};
 pub use overwrite::Overwrite;
 pub use place::TaxelPlace;
+pub use requests::{RequestLines, Told};
+pub use robot::{RobotObserver, watch_robot};

@@ -222,7 +222,7 @@ pub fn force(total: u32, counts_per_newton: Option<f32>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::watch::{LiveArgs, watch};
+    use crate::watch::{WatchOptions, watch};
     use taxel::client::Stamp;
     use taxel::session::Observer;
     use taxel::source::{SourceOptions, SourceSpec, open};
@@ -258,7 +258,7 @@ mod tests {
         let spec: SourceSpec = script.parse().unwrap();
         let source = open(&spec, &SourceOptions::default()).unwrap();
         let mut heard = Heard(Narrator::new(None), String::new());
-        let mut args = LiveArgs::of(spec);
+        let mut args = WatchOptions::of(spec);
         args.board.config.shapes = shapes.map(Into::into);
         watch(&args, source, &mut heard).unwrap();
         heard.1

@@ -10,7 +10,7 @@ use taxel::record::json_message;
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::foxglove::{FoxgloveHub, Publisher, channel, serve};
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{WatchOptions, watch};
 use taxel_core::format::Micros;
 use taxel_core::wire::Level;
 use tungstenite::client::IntoClientRequest;
@@ -67,7 +67,7 @@ fn play(hub: Arc<FoxgloveHub>) -> Vec<Value> {
     let spec: source::SourceSpec = "sim:pat".parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let mut both = Both(Publisher::new(hub), Vec::new());
-    watch(&LiveArgs::of(spec), source, &mut both).unwrap();
+    watch(&WatchOptions::of(spec), source, &mut both).unwrap();
     both.1
 }
 

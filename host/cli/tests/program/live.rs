@@ -17,13 +17,14 @@ use taxel::robot::GestureModel;
 use taxel::session::Observer;
 use taxel::session::setting::set_shapes;
 use taxel::source::{self, Source, SourceOptions};
+use taxel_cli::commands::views::live::LiveArgs;
 use taxel_cli::palette;
 use taxel_cli::terminal::{Lines, TaxelLines, View};
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{BoardArgs, watch};
 use taxel_core::shape::{Patch, descriptor};
 
 fn args(source: &str, frames: Option<u64>) -> LiveArgs {
-    LiveArgs { frames, json: true, ..LiveArgs::of(source.parse().unwrap()) }
+    LiveArgs { board: BoardArgs::of(source.parse().unwrap()), frames, json: true, ..LiveArgs::default() }
 }
 
 fn open(args: &LiveArgs) -> Source {
@@ -34,7 +35,7 @@ fn open(args: &LiveArgs) -> Source {
 /// Output of `taxel live --json`.
 fn json(args: &LiveArgs) -> String {
     let sink = Sink::default();
-    watch(args, open(args), &mut MessagePrinter::new(args.pixels, sink.clone())).unwrap();
+    watch(&args.watched(), open(args), &mut MessagePrinter::new(args.pixels, sink.clone())).unwrap();
     sink.text()
 }
 
@@ -124,7 +125,7 @@ impl Observer for Bytes {
 /// Bytes of a run.
 fn recorded(scene: &str, frames: u64) -> Vec<u8> {
     let (args, mut bytes) = (args(scene, Some(frames)), Bytes::default());
-    watch(&args, open(&args), &mut bytes).unwrap();
+    watch(&args.watched(), open(&args), &mut bytes).unwrap();
     bytes.0
 }
 
@@ -198,7 +199,7 @@ fn one_taxel_is_printed_with_code_and_pressure() {
     let args = LiveArgs { taxel: Some("back,12,8".parse().unwrap()), ..args("sim:pat", Some(80)) };
     let sink = Sink::default();
     let place = args.taxel.clone().unwrap();
-    watch(&args, open(&args), &mut TaxelLines::new(place, false, sink.clone())).unwrap();
+    watch(&args.watched(), open(&args), &mut TaxelLines::new(place, false, sink.clone())).unwrap();
     let text = sink.text();
     let numbers =
         |line: &str| -> Vec<f64> { line.split_whitespace().filter_map(|w| w.parse().ok()).collect() };
@@ -215,7 +216,7 @@ fn plain_lines_hold_no_control_code() {
     let args = args("sim:lash", None);
     let (sink, source) = (Sink::default(), open(&args));
     let mut lines = Lines::new(sink.clone());
-    watch(&args, source, &mut lines).unwrap();
+    watch(&args.watched(), source, &mut lines).unwrap();
     let text = sink.text();
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text}");
     for part in [
@@ -258,7 +259,7 @@ fn drawn(scene: &str, frames: u64, sizes: &[(u16, u16)]) -> Vec<Buffer> {
     let args = args(scene, Some(frames));
     let source = open(&args);
     let mut show = Drawn { view: View::new(&source), sizes: sizes.to_vec(), pictures: Vec::new() };
-    watch(&args, source, &mut show).unwrap();
+    watch(&args.watched(), source, &mut show).unwrap();
     show.pictures
 }
 
@@ -332,7 +333,8 @@ fn what_cannot_be_opened_is_said_in_one_sentence() {
     let file = scratch("garbage.mcap");
     keep(&file, &[7; 1000]);
     let args = args(&format!("replay:{}", file.display()), None);
-    let error = watch(&args, open(&args), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
+    let error =
+        watch(&args.watched(), open(&args), &mut MessagePrinter::new(false, Sink::default())).unwrap_err();
     assert!(error.to_string().ends_with("no Hello of a taxel board in 1000 bytes"), "{error}");
     std::fs::remove_file(file).unwrap();
 }
@@ -456,6 +458,6 @@ fn a_taught_base_says_on_the_board_what_it_says_here() {
     let base = Base::open(std::path::Path::new("drawn")).unwrap();
     let mut teacher = Teacher { base, taught: false, lists: None, compared: 0 };
     let args = args("sim:pat", Some(300));
-    watch(&args, open(&args), &mut teacher).unwrap();
+    watch(&args.watched(), open(&args), &mut teacher).unwrap();
     assert!(teacher.compared > 10, "{}", teacher.compared);
 }

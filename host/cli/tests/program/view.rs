@@ -13,7 +13,7 @@ use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::on_robot::Wearer;
 use taxel_cli::view::{PageHub, Said, Shot, Viewer, serve};
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{WatchOptions, watch};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
@@ -77,7 +77,7 @@ fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value) -> 
 
 /// Watches a simulated scene for the pages of a hub.
 fn watched(hub: &Arc<PageHub>, scene: &str, frames: u64, realtime: bool) -> JoinHandle<()> {
-    let args = LiveArgs { frames: Some(frames), ..LiveArgs::of(scene.parse().unwrap()) };
+    let args = WatchOptions { frames: Some(frames), ..WatchOptions::of(scene.parse().unwrap()) };
     let options = SourceOptions { frames: Some(frames), realtime, ..SourceOptions::default() };
     let hub = hub.clone();
     thread::spawn(move || {
@@ -103,7 +103,7 @@ impl Observer for Images {
 }
 
 fn images(scene: &str, frames: u64) -> BTreeMap<u64, Vec<u16>> {
-    let args = LiveArgs { frames: Some(frames), ..LiveArgs::of(scene.parse().unwrap()) };
+    let args = WatchOptions { frames: Some(frames), ..WatchOptions::of(scene.parse().unwrap()) };
     let options = SourceOptions { frames: Some(frames), ..SourceOptions::default() };
     let mut images = Images::default();
     watch(&args, source::open(&args.board.source(), &options).unwrap(), &mut images).unwrap();
@@ -374,7 +374,7 @@ fn cloth_that_slides_is_told_again() {
 fn a_body_that_does_not_fit_the_garment_is_named() {
     let (hub, _) = served();
     hub.wear(Wearer::read("reference", None, "").unwrap());
-    let args = LiveArgs::of("sim:idle".parse().unwrap());
+    let args = WatchOptions::of("sim:idle".parse().unwrap());
     let options =
         SourceOptions { garment: Some("mat-64x32".into()), frames: Some(9), ..SourceOptions::default() };
     let source = source::open(&args.board.source(), &options).unwrap();

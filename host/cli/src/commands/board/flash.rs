@@ -24,8 +24,14 @@ const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 216) * 
 /// File that identifies the boot loader's drive, and a word in it.
 const TELLS: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
 
-/// Arguments of `taxel flash`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel flash taxel.uf2
+  taxel flash taxel.elf";
+
+/// Write the firmware to a board
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct FlashArgs {
     /// The firmware: UF2 for the boot loader's drive, ELF for a debug probe; `cargo xtask firmware` builds both
     #[arg(value_name = "UF2|ELF")]
@@ -36,7 +42,7 @@ pub struct FlashArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &FlashArgs) -> Result<()> {
+pub fn run(args: FlashArgs) -> Result<()> {
     let name = args.file.display();
     let image = input::bytes(&args.file).with_context(|| format!("{name} cannot be read"))?;
     if image.starts_with(b"\x7fELF") {
@@ -230,9 +236,9 @@ mod tests {
         let (file, image) = (folder.join("it.bin"), block(0, 1));
         fs::write(&file, &image).unwrap();
         let args = FlashArgs { file, drive: Some(folder.clone()) };
-        assert!(run(&args).unwrap_err().to_string().contains("it has no INFO_UF2.TXT"));
+        assert!(run(args.clone()).unwrap_err().to_string().contains("it has no INFO_UF2.TXT"));
         fs::write(folder.join("INFO_UF2.TXT"), "UF2 Bootloader v3.0\nBoard-ID: RPI-RP2\n").unwrap();
-        run(&args).unwrap();
+        run(args).unwrap();
         assert_eq!(fs::read(folder.join("taxel.uf2")).unwrap(), image);
         fs::remove_dir_all(folder).unwrap();
         assert!(only(vec![]).unwrap_err().to_string().contains("BOOTSEL"));

@@ -6,7 +6,7 @@ pub use ghosts::candidates;
 use taxel::json::pins;
 
 use crate::fault::{Blame, Fault};
-use crate::watch::{self, BoardArgs, LiveArgs};
+use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
 use serde_json::{Value, json};
@@ -21,8 +21,15 @@ use taxel_core::health::TaxelHealth;
 use taxel_core::selftest::Findings;
 use taxel_core::wire::Request;
 
-/// Arguments of `taxel health`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel health
+  taxel health --source sim:press
+  taxel health --source serial:/dev/ttyACM0 --tare 32 --json";
+
+/// List faulty taxels, lines and inputs
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct HealthArgs {
     /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD` or
     /// `replay:FILE`
@@ -80,7 +87,7 @@ pub fn look(args: &HealthArgs) -> Result<HealthText> {
     let source = source::open(&args.source, &options)?;
     let config = BoardConfig { tare: args.tare, ..BoardConfig::of(args.source.clone()) };
     let asked = BoardArgs { config, ..BoardArgs::default() };
-    let live = LiveArgs { frames: Some(args.frames), ..LiveArgs::on(asked) };
+    let live = WatchOptions { frames: Some(args.frames), ..WatchOptions::on(asked) };
     let mut found = Known { wanted: args.self_test, passive: args.passive, ..Known::default() };
     watch::watch(&live, source, &mut found)?;
     if args.self_test && !found.answered {

@@ -6,8 +6,14 @@ use clap::Args;
 use serde_json::{Value, json};
 use taxel::source::{PortKind, ports};
 
-/// Arguments of `taxel ports`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel ports
+  taxel ports --json";
+
+/// List serial ports, and which of them is a board
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct PortsArgs {
     /// Print JSON instead of a table
     #[arg(long)]
@@ -15,7 +21,7 @@ pub struct PortsArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &PortsArgs) -> Result<()> {
+pub fn run(args: PortsArgs) -> Result<()> {
     let (found, drives) = (ports(), flash::drives());
     if args.json {
         let each: Vec<Value> = found

@@ -1,7 +1,7 @@
 //! `taxel reset-settings`: restarts a board with the shipped settings, and keeps its saved ones aside.
 
 use crate::fault::Fault;
-use crate::watch::{self, LiveArgs};
+use crate::watch::{self, WatchOptions};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::time::{Duration, Instant};
@@ -10,8 +10,14 @@ use taxel::session::Observer;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel_core::wire::Request;
 
-/// Arguments of `taxel reset-settings`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel reset-settings
+  taxel reset-settings --source usb --undo";
+
+/// Start the board with the shipped settings; keep the saved ones aside
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ResetSettingsArgs {
     /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
@@ -27,11 +33,11 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const UNREADABLE: u8 = 255;
 
 /// Runs the command.
-pub fn run(args: &ResetSettingsArgs) -> Result<()> {
+pub fn run(args: ResetSettingsArgs) -> Result<()> {
     let source = source::open(&args.source, &SourceOptions::default())?;
     let label = source.label.clone();
     let mut asking = Asking { undo: args.undo, begun: Instant::now(), asked: false, done: false };
-    watch::watch(&LiveArgs::of(args.source.clone()), source, &mut asking)?;
+    watch::watch(&WatchOptions::of(args.source.clone()), source, &mut asking)?;
     if !asking.done {
         bail!(Fault::board(format!("{label} ended before the board had answered")));
     }

@@ -1,7 +1,7 @@
 //! `taxel save`: saves a board's settings to its flash.
 
 use crate::fault::Fault;
-use crate::watch::{self, BoardArgs, LiveArgs};
+use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, Stamp, Worn};
@@ -9,8 +9,14 @@ use taxel::session::Observer;
 use taxel::source::SourceOptions;
 use taxel_core::wire::Request;
 
-/// Arguments of `taxel save`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel save
+  taxel save --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
+/// Save settings to the board's flash
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct SaveArgs {
     /// The board.
     #[command(flatten)]
@@ -27,7 +33,7 @@ pub fn run(args: SaveArgs) -> Result<()> {
     let tare = args.board.config.tare.unwrap_or(source.tare);
     let mut saving =
         Saving { waits_for: tare > 0, begun: Instant::now(), asked: None, done: false, simulated: false };
-    watch::watch(&LiveArgs::on(args.board), source, &mut saving)?;
+    watch::watch(&WatchOptions::on(args.board), source, &mut saving)?;
     if !saving.done {
         bail!(Fault::board(format!("{label} ended before the board had saved its settings")));
     }

@@ -4,7 +4,7 @@ use super::mark_dialogue::MarkDialogue;
 use super::told_fit;
 use super::worn::WornArgs;
 use crate::fault::Fault;
-use crate::watch::{BoardArgs, LiveArgs, Overwrite, stop, watch};
+use crate::watch::{BoardArgs, Overwrite, WatchOptions, stop, watch};
 use anyhow::{Context, Result, bail, ensure};
 use clap::{ArgGroup, Args};
 use std::collections::HashMap;
@@ -125,7 +125,7 @@ fn asked(args: &FitArgs, marks: Vec<Mark>, surface: &Surface, layout: &Layout) -
     let (source, _) = board.open(SourceOptions::default())?;
     stop::catch()?;
     let mut dialogue = MarkDialogue::new(marks, links(surface, layout));
-    watch(&LiveArgs::on(board), source, &mut dialogue)?;
+    watch(&WatchOptions::on(board), source, &mut dialogue)?;
     dialogue.touches()
 }
 

@@ -24,8 +24,19 @@ use taxel::files::output::Output;
 use taxel_core::garment::Layout;
 use worn::WornArgs;
 
-/// Arguments of `taxel body`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel body check reference
+  taxel body check mine.body.toml --garment mine.toml --json
+  taxel body show reference -o body.svg
+  taxel body places reference -o places.csv
+  taxel body places reference --robot reference --joints left_elbow=30deg --frame base -o places.csv
+  taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt
+  taxel body fit reference --marks marks.txt -o worn.toml";
+
+/// Place a garment's taxels on the robot's links
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct BodyArgs {
     #[command(subcommand)]
     what: BodyTask,
@@ -111,7 +122,7 @@ enum BodyTask {
 }
 
 /// Runs the command.
-pub fn run(args: &BodyArgs) -> Result<()> {
+pub fn run(args: BodyArgs) -> Result<()> {
     match &args.what {
         BodyTask::Check { worn, robot, json } => {
             let read = body::read(&worn.body)?;

@@ -6,8 +6,14 @@ use std::path::PathBuf;
 use taxel::files::arrays;
 use taxel::moments::Features;
 
-/// Arguments of `taxel features`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel features image.npy
+  taxel features subject_01.npz --array posture_03 --frame 20 --json";
+
+/// Compute moments, NMI and axis of one recorded image
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct FeaturesArgs {
     /// Image or frames: .npy, .npz or .csv
     pub file: PathBuf,

@@ -15,8 +15,14 @@ use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 
-/// Arguments of `taxel process`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel process subject_01.npz --array posture_03 --rate 1 --json
+  taxel process frames.npy --full-scale 1000 --tare 16";
+
+/// Run recorded frames through the board's perception
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ProcessArgs {
     /// Recorded frames: .npy, .npz ([n, rows, columns] or [rows, columns]) or .csv
     pub file: PathBuf,

@@ -10,11 +10,21 @@ pub mod why;
 
 use crate::fault::Fault;
 use anyhow::{Result, bail};
-use taxel::robot::ReadRobot;
 
-/// Arguments of `taxel fcm`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel fcm map.json --rule mkosko --transfer sigmoid --lambda 1 --steps 50 --json
+  taxel fcm tactile --input press=0.8 --input time=0.1
+  taxel fcm why tactile --input press=0.8 --input time=0.1 --set shape=1
+  taxel fcm why --source sim:lash
+  taxel fcm check my-map.toml
+  taxel fcm combine anna.toml ben.toml carla.toml -o ours.toml
+  taxel fcm draw tactile --input shape=1 -o tactile.dot";
+
+/// Fuzzy cognitive maps: run, check, explain, combine, teach, draw
 #[derive(Debug, Clone, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(after_help = EXAMPLES)]
 pub struct FcmArgs {
     /// What to do with maps [default: run one]
     #[command(subcommand)]
@@ -37,14 +47,6 @@ enum MapCommand {
     Learn(learn::MapLearnArgs),
     /// Write a map as a graph in DOT, which Graphviz draws
     Draw(draw::DrawArgs),
-}
-
-impl FcmArgs {
-    /// What is asked to be explained of a robot, by all its boards; none for anything else.
-    pub fn why_of_robot(&self) -> Result<Option<(&why::WhyArgs, ReadRobot)>> {
-        let Some(MapCommand::Why(args)) = &self.command else { return Ok(None) };
-        Ok(args.told.robot()?.map(|robot| (args, robot)))
-    }
 }
 
 /// Runs the command.

@@ -2,7 +2,7 @@
 //! or at a given time.
 
 use crate::fault::own;
-use crate::watch::{self, BoardArgs, LiveArgs};
+use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use taxel::client::{Client, Event, Stamp};
@@ -69,7 +69,7 @@ pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
     let mut ear = Ear { at, began: None, now: Micros(0), leading: Leading::None, found: None, done: false };
     // The report of a moment comes after its image; without images the limit ends the wait.
     let seconds = at.map(|at| at + 1.0);
-    watch::watch(&LiveArgs { seconds, ..LiveArgs::on(board) }, source, &mut ear)?;
+    watch::watch(&WatchOptions { seconds, ..WatchOptions::on(board) }, source, &mut ear)?;
     match (ear.found, at) {
         (Some(told), _) => Ok(told),
         (None, None) => {

@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
 use crate::report::{Seen, page};
-use crate::watch::{self, LiveArgs, Overwrite};
+use crate::watch::{self, Overwrite, WatchOptions};
 use anyhow::{Result, bail};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -16,8 +16,14 @@ use taxel::session::Observer;
 use taxel::source::{self, SourceOptions, SourceSpec};
 use taxel::tell::progress::{Progress, Unit};
 
-/// Arguments of `taxel report`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel report touch.mcap -o report.html
+  taxel report --source sim:source -o source.html";
+
+/// Write one page about a recording or a board
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ReportArgs {
     /// Recording: .mcap, of a robot .mcap#BOARD
     #[arg(conflicts_with = "source")]
@@ -124,6 +130,6 @@ fn watched(
     let source = source::open(&spec, &options)?;
     let seconds = seconds.or(source.real_time.then_some(WATCHED));
     let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(wearer).folding(folding);
-    watch::watch(&LiveArgs { seconds, ..LiveArgs::of(spec) }, source, &mut seen)?;
+    watch::watch(&WatchOptions { seconds, ..WatchOptions::of(spec) }, source, &mut seen)?;
     Ok(seen)
 }

@@ -1,7 +1,7 @@
 //! `taxel shapes install`: sends a base to a board, which uses it until it is switched off.
 
 use crate::fault::Fault;
-use crate::watch::{self, LiveArgs};
+use crate::watch::{self, WatchOptions};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -31,7 +31,7 @@ pub fn run(args: InstallArgs) -> Result<()> {
     let source = source::open(&args.source, &SourceOptions::default())?;
     let label = source.label.clone();
     let mut installing = Installing { base, opened: Instant::now(), begun: None, installed: None };
-    watch::watch(&LiveArgs::of(args.source), source, &mut installing)?;
+    watch::watch(&WatchOptions::of(args.source), source, &mut installing)?;
     match installing.installed {
         Some((classes, prototypes)) => {
             println!("{label} knows {classes} classes by {prototypes} prototypes, until it restarts.");

@@ -2,7 +2,7 @@
 //! images.
 
 use super::hold::Hold;
-use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, seconds};
+use crate::watch::{self, BoardArgs, Overwrite, WatchOptions, seconds};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
 use taxel::files::arrays;
@@ -111,7 +111,7 @@ fn held(args: &ShapesLearnArgs, base: &Base) -> Result<(Vec<Point>, ImagesFile)>
         args.name
     );
     let mut hold = Hold::new(&base.gallery.space, wanted);
-    let watched = LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board.clone()) };
+    let watched = WatchOptions { seconds: args.seconds, ..WatchOptions::on(args.board.clone()) };
     watch::watch(&watched, source, &mut hold)?;
     let points = hold.held;
     if (1..wanted).contains(&points.len()) {

@@ -13,8 +13,19 @@ mod list;
 mod prune;
 pub mod train;
 
-/// Arguments of `taxel shapes`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel shapes list
+  taxel shapes learn mug -o mine.json
+  taxel live --shapes mine.json
+  taxel shapes train --images images.npz --labels labels.csv -o objects.json
+  taxel shapes eval --images images.npz --labels labels.csv --cross 5 --json
+  taxel shapes eval --images shapes.npz --set 32x64_C_n3 --classes three
+  taxel shapes card objects";
+
+/// Recognise shapes: train, teach, evaluate, install
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ShapesArgs {
     #[command(subcommand)]
     command: ShapesCommand,

@@ -13,8 +13,15 @@ const TASK: Task = Task {
     candidates: || grid(SETTINGS, &[3.0, 10.0, 40.0, 160.0, 640.0], &[0.0, 0.5]),
 };
 
-/// Arguments of `taxel gestures`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel gestures eval --frames train.npz --labels train.csv --cross participant --json
+  taxel gestures train --frames train.npz --labels train.csv -o my.model
+  taxel gestures eval --model my.model --frames test.npz --labels test.csv";
+
+/// Recognise gestures: train and evaluate models that fit the board
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct GesturesArgs {
     #[command(subcommand)]
     command: GesturesCommand,

@@ -13,8 +13,14 @@ const TASK: Task = Task {
     candidates: || grid(SETTINGS, &[3.0, 10.0, 30.0, 100.0], &[0.0, 0.5, 1.0]),
 };
 
-/// Arguments of `taxel intent`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel intent eval --frames frames.npz --labels labels.csv --cross day --json
+  taxel intent train --frames frames.npz --labels labels.csv -o my.model";
+
+/// Recognise kindness, threat and attack: train and evaluate models that fit the board
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct IntentArgs {
     #[command(subcommand)]
     command: IntentCommand,

@@ -1,15 +1,21 @@
 //! `taxel foxglove`: serves a board's stream to Foxglove and other programs with its WebSocket protocol.
 
 use crate::foxglove::{FoxgloveHub, Publisher, serve};
-use crate::watch::{self, BoardArgs, LiveArgs};
+use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use taxel::source::SourceOptions;
 
-/// Arguments of `taxel foxglove`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel foxglove --source sim:pat
+  taxel foxglove --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
+/// Serve a board's stream to Foxglove, live
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct FoxgloveArgs {
     /// The board.
     #[command(flatten)]
@@ -33,7 +39,7 @@ pub fn run(args: FoxgloveArgs) -> Result<()> {
     let hub = Arc::new(FoxgloveHub::default());
     let port = serve(listener, hub.clone(), &source.label, &args.allow_origin)?;
     println!("{} at ws://127.0.0.1:{port} (Ctrl-C ends)", source.label);
-    watch::watch(&LiveArgs::on(args.board), source, &mut Publisher::new(hub))?;
+    watch::watch(&WatchOptions::on(args.board), source, &mut Publisher::new(hub))?;
     println!("Stream ended; new clients get the last messages (Ctrl-C ends).");
     loop {
         std::thread::park();

@@ -9,7 +9,7 @@ use taxel::recording::Overview;
 use taxel::robot::BoardConfig;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::commands::recordings::export::{ExportArgs, Form, run};
-use taxel_cli::watch::{BoardArgs, LiveArgs, Overwrite, watch};
+use taxel_cli::watch::{BoardArgs, Overwrite, WatchOptions, watch};
 
 /// Records the scene with the calibration and raw codes.
 fn recorded(name: &str, calibration: &Calibration) {
@@ -21,7 +21,7 @@ fn recorded(name: &str, calibration: &Calibration) {
     let origin = Origin { calibration: Some(calibration.clone()), ..Origin::default() };
     let recorder = recorder(origin, &format!("{name}.mcap"));
     let config = BoardConfig { calibration: Some(certificate), raw: true, ..BoardConfig::of(spec) };
-    watch(&LiveArgs::on(BoardArgs { config, ..BoardArgs::default() }), source, &mut recorder.board(0))
+    watch(&WatchOptions::on(BoardArgs { config, ..BoardArgs::default() }), source, &mut recorder.board(0))
         .unwrap();
     recorder.finish().unwrap();
 }
@@ -67,7 +67,7 @@ fn one_that_is_not_in_force_is_not_in_it() {
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let origin = Origin { calibration: Some(calibration), ..Origin::default() };
     let recorder = recorder(origin, "not-told.mcap");
-    watch(&LiveArgs::of(spec), source, &mut recorder.board(0)).unwrap();
+    watch(&WatchOptions::of(spec), source, &mut recorder.board(0)).unwrap();
     recorder.finish().unwrap();
     let scan = taxel::recording::scan(&file("not-told.mcap")).unwrap();
     assert!(Overview::of(&file("not-told.mcap")).unwrap().attached(CALIBRATION).unwrap().is_none());

@@ -6,7 +6,7 @@ use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::record::{Origin, Plan, PlannedBoard, Recorder, Rotate};
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{WatchOptions, watch};
 
 /// Events of a board.
 #[derive(Debug, Default, Clone, PartialEq)]
@@ -64,5 +64,5 @@ pub fn record(spec: &str, plan: Plan) -> Seen {
 pub fn play(spec: &str, observer: &mut dyn Observer) {
     let spec = spec.parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
-    watch(&LiveArgs::of(spec), source, observer).unwrap();
+    watch(&WatchOptions::of(spec), source, observer).unwrap();
 }

@@ -4,12 +4,12 @@ use super::rig::{Rig, source};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use taxel::json::MessagePrinter;
-use taxel_cli::watch::{LiveArgs, watch};
+use taxel_cli::watch::{WatchOptions, watch};
 
 #[test]
 fn a_limited_watch_goes_on_over_a_restart_and_prints_the_gap() {
     let rig = Arc::new(Mutex::new(Rig::new()));
-    let args = LiveArgs { seconds: Some(3.0), ..LiveArgs::of("tcp:rig:1".parse().unwrap()) };
+    let args = WatchOptions { seconds: Some(3.0), ..WatchOptions::of("tcp:rig:1".parse().unwrap()) };
     let mut out = Vec::new();
     let power = rig.clone();
     let restarts = std::thread::spawn(move || {

@@ -10,7 +10,7 @@ use taxel::robot::BoardConfig;
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::view::{PageHub, Tape, serve};
-use taxel_cli::watch::{BoardArgs, LiveArgs, watch};
+use taxel_cli::watch::{BoardArgs, WatchOptions, watch};
 
 /// Keeps the bytes of a board for the pages.
 struct Keeper(Arc<PageHub>);
@@ -29,8 +29,8 @@ fn page() -> u16 {
     let options = SourceOptions { seconds: Some(25.0), ..SourceOptions::default() };
     let source = source::open(&spec, &options).unwrap();
     let config = BoardConfig { raw: true, ..BoardConfig::of(spec) };
-    let board = LiveArgs::on(BoardArgs { config, ..BoardArgs::default() });
-    watch(&LiveArgs { seconds: Some(25.0), ..board }, source, &mut Keeper(hub.clone())).unwrap();
+    let board = WatchOptions::on(BoardArgs { config, ..BoardArgs::default() });
+    watch(&WatchOptions { seconds: Some(25.0), ..board }, source, &mut Keeper(hub.clone())).unwrap();
     assert!(hub.recording().unwrap().len() > 4 << 20);
     let origin = Origin { label: "sim:five".into(), counts_per_newton: None, calibration: None };
     hub.tape(Tape::Live(Arc::new(origin)));

@@ -4,7 +4,7 @@ use super::facts::Facts;
 use super::finding::{Finding, Grade};
 use super::judge::judge;
 use crate::fault::Fault;
-use crate::watch::{self, BoardArgs, LiveArgs};
+use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use serde_json::json;
@@ -14,8 +14,14 @@ use taxel::robot::ReadRobot;
 use taxel::source::{Source, SourceOptions, SourceSpec};
 use taxel::tell::date;
 
-/// Arguments of `taxel doctor`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel doctor
+  taxel doctor --source serial:/dev/ttyACM0 --seconds 20 --json";
+
+/// Diagnose a board: what is wrong, and what to do about it
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct DoctorArgs {
     /// The same as --source, or a robot's file (.toml): all its boards
     #[arg(value_name = "SOURCE", conflicts_with = "source")]
@@ -89,7 +95,7 @@ pub struct Examined {
 /// Watches a board for some seconds; it may share one of these controllers with others.
 pub fn examine(spec: &SourceSpec, source: Source, seconds: f64, buses: Buses) -> Examined {
     let mut facts = Facts::new(buses);
-    let live = LiveArgs { seconds: Some(seconds), ..LiveArgs::of(spec.clone()) };
+    let live = WatchOptions { seconds: Some(seconds), ..WatchOptions::of(spec.clone()) };
     let heard = watch::watch(&live, source, &mut facts);
     let found = match heard.as_ref().err().and_then(foreign) {
         Some(what) => vec![Finding::bad("link", what, ELSEWHERE)],

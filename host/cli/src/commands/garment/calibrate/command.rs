@@ -25,9 +25,17 @@ const SIMULATED: &str = "block-4x16";
 /// Properties of a simulated garment.
 const SENSOR: Sensor = Sensor { gain_spread: 0.10, hysteresis: 0.03, noise: 0.02, half_n: 0.0 };
 
-/// Arguments of `taxel calibrate`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel calibrate --simulate 7
+  taxel calibrate --source usb --over block --weights 0.5,1,2,5,10 --kg --by Anna --save -o anna.toml
+  taxel calibrate check anna.toml
+  taxel calibrate settle --garment garment.toml -o settled.toml";
+
+/// Calibrate force with known weights; find the settling time
 #[derive(Debug, Clone, Args)]
 #[command(args_conflicts_with_subcommands = true)]
+#[command(after_help = EXAMPLES)]
 pub struct CalibrateArgs {
     #[command(subcommand)]
     also: Option<Also>,
@@ -107,24 +115,24 @@ enum Also {
 }
 
 /// Runs the command.
-pub fn run(args: &CalibrateArgs) -> Result<()> {
+pub fn run(args: CalibrateArgs) -> Result<()> {
     match &args.also {
         Some(Also::Check(args)) => return check::run(args),
         Some(Also::Settle(args)) => return settle::run(args),
         None => {}
     }
-    let weights = weights(args)?;
+    let weights = weights(&args)?;
     ensure!(args.wait.is_finite() && args.wait > 0.0, Fault::usage("--wait must be a time above 0"));
     let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
     let output = Output::stream(&args.output, args.force, inputs)?;
-    let mut board = open(args, &weights)?;
+    let mut board = open(&args, &weights)?;
     if let (Some(garment), None) = (&args.garment, args.simulate) {
         board.wear(&taxel::files::garments::load(garment)?)?;
     }
     let task = CalibrationTask {
         over: Over::from(args.over),
         weights,
-        by: by(args),
+        by: by(&args),
         wait: args.wait,
         json: args.json,
     };
@@ -135,7 +143,7 @@ pub fn run(args: &CalibrateArgs) -> Result<()> {
         board.ask(&Request::Save)?;
     }
     board.give_back()?;
-    tell(args, &made);
+    tell(&args, &made);
     Ok(())
 }
 

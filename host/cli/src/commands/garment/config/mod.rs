@@ -2,12 +2,12 @@
 //! touches.
 
 mod check;
+mod robot;
 mod scene;
 mod touches;
 
 pub use check::check;
 
-use crate::commands::robot;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
@@ -47,8 +47,16 @@ impl FileKind {
     }
 }
 
-/// Arguments of `taxel config`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel config new mine.toml --like block-4x16
+  taxel config check mine.toml --scene scene.toml
+  taxel config schema
+  taxel config touches";
+
+/// Create and check garment and scene files; list the scripts of touches
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ConfigArgs {
     #[command(subcommand)]
     what: What,
@@ -105,7 +113,7 @@ enum What {
 }
 
 /// Runs the command.
-pub fn run(args: &ConfigArgs) -> Result<()> {
+pub fn run(args: ConfigArgs) -> Result<()> {
     match &args.what {
         What::New { file, force, like } => {
             let text = garments::read(like)?.text;
@@ -120,7 +128,7 @@ pub fn run(args: &ConfigArgs) -> Result<()> {
             let output = Output::file(file, *force, none)?;
             begin(output, (*force).into(), FileKind::Scene, &(comment + &scene::text()?))
         }
-        What::Check { file, json, .. } if is_robot(file) => robot::check::run(Path::new(file), *json),
+        What::Check { file, json, .. } if is_robot(file) => robot::run(Path::new(file), *json),
         What::Check { file, scene, .. } => {
             println!("{}", check(file, scene.as_deref())?);
             Ok(())

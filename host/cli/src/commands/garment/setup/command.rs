@@ -22,8 +22,15 @@ use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 /// Frames after a change of garment that may still be of the old one.
 const OLD: u32 = 2;
 
-/// Arguments of `taxel setup`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel setup --garment reference -o garment.toml
+  taxel setup --source serial:/dev/ttyACM0 --garment mine.toml -o garment.toml
+  taxel setup --simulate 7 --json";
+
+/// Identify a garment's wires by touch, and write its garment file
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct SetupArgs {
     /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
@@ -85,15 +92,15 @@ impl Hands for Watch<'_> {
 }
 
 /// Runs the command.
-pub fn run(args: &SetupArgs) -> Result<()> {
+pub fn run(args: SetupArgs) -> Result<()> {
     if !args.wait.is_finite() || args.wait <= 0.0 {
         bail!(Fault::usage("--wait must be a time above 0"));
     }
     let inputs = args.garment.iter().map(PathBuf::from).chain(args.source.file());
     let output = args.output.as_ref().map(|name| Output::stream(name, args.force, inputs)).transpose()?;
     let found = match args.simulate {
-        Some(seed) => simulated(args, seed)?,
-        None => on_a_board(args)?,
+        Some(seed) => simulated(&args, seed)?,
+        None => on_a_board(&args)?,
     };
     let comment = "Wiring found by `taxel setup`. Names, pitch and seams are those of the given garment.";
     if args.json && output.is_none() {

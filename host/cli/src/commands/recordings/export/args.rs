@@ -19,8 +19,15 @@ pub enum Form {
     Png,
 }
 
-/// Arguments of `taxel export`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel export touch.mcap --to npz -o touch.npz
+  taxel export touch.mcap --to csv --touched -o touch.csv
+  taxel export touch.mcap --to png -o images";
+
+/// Convert a recording to CSV, NumPy arrays or images
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ExportArgs {
     /// Recording: .mcap, of a robot .mcap#BOARD
     pub file: BoardRecording,

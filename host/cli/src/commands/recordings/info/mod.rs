@@ -9,8 +9,14 @@ use found::Contents;
 use std::path::PathBuf;
 use taxel::tell::words::printable_json;
 
-/// Arguments of `taxel info`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel info touch.mcap
+  taxel info touch.mcap --repair";
+
+/// Show a recording's contents; repair a damaged or truncated one
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct InfoArgs {
     /// Recording: .mcap
     pub file: PathBuf,

@@ -1,9 +1,8 @@
 //! `taxel doctor` of a robot: the diagnosis of each board, and which of them share a USB host controller.
 
+use super::command::{DoctorArgs, Examined, examine, first_cure, line, worst};
 use super::controllers::controller;
-use crate::commands::board::doctor::{
-    DoctorArgs, Examined, Finding, Grade, examine, first_cure, line, worst,
-};
+use super::finding::{Finding, Grade};
 use crate::fault::Fault;
 use anyhow::{Result, bail};
 use serde_json::{Value, json};

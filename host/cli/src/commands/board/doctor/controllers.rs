@@ -1,6 +1,6 @@
 //! Which boards of a robot are on the same USB host controller, and so on one time.
 
-use crate::commands::board::doctor::Finding;
+use super::finding::Finding;
 
 /// What is found of the board at `at`, given names and controllers of all boards; none if it is on no controller.
 pub fn controller(boards: &[(&str, Option<usize>)], at: usize) -> Option<Finding> {

@@ -1,15 +1,24 @@
 //! `taxel ros2`: a ROS 2 node that publishes a board's stream, and takes joint states and concepts.
 
+mod robot;
+
 use crate::fault::Fault;
 use crate::ros2::{DOMAINS, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::{self, BoardArgs, LiveArgs, seconds, stop};
+use crate::watch::{self, BoardArgs, WatchOptions, seconds, stop};
 use anyhow::Result;
 use clap::Args;
 use taxel::body;
 use taxel::source::SourceOptions;
 
-/// Arguments of `taxel ros2`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel ros2 --source sim:pat
+  taxel ros2 --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32 --namespace /left
+  taxel ros2 --source sim:five --body reference --robot reference";
+
+/// Run a ROS 2 node that publishes a board's stream, live
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Ros2Args {
     /// The board.
     #[command(flatten)]
@@ -69,6 +78,9 @@ impl RosNodeArgs {
 
 /// Runs the command.
 pub fn run(args: Ros2Args) -> Result<()> {
+    if let Some(robot) = args.board.robot()? {
+        return robot::run(&args, &robot);
+    }
     let place = args.node.place()?;
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let body = args.board.config.body.as_deref().map(body::read).transpose()?;
@@ -79,5 +91,5 @@ pub fn run(args: Ros2Args) -> Result<()> {
     // The node leaves the network before the program ends.
     stop::catch()?;
     println!("{at} (Ctrl-C ends)");
-    watch::watch(&LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board) }, source, &mut show)
+    watch::watch(&WatchOptions { seconds: args.seconds, ..WatchOptions::on(args.board) }, source, &mut show)
 }

@@ -1,10 +1,14 @@
 //! `taxel view`: shows a board's stream or a recording in the browser.
 
+mod robot;
+
+pub use robot::{pages, viewer};
+
 use crate::fault::Fault;
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
 use crate::view::{PageHub, PageHubs, Player, Viewer, browser, serve};
-use crate::watch::{self, BoardArgs, LiveArgs};
+use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result, ensure};
 use std::io::{IsTerminal, stdout};
 use std::net::{Ipv4Addr, TcpListener};
@@ -21,8 +25,18 @@ const PORT: u16 = 8295;
 /// Preset of a garment's body, and of the robot that wears it.
 const REFERENCE: &str = "reference";
 
-/// Arguments of `taxel view`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel view --open
+  taxel view --source sim:five
+  taxel view walk.mcap --open
+  taxel view robot.toml --open
+  taxel view --source sim:five --body reference --robot reference --open
+  taxel view --source serial:/dev/ttyACM0 --garment block-4x16 --tare 32";
+
+/// Watch a board or a recording in the browser: panels, surface, body, map, health
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ViewArgs {
     /// The board.
     #[command(flatten)]
@@ -72,6 +86,9 @@ pub fn wearer(board: &BoardArgs, joints: &str) -> Result<Option<Wearer>> {
 
 /// Runs the command.
 pub fn run(args: ViewArgs) -> Result<()> {
+    if let Some(robot) = args.board.robot()? {
+        return robot::run(&args, &robot);
+    }
     if let Some((file, speed)) = args.recording() {
         return play(&args, &file, speed);
     }
@@ -95,7 +112,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     if !source.listens {
         (board.config.body, board.robot) = (None, None);
     }
-    let live = LiveArgs { body_may_fail: true, seconds: args.seconds, ..LiveArgs::on(board) };
+    let live = WatchOptions { body_may_fail: true, seconds: args.seconds, ..WatchOptions::on(board) };
     watch::watch(&live, source, &mut viewer)?;
     if args.seconds.is_some() {
         return Ok(());

@@ -1,10 +1,12 @@
 //! The command `taxel record`.
 
+mod robot;
+
 use crate::commands::views::view::{announce, bind, wearer};
 use crate::folding::Folding;
 use crate::on_robot::Wearer;
 use crate::view::{PageHub, Viewer};
-use crate::watch::{self, BoardArgs, LiveArgs, Overwrite, stop};
+use crate::watch::{self, BoardArgs, Overwrite, WatchOptions, stop};
 use anyhow::{Error, Result};
 use clap::Args;
 use std::net::TcpListener;
@@ -16,8 +18,16 @@ use taxel::record::{Origin, Plan, PlannedBoard, Recorder, Rotate};
 use taxel::session::Observer;
 use taxel::source::SourceOptions;
 
-/// Arguments of `taxel record`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel record -o touch.mcap
+  taxel record --source sim:pat -o pat.mcap --ros2
+  taxel record -o day.mcap --rotate 10min
+  taxel record -o touch.mcap --view --open";
+
+/// Record a board's stream for Foxglove, Rerun, Python and ROS 2
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct RecordArgs {
     /// File to write (.mcap)
     #[arg(short, long, value_name = "FILE")]
@@ -82,6 +92,9 @@ impl Pages {
 
 /// Runs the command.
 pub fn run(args: RecordArgs) -> Result<()> {
+    if let Some(robot) = args.board.robot()? {
+        return robot::run(&args, &robot);
+    }
     let options = SourceOptions {
         realtime: args.realtime,
         frames: args.frames,
@@ -103,7 +116,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
     let label = source.label.clone();
     let unlimited = args.frames.is_none() && args.seconds.is_none();
     recorder.expect(args.seconds.unwrap_or(0.0));
-    let watched = LiveArgs { frames: args.frames, seconds: args.seconds, ..LiveArgs::on(args.board) };
+    let watched = WatchOptions { frames: args.frames, seconds: args.seconds, ..WatchOptions::on(args.board) };
     let mut viewer = pages.map(|pages| pages.open(&label, calibration, args.open)).transpose()?;
     let mut record = recorder.board(0);
     let viewers = viewer.iter_mut().map(|viewer| viewer as &mut dyn Observer);

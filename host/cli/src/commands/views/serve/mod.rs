@@ -1,6 +1,8 @@
 //! `taxel serve`: offers a board to other machines over Zenoh.
 
-use crate::watch::{self, BoardArgs, LiveArgs, seconds, stop};
+mod robot;
+
+use crate::watch::{self, BoardArgs, WatchOptions, seconds, stop};
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
@@ -8,8 +10,15 @@ use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
 use taxel::source::SourceOptions;
 
-/// Arguments of `taxel serve`.
+/// Shown below the help.
+const EXAMPLES: &str = "Examples:
+  taxel serve --source sim:pat --name arm/left
+  taxel serve --source usb --name arm/left --zenoh router.json5
+  taxel live --source zenoh:arm/left@router.json5";
+
+/// Offer a board to other machines over Zenoh; there it is `--source zenoh:ROBOT/BOARD`
 #[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ServeArgs {
     /// The board.
     #[command(flatten)]
@@ -36,6 +45,9 @@ pub struct NetworkArgs {
 
 /// Runs the command.
 pub fn run(args: ServeArgs) -> Result<()> {
+    if let Some(robot) = args.board.robot()? {
+        return robot::run(&args, &robot);
+    }
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let network = network::open(NetworkEnd::Offer, args.network.zenoh.as_deref())?;
     let mut offer = BoardOffer::open(&network, &args.name)?;
@@ -43,5 +55,5 @@ pub fn run(args: ServeArgs) -> Result<()> {
     // Others learn at once that the board is no longer offered.
     stop::catch()?;
     println!("{} as zenoh:{} (Ctrl-C ends)", source.label, args.name);
-    watch::watch(&LiveArgs { seconds: args.seconds, ..LiveArgs::on(args.board) }, source, &mut offer)
+    watch::watch(&WatchOptions { seconds: args.seconds, ..WatchOptions::on(args.board) }, source, &mut offer)
 }

@@ -1,17 +1,15 @@
 //! `taxel view` of a robot: all boards in the browser.
 
-use super::live::failed;
-use super::requests::RequestLines;
-use crate::commands::views::view::{ViewArgs, announce, bind};
+use super::{ViewArgs, announce, bind};
 use crate::fault::Fault;
 use crate::on_robot::Wearer;
 use crate::view::{RobotPages, Viewer};
-use crate::watch::run_limit;
+use crate::watch::{RequestLines, RobotObserver, Told, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::thread;
 use std::time::Duration;
-use taxel::mind::{MindReader, RobotMind};
-use taxel::robot::{ReadRobot, RobotStream, WhenFull};
+use taxel::mind::{BoardSense, MindReader, RobotMind};
+use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
 use taxel::session::Observer;
 
 /// Longest wait before pages are told what is new.
@@ -22,38 +20,58 @@ pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
     if args.joints.is_some() {
         bail!(Fault::usage("--joints is for a board: --requests tells a robot's joints"));
     }
-    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
-    let mut mind = RobotMind::new(robot)?;
-    let mut pages = pages(robot)?;
+    let requests = RequestLines::of(args.board.requests.as_deref())?;
+    let mind = RobotMind::new(robot)?;
+    let pages = pages(robot)?;
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
     let options = args.board.at_real_time(args.seconds);
     let plans = robot.plans(&options, &run_limit(None, args.seconds));
-    let mut session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
+    let session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
         let mut mind = MindReader::new(robot, number);
         let viewer = Box::new(viewer(&pages, robot, number)) as Box<dyn Observer + Send>;
         Box::new(vec![viewer, queue.make(move |client, event, _| mind.sense(client, event))])
     })?;
-    let mut ended = Ok(());
-    while !session.is_over() {
-        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(&mut mind)));
-        told.iter().for_each(|told| pages.told(&told.line));
-        match session.wait(LOOK) {
-            Some(event) => {
-                mind.event(&event, |sense| Some(sense));
-                pages.event(&event, |sense| Some(sense));
-                let name = &robot.boards[event.board].name;
-                ended = ended.and(failed(name, event.what));
-            }
-            None => drop(mind.pass(session.now_us())),
-        }
-        pages.turn(Some(&mind));
-    }
+    let ended = watch_robot(robot, session, requests, &mut RobotView { mind, pages });
     if args.seconds.is_some() || ended.is_err() {
         return ended;
     }
     println!("Streams ended; showing the last frames (Ctrl-C ends).");
     loop {
         thread::park();
+    }
+}
+
+/// Shows what all boards say, and what that means, to the pages.
+struct RobotView<'a> {
+    mind: RobotMind,
+    pages: RobotPages<'a>,
+}
+
+impl RobotObserver<BoardSense> for RobotView<'_> {
+    fn mind(&mut self) -> Option<&mut RobotMind> {
+        Some(&mut self.mind)
+    }
+
+    fn wait(&mut self, session: &mut RobotStream<BoardSense>) -> Option<RobotEvent<BoardSense>> {
+        session.wait(LOOK)
+    }
+
+    fn event(
+        &mut self,
+        session: &RobotStream<BoardSense>,
+        told: &[Told],
+        event: Option<&RobotEvent<BoardSense>>,
+    ) -> Result<()> {
+        told.iter().for_each(|told| self.pages.told(&told.line));
+        match event {
+            Some(event) => {
+                self.mind.event(event, |sense| Some(sense));
+                self.pages.event(event, |sense| Some(sense));
+            }
+            None => drop(self.mind.pass(session.now_us())),
+        }
+        self.pages.turn(Some(&self.mind));
+        Ok(())
     }
 }
 

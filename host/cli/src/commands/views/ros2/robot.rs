@@ -1,27 +1,21 @@
 //! `taxel ros2` of a robot: a node for each board, and one for the robot.
 
-use super::live::failed;
-use super::requests::RequestLines;
-use crate::commands::views::ros2::Ros2Args;
+use super::Ros2Args;
 use crate::fault::Fault;
 use crate::ros2::{RobotNode, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::{run_limit, stop};
+use crate::watch::{RequestLines, RobotObserver, Told, run_limit, stop, watch_robot};
 use anyhow::{Result, ensure};
-use std::time::Duration;
 use taxel::body;
-use taxel::mind::MindReader;
-use taxel::robot::{ReadRobot, RobotStream, WhenFull};
+use taxel::mind::{BoardSense, MindReader, RobotMind};
+use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
 use taxel::ros2::topic_part;
 use taxel::session::Observer;
-
-/// Longest wait before Ctrl-C is noticed.
-const LOOK: Duration = Duration::from_millis(100);
 
 /// Runs the command. Error if a board cannot be followed, once all are over.
 pub fn run(args: &Ros2Args, robot: &ReadRobot) -> Result<()> {
     let place = args.node.place()?;
     check_names(robot)?;
-    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
+    let requests = RequestLines::of(args.board.requests.as_deref())?;
     let options = args.board.at_real_time(args.seconds);
     let image_hz = args.node.image_hz;
     let open = |place: RosPlace, source: String| RosNode::open(place, &RosParameters { source, image_hz });
@@ -39,24 +33,31 @@ pub fn run(args: &Ros2Args, robot: &ReadRobot) -> Result<()> {
     let plans = robot.plans(&options, &run_limit(None, args.seconds));
     // The nodes leave the network before the program ends.
     stop::catch()?;
-    let mut session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
+    let session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
         let mut mind = MindReader::new(robot, number);
         let mind = queue.make(move |client, event, _| mind.sense(client, event));
         Box::new(shown.next().into_iter().chain([mind]).collect::<Vec<_>>())
     })?;
     println!("{at} (Ctrl-C ends)");
-    let mut ended = Ok(());
-    while !session.is_over() && !stop::asked() {
-        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, Some(node.mind())));
-        told.iter().filter_map(|told| told.news.as_ref()).try_for_each(|meaning| node.mean(meaning))?;
-        let event = session.wait(LOOK);
-        node.turn(&session, event.is_none())?;
-        if let Some(event) = event {
-            node.event(&event)?;
-            ended = ended.and(failed(&robot.boards[event.board].name, event.what));
-        }
+    watch_robot(robot, session, requests, &mut node)
+}
+
+impl RobotObserver<BoardSense> for RobotNode<'_> {
+    fn mind(&mut self) -> Option<&mut RobotMind> {
+        Some(RobotNode::mind(self))
     }
-    ended
+
+    fn event(
+        &mut self,
+        session: &RobotStream<BoardSense>,
+        told: &[Told],
+        event: Option<&RobotEvent<BoardSense>>,
+    ) -> Result<()> {
+        told.iter().filter_map(|told| told.news.as_ref()).try_for_each(|meaning| self.mean(meaning))?;
+        self.turn(session, event.is_none())?;
+        event.map_or(Ok(()), |event| RobotNode::event(self, event))?;
+        Ok(())
+    }
 }
 
 /// Error if two boards have one name in ROS, which knows no `-`.

@@ -1,13 +1,10 @@
 //! `taxel record` of a robot: all boards in one recording.
 
-use super::live::failed;
-use super::requests::{RequestLines, Told};
-use super::view::{pages, viewer};
-use crate::commands::recordings::record::RecordArgs;
-use crate::commands::views::view::{announce, bind};
+use super::RecordArgs;
+use crate::commands::views::view::{announce, bind, pages, viewer};
 use crate::view::RobotPages;
-use crate::watch::{Remarks, run_limit, stop};
-use anyhow::{Error, Result};
+use crate::watch::{Remarks, RequestLines, RobotObserver, Told, run_limit, stop, watch_robot};
+use anyhow::Result;
 use std::thread;
 use std::time::Duration;
 use taxel::mind::{BoardSense, MindReader, RecordedMind, RobotMind};
@@ -30,11 +27,13 @@ struct Recording<'a> {
     mind: Option<RecordedMind>,
     /// None without a view.
     pages: Option<RobotPages<'a>>,
+    /// Names of the boards.
+    names: Vec<&'a str>,
 }
 
 /// Runs the command. Error if a board cannot be followed, once all are over: the others are recorded.
 pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
-    let mut requests = RequestLines::of(args.board.requests.as_deref())?;
+    let requests = RequestLines::of(args.board.requests.as_deref())?;
     let is_minded = robot.is_at_one_time(args.realtime);
     let mind = is_minded.then(|| RobotMind::new(robot)).transpose()?;
     let view = args.view.then(|| anyhow::Ok((bind(args.port)?, pages(robot)?))).transpose()?;
@@ -49,7 +48,12 @@ pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
     let pages = view.map(|(port, pages)| {
         announce(&format!("robot {}", robot.name), port, pages.hubs(), args.open).map(|()| pages)
     });
-    let mut recording = Recording { recorder, mind, pages: pages.transpose()? };
+    let mut recording = Recording {
+        recorder,
+        mind,
+        pages: pages.transpose()?,
+        names: robot.boards.iter().map(|board| board.name.as_str()).collect(),
+    };
     let options = SourceOptions {
         seed: args.board.seed,
         realtime: args.realtime,
@@ -59,7 +63,7 @@ pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
     };
     let mut plans = robot.plans(&options, &run_limit(args.frames, args.seconds));
     plans.iter_mut().for_each(|plan| plan.gather = GATHER);
-    let mut session = RobotStream::start(plans, WhenFull::Wait, |number, queue| {
+    let session = RobotStream::start(plans, WhenFull::Wait, |number, queue| {
         let mut mind = MindReader::new(robot, number);
         let mut all: Vec<Box<dyn Observer + Send>> = Vec::new();
         if let Some(pages) = &recording.pages {
@@ -70,47 +74,40 @@ pub fn run(args: &RecordArgs, robot: &ReadRobot) -> Result<()> {
         all.push(queue.make(move |client, event, _| mind.sense(client, event)));
         Box::new(all)
     })?;
-    let mut ended = Ok(());
-    let mut written = Ok(());
-    while written.is_ok() && !session.is_over() && !stop::asked() {
-        let hears = recording.mind.as_mut().map(RecordedMind::mind);
-        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, hears));
-        let event = session.wait(Duration::ZERO).or_else(|| {
-            thread::sleep(REST);
-            session.wait(LOOK)
-        });
-        written = recording.take(event.as_ref(), &told, session.now_us());
-        let Some(event) = event else { continue };
-        let name = &robot.boards[event.board].name;
-        say(name, &event.what);
-        ended = ended.and(failed(name, event.what));
-    }
-    drop(session);
+    let ended = watch_robot(robot, session, requests, &mut recording);
     // The recording is completed even if a board fails.
-    let Recording { recorder, .. } = recording;
-    written = written.and(recorder.finish());
-    eprintln!("{}", recorder.summary());
-    written.map_err(Error::from).and(ended)
+    let written = recording.recorder.finish();
+    eprintln!("{}", recording.recorder.summary());
+    ended.and(written.map_err(Into::into))
 }
 
-impl Recording<'_> {
-    /// Shows an event of a board, or that the time passes, and records what that means and what the mind was told
-    /// before.
-    fn take(
+impl RobotObserver<BoardSense> for Recording<'_> {
+    fn mind(&mut self) -> Option<&mut RobotMind> {
+        self.mind.as_mut().map(RecordedMind::mind)
+    }
+
+    fn wait(&mut self, session: &mut RobotStream<BoardSense>) -> Option<RobotEvent<BoardSense>> {
+        session.wait(Duration::ZERO).or_else(|| {
+            thread::sleep(REST);
+            session.wait(LOOK)
+        })
+    }
+
+    fn event(
         &mut self,
-        event: Option<&RobotEvent<BoardSense>>,
+        session: &RobotStream<BoardSense>,
         told: &[Told],
-        now_us: u64,
-    ) -> taxel::Result<()> {
+        event: Option<&RobotEvent<BoardSense>>,
+    ) -> Result<()> {
         if let Some(mind) = &mut self.mind {
-            write_mind(&self.recorder, mind, told, event, now_us)?;
+            write_mind(&self.recorder, mind, told, event, session.now_us())?;
         }
-        let Some(pages) = &mut self.pages else { return Ok(()) };
-        told.iter().for_each(|told| pages.told(&told.line));
-        if let Some(event) = event {
-            pages.event(event, |sense| Some(sense));
+        if let Some(pages) = &mut self.pages {
+            told.iter().for_each(|told| pages.told(&told.line));
+            event.into_iter().for_each(|event| pages.event(event, |sense| Some(sense)));
+            pages.turn(self.mind.as_mut().map(|mind| &*mind.mind()));
         }
-        pages.turn(self.mind.as_mut().map(|mind| &*mind.mind()));
+        event.into_iter().for_each(|event| say(self.names[event.board], &event.what));
         Ok(())
     }
 }

@@ -1,5 +1,7 @@
 //! `taxel fcm why`: explains an activation in numbers that add up, and what would change it.
 
+mod robot;
+
 use crate::commands::maps::told::ToldArgs;
 use anyhow::Result;
 use serde_json::json;
@@ -37,6 +39,9 @@ pub struct WhyArgs {
 
 /// Runs the command.
 pub fn run(args: WhyArgs) -> Result<()> {
+    if let Some(robot) = args.told.robot()? {
+        return robot::run(&args, &robot);
+    }
     let told = args.told.listen()?;
     let (file, inputs) = match (&told, &args.map) {
         (Some(told), _) => (told.map.clone(), told.inputs()),
