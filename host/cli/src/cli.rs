@@ -54,13 +54,13 @@ macro_rules! group {
     ($group:ident { $($command:ident($module:ident, $args:ident),)+ }) => {
         #[derive(Debug, Subcommand)]
         enum $group {
-            $($command($module::$args),)+
+            $($command(Box<$module::$args>),)+
         }
 
         impl $group {
             fn run(self) -> Result<()> {
                 match self {
-                    $($group::$command(args) => $module::run(args),)+
+                    $($group::$command(args) => $module::run(*args),)+
                 }
             }
         }

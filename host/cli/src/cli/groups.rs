@@ -4,8 +4,11 @@ use super::{Look, Record, SetUp, Teach};
 use clap::{Command, Subcommand};
 use std::fmt::Write;
 
+/// Adds a group's commands to a command line.
+type AddCommands = fn(Command) -> Command;
+
 /// Headings, and what adds the commands below each to a command line.
-const GROUPS: [(&str, fn(Command) -> Command); 4] = [
+const GROUPS: [(&str, AddCommands); 4] = [
     ("Look", Look::augment_subcommands),
     ("Record", Record::augment_subcommands),
     ("Set up", SetUp::augment_subcommands),
