@@ -41,7 +41,7 @@ enum Command {
     #[command(flatten)]
     Look(Look),
     #[command(flatten)]
-    Record(Record),
+    Recordings(Recordings),
     #[command(flatten)]
     SetUp(SetUp),
     #[command(flatten)]
@@ -75,7 +75,7 @@ group!(Look {
     Serve(serve, ServeArgs),
 });
 
-group!(Record {
+group!(Recordings {
     Record(record, RecordArgs),
     Info(info, InfoArgs),
     Export(export, ExportArgs),
@@ -122,7 +122,7 @@ impl Cli {
         match self.command {
             None => live::run_bare(),
             Some(Command::Look(command)) => command.run(),
-            Some(Command::Record(command)) => command.run(),
+            Some(Command::Recordings(command)) => command.run(),
             Some(Command::SetUp(command)) => command.run(),
             Some(Command::Teach(command)) => command.run(),
             Some(Command::Completions(args)) => completions::run(&args, Cli::command()),

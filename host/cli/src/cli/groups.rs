@@ -1,6 +1,6 @@
 //! The help of the program: its commands under headings, by what they are for.
 
-use super::{Look, Record, SetUp, Teach};
+use super::{Look, Recordings, SetUp, Teach};
 use clap::{Command, Subcommand};
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ type AddCommands = fn(Command) -> Command;
 /// Headings, and what adds the commands below each to a command line.
 const GROUPS: [(&str, AddCommands); 4] = [
     ("Look", Look::augment_subcommands),
-    ("Record", Record::augment_subcommands),
+    ("Record", Recordings::augment_subcommands),
     ("Set up", SetUp::augment_subcommands),
     ("Teach", Teach::augment_subcommands),
 ];
