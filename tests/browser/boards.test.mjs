@@ -106,7 +106,7 @@ test("the page of a board is that of its garment, and grey while it is not live"
 test("a robot that is recorded is shown like one that is only watched", async () => {
   const recorded = await View.run(
     ...["record", file, "--output", join(dirname(file), "boards.mcap")],
-    ...["--realtime", "--seconds", "30", "--view"],
+    ...["--realtime", "--for", "30s", "--view"],
   );
   try {
     await browser.open(`${recorded.url}boards/torso/`);

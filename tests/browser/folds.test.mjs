@@ -18,7 +18,7 @@ const folder = await mkdtemp(join(tmpdir(), "taxel-folds-"));
 after(() => rm(folder, { recursive: true, force: true }));
 const [recording, table] = ["elbow.mcap", "elbow.folds"].map((name) => join(folder, name));
 const run = promisify(execFile);
-await run(PROGRAM, ["record", "--source", "sim:elbow", "--seconds", "2.6", "-o", recording]);
+await run(PROGRAM, ["record", "--source", "sim:elbow", "--for", "2.6s", "-o", recording]);
 await run(PROGRAM, ["body", "learn", recording, "-o", table]);
 const both = page("sim:elbow", { options: [...OPTIONS, "--folds", table] });
 

@@ -132,7 +132,7 @@ test("the page has complained of nothing", () => assert.deepEqual(both.browser.c
 test("a recording cannot be pressed", async () => {
   const folder = await mkdtemp(join(tmpdir(), "taxel-hand-"));
   const file = join(folder, "idle.mcap");
-  await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:idle", "--seconds", "2", "-o", file]);
+  await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:idle", "--for", "2s", "-o", file]);
   const view = await View.start("--source", `replay:${file}`);
   const browser = await Chromium.start();
   try {

@@ -28,7 +28,7 @@ before(async () => {
   const boards = board("torso", "sim:five", "reference") + board("hand", "sim:press", "block-4x16");
   const [file, recording] = ["robot.toml", "five.mcap"].map((name) => join(folder, name));
   await writeFile(file, `name = "two"\nurdf = "reference"\n${boards}`);
-  await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:five", "--seconds", "3", "-o", recording]);
+  await promisify(execFile)(process.env.TAXEL_PROGRAM, ["record", "--source", "sim:five", "--for", "3s", "-o", recording]);
   // One after the other: what has started is stopped even if the next one fails.
   robot = await View.start(file);
   recorded = await View.start("--source", `replay:${recording}`);

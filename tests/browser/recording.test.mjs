@@ -16,7 +16,7 @@ const run = promisify(execFile);
 const folder = await mkdtemp(join(tmpdir(), "taxel-recording-"));
 const file = join(folder, "lash.mcap");
 const PROGRAM = process.env.TAXEL_PROGRAM;
-await run(PROGRAM, ["record", "--source", "sim:lash", "--seconds", "8", "-o", file]);
+await run(PROGRAM, ["record", "--source", "sim:lash", "--for", "8s", "-o", file]);
 const both = page(`replay:${file}`);
 test.after(() => rm(folder, { recursive: true }));
 

@@ -50,7 +50,7 @@ fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String>
     process::run_into(install.env("CARGO_TARGET_DIR", paths::target()), log)?;
     interpreter::first_image(&mut Command::new(&own))?;
     let folder = own.parent().and_then(Path::parent).ok_or("an environment without a folder")?;
-    for line in ["pip install --force-reinstall ./host/python", "taxel ros2 --source sim:pat --seconds 1"] {
+    for line in ["pip install --force-reinstall ./host/python", "taxel ros2 --source sim:pat --for 1s"] {
         let mut typed = Command::new("sh");
         typed.args(["-c", line]).current_dir(paths::root()).env("PATH", process::path_with(folder)?);
         process::run_into(&mut typed, log)?;

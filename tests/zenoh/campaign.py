@@ -365,7 +365,7 @@ def rights(folder: Path) -> str:
         stage.start("board", PROGRAM, *words).wait_for("Ctrl-C")
         time.sleep(3)
         source = f"zenoh:{BOARD}@{config('user', 'viewer', 'look')}"
-        viewer = stage.start("viewer", PROGRAM, "live", "--source", source, "--seconds", "12")
+        viewer = stage.start("viewer", PROGRAM, "live", "--source", source, "--for", "12s")
         plain = stage.client("stranger", RB)
         told = {}
         for name, file in {"stranger": plain, "wrong": config("wrong", "viewer", "x"), "guest": config("guest", "guest", "guest")}.items():
@@ -431,7 +431,7 @@ def tls(folder: Path) -> str:
         stage.start("board", PROGRAM, *words).wait_for("Ctrl-C")
         time.sleep(3)
         source = f"zenoh:{BOARD}@{config}"
-        viewer = stage.start("viewer", PROGRAM, "live", "--source", source, "--seconds", "5")
+        viewer = stage.start("viewer", PROGRAM, "live", "--source", source, "--for", "5s")
         viewer.process.wait(40)
         viewer.end()
         # Who has no certificate of the authority is not let in.

@@ -38,7 +38,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     def record(number: int) -> None:
         scene = f"sim:{SCENES[number % len(SCENES)]}"
         file = folder / f"{number:04}.mcap"
-        run("-m", "taxel", "record", "--source", scene, "--seed", number, "--seconds", 1.5, "-o", file)
+        run("-m", "taxel", "record", "--source", scene, "--seed", number, "--for", "1.5s", "-o", file)
 
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(record, range(RECORDINGS)))

@@ -20,5 +20,5 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Four seconds of a pat, with raw codes in the second half."""
     folder = tmp_path_factory.mktemp("recording")
     file = folder / "pat.mcap"
-    program("record", "--source", "sim:pat", "--seconds", "4", "-o", str(file))
+    program("record", "--source", "sim:pat", "--for", "4s", "-o", str(file))
     return file

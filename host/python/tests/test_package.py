@@ -29,7 +29,7 @@ def test_examples_run(module: object) -> None:
 @pytest.mark.skipif(not DOCS.exists(), reason="outside of the repository")
 def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    program("record", "--source", "sim:pat", "--seconds", "4", "-o", "pat.mcap")
+    program("record", "--source", "sim:pat", "--for", "4s", "-o", "pat.mcap")
     # What stands between the code blocks is no output.
     lines = DOCS.read_text(encoding="utf-8").splitlines()
     text = "\n".join("" if line.startswith("```") else line for line in lines)

@@ -88,7 +88,7 @@ print(read.images().values.nbytes, most() - before)
 @pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="needs /proc")
 def test_images_take_the_memory_of_their_array(tmp_path: Path) -> None:
     file = tmp_path / "five.mcap"
-    program("record", "--source", "sim:five", "--seconds", "60", "-o", str(file))
+    program("record", "--source", "sim:five", "--for", "60s", "-o", str(file))
     told = subprocess.run([sys.executable, "-c", MEMORY, str(file)], check=True, capture_output=True, text=True)
     array, taken = map(int, told.stdout.split())
     print(f"images of {array / 1e6:.0f} MB: resident memory grows by {taken / 1e6:.0f} MB")

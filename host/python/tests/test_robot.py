@@ -39,7 +39,7 @@ def untimed(line: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_events_of_each_board_are_the_lines_of_the_program(file: Path) -> None:
-    lines = program("live", str(file), "--seconds", "1", "--json").splitlines()
+    lines = program("live", str(file), "--for", "1s", "--json").splitlines()
     told = [line for line in map(json.loads, lines) if line["type"] != "board"]
     with taxel.open_robot(file, seconds=1) as robot:
         assert robot.boards == ["torso", "hand"]
@@ -216,7 +216,7 @@ def test_a_robot_by_hand_needs_garments(file: Path) -> None:
 
 def test_a_recording_has_the_events_of_each_board(file: Path, tmp_path: Path) -> None:
     touch = tmp_path / "touch.mcap"
-    program("record", str(file), "-o", str(touch), "--seconds", "1")
+    program("record", str(file), "-o", str(touch), "--for", "1s")
     for board, taxels in (("torso", 2048), ("hand", 64)):
         part = taxel.read(f"{touch}#{board}")
         assert part.images().values.shape == (part.topics[f"/taxel/{board}/frames"], taxels)

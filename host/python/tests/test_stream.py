@@ -347,7 +347,7 @@ def test_what_touches_a_lost_board_ends_in_its_recording(recording: os.PathLike[
 
 def test_another_board_is_an_error(recording: os.PathLike[str], tmp_path: Path) -> None:
     other = tmp_path / "other.mcap"
-    program("record", "--source", "sim:press", "--garment", "block-4x16", "--seconds", "1", "-o", str(other))
+    program("record", "--source", "sim:press", "--garment", "block-4x16", "--for", "1s", "-o", str(other))
     server, source = silent_board()
 
     def boards() -> None:

@@ -127,7 +127,7 @@ def taxel(*words):
 
 def lines(source, seconds):
     """What `taxel live --json` prints of a source."""
-    words = [PROGRAM, "live", "--source", source, "--seconds", str(seconds), "--json"]
+    words = [PROGRAM, "live", "--source", source, "--for", f"{seconds}s", "--json"]
     done = subprocess.run(words, check=True, capture_output=True, text=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 

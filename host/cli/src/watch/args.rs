@@ -145,8 +145,8 @@ fn poses_hz(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| format!("must be {} to {}", POSES.start(), POSES.end()))
 }
 
-/// Parses a time of the command line, s.
-pub fn seconds(text: &str) -> Result<f64, String> {
-    let time = text.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0);
-    time.ok_or_else(|| "must be a time of 0 or more".into())
+/// Parses a time of the command line, such as 2s or 10min: in s.
+pub fn time(text: &str) -> Result<f64, String> {
+    let time = humantime::parse_duration(text).map_err(|_| "must be a time such as 500ms, 2s or 10min")?;
+    Ok(time.as_secs_f64())
 }

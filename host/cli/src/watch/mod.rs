@@ -15,7 +15,7 @@ mod robot;
 pub mod shape;
 pub mod stop;
 
-pub use args::{BoardArgs, seconds};
+pub use args::{BoardArgs, time};
 pub use felt::{Basis, Felt};
 pub use follow::{Remarks, WatchOptions, run_limit, watch};
 pub use overwrite::Overwrite;

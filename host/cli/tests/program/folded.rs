@@ -19,7 +19,7 @@ fn run(args: &[&str]) -> Output {
 
 /// The lines of a type that `taxel live --json` prints.
 fn lines(args: &[&str], kind: &str) -> Vec<Value> {
-    let live = [&["live", "--source", "sim:elbow", "--seconds", "2.6", "--json"], args].concat();
+    let live = [&["live", "--source", "sim:elbow", "--for", "2.6s", "--json"], args].concat();
     let told = String::from_utf8(run(&live).stdout).unwrap();
     let lines = told.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     lines.filter(|line| line["type"] == kind).collect()
@@ -30,7 +30,7 @@ fn lines(args: &[&str], kind: &str) -> Vec<Value> {
 pub static TABLE: LazyLock<PathBuf> = LazyLock::new(|| {
     let (recording, table) = (file("elbow.mcap"), file("elbow.folds"));
     let [recording_name, table_name] = [&recording, &table].map(|path| path.to_str().unwrap());
-    let record = ["record", "--source", "sim:elbow", "--seed", "7", "--seconds", "2.6", "--force"];
+    let record = ["record", "--source", "sim:elbow", "--seed", "7", "--for", "2.6s", "--force"];
     run(&[&record[..], &["-o", recording_name]].concat());
     let said = run(&["body", "learn", recording_name, "--force", "-o", table_name]).stdout;
     assert!(String::from_utf8(said).unwrap().contains("left_elbow"));

@@ -23,16 +23,16 @@ fn a_run_of_limited_time_ends_without_images() {
     let [for_seconds, for_frames, doctor, recorded, why] = [source(), source(), source(), source(), source()];
     _ = std::fs::remove_file(folder.join("r.mcap"));
     let runs: [(&[&str], i32, &str); 6] = [
-        (&["live", "--source", &for_seconds, "--seconds", "1"], 0, "no image came for 10 s"),
+        (&["live", "--source", &for_seconds, "--for", "1s"], 0, "no image came for 10 s"),
         (&["live", "--source", &for_frames, "--frames", "3"], 3, "no image came for 10 s"),
-        (&["doctor", "--source", &doctor, "--seconds", "1"], 3, "the scan fails"),
+        (&["doctor", "--source", &doctor, "--for", "1s"], 3, "the scan fails"),
         (
-            &["record", "--source", &recorded, "--garment", "reference", "--seconds", "1", "-o", "r.mcap"],
+            &["record", "--source", &recorded, "--garment", "reference", "--for", "1s", "-o", "r.mcap"],
             0,
             "0 frames",
         ),
-        (&["fcm", "why", "--source", &why, "--at", "1"], 1, "no intention was reported in the first 1 s"),
-        (&["live", "robot.toml", "--seconds", "1"], 0, "no image came for 10 s"),
+        (&["fcm", "why", "--source", &why, "--at", "1s"], 1, "no intention was reported in the first 1 s"),
+        (&["live", "robot.toml", "--for", "1s"], 0, "no image came for 10 s"),
     ];
     thread::scope(|scope| {
         for (args, status, says) in runs {

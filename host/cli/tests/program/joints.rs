@@ -56,7 +56,7 @@ fn a_recording_holds_joints_poses_and_what_presses() {
         (0..200).map(|number| line(&format!("\"time_us\": {}, ", number * 20_000), 0.3)).collect();
     std::fs::write(&states, lines).unwrap();
     let (states, output) = (states.to_str().unwrap(), recording.to_str().unwrap());
-    let more = ["--joint-states", states, "--realtime", "--seconds", "3", "--ros2", "--force", "-o", output];
+    let more = ["--joint-states", states, "--realtime", "--for", "3s", "--ros2", "--force", "-o", output];
     let done = run(&[&["record"][..], &ROBOT, &more].concat(), "");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let joints = messages(&recording, "/taxel/joints");
@@ -81,7 +81,7 @@ fn a_recording_holds_joints_poses_and_what_presses() {
     assert!(bag.messages("/tactile/links/torso/wrench") > 20);
     // The recording's lines are of the form that is read.
     std::fs::write(states, joints.iter().map(|joint| format!("{joint}\n")).collect::<String>()).unwrap();
-    let more = ["--joint-states", states, "--realtime", "--seconds", "2", "--json"];
+    let more = ["--joint-states", states, "--realtime", "--for", "2s", "--json"];
     let done = run(&[&["live"][..], &ROBOT, &more].concat(), "");
     let told = String::from_utf8(done.stdout).unwrap();
     assert!(
@@ -96,7 +96,7 @@ fn a_recording_holds_joints_poses_and_what_presses() {
 
 #[test]
 fn joints_come_on_the_standard_input() {
-    let more = ["--joint-states", "-", "--realtime", "--seconds", "2", "--json"];
+    let more = ["--joint-states", "-", "--realtime", "--for", "2s", "--json"];
     let times =
         ["\"time_us\": 300000, ", "\"time_us\": 400000, ", "\"time_us\": 500000, ", "\"time_us\": 600000, "];
     let input: String = times.iter().map(|time| line(time, 0.0)).collect();
@@ -109,7 +109,7 @@ fn joints_come_on_the_standard_input() {
 
 #[test]
 fn wrong_joints_are_one_sentence_and_wrong_use() {
-    let live = [&["live"][..], &ROBOT, &["--joint-states", "-", "--seconds", "9", "--json"]].concat();
+    let live = [&["live"][..], &ROBOT, &["--joint-states", "-", "--for", "9s", "--json"]].concat();
     let done = run(&live, "{\"positions\": {\"wast\": 1}}\n");
     let error = String::from_utf8(done.stderr).unwrap();
     let why = "standard input, line 1: reference: there is no joint \"wast\": did you mean \"waist\"?";

@@ -21,7 +21,7 @@ fn the_doctor_tells_which_boards_share_a_controller() {
     }
     let folder = folder("bus", &robot);
     let mut doctor = Command::new(taxel());
-    doctor.current_dir(&folder).args(["doctor", "robot.toml", "--seconds", "3", "--json"]);
+    doctor.current_dir(&folder).args(["doctor", "robot.toml", "--for", "3s", "--json"]);
     let told = doctor.stdin(Stdio::null()).output().unwrap();
     let told: Value = serde_json::from_slice(&told.stdout).unwrap();
     let controller = |at: usize| {

@@ -40,7 +40,7 @@ fn any_script_is_played_on_a_garment_of_ones_own() {
     // GP18, which the shipped scene drives by a reaction, is a line of this garment.
     let changes = [("name = \"block-4x16\"", "name = \"mine\""), ("pin = 12", "pin = 18")];
     let garment = mine("mine-simulated.toml", "block-4x16", &changes);
-    let asked = ["live", "--source", "sim:pat", "--garment", &garment, "--json", "--seconds", "0.5"];
+    let asked = ["live", "--source", "sim:pat", "--garment", &garment, "--json", "--for", "0.5s"];
     let output = run(&asked);
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success(), "{told}");

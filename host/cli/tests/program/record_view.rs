@@ -10,7 +10,7 @@ use tungstenite::Message;
 fn a_board_is_watched_while_it_is_recorded_and_the_recording_is_the_same() {
     let folder = folder("board-record-view", "");
     let record = |file: &'static str| {
-        ["record", "--source", "sim:five", "--realtime", "--seconds", "3", "--force", "-o", file]
+        ["record", "--source", "sim:five", "--realtime", "--for", "3s", "--force", "-o", file]
     };
     let args = [&record("watched.mcap")[..], &["--view"]].concat();
     let mut viewed = Viewed::run(&folder, &args, "sim:five");

@@ -25,9 +25,8 @@ fn file(name: &str) -> PathBuf {
 /// Records five contacts for this many seconds; with raw codes a second takes half a megabyte.
 fn recorded(name: &str, seconds: u32, raw: bool) -> PathBuf {
     let path = file(name);
-    let seconds = seconds.to_string();
-    let mut args =
-        vec!["record", "--source", "sim:five", "--seconds", &seconds, "--force", "-o", text(&path)];
+    let seconds = format!("{seconds}s");
+    let mut args = vec!["record", "--source", "sim:five", "--for", &seconds, "--force", "-o", text(&path)];
     args.extend(raw.then_some("--raw"));
     let done = taxel(&args);
     assert!(done.status.success(), "{done:?}");

@@ -125,7 +125,7 @@ fn by_board(output: &[u8]) -> BTreeMap<String, Vec<Value>> {
 #[test]
 fn live_prints_of_each_board_what_live_prints_of_it_alone() {
     let folder = folder("live", &two());
-    let done = run(&folder, &["live", "robot.toml", "--json", "--pixels", "--seconds", "1"]);
+    let done = run(&folder, &["live", "robot.toml", "--json", "--pixels", "--for", "1s"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let together = by_board(&done.stdout);
     let asked = [
@@ -133,10 +133,10 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
         ("hand", ["sim:press", "--garment", "block-4x16", "--tare", "32"]),
     ];
     for (name, asked) in asked {
-        let args = [&["live", "--source"][..], &asked, &["--json", "--pixels", "--seconds", "1"]].concat();
+        let args = [&["live", "--source"][..], &asked, &["--json", "--pixels", "--for", "1s"]].concat();
         let alone = run(&folder, &args);
         let by_name =
-            run(&folder, &["live", &format!("robot.toml#{name}"), "--json", "--pixels", "--seconds", "1"]);
+            run(&folder, &["live", &format!("robot.toml#{name}"), "--json", "--pixels", "--for", "1s"]);
         assert!(alone.stdout == by_name.stdout, "{name}: {}", text(&by_name.stderr));
         let alone: Vec<Value> =
             text(&alone.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -147,7 +147,7 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
             alone.len()
         );
     }
-    let lines = run(&folder, &["live", "robot.toml", "--seconds", "1", "--tare", "16"]);
+    let lines = run(&folder, &["live", "robot.toml", "--for", "1s", "--tare", "16"]);
     let lines = text(&lines.stdout);
     assert!(lines.lines().all(|line| line.starts_with("torso ") || line.starts_with("hand  ")), "{lines}");
     assert!(lines.contains("hand  tare: done\n"), "{lines}");
@@ -156,7 +156,7 @@ fn live_prints_of_each_board_what_live_prints_of_it_alone() {
 
 /// Records a second of all boards to `touch.mcap`; returns what the program says of it.
 fn recorded(folder: &Path) -> String {
-    let record = ["record", "robot.toml", "-o", "touch.mcap", "--seconds", "1", "--force"];
+    let record = ["record", "robot.toml", "-o", "touch.mcap", "--for", "1s", "--force"];
     let done = run(folder, &record);
     assert!(done.status.success(), "{}", text(&done.stderr));
     text(&done.stderr).into()
@@ -205,7 +205,7 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
     let over = run(&folder, &["export", "touch.mcap#hand", "--to", "npz", "-o", "touch.mcap", "--force"]);
     assert!(!over.status.success() && counted("hand") > 0, "{}", text(&over.stderr));
     let alone =
-        run(&folder, &["record", "--source", "sim:pat", "--seconds", "0.2", "-o", "pat.mcap", "--force"]);
+        run(&folder, &["record", "--source", "sim:pat", "--for", "0.2s", "-o", "pat.mcap", "--force"]);
     assert!(alone.status.success());
     let none = run(&folder, &["report", "pat.mcap#hand", "-o", "-"]);
     assert!(
@@ -231,12 +231,12 @@ fn record_and_doctor_tell_of_all_boards() {
         assert!(frames > 190 && table.contains(&format!("\n  {board}: {frames} frames (")), "{table}");
         assert!(table.contains(&format!("\n{board}\n  counts_per_newton")), "{table}");
     }
-    let again = run(&folder, &["record", "robot.toml", "-o", "touch.mcap", "--seconds", "1"]);
+    let again = run(&folder, &["record", "robot.toml", "-o", "touch.mcap", "--for", "1s"]);
     assert_eq!(again.status.code(), Some(1));
     assert!(text(&again.stderr).contains("touch.mcap already exists"));
     let over = run(&folder, &["record", "robot.toml", "-o", "robot.toml", "--force"]);
     assert!(!over.status.success() && std::fs::read_to_string(folder.join("robot.toml")).unwrap() == two());
-    let doctor = run(&folder, &["doctor", "robot.toml", "--seconds", "1", "--json"]);
+    let doctor = run(&folder, &["doctor", "robot.toml", "--for", "1s", "--json"]);
     assert!(doctor.status.success(), "{}", text(&doctor.stderr));
     let told: Value = serde_json::from_slice(&doctor.stdout).unwrap();
     let boards = told["boards"].as_array().unwrap();
@@ -246,7 +246,7 @@ fn record_and_doctor_tell_of_all_boards() {
     assert!(boards.iter().all(tested), "{told}");
     let gone = two().replace("sim:press", "tcp:127.0.0.1:1");
     std::fs::write(folder.join("gone.toml"), gone).unwrap();
-    let doctor = run(&folder, &["doctor", "gone.toml", "--seconds", "1"]);
+    let doctor = run(&folder, &["doctor", "gone.toml", "--for", "1s"]);
     assert_eq!(doctor.status.code(), Some(3), "{}", text(&doctor.stderr));
     assert!(text(&doctor.stdout).contains("X link         tcp:127.0.0.1:1 cannot be reached"));
 }
@@ -341,7 +341,7 @@ fn boards_are_asked_by_lines_while_they_are_followed() {
     let lines = "tare hand 8\n\ntare gone\nscene foot calm.toml\nself-test\nself-test hnad\ntare foot many\n\
                  tare 5000\ndance\nscene gone none.toml\n";
     std::fs::write(folder.join("lines.txt"), lines).unwrap();
-    let args = ["live", "robot.toml", "--json", "--realtime", "--seconds", "2", "--requests", "lines.txt"];
+    let args = ["live", "robot.toml", "--json", "--realtime", "--for", "2s", "--requests", "lines.txt"];
     let done = run(&folder, &args);
     // The board that is gone does not come in time; the others have done what they were asked.
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
@@ -453,7 +453,7 @@ fn what_follows_from_what_is_told_is_printed() {
     let folder = folder("told", robot);
     std::fs::write(folder.join("trust.toml"), map).unwrap();
     std::fs::write(folder.join("told.txt"), "told voice 1\n").unwrap();
-    let args = ["live", "robot.toml", "--realtime", "--seconds", "1", "--requests", "told.txt"];
+    let args = ["live", "robot.toml", "--realtime", "--for", "1s", "--requests", "told.txt"];
     let done = run(&folder, &args);
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert_eq!(text(&done.stdout).matches("robot kindness").count(), 1, "{}", text(&done.stdout));
@@ -490,7 +490,7 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     }
     let lines = run(&folder, &args);
     assert!(text(&lines.stdout).contains("robot kindness; hug 0."), "{}", text(&lines.stdout));
-    let why = run(&folder, &["fcm", "why", "--source", "robot.toml", "--at", "1.6", "--of", "hug"]);
+    let why = run(&folder, &["fcm", "why", "--source", "robot.toml", "--at", "1.6s", "--of", "hug"]);
     let why = text(&why.stdout);
     for part in [
         "hug is 0.",
@@ -508,6 +508,6 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     std::fs::write(folder.join("front.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
     std::fs::write(folder.join("rear.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
     let none = run(&folder, &["fcm", "why", "--source", "robot.toml"]);
-    let told = "error: robot.toml: no intention was announced; --at S explains the state at that time\n";
+    let told = "error: robot.toml: no intention was announced; --at TIME explains the state at that time\n";
     assert_eq!((none.status.code(), text(&none.stderr)), (Some(1), told));
 }

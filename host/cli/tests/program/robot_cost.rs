@@ -68,7 +68,7 @@ fn most_mb(id: u32) -> Option<f64> {
 fn robot_cost_by_number_of_boards() {
     let folder = folder("cost", "");
     std::fs::write(folder.join("two.toml"), TWO).unwrap();
-    run(&folder, &["record", "--source", "sim:two.toml", "--seconds", "0.5", "-o", "two.mcap", "--force"]);
+    run(&folder, &["record", "--source", "sim:two.toml", "--for", "0.5s", "-o", "two.mcap", "--force"]);
     println!("boards  frames   record: us a frame     MB   live --json: us a frame     MB");
     let mut alone = None;
     for number in BOARDS {

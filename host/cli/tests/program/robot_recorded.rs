@@ -14,7 +14,7 @@ const BOARDS: [&str; 2] = ["torso", "hand"];
 
 /// Runs `taxel record robot.toml` into this file. Returns what it says.
 fn record(folder: &Path, file: &str, more: &[&str]) -> String {
-    let args = ["record", "robot.toml", "--raw", "--seconds", "3", "--force", "-o", file];
+    let args = ["record", "robot.toml", "--raw", "--for", "3s", "--force", "-o", file];
     let done = Command::new(taxel()).current_dir(folder).args(args).args(more).output().unwrap();
     let said = String::from_utf8(done.stderr).unwrap();
     assert!(done.status.success(), "{said}");
@@ -116,7 +116,7 @@ fn options_are_those_of_every_board() {
     let keys = "garment = \"reference\"\nbody = \"reference\"\ngestures = \"intent\"\nshapes = \"drawn\"\n";
     let robot = |more: &str| format!("name = \"two\"\n{}{}", board("left", more), board("right", more));
     let live = |folder: &Path, more: &[&str]| {
-        let args = ["live", "robot.toml", "--json", "--seconds", "1.4"];
+        let args = ["live", "robot.toml", "--json", "--for", "1.4s"];
         let done = Command::new(taxel()).current_dir(folder).args(args).args(more).output().unwrap();
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
         let mut kinds: BTreeMap<String, usize> = BTreeMap::new();

@@ -156,7 +156,7 @@ fn with_a_time_it_ends_and_a_board_that_never_comes_is_an_error() {
     let gone = robot(&hand).replace(&format!("tcp:{}", hand.address), "serial:nowhere");
     let run = |name: &str, text: &str| {
         let mut command = Command::new(taxel());
-        command.args(["view", "robot.toml", "--port", "0", "--seconds", "0.5"]);
+        command.args(["view", "robot.toml", "--port", "0", "--for", "0.5s"]);
         command.current_dir(folder(name, text)).stdin(Stdio::null()).output().unwrap()
     };
     assert!(run("view-time", &robot(&hand)).status.success());
@@ -204,7 +204,7 @@ pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
 fn a_recording_is_watched_while_it_is_made_and_is_the_same() {
     let folder = folder("record-view", TWO);
     let record =
-        |file: &'static str| ["record", "robot.toml", "--realtime", "--seconds", "3", "--force", "-o", file];
+        |file: &'static str| ["record", "robot.toml", "--realtime", "--for", "3s", "--force", "-o", file];
     let mut viewed = Viewed::run(&folder, &[&record("watched.mcap")[..], &["--view"]].concat(), "robot two");
     let [mut torso, mut hand, _asleep] =
         ["/boards/torso/socket", "/boards/hand/socket", "/boards/torso/socket"].map(|path| viewed.page(path));

@@ -30,7 +30,7 @@ fn wrong_names_and_domains_are_wrong_use() {
 /// Nobody listens: it is as quick.
 #[test]
 fn a_node_ends_with_its_source() {
-    let output = taxel(&["ros2", "--source", "sim:pat", "--seconds", "1", "--domain", "231"], "");
+    let output = taxel(&["ros2", "--source", "sim:pat", "--for", "1s", "--domain", "231"], "");
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(said, "sim:pat as node /taxel in domain 231 (Ctrl-C ends)\n");
@@ -42,7 +42,7 @@ fn the_nodes_of_a_robot_end_with_its_boards() {
                  [[boards]]\nname = \"left-hand\"\nsource = \"sim:press\"\ngarment = \"block-4x16\"\n";
     let folder = folder("ros2", robot);
     let file = folder.join("robot.toml").display().to_string();
-    let words = ["ros2", &file, "--seconds", "1", "--domain", "230", "--namespace", "/skin"];
+    let words = ["ros2", &file, "--for", "1s", "--domain", "230", "--namespace", "/skin"];
     let output = taxel(&words, "");
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -29,7 +29,7 @@ fn a_garment_is_set_up_by_touch() {
 fn nobody_touches_and_nothing_is_claimed() {
     let idle = file("nobody.toml", b"duration_s = 1\n[idle]\nspread_counts = 1\n");
     let source = format!("sim:{idle}");
-    let said = run(&["setup", "--source", &source, "--wait", "0.3"]);
+    let said = run(&["setup", "--source", &source, "--wait", "300ms"]);
     let why = String::from_utf8(said.stderr).unwrap();
     assert!(
         said.status.code() == Some(1) && why.contains("not sure: Nothing was felt on any panel"),

@@ -34,7 +34,7 @@ const ROWS: [(&str, &[(&str, &str)]); 15] = [
 
 /// The stream of a command as JSON, without what differs between hosts: names and the host's times.
 fn stream(words: &[&str], board: Option<&str>) -> Vec<Value> {
-    let text = answer(&[words, &["--seconds", "0.6", "--json"]].concat());
+    let text = answer(&[words, &["--for", "0.6s", "--json"]].concat());
     let lines = text.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     let of_board = |line: &Value| board.is_none_or(|name| line["board"] == name && line["type"] != "board");
     let plain = |mut line: Value| {

@@ -45,7 +45,7 @@ fn wrong_use_is_2() {
     ends(&["live", "--source", "sum"], 2, "known are auto, usb[:SERIAL], sim");
     ends(&["save", "--source", "sim:idle", "--garment", "shirt"], 2, "shirt");
     ends(&["process", "a.npy", "--rate", "0"], 2, "--rate 0: it must be above 0");
-    ends(&["doctor", "--source", "sim:idle", "--seconds", "0"], 2, "--seconds must be a time above 0");
+    ends(&["doctor", "--source", "sim:idle", "--for", "0s"], 2, "--for must be a time above 0");
     ends(&["report", "-o", "a.html"], 2, "give a recording, or a --source");
     ends(
         &["live", "--frames", "many"],
@@ -66,7 +66,7 @@ fn mistakes_are_told_in_plain_words() {
     ends(&["live", "--source", &format!("sim:{binary}")], 1, "cannot be read: it is not text (UTF-8)");
     live("--scene", binary, 1, "cannot be read: it is not text (UTF-8)");
     live("--scene", "no-such.toml", 1, "no-such.toml cannot be read: no such file or directory");
-    live("--seconds", "-1", 2, "'-1' for '--seconds <S>': must be a time of 0 or more");
+    live("--for", "-1", 2, "'-1' for '--for <TIME>': must be a time such as 500ms, 2s or 10min");
     live("--tare", "99999", 2, "'99999' for '--tare <N>': it must be 0 to 4096");
     live("--taxel", "9,0,0", 2, "--taxel: the garment has no panel 9; known are chest");
     live("--taxel", "0,32,0", 2, "--taxel: panel chest has 32 rows and 16 columns, from 0");

@@ -45,7 +45,7 @@ fn a_recorded_scene_is_played_once_and_said_to_be_over() {
     let args = ["record", "--source", &source, "-o", &output, "--force"];
     let told = errors(&taxel(&args));
     assert!(told.contains(&format!("{source} is over: a simulated scene is played once")), "{told}");
-    let longer = errors(&taxel(&[&args[..], &["--seconds", "1"]].concat()));
+    let longer = errors(&taxel(&[&args[..], &["--for", "1s"]].concat()));
     assert!(longer.contains(".mcap: 1.0 s") && !longer.contains("is over"), "{longer}");
     for command in ["record", "live", "report"] {
         let help = String::from_utf8(taxel(&[command, "--help"]).stdout).unwrap();

@@ -136,7 +136,7 @@ fn what_teaches_nothing_is_said_in_one_sentence() {
         assert!(!status.success() && text.lines().last().unwrap().contains(why), "{args:?}: {text}");
         assert!(!folder.join("x.json").exists());
     };
-    let learn = |name| ["shapes", "learn", name, "--source", "sim:idle", "--seconds", "1", "-o", "x.json"];
+    let learn = |name| ["shapes", "learn", name, "--source", "sim:idle", "--for", "1s", "-o", "x.json"];
     refused(&learn("box"), "sim:idle ended before anything was held against it for half a second");
     let taps = ["shapes", "learn", "tap", "--source", "sim:pat", "-o", "x.json"];
     assert!(String::from_utf8(run(&folder, &taps).stderr).unwrap().contains("too short"));

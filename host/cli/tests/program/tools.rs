@@ -47,7 +47,7 @@ pub fn file(name: &str) -> PathBuf {
 #[test]
 fn a_simulated_board_is_examined() {
     let line: Value =
-        serde_json::from_str(&said(&["doctor", "--source", "sim:idle", "--seconds", "2", "--json"])).unwrap();
+        serde_json::from_str(&said(&["doctor", "--source", "sim:idle", "--for", "2s", "--json"])).unwrap();
     assert_eq!(line["verdict"], "weak", "{line}");
     let found = line["findings"].as_array().unwrap();
     let of = |name: &str| found.iter().rfind(|finding| finding["of"] == name).unwrap();
@@ -56,7 +56,7 @@ fn a_simulated_board_is_examined() {
     }
     assert!(of("images")["what"].as_str().unwrap().starts_with("195."), "{line}");
     assert_eq!(of("calibration")["grade"], "weak");
-    assert!(said(&["doctor", "--source", "sim:idle", "--seconds", "1"]).ends_with("marked with !\n"));
+    assert!(said(&["doctor", "--source", "sim:idle", "--for", "1s"]).ends_with("marked with !\n"));
     let nobody = refused(3, &["doctor", "--source", "serial:/dev/no-such-port"]);
     assert!(nobody.contains("taxel ports"), "{nobody}");
 }

@@ -69,8 +69,7 @@ fn a_board_is_followed_by_another_program_and_offered_once() {
     let folder = network("one");
     let args = ["serve", "--source", "sim:five", "--name", "arm/left", "--zenoh"];
     let _serving = Serving::start(&folder, &[&args[..], &["router.json5"]].concat());
-    let watched =
-        run(&folder, &["live", "--source", "zenoh:arm/left@client.json5", "--json", "--seconds", "1"]);
+    let watched = run(&folder, &["live", "--source", "zenoh:arm/left@client.json5", "--json", "--for", "1s"]);
     assert!(watched.status.success(), "{}", said(&watched));
     let lines = lines(&watched);
     let of = |kind: &str| lines.iter().filter(|line| line["type"] == kind).count();
@@ -120,8 +119,7 @@ fn at_the_fastest_rate_nothing_is_lost_between_two_programs() {
     let folder = network("fastest");
     let args = ["serve", "--source", "sim:five", "--garment", "block-4x16", "--name", "arm/left", "--zenoh"];
     let _serving = Serving::start(&folder, &[&args[..], &["router.json5"]].concat());
-    let watched =
-        run(&folder, &["live", "--source", "zenoh:arm/left@client.json5", "--json", "--seconds", "4"]);
+    let watched = run(&folder, &["live", "--source", "zenoh:arm/left@client.json5", "--json", "--for", "4s"]);
     assert!(watched.status.success(), "{}", said(&watched));
     let lines = lines(&watched);
     let frames: Vec<_> = lines.iter().filter(|line| line["type"] == "frame").collect();
@@ -142,7 +140,7 @@ fn the_boards_of_a_robot_are_offered_and_followed_as_a_robot() {
     let there = ["torso", "hand"].map(|board| format!("zenoh:two/{board}@client.json5"));
     std::fs::write(folder.join("there.toml"), robot([&there[0], &there[1]])).unwrap();
     let _serving = Serving::start(&folder, &["serve", "here.toml", "--zenoh", "router.json5"]);
-    let watched = run(&folder, &["live", "there.toml", "--json", "--seconds", "1"]);
+    let watched = run(&folder, &["live", "there.toml", "--json", "--for", "1s"]);
     assert!(watched.status.success(), "{}", said(&watched));
     let lines = lines(&watched);
     for board in ["torso", "hand"] {

@@ -100,7 +100,7 @@ def test_every_image_of_the_board_is_in_a_window() -> None:
 
 def test_a_recording_has_the_observations_of_its_images(tmp_path: Path) -> None:
     file = tmp_path / "pat.mcap"
-    record = ["record", "--source", "sim:pat", "--seconds", "2", "-o", str(file)]
+    record = ["record", "--source", "sim:pat", "--for", "2s", "-o", str(file)]
     subprocess.run([sys.executable, "-m", "taxel", *record], check=True, capture_output=True)
     recording = taxel.read(file)
     seen = list(observations(recording, fps=30))
@@ -162,7 +162,7 @@ def test_nothing_is_simulated_in_place_of_a_board(tmp_path: Path, monkeypatch: p
 
 def recorded(file: Path, *words: str) -> bytes:
     """What a pressed board sends in two seconds."""
-    record = ["record", "--source", "sim:press", "--seconds", "2", *words, "-o", str(file)]
+    record = ["record", "--source", "sim:press", "--for", "2s", *words, "-o", str(file)]
     subprocess.run([sys.executable, "-m", "taxel", *record], check=True, capture_output=True)
     return b"".join(one.data for one in taxel.read(file).messages("/taxel/wire"))
 

@@ -48,7 +48,7 @@ class Recording:
     >>> import os, subprocess, sys, tempfile, taxel
     >>> folder = tempfile.TemporaryDirectory()
     >>> file = os.path.join(folder.name, "pat.mcap")
-    >>> record = ["record", "--source", "sim:pat", "--seconds", "2", "-o", file]
+    >>> record = ["record", "--source", "sim:pat", "--for", "2s", "-o", file]
     >>> _ = subprocess.run([sys.executable, "-m", "taxel", *record], check=True, capture_output=True)
     >>> pat = taxel.read(file)
     >>> pat.images(start=1.0, end=1.5).values.shape[1]

@@ -23,8 +23,8 @@ pub struct ToldArgs {
     /// `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", conflicts_with_all = ["map", "input"])]
     pub source: Option<SourceSpec>,
-    /// With --source: show the last state of the first S seconds, announced or not
-    #[arg(long, value_name = "S", value_parser = watch::seconds, requires = "source")]
+    /// With --source: show the last state within this time, such as 2s, announced or not
+    #[arg(long, value_name = "TIME", value_parser = watch::time, requires = "source")]
     pub at: Option<f64>,
     /// With --source: scene to send to the board, a TOML file
     #[arg(long, value_name = "FILE", requires = "source")]
@@ -73,7 +73,7 @@ pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
     match (ear.found, at) {
         (Some(told), _) => Ok(told),
         (None, None) => {
-            bail!("{label}: no intention was announced; --at S explains the state at that time")
+            bail!("{label}: no intention was announced; --at TIME explains the state at that time")
         }
         (None, Some(at)) => bail!("{label}: no intention was reported in the first {at} s"),
     }

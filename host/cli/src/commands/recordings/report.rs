@@ -50,9 +50,9 @@ pub struct ReportArgs {
     /// Also show where the garment folds: the table, a file of `taxel body learn`; a simulated board has it
     #[arg(long, value_name = "FILE")]
     pub folds: Option<PathBuf>,
-    /// Stop after S seconds of the board's time [default: 10 for a real board; a simulated scene is played
+    /// Stop after this time of the board, such as 2s or 10min [default: 10 for a real board; a simulated scene is played
     /// once]
-    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
+    #[arg(long = "for", value_name = "TIME", value_parser = watch::time, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }
 

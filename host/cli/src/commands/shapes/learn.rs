@@ -2,7 +2,7 @@
 //! images.
 
 use super::hold::Hold;
-use crate::watch::{self, BoardArgs, Overwrite, WatchOptions, seconds};
+use crate::watch::{self, BoardArgs, Overwrite, WatchOptions, time};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
 use taxel::files::arrays;
@@ -31,8 +31,8 @@ pub struct ShapesLearnArgs {
     /// Number of touches to wait for
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub touches: u16,
-    /// Stop waiting after S seconds of the board's time [default: a simulated scene is played once]
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    /// Stop waiting after this time of the board, such as 10s [default: a simulated scene is played once]
+    #[arg(long = "for", value_name = "TIME", value_parser = time)]
     pub seconds: Option<f64>,
     /// Base to add to: a file, or the name of a shipped base [default: the output file; if it does not exist,
     /// an empty base]

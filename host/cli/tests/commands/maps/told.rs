@@ -58,7 +58,10 @@ fn a_time_may_be_asked_for() {
 #[test]
 fn where_there_is_nothing_to_explain_it_is_said() {
     let quiet = told("sim:idle", None).unwrap_err();
-    assert!(quiet.ends_with("no intention was announced; --at S explains the state at that time"), "{quiet}");
+    assert!(
+        quiet.ends_with("no intention was announced; --at TIME explains the state at that time"),
+        "{quiet}"
+    );
     let early = told("sim:lash", Some(0.0)).unwrap();
     assert_eq!((early.report.leading, explain_told(&early, None).unwrap().why.sum.0), (Leading::None, 0));
     let scene = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("silent.toml");

@@ -32,8 +32,8 @@ fn a_day_is_recorded_and_reported_in_flat_memory() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("day-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let [file, page] = ["day.mcap", "day.html"].map(|name| folder.join(name).to_str().unwrap().to_string());
-    let asked = seconds.to_string();
-    let (recorder, words) = watched("record", &["--source", "sim:pat", "--seconds", &asked, "-o", &file]);
+    let asked = format!("{seconds}s");
+    let (recorder, words) = watched("record", &["--source", "sim:pat", "--for", &asked, "-o", &file]);
     let (reporter, _) = watched("report", &[&file, "-o", &page]);
     let bytes = std::fs::metadata(&file).unwrap().len();
     std::fs::remove_dir_all(&folder).unwrap();

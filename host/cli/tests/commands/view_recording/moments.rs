@@ -80,7 +80,7 @@ fn the_moments_of_a_board_are_found_in_the_recording_of_a_robot() {
     let boards = boards.map(|board| format!("[[boards]]\nname = \"{board}\"\n")).concat();
     std::fs::write(&robot, format!("name = \"two\"\n{boards}")).unwrap();
     let mut record = std::process::Command::new(PROGRAM);
-    record.args(["record", "--seconds", "4", "--force", "-o"]).args([&path, &robot]);
+    record.args(["record", "--for", "4s", "--force", "-o"]).args([&path, &robot]);
     assert!(record.stderr(std::process::Stdio::null()).status().unwrap().success());
     for board in ["torso", "hand"] {
         let part = format!("{}#{board}", path.display());

@@ -27,7 +27,7 @@ pub fn file(name: &str) -> PathBuf {
 pub fn recorded(name: &str, scene: &str, seconds: u32, more: &[&str]) -> PathBuf {
     let path = file(name);
     let mut record = Command::new(PROGRAM);
-    record.args(["record", "--source", scene, "--seconds", &seconds.to_string(), "--force", "-o"]);
+    record.args(["record", "--source", scene, "--for", &format!("{seconds}s"), "--force", "-o"]);
     let done = record.arg(&path).args(more).stderr(Stdio::null()).status().unwrap();
     assert!(done.success());
     path

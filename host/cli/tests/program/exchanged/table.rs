@@ -53,8 +53,8 @@ const LOOPS: &[Row] = &[
 /// All others that last, in a campaign.
 const REST: &[Row] = &[
     ("record --view --port 0 -o a.mcap --source {}", (GONE, GoesOn), (REFUSED, Ends(0.0))),
-    ("doctor --seconds 1000 --source {}", (LIMITED, Ends(10.0)), (REFUSED, Ends(0.0))),
-    ("report --seconds 1000 -o a.html --source {}", (LIMITED, Ends(10.0)), (REFUSED, Ends(0.0))),
+    ("doctor --for 1000s --source {}", (LIMITED, Ends(10.0)), (REFUSED, Ends(0.0))),
+    ("report --for 1000s -o a.html --source {}", (LIMITED, Ends(10.0)), (REFUSED, Ends(0.0))),
     ("shapes learn ball -o a.json --source {}", (GONE, GoesOn), (REFUSED, Ends(0.0))),
 ];
 

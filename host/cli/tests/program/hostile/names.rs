@@ -44,7 +44,7 @@ fn exported(number: usize, panel: &str, link: &str, form: &str, more: &[&str]) -
     }
     fs::write(&garment, text).unwrap();
     let names = [&garment, &recording, &output].map(|path| path.to_str().unwrap());
-    let record = ["record", "--source", "sim:pat", "--garment", names[0], "--seconds", "1"];
+    let record = ["record", "--source", "sim:pat", "--garment", names[0], "--for", "1s"];
     taxel(&[&record[..], &["--force", "-o", names[1]]].concat());
     let export = ["export", names[1], "--to", form, "--force", "-o", names[2]];
     taxel(&[&export[..], more].concat());

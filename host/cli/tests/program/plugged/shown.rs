@@ -77,7 +77,7 @@ fn of_several_boards_the_shown_one_is_named_and_a_serial_number_names_another() 
     assert_eq!(end.status, Some(0), "{}", end.error);
     let first = "usb:/dev/ttyTAXEL0 is shown; other boards are plugged in: usb:B2 (/dev/ttyTAXEL1)\n";
     assert!(end.error.starts_with(first), "{}", end.error);
-    let end = ended(command(&here, &ports, &["doctor", "--source", "usb:B2", "--seconds", "1"]));
+    let end = ended(command(&here, &ports, &["doctor", "--source", "usb:B2", "--for", "1s"]));
     assert!(end.output.starts_with("usb:/dev/ttyTAXEL1\n"), "{} {}", end.output, end.error);
     assert!(end.output.contains("this is a simulated board"), "{}", end.output);
     let end = ended(command(&here, &ports, &["save", "--source", "usb:A1"]));

@@ -36,7 +36,7 @@ impl Folder {
 
     /// A recording of four seconds with a flipped bit in the n-th chunk's data.
     fn damaged(&self, name: &str, chunk: usize) -> Vec<u8> {
-        self.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", name]);
+        self.good(&["record", "--source", "sim:press", "--for", "4s", "-o", name]);
         let place = &taxel::recording::chunk_indexes(&self.at(name)).unwrap()[chunk];
         let mut bytes = fs::read(self.at(name)).unwrap();
         bytes[(place.chunk_start_offset + place.chunk_length) as usize - 40] ^= 1;
@@ -107,7 +107,7 @@ fn a_repair_takes_no_name_that_it_was_not_given() {
 #[test]
 fn a_recording_without_its_first_chunk_is_played() {
     let folder = Folder::new("first");
-    folder.good(&["record", "--source", "sim:press", "--seconds", "4", "-o", "whole.mcap"]);
+    folder.good(&["record", "--source", "sim:press", "--for", "4s", "-o", "whole.mcap"]);
     let whole = info(&folder, "whole.mcap")["frames"].as_u64().unwrap();
     folder.damaged("touch.mcap", 0);
     folder.good(&["info", "touch.mcap", "--repair"]);

@@ -17,7 +17,7 @@ use taxel::tell::date;
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
   taxel doctor
-  taxel doctor --source serial:/dev/ttyACM0 --seconds 20 --json";
+  taxel doctor --source serial:/dev/ttyACM0 --for 20s --json";
 
 /// Diagnose a board: what is wrong, and what to do about it
 #[derive(Debug, Clone, Args)]
@@ -29,8 +29,8 @@ pub struct DoctorArgs {
     /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`
     #[arg(long, value_name = "SOURCE", default_value = "auto")]
     pub source: SourceSpec,
-    /// Seconds of the board to listen
-    #[arg(long, value_name = "S", default_value_t = 5.0, allow_negative_numbers = true)]
+    /// Time of the board to listen, such as 5s
+    #[arg(long = "for", value_name = "TIME", default_value = "5s", value_parser = watch::time, allow_negative_numbers = true)]
     pub seconds: f64,
     /// Print JSON instead of a table
     #[arg(long)]
@@ -41,7 +41,7 @@ impl DoctorArgs {
     /// The robot whose boards are all meant; none for a board.
     pub fn robot(&self) -> Result<Option<ReadRobot>> {
         let ok = self.seconds.is_finite() && self.seconds > 0.0;
-        ensure!(ok, Fault::usage("--seconds must be a time above 0"));
+        ensure!(ok, Fault::usage("--for must be a time above 0"));
         let SourceSpec::Robot { file, board: None } = self.source() else { return Ok(None) };
         Ok(Some(ReadRobot::read(file)?))
     }

@@ -3,6 +3,7 @@
 use super::dialogue::Dialogue;
 use crate::fault::{Blame, Fault};
 use crate::watch::raw::RawBoard;
+use crate::watch::time;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use serde_json::json;
@@ -26,14 +27,14 @@ pub struct CalibrationCheckArgs {
     /// Also ask for a known weight on a plate that covers the first panel, N
     #[arg(long, value_name = "N")]
     pub press: Option<f64>,
-    /// Repeat every S seconds until Ctrl-C and report changes
-    #[arg(long, value_name = "S", conflicts_with = "press")]
+    /// Repeat after this time, such as 10min, until Ctrl-C and report changes
+    #[arg(long, value_name = "TIME", value_parser = time, conflicts_with = "press")]
     pub every: Option<f64>,
     /// Days after which a calibration is old
     #[arg(long, value_name = "DAYS", default_value_t = 180)]
     pub days: u64,
-    /// Seconds of the board to wait for the weight
-    #[arg(long, value_name = "S", default_value_t = 120.0)]
+    /// Longest wait for the weight
+    #[arg(long, value_name = "TIME", default_value = "2min", value_parser = time)]
     pub wait: f64,
     /// Print JSON instead of sentences
     #[arg(long)]

@@ -5,8 +5,8 @@ use super::settle::{self, SettleArgs};
 use super::task::{CalibrationTask, calibrate};
 use super::{install, operator};
 use crate::fault::Fault;
-use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
+use crate::watch::{Overwrite, time};
 use anyhow::{Result, bail, ensure};
 use clap::{Args, Subcommand};
 use serde_json::json;
@@ -58,8 +58,8 @@ pub struct CalibrateArgs {
     /// Who calibrates [default: the user's name]
     #[arg(long, value_name = "NAME")]
     pub by: Option<String>,
-    /// Seconds of the board to wait for a weight
-    #[arg(long, value_name = "S", default_value_t = 120.0)]
+    /// Longest wait for a weight
+    #[arg(long, value_name = "TIME", default_value = "2min", value_parser = time)]
     pub wait: f64,
     /// File to write
     #[arg(long, short, value_name = "FILE", default_value = "calibration.toml")]

@@ -29,7 +29,7 @@ pub struct Dialogue<'a> {
     pub board: &'a mut RawBoard,
     /// Pressure lowers the code.
     pub falling: bool,
-    /// Seconds of the board to wait for a weight.
+    /// Longest wait of the board for a weight, s.
     pub wait: f64,
     /// Print JSON, one object per line.
     pub json: bool,

@@ -20,7 +20,7 @@ pub struct CalibrationTask {
     pub weights: Vec<f64>,
     /// Author.
     pub by: String,
-    /// Seconds of the board to wait for a weight.
+    /// Longest wait of the board for a weight, s.
     pub wait: f64,
     /// Print the dialogue as JSON.
     pub json: bool,

@@ -7,8 +7,8 @@ use super::touch::Touch;
 use super::user::User;
 use crate::commands::garment;
 use crate::fault::Fault;
-use crate::watch::Overwrite;
 use crate::watch::raw::RawBoard;
+use crate::watch::{Overwrite, time};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use fastrand::Rng;
@@ -45,8 +45,8 @@ pub struct SetupArgs {
     /// Whether an existing output is replaced.
     #[command(flatten)]
     pub force: Overwrite,
-    /// Seconds of the board to wait for a touch
-    #[arg(long, value_name = "S", default_value_t = 20.0)]
+    /// Longest wait for a touch
+    #[arg(long, value_name = "TIME", default_value = "20s", value_parser = time)]
     pub wait: f64,
     /// Print the dialogue as JSON, one object per line
     #[arg(long)]

@@ -27,7 +27,7 @@ pub fn run(args: &WhyArgs, robot: &ReadRobot) -> Result<()> {
     let reasons = match (ear.found, at) {
         (Some(seconds), _) => RobotReasons::of(&ear.mind, seconds, args.of.as_deref(), robot)?,
         (None, None) => {
-            bail!("{}: no intention was announced; --at S explains the state at that time", robot.file)
+            bail!("{}: no intention was announced; --at TIME explains the state at that time", robot.file)
         }
         (None, Some(at)) => bail!("{}: its boards were over before {at} s", robot.file),
     };

@@ -38,9 +38,9 @@ pub struct RecordArgs {
     /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// Stop after S seconds of the board's time [default: a simulated scene is played once; a board is
+    /// Stop after this time of the board, such as 2s or 10min [default: a simulated scene is played once; a board is
     /// recorded until Ctrl-C]
-    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
+    #[arg(long = "for", value_name = "TIME", value_parser = watch::time, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Also write FILE.ros2.mcap with ROS 2 messages: images, point clouds, forces, diagnostics
     #[arg(long)]
@@ -127,7 +127,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
     let ended = recorder.finish();
     eprintln!("{}", recorder.summary());
     if label.starts_with("sim:") && unlimited && done.is_ok() && !stop::asked() {
-        eprintln!("{label} is over: a simulated scene is played once, --seconds S records for longer");
+        eprintln!("{label} is over: a simulated scene is played once, --for TIME records for longer");
     }
     done.and(ended.map_err(Error::from))
 }

@@ -4,7 +4,7 @@ mod lines;
 mod robot;
 
 use crate::terminal::{Lines, Screen, TaxelLines, View};
-use crate::watch::{BoardArgs, TaxelPlace, WatchOptions, seconds, watch};
+use crate::watch::{BoardArgs, TaxelPlace, WatchOptions, time, watch};
 use anyhow::Result;
 use std::io::{IsTerminal, stdout};
 use taxel::json::MessagePrinter;
@@ -31,9 +31,9 @@ pub struct LiveArgs {
     /// Stop after N images
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// Stop after S seconds of the board's time [default: a simulated scene is played once; the terminal
+    /// Stop after this time of the board, such as 2s or 10min [default: a simulated scene is played once; the terminal
     /// repeats it]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long = "for", value_name = "TIME", value_parser = time, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
     /// Print messages as JSON, one per line
     #[arg(long)]

@@ -4,7 +4,7 @@ mod robot;
 
 use crate::fault::Fault;
 use crate::ros2::{DOMAINS, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::{self, BoardArgs, WatchOptions, seconds, stop};
+use crate::watch::{self, BoardArgs, WatchOptions, stop, time};
 use anyhow::Result;
 use clap::Args;
 use taxel::body;
@@ -29,8 +29,8 @@ pub struct Ros2Args {
     /// Stamp messages with the board's time, and tell it on /clock: other nodes set use_sim_time
     #[arg(long)]
     pub clock: bool,
-    /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    /// Stop after this time of the board, such as 2s or 10min [default: never; simulated scenes are repeated]
+    #[arg(long = "for", value_name = "TIME", value_parser = time, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }
 

@@ -2,7 +2,7 @@
 
 mod robot;
 
-use crate::watch::{self, BoardArgs, WatchOptions, seconds, stop};
+use crate::watch::{self, BoardArgs, WatchOptions, stop, time};
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
@@ -29,8 +29,8 @@ pub struct ServeArgs {
     /// The network.
     #[command(flatten)]
     pub network: NetworkArgs,
-    /// Stop after S seconds of the board's time [default: never; simulated scenes are repeated]
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    /// Stop after this time of the board, such as 2s or 10min [default: never; simulated scenes are repeated]
+    #[arg(long = "for", value_name = "TIME", value_parser = time, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }
 

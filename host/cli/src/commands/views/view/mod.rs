@@ -51,8 +51,8 @@ pub struct ViewArgs {
     /// Open the page in the browser
     #[arg(long)]
     pub open: bool,
-    /// Stop after S seconds of the board's time [default: go on until Ctrl-C]
-    #[arg(long, value_name = "S", value_parser = watch::seconds, allow_negative_numbers = true)]
+    /// Stop after this time of the board, such as 2s or 10min [default: go on until Ctrl-C]
+    #[arg(long = "for", value_name = "TIME", value_parser = watch::time, allow_negative_numbers = true)]
     pub seconds: Option<f64>,
 }
 
