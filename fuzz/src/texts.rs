@@ -109,7 +109,7 @@ fn image(file: &Scratch, bytes: &[u8]) {
     if !bytes.starts_with(b"\x7fELF") {
         let nowhere = Path::new("no-such-drive").to_path_buf();
         let args = flash::FlashArgs { file: file.path().into(), drive: Some(nowhere) };
-        assert!(flash::run(&args).is_err(), "there is no drive");
+        assert!(flash::run(args).is_err(), "there is no drive");
     }
 }
 

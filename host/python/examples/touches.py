@@ -16,8 +16,8 @@ def main(source: str) -> None:
                 hardest = event.contacts[np.argmax(event.contacts["total"])]
                 place = f"{hardest['panel_name']} at ({hardest['x']:.1f}, {hardest['y']:.1f})"
                 print(f"{event.time_us / 1e6:.3f} s: {hardest['total']} counts on {place}")
-            elif isinstance(event, taxel.Intent) and event.intent["leading"] != leading:
-                leading = event.intent["leading"]
+            elif isinstance(event, taxel.Intent) and event.leading != leading:
+                leading = event.leading
                 print(f"{event.time_us / 1e6:.3f} s: {leading}")
             elif isinstance(event, taxel.Lost):
                 print(event.why, file=sys.stderr)

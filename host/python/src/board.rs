@@ -3,7 +3,7 @@
 use crate::error::{argument, blames_board, raised};
 use crate::event::{self, Fact, FactReader};
 use crate::keywords::Keywords;
-use crate::request;
+use crate::{request, value};
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -104,7 +104,7 @@ fn open(
     posing.into_iter().for_each(|posing| session.pose_by(posing));
     let longest = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     let (reader, clock, limit) =
-        (FactReader::default(), SteadyTime::start(), RunLimit::of(options.frames, longest));
+        (FactReader::new(board.calibration), SteadyTime::start(), RunLimit::of(options.frames, longest));
     let over = options.frames == Some(0);
     Ok(Open { session, reader, clock, limit, required, over })
 }
@@ -251,8 +251,9 @@ impl Board {
         py.detach(|| self.lock().as_ref().map(|open| open.session.source().label.clone()))
     }
 
-    /// Queues a request, by its name and its values in JSON.
-    fn _request(&self, py: Python<'_>, name: &str, values: &str) -> PyResult<()> {
+    /// Queues a request, by its name and its named values.
+    fn _request(&self, py: Python<'_>, name: &str, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        let values = value::of(values)?;
         py.detach(|| self.ask(|open| request::ask(open.session.parts().0, name, values))).map_err(raised)
     }
 

@@ -22,8 +22,8 @@ enum Field {
 }
 
 /// The fields by their names in the JSON. Lengths are in taxels and, with `_mm`, in millimetres; angles in
-/// radians, times in seconds, pressure in counts.
-const FIELDS: [(&str, Field); 38] = [
+/// radians, times in seconds, pressure in counts, forces with `_n` in newtons.
+const FIELDS: [(&str, Field); 40] = [
     ("id", Field::Whole(4)),
     ("phase", Field::Text(8)),
     ("panel", Field::Whole(1)),
@@ -62,10 +62,9 @@ const FIELDS: [(&str, Field); 38] = [
     ("bottom", Field::Whole(2)),
     ("left", Field::Whole(2)),
     ("right", Field::Whole(2)),
+    ("form_age", Field::Optional),
+    ("force_n", Field::Number),
 ];
-
-/// Age of the contact's form in frames, if the ages were asked for.
-const AGE: (&str, Field) = ("form_age", Field::Optional);
 
 impl Field {
     /// NumPy's name of the type, little-endian.
@@ -120,14 +119,10 @@ const MOMENT: [(&str, Field); 15] = [
     ("right", Field::Whole(2)),
 ];
 
-fn fields() -> Vec<(&'static str, Field)> {
-    FIELDS.into_iter().chain([AGE]).collect()
-}
-
 /// NumPy's type of one contact.
 pub fn dtype(py: Python<'_>) -> PyResult<Bound<'_, PyArrayDescr>> {
     static DTYPE: PyOnceLock<Py<PyArrayDescr>> = PyOnceLock::new();
-    dtype_of(py, &DTYPE, &fields())
+    dtype_of(py, &DTYPE, &FIELDS)
 }
 
 /// NumPy's type of one contact between two scans.
@@ -150,7 +145,7 @@ fn dtype_of<'py>(
 
 /// A read-only array of contacts, from a list of their JSON objects.
 pub fn contacts<'py>(py: Python<'py>, list: &Value) -> PyResult<Bound<'py, PyAny>> {
-    array::records(py, bytes(list, &fields()), &dtype(py)?)
+    array::records(py, bytes(list, &FIELDS), &dtype(py)?)
 }
 
 /// A read-only array of contacts between two scans, from a list of JSON objects with these fields.

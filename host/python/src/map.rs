@@ -39,11 +39,12 @@ impl Map {
 
 #[pymethods]
 impl Map {
-    /// A map from its keys in JSON, those of a map's TOML file.
+    /// A map from the keys of its TOML file.
     #[staticmethod]
-    fn _from_json(text: &str) -> PyResult<Map> {
+    fn _from_dict(keys: &Bound<'_, PyDict>) -> PyResult<Map> {
+        let keys = value::of(keys)?;
         let read = || -> Result<MapFile> {
-            let file: MapFile = serde_json::from_str(text).context("the map")?;
+            let file: MapFile = serde_json::from_value(keys).context("the map")?;
             file.check_numbers().context("the map")?;
             Ok(file)
         };

@@ -1,7 +1,7 @@
-//! Requests to a board, as Python's `Requests` hands them over: by name, with values in JSON.
+//! Requests to a board, as Python's `Requests` hands them over: by name, with named values.
 
 use crate::error::argument;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, bail, ensure};
 use serde_json::Value;
 use std::path::Path;
 use taxel::client::{Client, SceneChange};
@@ -41,8 +41,8 @@ impl Values {
 }
 
 /// Queues the request of this name.
-pub fn ask(client: &mut Client, request: &str, values: &str) -> Result<()> {
-    let values = Values(serde_json::from_str(values).context("the values of a request")?);
+pub fn ask(client: &mut Client, request: &str, values: Value) -> Result<()> {
+    let values = Values(values);
     let request = match request {
         "tare" => Request::Tare { frames: values.whole("frames", 1, 4096)? as u16 },
         "key_frame" => Request::KeyFrame,

@@ -3,8 +3,10 @@
 use crate::error::{argument, raised};
 use crate::event::{self, Fact, FactReader};
 use crate::moments::{KeptMoments, Moment};
+use crate::value;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_json::Value;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -63,7 +65,7 @@ impl OpenRobot {
         let plans = robot.plans(options, &RunLimit::of(options.frames, limit));
         let session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
             let board = &robot.boards[number];
-            let (name, mut reader) = (board.name.clone(), FactReader::default());
+            let (name, mut reader) = (board.name.clone(), FactReader::new(board.calibration.clone()));
             let contacts = is_kept.then(|| ContactReader::new(board));
             let mut mind = is_minded.then(|| MindReader::new(&robot, number));
             queue.make(move |client, event, stamp| {
@@ -202,14 +204,14 @@ impl Robot {
         }
     }
 
-    fn why(&self, of: Option<&str>) -> anyhow::Result<String> {
+    fn reasons(&self, of: Option<&str>) -> anyhow::Result<Value> {
         let open = self.interrupt();
         let Some(robot) = open.as_ref() else { return Err(argument("the robot is closed").into()) };
         let Some(mind) = &robot.mind else {
             return Err(argument("the boards are not at one time: open the robot with realtime=True").into());
         };
         let seconds = robot.session.now_us().saturating_sub(robot.begun_us) as f64 / 1e6;
-        Ok(RobotReasons::of(mind, seconds, of, &robot.robot)?.json(&robot.robot).to_string())
+        Ok(RobotReasons::of(mind, seconds, of, &robot.robot)?.json(&robot.robot))
     }
 }
 
@@ -341,10 +343,10 @@ impl Robot {
         py.detach(|| self.told(&line)).map_err(raised)
     }
 
-    /// Why the robot's map has its activations now, as JSON.
+    /// Why the robot's map has its activations now.
     #[pyo3(signature = (of=None))]
-    fn _why(&self, py: Python<'_>, of: Option<&str>) -> PyResult<String> {
-        py.detach(|| self.why(of)).map_err(raised)
+    fn why<'py>(&self, py: Python<'py>, of: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
+        value::dict(py, &py.detach(|| self.reasons(of)).map_err(raised)?)
     }
 
     /// Examines lines and inputs of this board, or of all.

@@ -1,8 +1,9 @@
-//! JSON values as Python objects.
+//! JSON values as Python objects, and Python objects as JSON values.
 
+use crate::error::usage;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use serde_json::Value;
 
 /// The Python object of a value: dict, list, str, int, float, bool or None. Numbers keep every bit.
@@ -32,4 +33,29 @@ pub fn dict<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyDict>>
         dict.set_item(key, object(py, item)?)?;
     }
     Ok(dict)
+}
+
+/// The value of a Python object. Error if it is, or holds, something else than [`object`] makes, or a number that
+/// JSON cannot hold.
+pub fn of(object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let refused = || usage(format!("{object} is no number, text, list or dict"));
+    if object.is_none() {
+        Ok(Value::Null)
+    } else if object.is_instance_of::<PyBool>() {
+        Ok(object.extract::<bool>()?.into())
+    } else if object.is_instance_of::<PyInt>() {
+        Ok(object.extract::<i64>()?.into())
+    } else if object.is_instance_of::<PyFloat>() {
+        serde_json::Number::from_f64(object.extract()?).map(Value::Number).ok_or_else(refused)
+    } else if object.is_instance_of::<PyString>() {
+        Ok(object.extract::<String>()?.into())
+    } else if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
+        object.try_iter()?.map(|item| of(&item?)).collect()
+    } else if let Ok(dict) = object.cast::<PyDict>() {
+        let pair =
+            |(key, item): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((key.extract::<String>()?, of(&item)?));
+        dict.iter().map(pair).collect::<PyResult<serde_json::Map<_, _>>>().map(Value::Object)
+    } else {
+        Err(refused())
+    }
 }

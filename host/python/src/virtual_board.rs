@@ -3,7 +3,7 @@
 use crate::array;
 use crate::error::{raised, usage};
 use crate::event::{self, Fact, FactReader};
-use crate::request;
+use crate::{request, value};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -83,8 +83,9 @@ impl VirtualBoard {
         Ok([array::frozen(py, taxels)?, array::frozen(py, expected)?, array::frozen(py, doubts)?])
     }
 
-    /// Queues a request, by its name and its values in JSON.
-    fn _request(&self, py: Python<'_>, name: &str, values: &str) -> PyResult<()> {
+    /// Queues a request, by its name and its named values.
+    fn _request(&self, py: Python<'_>, name: &str, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        let values = value::of(values)?;
         py.detach(|| request::ask(self.lock().board.client(), name, values)).map_err(raised)
     }
 }

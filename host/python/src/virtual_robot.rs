@@ -2,8 +2,10 @@
 
 use crate::error::{argument, raised, usage};
 use crate::event::{self, Fact};
+use crate::value;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -101,22 +103,22 @@ impl VirtualRobot {
         py.detach(|| self.told(&line, time_us)).map_err(raised)
     }
 
-    /// What touches the robot now, as JSON.
-    fn _touches(&self, py: Python<'_>) -> PyResult<String> {
+    /// What touches the robot now: a dict for each touch.
+    fn _touches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let touches =
-            || Ok::<_, anyhow::Error>(serde_json::to_string(&RobotTouchLine::all(self.lock().mind()))?);
-        py.detach(touches).map_err(raised)
+            || Ok::<_, anyhow::Error>(serde_json::to_value(RobotTouchLine::all(self.lock().mind()))?);
+        value::object(py, &py.detach(touches).map_err(raised)?)
     }
 
-    /// Why the robot's map has its activations now, as JSON.
+    /// Why the robot's map has its activations now.
     #[pyo3(signature = (of=None))]
-    fn _why(&self, py: Python<'_>, of: Option<&str>) -> PyResult<String> {
+    fn why<'py>(&self, py: Python<'py>, of: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
         let why = || {
             let mut stepped = self.lock();
             let seconds = stepped.mind().meaning().map_or(0.0, |meaning| meaning.host_us as f64 / 1e6);
             let reasons = RobotReasons::of(stepped.mind(), seconds, of, &self.robot)?;
-            Ok::<_, anyhow::Error>(reasons.json(&self.robot).to_string())
+            Ok::<_, anyhow::Error>(reasons.json(&self.robot))
         };
-        py.detach(why).map_err(raised)
+        value::dict(py, &py.detach(why).map_err(raised)?)
     }
 }

@@ -40,21 +40,21 @@ def test_a_body_on_the_board_tells_what_presses_where() -> None:
     touched[[263, 264, 279, 280]] += 500
     last = hold(touched, 10)[-1]
     (link,) = last.links
-    assert (link["link"], link["pressed"]) == ("torso", 2000)
+    assert (link.link, link.pressed) == ("torso", 2000)
     (contact,) = last.contacts
-    assert contact["at_m"] == link["center_m"]
+    assert contact.at_m == link.center_m
     # Half a turn about z, and a metre up.
-    x, y, z = contact["at_m"]
-    assert contact["base"]["at_m"] == pytest.approx([-x, -y, z + 1.0], abs=5e-6)
+    x, y, z = contact.at_m
+    assert contact.base is not None and contact.base.at_m == pytest.approx((-x, -y, z + 1.0), abs=5e-6)
     # Gains count.
     board.set_gains([2.0] * board.taxels)
     hold(rest, 30)
-    assert hold(touched, 10)[-1].links[0]["pressed"] == 4000
+    assert hold(touched, 10)[-1].links[0].pressed == 4000
 
 
 def test_a_simulated_board_has_a_body_from_the_start() -> None:
     with taxel.open("sim:pat", body="reference", seconds=1) as board:
-        links = {link["link"] for event in board if isinstance(event, taxel.Pressing) for link in event.links}
+        links = {link.link for event in board if isinstance(event, taxel.Pressing) for link in event.links}
     assert links == {"torso"}
 
 
@@ -73,11 +73,11 @@ def test_joints_become_poses_of_the_links() -> None:
             if not isinstance(event, taxel.Pressing) or event.pose_age_us is None:
                 continue
             assert event.posed_us == event.time_us - event.pose_age_us
-            for contact in [one for one in event.contacts if one["link"] == "torso"]:
-                x, y, z = contact["at_m"]
+            for contact in [one for one in event.contacts if one.link == "torso"]:
+                x, y, z = contact.at_m
                 cos, sin = math.cos(WAIST), math.sin(WAIST)
-                want = [x * cos - y * sin, x * sin + y * cos, z]
-                assert contact["base"]["at_m"] == pytest.approx(want, abs=1e-4)
+                want = (x * cos - y * sin, x * sin + y * cos, z)
+                assert contact.base is not None and contact.base.at_m == pytest.approx(want, abs=1e-4)
                 posed += 1
             if event.pose_error_m is not None:
                 errors.append(event.pose_error_m)

@@ -201,9 +201,9 @@ def test_a_robot_is_stepped_by_hand(tmp_path: Path) -> None:
         if news is not None:
             meant.append(news)
     (touch,) = robot.touches()
-    assert (touch["region"], touch["link"], touch["mover"]) == ("chest", "torso", "other")
-    assert touch["approach"]["speed_m_s"] == 0.0 and "probe" not in touch
-    assert meant and meant[0].touches[0]["region"] == "chest"
+    assert (touch.region, touch.link, touch.mover) == ("chest", "torso", "other")
+    assert touch.approach is not None and touch.approach.speed_m_s == 0.0 and touch.probe is None
+    assert meant and meant[0].touches[0].region == "chest"
     why = robot.why("kindness")
     assert why["concept"] == "kindness" and why["seconds"] > 0.5
 

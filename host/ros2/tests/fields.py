@@ -55,22 +55,21 @@ def symbols(message, line):
     for one, told in zip(message.events, line["events"]):
         words = told["words"]
         own = [one.strength, one.extent, one.span, one.moving, one.shape]
-        assert own == [words[key] for key in ["strength", "extent", "span", "moving", "class"]]
+        assert own == [words[key] for key in ["strength", "extent", "span", "moving", "shape"]]
         assert [one.contact, PHASES[one.phase]] == [told["contact"], told["phase"]]
         assert one.region == told["region"]
         assert [one.peak_total, one.duration] == [told["peak_total"], told["duration_ms"] / 1000]
     for one, told in zip(message.regions, line["regions"]):
         for key in ["region", "contacts", "total", "peak", "moving"]:
             assert getattr(one, key) == told[key], key
-        assert one.since == told["since"] / 1e6
+        assert one.since == told["since_us"] / 1e6
 
 
 def intent(message, line):
     """All fields of Intent.msg."""
-    told = line["intent"]
-    assert [message.frame, message.leading] == [line["frame"], told["leading"]]
+    assert [message.frame, message.leading] == [line["frame"], line["leading"]]
     assert [message.outcome, message.steps] == [line["outcome"], line["steps"]]
-    assert dict(zip(message.concepts, message.activations)) == told["concepts"]
+    assert dict(zip(message.concepts, message.activations)) == line["concepts"]
 
 
 def reaction(message, line):
@@ -109,8 +108,8 @@ def body_regions(message, line):
     assert message.frame == line["frame"] and len(message.regions) == len(line["regions"])
     for one, told in zip(message.regions, line["regions"]):
         own = [one.region, BODY_PHASES[one.phase], WAYS[one.way], one.contacts, one.strength, one.extent, one.shape]
-        assert own == [told[key] for key in ["region", "phase", "way", "contacts", "strength", "extent", "class"]]
-        assert one.since == told["since"] / 1e6
+        assert own == [told[key] for key in ["region", "phase", "way", "contacts", "strength", "extent", "shape"]]
+        assert one.since == told["since_us"] / 1e6
 
 
 def pressing(message, line, per_newton=1000.0):

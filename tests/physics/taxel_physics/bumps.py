@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import tau
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -93,7 +92,7 @@ class Felt:
     """Greatest force."""
     mover: str | None = None
     """Whose motion it was, as the robot says; None if it has felt nothing."""
-    approach: Mapping[str, float] | None = None
+    approach: taxel.Approach | None = None
     """How the robot says that its surface moved."""
     leading: list[str] = field(default_factory=list)
     """Intentions that the robot announced."""
@@ -222,16 +221,16 @@ class Bumps:
                 felt.leading.append(meant.leading)
             told = self._strongest(robot.touches(), (bump.link, bump.by))
             if told and first is not None:
-                felt.mover, felt.approach = str(told["mover"]), told.get("approach")
+                felt.mover, felt.approach = told.mover, told.approach
             now_us += SCAN_US
         return felt
 
     @staticmethod
-    def _strongest(touches: list[dict[str, Any]], links: tuple[str, str]) -> dict[str, Any] | None:
+    def _strongest(touches: list[taxel.RobotTouch], links: tuple[str, str]) -> taxel.RobotTouch | None:
         """The strongest touch of the links; of two links that touch each other, the one that is not told right."""
-        on = [[touch for touch in touches if touch["link"] == link] for link in links]
-        most = [max(each, key=lambda touch: int(touch["load"])) for each in on if each]
-        return min(most, key=lambda touch: touch["mover"] == "own", default=None)
+        on = [[touch for touch in touches if touch.link == link] for link in links]
+        most = [max(each, key=lambda touch: touch.load) for each in on if each]
+        return min(most, key=lambda touch: touch.mover == "own", default=None)
 
     def _velocities(self, bump: Bump) -> tuple[float, float]:
         """Of the link's surface at the taxel and of the object, along the normal, m/s; see :class:`Felt`."""

@@ -43,12 +43,12 @@ class Felt:
         """
         self._hold(self._nothing, 12)
         said = [event for event in self._hold(newtons, settle + frames)[settle:] if event is not None]
-        on = [each for event in said for each in event.links if each["link"] == link]
+        on = [each for event in said for each in event.links if each.link == link]
         if not on:
             return None
         scale = self._newtons_per_count
         keys = ("force", "moment", "pressed", "center_m")
-        force, moment, pressed, center = (np.mean([each[key] for each in on], axis=0) for key in keys)
+        force, moment, pressed, center = (np.mean([getattr(each, key) for each in on], axis=0) for key in keys)
         return Wrench(force * scale, moment * scale, float(pressed) * scale, center)
 
     def _hold(self, newtons: Array, frames: int) -> list[taxel.Pressing | None]:

@@ -175,7 +175,7 @@ class Folding:
             elif isinstance(event, taxel.Folds):
                 said = event
             elif isinstance(event, taxel.Intent):
-                self._leading = str(event.intent["leading"])
+                self._leading = event.leading
             elif isinstance(event, taxel.Answer) and event.refusal is not None:
                 raise RuntimeError(event.refusal)
         if frame is None:

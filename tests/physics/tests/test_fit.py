@@ -79,7 +79,7 @@ class Feeling:
             strongest = None
             for event in self._board.step(self._fabric.codes(newtons), self._time_us):
                 if isinstance(event, taxel.Hello):
-                    self._panels = [str(panel["name"]) for panel in event.panels]
+                    self._panels = [panel.name for panel in event.panels]
                 elif isinstance(event, taxel.Contacts) and len(event.contacts) > 0:
                     best = event.contacts[np.argmax(event.contacts["total"])]
                     strongest = np.array([best["panel"], best["x"], best["y"]], np.float64)

@@ -387,7 +387,7 @@ fn gestures_are_told_where_they_are_asked_for() {
     let classes = ["kindness", "threat", "attack"];
     let lines = parsed(&json(&intent));
     let told: Vec<&Value> = of_type(&lines, "gesture").collect();
-    assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["class"].as_str().unwrap())));
+    assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["name"].as_str().unwrap())));
     let mut certain = asked.clone();
     certain.board.config.gesture_certainty = Some(0.7);
     let lines = parsed(&json(&certain));

@@ -57,7 +57,7 @@ class TouchEnv(gymnasium.Env[Image, np.int64]):
         """Names the meaning of the image seen last, and sees the next one."""
         if self._frame is None or self._frame.image is None:
             raise gymnasium.error.ResetNeeded("reset() begins an episode")
-        meant = self._frame.intent["leading"]
+        meant = self._frame.intent.leading
         reward = float(MEANINGS[int(action)] == meant)
         last = self._frame.image
         image = self._next()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 import taxel
 
@@ -20,10 +19,10 @@ def observations(
     out. While the board was lost, there is none.
     """
     windows, due_ns, names = Windows(rows), None, tuple(links)
-    presses: dict[str, dict[str, Any]] = {}
+    presses: dict[str, taxel.Wrench] = {}
     for event in recording:
         if isinstance(event, taxel.Pressing):
-            presses = {one["link"]: one for one in event.links}
+            presses = {one.link: one for one in event.links}
         if isinstance(event, taxel.Lost):
             windows, due_ns = Windows(rows), None
         if not isinstance(event, taxel.Frame) or event.image is None:
@@ -31,9 +30,9 @@ def observations(
         period_ns = 1_000_000_000 // fps
         due_ns = event.host_ns + period_ns if due_ns is None else due_ns
         if event.host_ns >= due_ns and len(windows):
-            concepts = event.intent["concepts"]
+            concepts = event.intent.concepts
             felt = {name: float(concepts.get(name, 0.0)) for name in INTENTIONS}
-            on_links = {link: presses.get(link, {}) for link in names}
+            on_links = {link: presses.get(link) for link in names}
             yield Seen(windows.take(event.image.size), event.panels, felt, on_links)
             due_ns += period_ns
         windows.add(event.frame, event.time_us, event.image)

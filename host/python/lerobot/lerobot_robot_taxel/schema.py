@@ -7,11 +7,12 @@ LeRobot puts the numbers into ``observation.state``. A data set describes its fe
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import taxel
 
 from .touch import INTENTIONS, Seen
 
@@ -29,11 +30,11 @@ def _word(name: str) -> str:
     return "".join(one if one.isalnum() else "_" for one in name)
 
 
-def _parts(presses: Mapping[str, Any]) -> list[float]:
+def _parts(presses: taxel.Wrench | None) -> list[float]:
     """What presses on a link, in the order of ``PARTS``."""
-    if not presses:
+    if presses is None:
         return [0.0] * len(PARTS)
-    return [float(part) for key in ("force", "moment", "center_m") for part in presses[key]]
+    return [float(part) for parts in (presses.force, presses.moment, presses.center_m) for part in parts]
 
 
 def observation_features(panels: Iterable[str], links: Iterable[str] = ()) -> dict[str, type]:

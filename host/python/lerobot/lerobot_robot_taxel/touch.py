@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterable
 from types import TracebackType
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -32,7 +32,7 @@ class Seen:
         window: Window,
         panels: dict[str, npt.NDArray[np.uint16]],
         felt: dict[str, float],
-        presses: dict[str, dict[str, Any]],
+        presses: dict[str, taxel.Wrench | None],
     ) -> None:
         #: All images since the last observation.
         self.window = window
@@ -53,7 +53,7 @@ class Touch:
         self._open = open_stream
         #: Links of the robot whose forces are observed: of a board with a body.
         self.links = tuple(links)
-        self._presses: dict[str, dict[str, Any]] = {}
+        self._presses: dict[str, taxel.Wrench] = {}
         self._windows = Windows(rows)
         self._news = threading.Condition()
         self._frame: taxel.Frame | None = None
@@ -104,7 +104,7 @@ class Touch:
 
     def _take(self, event: taxel.Event) -> None:
         if isinstance(event, taxel.Hello):
-            self._panels = {one["name"]: (one["rows"], one["columns"]) for one in event.panels}
+            self._panels = {one.name: (one.rows, one.columns) for one in event.panels}
             self.simulated = event.simulated
         if isinstance(event, taxel.Lost):
             with self._news:
@@ -112,13 +112,13 @@ class Touch:
                 self._lost, self._windows = event.why, Windows(self._windows.rows)
         if isinstance(event, taxel.Pressing):
             with self._news:
-                self._presses = {one["link"]: one for one in event.links}
+                self._presses = {one.link: one for one in event.links}
         if not isinstance(event, taxel.Frame) or event.image is None:
             return
         with self._news:
             self._windows.add(event.frame, event.time_us, event.image)
             self._frame, self._lost = event, None
-            concepts = event.intent["concepts"]
+            concepts = event.intent.concepts
             self._felt = {name: float(concepts.get(name, 0.0)) for name in INTENTIONS}
             self._news.notify_all()
 
@@ -134,7 +134,7 @@ class Touch:
             frame = self._frame
             if frame is None or frame.image is None:
                 raise taxel.BoardError("the garment is not connected")
-            presses = {link: self._presses.get(link, {}) for link in self.links}
+            presses = {link: self._presses.get(link) for link in self.links}
             return Seen(self._windows.take(frame.image.size), frame.panels, dict(self._felt), presses)
 
     @property

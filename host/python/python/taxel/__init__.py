@@ -13,7 +13,6 @@ docs/python.md of the project.
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping
 from types import TracebackType
@@ -22,100 +21,48 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _taxel, fcm, folds
+from . import _events, _taxel, fcm, folds
+from ._events import *
 from ._recording import Images, Message, Recording, _whole, features, moments, read
 from ._requests import Requests
 from ._taxel import (
     CONTACT,
     MOMENT,
-    Answer,
-    Back,
     BoardError,
-    BoardState,
-    Budget,
-    Contacts,
     Error,
     Event,
-    Frame,
-    Gesture,
-    Health,
-    HealthMap,
-    Hello,
-    Intent,
-    Log,
-    Lost,
     Moment,
-    Folds,
-    Pressing,
-    Raw,
-    Reaction,
-    Reflex,
-    Regions,
-    Refused,
-    RobotIntent,
-    SelfTest,
-    Shapes,
-    StartOfFrame,
-    Symbols,
-    Sync,
-    Temperature,
-    Unusable,
     UsageError,
     __version__,
 )
 
+_taxel._set_event_classes(_events.CLASSES)
+
 __all__ = [
     "CONTACT",
     "MOMENT",
-    "Answer",
-    "Back",
     "Board",
     "BoardError",
-    "BoardState",
-    "Budget",
-    "Contacts",
     "Error",
     "Event",
-    "Frame",
-    "Gesture",
-    "Health",
-    "HealthMap",
-    "Hello",
     "Images",
-    "Intent",
-    "Log",
-    "Lost",
     "Message",
     "Moment",
-    "Folds",
-    "Pressing",
-    "Raw",
-    "Reaction",
     "Recording",
-    "Reflex",
-    "Regions",
-    "Refused",
     "Requests",
     "Robot",
-    "RobotIntent",
-    "SelfTest",
-    "Shapes",
-    "StartOfFrame",
-    "Symbols",
-    "Sync",
-    "Temperature",
-    "Unusable",
     "UsageError",
     "VirtualBoard",
     "VirtualRobot",
     "__version__",
     "fcm",
-    "folds",
     "features",
+    "folds",
     "moments",
     "open",
     "open_robot",
     "read",
+    *_events.__all__,
 ]
 
 
@@ -161,15 +108,6 @@ class Robot(_taxel.Robot):
     ...         images = {name: frame.image for name, frame in robot.frames().items() if frame}
     """
 
-    def why(self, of: str | None = None) -> dict[str, Any]:
-        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
-
-        It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
-        the contacts of each board, and why each board announced what it did.
-        """
-        found: dict[str, Any] = json.loads(super()._why(of))
-        return found
-
     def set_scene(self, path_or_text: str | os.PathLike[str], *, board: str | None = None) -> None:
         """Sends a scene: a TOML file, or its text. Missing keys have the shipped scene's values."""
         super()._set_scene(os.fspath(path_or_text), board=board)
@@ -195,19 +133,13 @@ class VirtualRobot(_taxel.VirtualRobot):
     >>> robot.step("torso", np.full(robot.taxels("torso"), 100, np.uint16), 5000)  # doctest: +SKIP
     """
 
-    def touches(self) -> list[dict[str, Any]]:
+    def touches(self) -> list[RobotTouch]:
         """What touches the robot now: ``board`` (its number), ``contact``, ``region``, ``link``, ``load``.
 
         ``mover`` is ``own`` if the robot's own motion has caused the touch, ``other`` or ``unsure``; ``approach`` is how
         the robot's surface moved before the onset, if that is known: ``normal_m_s`` outwards, ``speed_m_s`` in all.
         """
-        found: list[dict[str, Any]] = json.loads(super()._touches())
-        return found
-
-    def why(self, of: str | None = None) -> dict[str, Any]:
-        """Why the robot's map has its activations now, as ``Robot.why``."""
-        found: dict[str, Any] = json.loads(super()._why(of))
-        return found
+        return [RobotTouch(touch) for touch in super()._touches()]
 
 
 class VirtualBoard(_taxel.VirtualBoard, Requests):

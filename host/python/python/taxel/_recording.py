@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _taxel
-from ._taxel import Contacts, Event, Frame, Raw
+from ._events import Contacts, Frame, Raw
+from ._taxel import Event
 
 _LAST = 2**64 - 1
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -14,11 +13,11 @@ class Requests:
     What is set lasts until the board restarts; it is set again when a lost board comes back.
     """
 
-    def _request(self, name: str, values: str) -> None:
+    def _request(self, name: str, values: dict[str, Any]) -> None:
         raise NotImplementedError
 
     def _ask(self, name: str, /, **values: Any) -> None:
-        self._request(name, json.dumps(values))
+        self._request(name, values)
 
     def tare(self, frames: int = 64) -> None:
         """Takes the mean of the next ``frames`` frames (1 to 4096) as the baseline. Nothing may touch."""

@@ -7,6 +7,9 @@ from typing import Any, TypeVar, final
 import numpy as np
 import numpy.typing as npt
 
+from . import _events
+from ._field import Field
+
 _B = TypeVar("_B", bound=VirtualBoard)
 _R = TypeVar("_R", bound=Robot)
 _S = TypeVar("_S", bound=VirtualRobot)
@@ -27,425 +30,88 @@ class BoardError(Error):
     """The board, or the link to it, is at fault."""
 
 class Event:
-    """Something that a board has said. Its attributes are the keys of its JSON line."""
+    """Something that a board has said. Its attributes are the keys of its message."""
 
-    @property
-    def type(self) -> str: ...
-    @property
-    def board(self) -> str | None: ...
-    @property
-    def time_us(self) -> int | None: ...
-    @property
-    def host_ns(self) -> int: ...
-    @property
-    def host_time_uncertainty_us(self) -> int | None: ...
-    def to_dict(self) -> dict[str, Any]: ...
-    def json(self) -> str: ...
-
-class _Timed(Event):
-    @property
-    def time_us(self) -> int: ...
-
-class _Scanned(_Timed):
-    @property
-    def frame(self) -> int: ...
-
-@final
-class Frame(_Scanned):
-    """A conditioned image: the pressure of every taxel in counts, and what touches."""
-
-    @property
-    def image(self) -> npt.NDArray[np.uint16] | None: ...
-    @property
-    def panels(self) -> dict[str, npt.NDArray[np.uint16]]: ...
-    @property
-    def contacts(self) -> npt.NDArray[np.void]: ...
-    @property
-    def released(self) -> list[int]: ...
-    @property
-    def intent(self) -> dict[str, Any]: ...
-    @property
-    def key(self) -> bool: ...
-    @property
-    def decoded(self) -> bool: ...
-    @property
-    def lost(self) -> int: ...
-    @property
-    def thinned(self) -> int: ...
-
-@final
-class Raw(_Scanned):
-    """Raw codes of a scan."""
-
-    @property
-    def codes(self) -> npt.NDArray[np.uint16] | None: ...
-    @property
-    def panels(self) -> dict[str, npt.NDArray[np.uint16]]: ...
-    @property
-    def decoded(self) -> bool: ...
-
-@final
-class Contacts(_Scanned):
-    """Contacts of a frame."""
-
-    @property
-    def contacts(self) -> npt.NDArray[np.void]: ...
-    @property
-    def released(self) -> npt.NDArray[np.void]: ...
-    @property
-    def dropped(self) -> int: ...
-
-@final
-class Hello(_Timed):
-    """Garment, scene and firmware of the board."""
-
-    @property
-    def firmware(self) -> str: ...
-    @property
-    def chip(self) -> str: ...
-    @property
-    def simulated(self) -> bool: ...
-    @property
-    def garment(self) -> str: ...
-    @property
-    def scene(self) -> str: ...
-    @property
-    def calibration(self) -> str: ...
-    @property
-    def taxels(self) -> int: ...
-    @property
-    def regions(self) -> list[str]: ...
-    @property
-    def panels(self) -> list[dict[str, Any]]: ...
-
-@final
-class Boot(Event):
-    """Cause of the board's start."""
-
-    @property
-    def cause(self) -> Any: ...
-    @property
-    def resets(self) -> int: ...
-    @property
-    def aside(self) -> Any: ...
-
-@final
-class Unusable(Event):
-    """A ``Hello`` that this version cannot use; ``why`` says why."""
-
-    @property
-    def why(self) -> str: ...
-
-@final
-class Symbols(_Scanned):
-    """Words for each contact, and the state of each region."""
-
-    @property
-    def events(self) -> list[dict[str, Any]]: ...
-    @property
-    def regions(self) -> list[dict[str, Any]]: ...
-
-@final
-class Intent(_Scanned):
-    """The intention of the touch: ``intent["leading"]`` and the activation of each concept."""
-
-    @property
-    def intent(self) -> dict[str, Any]: ...
-    @property
-    def outcome(self) -> str: ...
-    @property
-    def steps(self) -> int: ...
-
-@final
-class Gesture(_Scanned):
-    """The gesture of a touch; its name is in ``to_dict()["class"]``."""
-
-    @property
-    def touch(self) -> int: ...
-    @property
-    def panel(self) -> str: ...
-    @property
-    def score(self) -> float: ...
-    @property
-    def lead(self) -> float: ...
-    @property
-    def observed_ms(self) -> int: ...
-    @property
-    def ended(self) -> bool: ...
-
-@final
-class Confidence(_Scanned):
-    """Confidence of the gesture that follows."""
-
-    @property
-    def touch(self) -> int: ...
-    @property
-    def confidence(self) -> float: ...
-
-@final
-class Unsure(_Scanned):
-    """Ids of the contacts that may be drift."""
-
-    @property
-    def contacts(self) -> list[int]: ...
-
-@final
-class Forms(_Scanned):
-    """Ages of the forms of contacts."""
-
-    @property
-    def ages(self) -> list[dict[str, int]]: ...
-
-@final
-class Pressing(_Scanned):
-    """What presses on the robot: contacts on links, and the force on each link."""
-
-    @property
-    def posed_us(self) -> int | None: ...
-    @property
-    def pose_age_us(self) -> int | None: ...
-    @property
-    def pose_error_m(self) -> float | None: ...
-    @property
-    def contacts(self) -> list[dict[str, Any]]: ...
-    @property
-    def links(self) -> list[dict[str, Any]]: ...
-
-@final
-class Folds(_Scanned):
-    """What the garment's folds are expected to press."""
-
-    @property
-    def posed_us(self) -> int | None: ...
-    @property
-    def followed(self) -> bool: ...
-    @property
-    def taxels(self) -> int: ...
-    @property
-    def expected(self) -> int: ...
-    @property
-    def doubt(self) -> int: ...
-    @property
-    def contacts(self) -> list[dict[str, int]]: ...
-
-@final
-class Regions(_Scanned):
-    """What each region of the robot's surface feels."""
-
-    @property
-    def regions(self) -> list[dict[str, Any]]: ...
-
-@final
-class Shapes(Event):
-    """The base of shapes in use."""
-
-    @property
-    def classes(self) -> list[str]: ...
-    @property
-    def prototypes(self) -> int: ...
-
-@final
-class Reaction(_Scanned):
-    """A reaction that began or ended."""
-
-    @property
-    def index(self) -> int: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def active(self) -> bool: ...
-    @property
-    def value(self) -> int: ...
-
-@final
-class Reflex(_Scanned):
-    """A reaction that began within a frame."""
-
-    @property
-    def index(self) -> int: ...
-    @property
-    def taxel(self) -> int: ...
-    @property
-    def value(self) -> int: ...
-    @property
-    def other(self) -> int | None: ...
-
-@final
-class Health(_Timed):
-    """Counters of the board."""
-
-    @property
-    def scans(self) -> int: ...
-    @property
-    def failed(self) -> int: ...
-    @property
-    def overruns(self) -> int: ...
-    @property
-    def thinned_frames(self) -> int: ...
-    @property
-    def thinned_contacts(self) -> int: ...
-    @property
-    def lost(self) -> int: ...
-    @property
-    def refused(self) -> int: ...
-    @property
-    def scan_us(self) -> int: ...
-    @property
-    def process_us(self) -> int: ...
-
-@final
-class Budget(_Scanned):
-    """Time spent on frames."""
-
-    @property
-    def frames(self) -> int: ...
-    @property
-    def scan_us(self) -> int: ...
-    @property
-    def process_us(self) -> int: ...
-    @property
-    def encode_us(self) -> int: ...
-    @property
-    def send_us(self) -> int: ...
-    @property
-    def overruns(self) -> int: ...
-    @property
-    def thinned_frames(self) -> int: ...
-
-@final
-class Temperature(_Timed):
-    """Temperature of the board's converter."""
-
-    @property
-    def celsius(self) -> float: ...
-
-@final
-class HealthMap(_Timed):
-    """Faulty taxels."""
-
-    @property
-    def whole(self) -> bool: ...
-    @property
-    def ill(self) -> list[dict[str, Any]]: ...
-
-@final
-class SelfTest(_Timed):
-    """Faults of lines and inputs."""
-
-    @property
-    def lines(self) -> int: ...
-    @property
-    def inputs(self) -> int: ...
-    @property
-    def faults(self) -> list[dict[str, Any]]: ...
-
-@final
-class Log(_Timed):
-    """A log message of the board, or a remark of the host about the link."""
+    time_us: Field[int | None]
+    """The board's time, microseconds since its start; None for events without one."""
 
     @property
-    def level(self) -> str: ...
+    def type(self) -> str:
+        """Type of the message, ``frame`` say."""
     @property
-    def text(self) -> str: ...
-
-@final
-class Lost(Event):
-    """The link to the board is lost, and waited for. What was present has ended just before."""
-
-    @property
-    def since_us(self) -> int: ...
-    @property
-    def why(self) -> str: ...
-
-@final
-class Back(Event):
-    """The lost board is back, and its settings are restored; ``how`` says which."""
-
-    @property
-    def after_s(self) -> float: ...
-    @property
-    def how(self) -> str: ...
-
-@final
-class Sync(Event):
-    """Answer to a request for the board's time."""
-
+    def board(self) -> str | None:
+        """Name of the board of a robot; None of a board that is opened alone, and of the whole robot."""
     @property
-    def token(self) -> int: ...
+    def host_ns(self) -> int:
+        """The host's time, nanoseconds since 1970: that of the event itself if the board's clock is known, else that
+        of its arrival."""
     @property
-    def received_us(self) -> int: ...
-    @property
-    def sent_us(self) -> int: ...
+    def host_time_uncertainty_us(self) -> int | None:
+        """Bound of the error of ``host_ns``, microseconds; None if the board's clock is not known."""
+    def to_dict(self) -> dict[str, Any]:
+        """The message as a dict, as ``taxel live --json`` prints it."""
+    def json(self) -> str:
+        """The message as text."""
+    def _value(self, name: str) -> Any: ...
 
-@final
-class StartOfFrame(Event):
-    """When a frame of the USB began, which all boards on one host controller notice at the same moment."""
+class Frame(Event):
+    """Arrays of a frame."""
 
-    @property
-    def number(self) -> int: ...
     @property
-    def noticed_us(self) -> int: ...
+    def image(self) -> npt.NDArray[np.uint16] | None:
+        """Pressure by taxel number, counts: read-only; None if the image could not be decoded."""
     @property
-    def late_us(self) -> int: ...
-
-@final
-class Answer(Event):
-    """Answer to a request: ``refusal`` is None if it was carried out."""
-
+    def panels(self) -> dict[str, npt.NDArray[np.uint16]]:
+        """The image by panel: views of (rows, columns) by the panel's name."""
     @property
-    def request(self) -> str: ...
+    def contacts(self) -> npt.NDArray[np.void]:
+        """Present contacts, of dtype ``taxel.CONTACT``."""
     @property
-    def refusal(self) -> str | None: ...
+    def released(self) -> list[int]:
+        """Ids of the contacts that ended with this frame."""
 
-@final
-class BoardState(Event):
-    """How a board of a robot is: absent, met, lost, back, other, dropped, over or failed."""
+class Raw(Event):
+    """Arrays of a scan's raw codes."""
 
-    @property
-    def board(self) -> str: ...
     @property
-    def state(self) -> str: ...
+    def codes(self) -> npt.NDArray[np.uint16] | None:
+        """Codes of the converter by taxel number: read-only; None if they could not be decoded."""
     @property
-    def host_time_us(self) -> int: ...
+    def panels(self) -> dict[str, npt.NDArray[np.uint16]]:
+        """The codes by panel: views of (rows, columns) by the panel's name."""
 
-@final
-class RobotIntent(Event):
-    """What touches on all boards of a robot together mean to it."""
+class Contacts(Event):
+    """Arrays of contacts."""
 
     @property
-    def host_time_us(self) -> int: ...
+    def contacts(self) -> npt.NDArray[np.void]:
+        """Present contacts, of dtype ``taxel.CONTACT``."""
     @property
-    def leading(self) -> str: ...
-    @property
-    def holding(self) -> list[str]: ...
-    @property
-    def concepts(self) -> dict[str, float]: ...
-    @property
-    def defaults(self) -> list[str]: ...
-    @property
-    def touches(self) -> list[dict[str, Any]]: ...
+    def released(self) -> npt.NDArray[np.void]:
+        """Contacts that have ended since the last list, with their last values."""
 
-@final
-class Refused(Event):
-    """Bytes that are not a message."""
-
-    @property
-    def why(self) -> str: ...
+def _set_event_classes(classes: dict[str, type[Event]]) -> None: ...
 
 @final
 class Moment:
     """Contacts of a board at a time: `host_ns`, by the clock that all boards share, and `time_us`, by its own."""
 
     @property
-    def host_ns(self) -> int: ...
+    def host_ns(self) -> int:
+        """When it was, the host's time, ns since 1970: the time that was asked for, or that of the newest list."""
     @property
-    def host_time_uncertainty_us(self) -> int | None: ...
+    def host_time_uncertainty_us(self) -> int | None:
+        """The most by which that is off, us; None if the board has not answered yet."""
     @property
-    def time_us(self) -> int: ...
+    def time_us(self) -> int:
+        """The board's own time, us."""
     @property
-    def contacts(self) -> npt.NDArray[np.void]: ...
+    def contacts(self) -> npt.NDArray[np.void]:
+        """Contacts, of dtype ``taxel.MOMENT``."""
 
 class Robot:
+    """An open robot: an iterator over the events of all its boards."""
+
     def __new__(
         cls: type[_R],
         path: str | PathLike[str],
@@ -456,19 +122,38 @@ class Robot:
     ) -> _R: ...
     def __iter__(self: _R) -> _R: ...
     def __next__(self) -> Event: ...
-    def close(self) -> None: ...
+    def close(self) -> None:
+        """Closes all connections; then there are no more events."""
     @property
-    def boards(self) -> list[str]: ...
-    def tare(self, frames: int = 64, *, board: str | None = None) -> None: ...
-    def frames(self, host_ns: int | None = None) -> dict[str, Frame | None]: ...
-    def contacts(self, host_ns: int | None = None) -> dict[str, Moment | None]: ...
+    def boards(self) -> list[str]:
+        """Names of the boards, in the order of the file."""
+    def tare(self, frames: int = 64, *, board: str | None = None) -> None:
+        """Takes the mean of the next frames as the baseline: of this board, or of all."""
+    def frames(self, host_ns: int | None = None) -> dict[str, _events.Frame | None]:
+        """The newest image of each board, a ``Frame`` or None, until this time of the host, ns; by default until
+        all boards have told theirs.
+        """
+    def contacts(self, host_ns: int | None = None) -> dict[str, Moment | None]:
+        """The contacts of each board, a ``Moment`` or None, at this time of the host, ns; by default the newest
+        that all boards have told of.
+        """
     def _set_scene(self, path_or_text: str, *, board: str | None = None) -> None: ...
-    def tell(self, name: str, value: float, *, age_ms: int = 0) -> None: ...
-    def set_joints(self, positions: dict[str, float], *, age_ms: int = 0) -> None: ...
-    def _why(self, of: str | None = None) -> str: ...
-    def self_test(self, *, board: str | None = None) -> None: ...
+    def tell(self, name: str, value: float, *, age_ms: int = 0) -> None:
+        """Tells the robot's map what others know: a value of -1 to 1 by its name, of this age."""
+    def set_joints(self, positions: dict[str, float], *, age_ms: int = 0) -> None:
+        """Tells positions of the robot's joints, rad or m, of this age."""
+    def why(self, of: str | None = None) -> dict[str, Any]:
+        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
+
+        It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
+        the contacts of each board, and why each board announced what it did.
+        """
+    def self_test(self, *, board: str | None = None) -> None:
+        """Examines lines and inputs of this board, or of all."""
 
 class Board:
+    """An open board: an iterator over its events."""
+
     def __init__(
         self,
         source: str,
@@ -487,43 +172,70 @@ class Board:
     ) -> None: ...
     def __iter__(self) -> Board: ...
     def __next__(self) -> Event: ...
-    def close(self) -> None: ...
+    def close(self) -> None:
+        """Closes the connection; then there are no more events."""
     @property
-    def label(self) -> str | None: ...
-    def _request(self, name: str, values: str) -> None: ...
+    def label(self) -> str | None:
+        """Short name of the source; None once it is closed."""
+    def _request(self, name: str, values: dict[str, Any]) -> None: ...
     def _set_joints(
         self, positions: dict[str, float], host_ns: int | None, time_us: int | None
     ) -> None: ...
 
 class VirtualBoard:
+    """A board without pins and without a clock."""
+
     def __new__(cls: type[_B], garment: str = "reference", scene: str | None = None) -> _B: ...
     @property
-    def taxels(self) -> int: ...
-    def step(self, codes: npt.NDArray[np.uint16], time_us: int) -> list[Event]: ...
+    def taxels(self) -> int:
+        """Number of taxels: the length of a scan."""
+    def step(self, codes: npt.NDArray[np.uint16], time_us: int) -> list[Event]:
+        """Takes one scan: the codes of all taxels, ``uint16`` by their numbers, and the board's time in
+        microseconds, which never goes back. Returns the events that it causes.
+        """
     def _folds(self) -> list[npt.NDArray[np.uint16]]: ...
-    def _request(self, name: str, values: str) -> None: ...
+    def _request(self, name: str, values: dict[str, Any]) -> None: ...
 
 class VirtualRobot:
+    """The boards of a robot without pins and without a clock, and what touches mean to it."""
+
     def __new__(cls: type[_S], path: str | PathLike[str]) -> _S: ...
     @property
-    def boards(self) -> list[str]: ...
-    def taxels(self, board: str) -> int: ...
-    def step(self, board: str, codes: npt.NDArray[np.uint16], time_us: int) -> RobotIntent | None: ...
-    def tell(self, name: str, value: float, time_us: int, *, age_ms: int = 0) -> None: ...
-    def set_joints(self, positions: dict[str, float], time_us: int, *, age_ms: int = 0) -> None: ...
-    def _touches(self) -> str: ...
-    def _why(self, of: str | None = None) -> str: ...
+    def boards(self) -> list[str]:
+        """Names of the boards, in the order of the file."""
+    def taxels(self, board: str) -> int:
+        """Number of a board's taxels: the length of a scan."""
+    def step(self, board: str, codes: npt.NDArray[np.uint16], time_us: int) -> _events.RobotIntent | None:
+        """Takes one scan of a board: the codes of all its taxels, ``uint16`` by their numbers, and the time in
+        microseconds, which never goes back. Returns what touches mean then, if that is news.
+        """
+    def tell(self, name: str, value: float, time_us: int, *, age_ms: int = 0) -> None:
+        """Tells the robot's map what others know at a time: a value of -1 to 1 by its name, of this age."""
+    def set_joints(self, positions: dict[str, float], time_us: int, *, age_ms: int = 0) -> None:
+        """Tells positions of the robot's joints, rad or m, at a time, of this age."""
+    def _touches(self) -> list[dict[str, Any]]: ...
+    def why(self, of: str | None = None) -> dict[str, Any]:
+        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
+
+        It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
+        the contacts of each board, and why each board announced what it did.
+        """
 
 def images(
     path: str, raw: bool, first: int, last: int
-) -> tuple[npt.NDArray[np.uint64], npt.NDArray[np.uint64], npt.NDArray[np.uint16]]: ...
+) -> tuple[npt.NDArray[np.uint64], npt.NDArray[np.uint64], npt.NDArray[np.uint16]]:
+    """The images of a range, or the raw codes. They are read into the memory of the array that is returned."""
 
 class RecordedEvents:
+    """Iterator over the events of a recording."""
+
     def __init__(self, path: str, kinds: list[str], first: int, last: int) -> None: ...
     def __iter__(self) -> RecordedEvents: ...
     def __next__(self) -> Event: ...
 
 class RecordedMessages:
+    """Iterator over the messages of a recording, as they were written."""
+
     def __init__(self, path: str, topic: str | None, first: int, last: int) -> None: ...
     def __iter__(self) -> RecordedMessages: ...
     def __next__(self) -> tuple[str, int, int, bytes]: ...
@@ -532,28 +244,44 @@ class Map:
     """A fuzzy cognitive map: concepts and causes."""
 
     @staticmethod
-    def _from_json(text: str) -> Map: ...
+    def _from_dict(keys: dict[str, Any]) -> Map: ...
     @staticmethod
-    def parse(text: str) -> Map: ...
+    def parse(text: str) -> Map:
+        """A map from the text of its TOML file."""
     @staticmethod
-    def load(name_or_path: str) -> Map: ...
+    def load(name_or_path: str) -> Map:
+        """A shipped map by name (``tactile``, ``shape``), or a TOML file."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Name of the map."""
     @property
-    def concepts(self) -> list[str]: ...
-    def to_dict(self) -> dict[str, Any]: ...
-    def to_toml(self) -> str: ...
-    def run(self, inputs: dict[str, float] = ..., *, steps: int = 100) -> dict[str, Any]: ...
+    def concepts(self) -> list[str]:
+        """Names of the concepts, in the order of every state."""
+    def to_dict(self) -> dict[str, Any]:
+        """The map as the keys of its TOML file."""
+    def to_toml(self) -> str:
+        """The text of its TOML file."""
+    def run(self, inputs: dict[str, float] = ..., *, steps: int = 100) -> dict[str, Any]:
+        """Runs the map from these activations in f64 and in the arithmetic of the board."""
     def explain(
         self, inputs: dict[str, float] = ..., *, of: str | None = None, set: dict[str, float] = ...
-    ) -> dict[str, Any]: ...
-    def check(self) -> dict[str, Any]: ...
-    def draw(self) -> str: ...
+    ) -> dict[str, Any]:
+        """Explains a concept's activation in numbers that add up, and what would change it."""
+    def check(self) -> dict[str, Any]:
+        """What is to be said about the map: concepts that cannot be reached, whether it settles, whether it fits
+        the board.
+        """
+    def draw(self) -> str:
+        """The map in DOT."""
 
-def overview(path: str) -> dict[str, Any]: ...
-def attachment(path: str, name: str) -> bytes | None: ...
-def features(frames: npt.NDArray[np.uint16], pressed: int = 0) -> npt.NDArray[np.uint16]: ...
-def moments(image: npt.NDArray[np.uint16]) -> dict[str, Any]: ...
+def overview(path: str) -> dict[str, Any]:
+    """Contents of a recording: topics, times, attachments, metadata."""
+def attachment(path: str, name: str) -> bytes | None:
+    """An attachment of a recording; None if there is none of this name."""
+def features(frames: npt.NDArray[np.uint16], pressed: int = 0) -> npt.NDArray[np.uint16]:
+    """The 127 features of a touch, from its frames of one panel."""
+def moments(image: npt.NDArray[np.uint16]) -> dict[str, Any]:
+    """Moments, NMI and axis of one image."""
 def learn_folds(
     garment: str,
     sweeps: list[tuple[list[str], npt.NDArray[np.float32], npt.NDArray[np.uint16]]],
@@ -561,5 +289,7 @@ def learn_folds(
     step_deg: float,
     shift_mm: float,
     shift_deg: float,
-) -> tuple[bytes, list[dict[str, Any]]]: ...
-def run_program(words: Sequence[str]) -> int: ...
+) -> tuple[bytes, list[dict[str, Any]]]:
+    """The table of folds for a board, and what is told of each."""
+def run_program(words: Sequence[str]) -> int:
+    """Runs the command line behind the program's name, and returns its exit status."""

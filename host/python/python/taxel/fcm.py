@@ -16,7 +16,6 @@ True
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -56,7 +55,7 @@ def build(
     named = [{"name": one} if isinstance(one, str) else dict(one) for one in concepts]
     drawn = [{"from": cause, "to": effect, "weight": weight} for cause, effect, weight in edges]
     told = {"name": name, **settings, "concept": named, "edge": drawn, "input": [dict(one) for one in inputs]}
-    return Map._from_json(json.dumps(told))
+    return Map._from_dict(told)
 
 
 def save(a_map: Map, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:

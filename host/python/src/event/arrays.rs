@@ -1,6 +1,7 @@
 //! Events with arrays.
 
-use super::base::Event;
+use super::base::{Event, EventParts};
+use super::fact::Fact;
 use crate::array::{self, Panels};
 use crate::contact;
 use pyo3::prelude::*;
@@ -34,27 +35,21 @@ impl ByTaxel {
 }
 
 /// A conditioned image: the pressure of every taxel in counts, and what touches.
-#[pyclass(frozen, extends = Event, module = "taxel")]
+#[pyclass(frozen, subclass, extends = Event, module = "taxel")]
 pub struct Frame {
     values: ByTaxel,
     contacts: PyOnceLock<Py<PyAny>>,
 }
 
-impl Frame {
-    /// The Python object.
-    pub fn object(
-        py: Python<'_>,
-        event: Event,
-        values: Option<Vec<u16>>,
-        panels: Panels,
-    ) -> PyResult<Py<PyAny>> {
-        let frame = Frame { values: ByTaxel::new(py, values, panels)?, contacts: PyOnceLock::new() };
-        Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(frame))?.into_any())
-    }
-}
-
 #[pymethods]
 impl Frame {
+    #[new]
+    fn new(py: Python<'_>, parts: &EventParts) -> PyResult<PyClassInitializer<Frame>> {
+        let Fact { line, host_ns, values, panels } = parts.take()?;
+        let frame = Frame { values: ByTaxel::new(py, values, panels)?, contacts: PyOnceLock::new() };
+        Ok(PyClassInitializer::from(Event::of(line, host_ns)).add_subclass(frame))
+    }
+
     /// Pressure by taxel number: read-only `uint16`, never changed once it is there; None if the image could
     /// not be decoded.
     #[getter]
@@ -84,26 +79,20 @@ impl Frame {
 }
 
 /// Raw codes of a scan.
-#[pyclass(frozen, extends = Event, module = "taxel")]
+#[pyclass(frozen, subclass, extends = Event, module = "taxel")]
 pub struct Raw {
     values: ByTaxel,
 }
 
-impl Raw {
-    /// The Python object.
-    pub fn object(
-        py: Python<'_>,
-        event: Event,
-        values: Option<Vec<u16>>,
-        panels: Panels,
-    ) -> PyResult<Py<PyAny>> {
-        let raw = Raw { values: ByTaxel::new(py, values, panels)? };
-        Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(raw))?.into_any())
-    }
-}
-
 #[pymethods]
 impl Raw {
+    #[new]
+    fn new(py: Python<'_>, parts: &EventParts) -> PyResult<PyClassInitializer<Raw>> {
+        let Fact { line, host_ns, values, panels } = parts.take()?;
+        let raw = Raw { values: ByTaxel::new(py, values, panels)? };
+        Ok(PyClassInitializer::from(Event::of(line, host_ns)).add_subclass(raw))
+    }
+
     /// Codes of the converter by taxel number: read-only `uint16`; None if they could not be decoded.
     #[getter]
     fn codes<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
@@ -118,22 +107,21 @@ impl Raw {
 }
 
 /// Contacts of a frame.
-#[pyclass(frozen, extends = Event, module = "taxel")]
+#[pyclass(frozen, subclass, extends = Event, module = "taxel")]
 pub struct Contacts {
     contacts: PyOnceLock<Py<PyAny>>,
     released: PyOnceLock<Py<PyAny>>,
 }
 
-impl Contacts {
-    /// The Python object.
-    pub fn object(py: Python<'_>, event: Event) -> PyResult<Py<PyAny>> {
-        let contacts = Contacts { contacts: PyOnceLock::new(), released: PyOnceLock::new() };
-        Ok(Py::new(py, PyClassInitializer::from(event).add_subclass(contacts))?.into_any())
-    }
-}
-
 #[pymethods]
 impl Contacts {
+    #[new]
+    fn new(parts: &EventParts) -> PyResult<PyClassInitializer<Contacts>> {
+        let Fact { line, host_ns, .. } = parts.take()?;
+        let contacts = Contacts { contacts: PyOnceLock::new(), released: PyOnceLock::new() };
+        Ok(PyClassInitializer::from(Event::of(line, host_ns)).add_subclass(contacts))
+    }
+
     /// Present contacts, of dtype `taxel.CONTACT`.
     #[getter]
     fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

@@ -1,12 +1,31 @@
 //! What all events have.
 
+use super::fact::Fact;
+use crate::error::{argument, raised};
 use crate::value;
-use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
+use std::sync::{Mutex, PoisonError};
 
-/// Something that a board has said. Its attributes are the keys of its JSON line; `to_dict()` is the line.
+/// What an event is made of, once.
+#[pyclass(frozen, module = "taxel")]
+pub struct EventParts(Mutex<Option<Fact>>);
+
+impl EventParts {
+    /// Of an event.
+    pub fn new(fact: Fact) -> EventParts {
+        EventParts(Mutex::new(Some(fact)))
+    }
+
+    /// Takes them. Error if they were taken before.
+    pub fn take(&self) -> PyResult<Fact> {
+        let fact = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        fact.ok_or_else(|| raised(argument("only a board makes events")))
+    }
+}
+
+/// Something that a board has said. Its attributes are the keys of its message, `to_dict()` is the message.
 #[pyclass(frozen, subclass, module = "taxel")]
 pub struct Event {
     line: Value,
@@ -14,8 +33,8 @@ pub struct Event {
 }
 
 impl Event {
-    /// An event of this line, at this time of the host.
-    pub fn new(line: Value, host_ns: u64) -> Event {
+    /// An event of this message, at this time of the host, ns.
+    pub fn of(line: Value, host_ns: u64) -> Event {
         Event { line, host_ns }
     }
 
@@ -27,6 +46,18 @@ impl Event {
 
 #[pymethods]
 impl Event {
+    #[new]
+    fn new(parts: &EventParts) -> PyResult<Event> {
+        let Fact { line, host_ns, .. } = parts.take()?;
+        Ok(Event { line, host_ns })
+    }
+
+    /// A value of the message; None if it has none of this name.
+    #[pyo3(name = "_value")]
+    fn python_value<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        value::object(py, self.value(name))
+    }
+
     /// Type of the line, `frame` say.
     #[getter]
     fn r#type(&self) -> &str {
@@ -66,22 +97,6 @@ impl Event {
     /// The line as text.
     fn json(&self) -> String {
         self.line.to_string()
-    }
-
-    fn __getattr__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        match slf.get().line.get(name) {
-            Some(found) => value::object(slf.py(), found),
-            None => Err(PyAttributeError::new_err(format!("{} has no {name}", slf.get_type().name()?))),
-        }
-    }
-
-    fn __dir__(slf: &Bound<'_, Self>) -> PyResult<Vec<String>> {
-        let own = slf.get_type().call_method0("mro")?.try_iter()?.map(|class| {
-            class?.getattr("__dict__")?.try_iter()?.map(|name| name?.extract::<String>()).collect()
-        });
-        let own: Vec<Vec<String>> = own.collect::<PyResult<_>>()?;
-        let keys = slf.get().line.as_object().into_iter().flatten().map(|(key, _)| key.clone());
-        Ok(own.into_iter().flatten().chain(keys).collect())
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

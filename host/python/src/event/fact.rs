@@ -1,10 +1,11 @@
 //! An event as it leaves the client, complete, so that it is independent of what the client takes next.
 
 use crate::array::{Panels, panels};
-use serde_json::{Value, json};
+use serde_json::Value;
+use std::io::{self, Empty};
 use taxel::client::{Client, Event, ImageNews};
-use taxel::json;
-use taxel_core::format::Micros;
+use taxel::files::calibrate::Calibration;
+use taxel::json::MessagePrinter;
 
 /// An event.
 #[derive(Clone)]
@@ -27,36 +28,38 @@ impl Fact {
 }
 
 /// Reads facts from a client's events.
-#[derive(Debug)]
 pub struct FactReader {
     panels: Panels,
+    messages: MessagePrinter<Empty>,
 }
 
 impl Default for FactReader {
     fn default() -> FactReader {
-        FactReader { panels: Panels::from([]) }
+        FactReader::new(None)
     }
 }
 
 impl FactReader {
-    /// The fact of an event that the client has just returned, at this time of the host.
+    /// Of a board; contacts of its frames have a force in newtons while it uses this calibration.
+    pub fn new(calibration: Option<Calibration>) -> FactReader {
+        let messages = MessagePrinter::new(false, io::empty()).calibrated(calibration);
+        FactReader { panels: Panels::from([]), messages }
+    }
+
+    /// The fact of an event that the client has just returned, at this time of the host, ns.
     pub fn fact(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
         if *event == Event::Hello {
             self.panels = client.layout().map_or_else(|| Panels::from([]), panels);
         }
-        let mut line = json::message(client, event);
-        let board = line.get("time_us").and_then(Value::as_u64);
-        let host = board.and_then(|board| client.host_time(Micros(board)));
-        if let Some(time) = host {
-            line["host_time_us"] = json!(time.us);
-            line["host_time_uncertainty_us"] = json!(time.uncertainty_us);
-        }
+        // Numbers, texts and keys that are texts: this cannot fail.
+        let line = self.messages.message(client, event).unwrap_or_default();
         let values = match event {
             Event::Frame { image: ImageNews::Whole, .. } => client.image().map(|(_, image)| image.to_vec()),
             Event::Raw { whole: true, .. } => Some(client.raw().to_vec()),
             _ => None,
         };
-        let host_ns = host.map_or(now_ns, |time| time.us.saturating_mul(1000));
+        let host_us = line.get("host_time_us").and_then(Value::as_u64);
+        let host_ns = host_us.map_or(now_ns, |us| us.saturating_mul(1000));
         Fact { line, host_ns, values, panels: self.panels.clone() }
     }
 }

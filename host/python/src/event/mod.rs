@@ -1,35 +1,42 @@
-//! Events as Python objects. An event holds its line, the JSON object of `taxel live --json`, and what
-//! belongs to it: the image of a frame, the codes of a scan. Its attributes are the line's keys.
+//! Events as Python objects. An event holds its message, the JSON object of `taxel live --json`, and what
+//! belongs to it: the image of a frame, the codes of a scan. Its class is in Python, made from the message's struct.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `fact.rs` | [`Fact`]: an event as it leaves the client, without Python |
-//! | `base.rs` | [`Event`]: the attributes that all have |
+//! | `base.rs` | [`Event`]: what all have |
 //! | `arrays.rs` | [`Frame`], [`Contacts`], [`Raw`]: events with arrays |
-//! | `plain.rs` | all others, of one line each |
 
 mod arrays;
 mod base;
 mod fact;
-mod plain;
 
 pub use arrays::{Contacts, Frame, Raw};
-pub use base::Event;
+pub use base::{Event, EventParts};
 pub use fact::{Fact, FactReader};
 
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+
+/// Classes of events by their types.
+static CLASSES: PyOnceLock<Py<PyDict>> = PyOnceLock::new();
+
+/// Sets the classes of events: by their types, and how a class is made of an event's parts.
+#[pyfunction]
+#[pyo3(name = "_set_event_classes")]
+fn set_classes(py: Python<'_>, classes: Py<PyDict>) {
+    // The package does this once.
+    let _ = CLASSES.set(py, classes);
+}
 
 /// The Python object of an event.
 pub fn object(py: Python<'_>, fact: Fact) -> PyResult<Py<PyAny>> {
-    let Fact { line, host_ns, values, panels } = fact;
-    let kind = line["type"].as_str().unwrap_or_default().to_string();
-    let event = Event::new(line, host_ns);
-    match kind.as_str() {
-        "frame" => Frame::object(py, event, values, panels),
-        "raw" => Raw::object(py, event, values, panels),
-        "contacts" => Contacts::object(py, event),
-        kind => plain::object(py, kind, event),
-    }
+    let kind = fact.line["type"].as_str().unwrap_or_default();
+    let classes = CLASSES.get(py).map(|classes| classes.bind(py));
+    let class = classes.map(|classes| classes.get_item(kind)).transpose()?.flatten();
+    let class = class.unwrap_or_else(|| py.get_type::<Event>().into_any());
+    Ok(class.call1((EventParts::new(fact),))?.unbind())
 }
 
 /// Adds the classes to the module.
@@ -38,5 +45,5 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Frame>()?;
     module.add_class::<Contacts>()?;
     module.add_class::<Raw>()?;
-    plain::add(module)
+    module.add_function(wrap_pyfunction!(set_classes, module)?)
 }

@@ -175,7 +175,7 @@ fn intent(client: &Client, report: &IntentReport) -> IntentLine {
     IntentLine {
         frame: report.frame,
         time_us: report.time.0,
-        intent: meaning(client),
+        meaning: meaning(client),
         outcome: outcome(report.outcome),
         steps: report.steps,
     }
@@ -191,7 +191,7 @@ fn symbols<'a>(client: &'a Client, list: &SymbolList) -> SymbolsLine<'a> {
             extent: symbol.words.extent,
             span: symbol.words.span,
             moving: symbol.words.moving,
-            class: client.shape_name(symbol.words.class),
+            shape: client.shape_name(symbol.words.class),
         },
         peak_total: symbol.peak_total,
         duration_ms: symbol.duration_ms,
@@ -202,7 +202,7 @@ fn symbols<'a>(client: &'a Client, list: &SymbolList) -> SymbolsLine<'a> {
         total: state.total,
         peak: state.peak,
         moving: state.moving,
-        since: state.since.0,
+        since_us: state.since.0,
     };
     SymbolsLine {
         frame: list.frame,
@@ -220,8 +220,8 @@ fn regions<'a>(client: &'a Client, report: &RegionsReport) -> RegionsLine<'a> {
         contacts: state.contacts,
         strength: state.strength,
         extent: state.extent,
-        class: client.shape_name(state.class),
-        since: state.since.0,
+        shape: client.shape_name(state.class),
+        since_us: state.since.0,
     };
     let regions = report.regions.iter().enumerate().map(region).collect();
     RegionsLine { frame: report.frame, time_us: report.time.0, regions }
@@ -234,7 +234,7 @@ fn gesture<'a>(client: &'a Client, report: &'a GestureReport) -> GestureLine<'a>
         time_us: report.time.0,
         touch: report.touch,
         panel: client.panel_name(report.panel),
-        class: report.name.as_str(),
+        name: report.name.as_str(),
         score: f64::from(report.score) / f64::from(1 << 18),
         lead: f64::from(report.lead) / f64::from(1 << 18),
         observed_ms: report.observed_ms,

@@ -1,16 +1,20 @@
 //! How a board of a robot is, as JSON.
 
 use super::event::BoardState;
+#[cfg(feature = "schema")]
+use crate::json::schema::TypeIs;
 use crate::tell::words;
 use serde::Serialize;
 
-/// Message about how a board is.
+/// How a board of a robot is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("board")))]
 #[serde(tag = "type", rename = "board")]
 pub struct BoardLine<'a> {
     /// Name of the board.
     pub board: &'a str,
-    /// `absent`, `met`, `lost`, `back`, `other`, `dropped`, `over` or `failed`, as [`BoardState`].
+    /// `absent`, `met`, `lost`, `back`, `other`, `dropped`, `over` or `failed`.
     pub state: &'static str,
     /// The host's time, us since 1970.
     pub host_time_us: u64,

@@ -22,6 +22,8 @@ mod mind;
 mod people;
 mod points;
 mod pressing;
+#[cfg(feature = "schema")]
+mod python_types;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
 mod robot;

@@ -58,7 +58,7 @@ pub struct WordsLine {
     /// True if it slides over the surface, or did within the last quarter of a second.
     pub moving: bool,
     /// Name of the shape, or `unknown`.
-    pub class: String,
+    pub shape: String,
 }
 
 /// A region of the body.
@@ -76,7 +76,7 @@ pub struct RegionLine<'a> {
     /// True if a contact slides.
     pub moving: bool,
     /// Time since which the region has been touched, or untouched, us of the board.
-    pub since: u64,
+    pub since_us: u64,
 }
 
 /// The meaning of the touch has changed.
@@ -90,7 +90,8 @@ pub struct IntentLine {
     /// Start of the scan, us of the board.
     pub time_us: u64,
     /// The meaning.
-    pub intent: MeaningOfTouch,
+    #[serde(flatten)]
+    pub meaning: MeaningOfTouch,
     /// End of the inference: `fixed`, `cycle` or `unsettled`.
     pub outcome: &'static str,
     /// Steps of the inference.

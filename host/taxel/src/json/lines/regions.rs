@@ -42,7 +42,7 @@ pub struct SurfaceRegionLine<'a> {
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub extent: Extent,
     /// Name of the shape, or `unknown`.
-    pub class: String,
+    pub shape: String,
     /// Time since which the region is in its phase, us of the board.
-    pub since: u64,
+    pub since_us: u64,
 }

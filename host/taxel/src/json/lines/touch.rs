@@ -19,7 +19,7 @@ pub struct GestureLine<'a> {
     /// Name of the touched panel.
     pub panel: &'a str,
     /// Name of the gesture.
-    pub class: &'a str,
+    pub name: &'a str,
     /// Score of the gesture: 1 for what the model was fitted to, -1 for all else.
     pub score: f64,
     /// Lead over the score of the second gesture.

@@ -106,7 +106,7 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
             {
                 let words = &line["words"];
                 for (field, told) in
-                    [("strength", "strength"), ("extent", "extent"), ("span", "span"), ("shape", "class")]
+                    [("strength", "strength"), ("extent", "extent"), ("span", "span"), ("shape", "shape")]
                 {
                     assert_eq!(read[field], words[told]);
                 }
@@ -124,10 +124,10 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
         }
         Event::Intent(report) => {
             let read = all.read("Intent", &own::intent(US, client, report));
-            assert_eq!([&read["leading"], &read["outcome"]], [&line["intent"]["leading"], &line["outcome"]]);
+            assert_eq!([&read["leading"], &read["outcome"]], [&line["leading"], &line["outcome"]]);
             let concepts =
                 read["concepts"].as_array().unwrap().iter().zip(read["activations"].as_array().unwrap());
-            let told = &line["intent"]["concepts"];
+            let told = &line["concepts"];
             assert!(concepts.clone().count() > 3);
             concepts.for_each(|(name, value)| assert_eq!(*value, told[name.as_str().unwrap()]));
             Some("Intent")

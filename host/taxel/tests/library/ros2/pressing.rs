@@ -55,11 +55,11 @@ fn same_regions(all: &Definitions, client: &Client, report: &RegionsReport) {
             ("contacts", "contacts"),
             ("strength", "strength"),
             ("extent", "extent"),
-            ("shape", "class"),
+            ("shape", "shape"),
         ] {
             assert_eq!(own[key], told[other]);
         }
-        assert_eq!(own["since"], json!(told["since"].as_f64().unwrap() / 1e6));
+        assert_eq!(own["since"], json!(told["since_us"].as_f64().unwrap() / 1e6));
     }
 }
 
