@@ -1,4 +1,4 @@
-//! RAM of the states, as the docs of their modules tell it: for the board that ships. Asserted wherever the
+//! RAM of the states, as the docs of their modules state it: for the board that ships. Asserted wherever the
 //! core is built for an RP2040, and on a 64-bit host, where the lengths of lists are longer.
 
 use crate::acquire::Reflex;
@@ -16,7 +16,7 @@ use crate::shape::Shapes;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 
-/// Of each type: the file that tells its RAM, bytes on the board, bytes on a host.
+/// Of each type: the file that states its RAM, bytes on the board, bytes on a host.
 macro_rules! states {
     ($($state:ty, $file:literal, $board:literal, $host:literal;)*) => {
                 #[cfg(target_arch = "arm")]
@@ -27,7 +27,7 @@ macro_rules! states {
         fn memory_is_as_documented() {
             $(
                 assert_eq!(size_of::<$state>(), $host, "{}", stringify!($state));
-                assert!(tests::tells(include_str!($file), $board), "{}: {} bytes", $file, $board);
+                assert!(tests::states(include_str!($file), $board), "{}: {} bytes", $file, $board);
             )*
         }
     };
@@ -56,8 +56,8 @@ mod tests {
     extern crate std;
     use std::format;
 
-    /// True if the row of a module's table that is about RAM tells so many bytes.
-    pub fn tells(file: &str, bytes: usize) -> bool {
+    /// True if the row of a module's table that is about RAM states so many bytes.
+    pub fn states(file: &str, bytes: usize) -> bool {
         let digits =
             if bytes < 1000 { format!("{bytes}") } else { format!("{},{:03}", bytes / 1000, bytes % 1000) };
         file.lines().any(|line| line.starts_with("//! | RAM |") && line.contains(&format!(" {digits} bytes")))

@@ -43,7 +43,7 @@ pub struct StreamConfig {
     /// Reports per second of what presses on the robot, from a board whose surface is known. With more than 16
     /// contacts, or more than 512 taxels under them, at most with every second scan.
     pub pressing_hz: u16,
-    /// True if lists of contacts tell how old their forms are.
+    /// True if lists of contacts say how old their forms are.
     pub form_ages: bool,
     /// Longest time between two key frames, ms, 1 ..= 1000.
     pub key_ms: u16,
@@ -211,7 +211,7 @@ impl Scene {
     /// contact for hours, and a touch of 2x2 taxels is found from five standard deviations on, 990 times in
     /// 1,000 in its first frame.
     ///
-    /// One taxel cannot tell that touch from noise, but the mean of 2x2 taxels has half the noise.
+    /// One taxel cannot distinguish that touch from noise, but the mean of 2x2 taxels has half the noise.
     /// [`Filter::Square`] passes 3.25 standard deviations of a taxel only if the mean of a square reaches 6.5
     /// of its own, which noise does in one of 12 million frames of 2,048 taxels. The touch is 3.5 of them
     /// above that.

@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn changes_are_told_once_and_those_that_have_gone_are_forgotten() {
+    fn changes_are_reported_once_and_those_that_have_gone_are_forgotten() {
         let mut state = UnsureState::<4>::new();
         let mut step = |ids: &[u32], peak: u16, faint: u8, ms: u64| {
             let present: heapless::Vec<Placed, 4> = ids.iter().map(|id| placed(*id, 0, peak)).collect();

@@ -107,7 +107,7 @@ pub extern "C" fn _start(given: &mut Given) {
             });
             given.reflex.begin(fields, board.circuit().falling());
         })),
-        22 => keep((given.reflex.told(), given.reflex.pins(given.call).count())),
+        22 => keep((given.reflex.take_early(), given.reflex.pins(given.call).count())),
         23 => given.reflex.driven(given.call, given.count > 0),
         24 => {
             let mut boots = Boots::begin(given.left, given.count > 0);

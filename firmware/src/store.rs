@@ -13,7 +13,7 @@ use taxel_store::{Store, StoreError, Tables, keep_levels, tables_bytes};
 const BYTES: usize = 2 * 1024 * 1024;
 
 /// Sectors of the settings, the last 64 KiB. Two sets of the longest settings take 25 KB; the rest spreads
-/// the wear.
+/// the erasures.
 const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
 
 /// The two sectors before them, with the levels of outputs at start-up.

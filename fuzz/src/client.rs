@@ -1,4 +1,4 @@
-//! A host, told whatever a board could say behind a valid CRC, and every way to show it.
+//! A host that is sent whatever a board could say behind a valid CRC, and every way to show it.
 
 use crate::bytes::Bytes;
 use crate::plain::framed;
@@ -21,16 +21,16 @@ use taxel_core::wire::{Frame, Hello, MAGIC, PROTOCOL, Raw, Report, encode_image,
 /// Most values of an image of an input.
 const VALUES: usize = TAXELS;
 
-/// Tells a client what the bytes say, and shows what it makes of it.
+/// Sends a client what the bytes say, and shows what it makes of it.
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
-    let mut told = Told::new();
+    let mut shown = Shown::new();
     while !bytes.is_empty() {
-        told.act(&mut bytes);
+        shown.act(&mut bytes);
     }
     let mut buffer = Buffer::empty(Rect::new(0, 0, 100, 30));
-    told.picture.draw(&told.client, &mut buffer);
-    assert!(told.client.released().len() <= 1024, "what has gone takes bounded memory");
+    shown.picture.draw(&shown.client, &mut buffer);
+    assert!(shown.client.released().len() <= 1024, "what has gone takes bounded memory");
 }
 
 /// A link on which nothing comes by itself.
@@ -47,7 +47,7 @@ impl Port for Silent {
 }
 
 /// A client, and who looks at it.
-struct Told {
+struct Shown {
     client: Client,
     observers: Vec<Box<dyn Observer>>,
     stamps: Stamps,
@@ -58,8 +58,8 @@ struct Told {
     time: u64,
 }
 
-impl Told {
-    fn new() -> Told {
+impl Shown {
+    fn new() -> Shown {
         let source = Source::new("fuzz", Silent);
         let mut client = Client::new();
         // A request of a byte fits.
@@ -70,7 +70,7 @@ impl Told {
             Box::new(MessagePrinter::new(true, io::sink())),
         ];
         observers.opened(&source).expect("it can be shown");
-        Told {
+        Shown {
             client,
             observers,
             stamps: Stamps::start(),

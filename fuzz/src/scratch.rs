@@ -11,7 +11,7 @@ static FILES: AtomicU32 = AtomicU32::new(0);
 pub struct Scratch(PathBuf);
 
 impl Scratch {
-    /// A file with this content, and with an ending that tells a reader its kind.
+    /// A file with this content, and with an ending that shows a reader its kind.
     pub fn new(content: &[u8], ending: &str) -> Scratch {
         let number = FILES.fetch_add(1, Ordering::Relaxed);
         let name = format!("taxel-fuzz-{}-{number}.{ending}", std::process::id());

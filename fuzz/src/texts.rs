@@ -14,7 +14,7 @@ use taxel::sim::{self, World};
 use taxel::{fcm, source};
 use taxel_cli::commands::board::flash;
 use taxel_cli::commands::garment::config;
-use taxel_cli::view::message::{self, PageWish};
+use taxel_cli::view::message::{self, PageRequest};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::gesture::Model;
 use taxel_core::intent::{CONCEPTS, EDGES};
@@ -32,7 +32,7 @@ const READERS: [Reader; 13] = [
     base,
     table,
     |file, _| _ = labels::read(file.path(), 4),
-    wish,
+    page_request,
     |_, bytes| _ = Model::read(bytes).map(|model| model.notes().len()),
     image,
     robot,
@@ -46,8 +46,10 @@ pub fn run(data: &[u8]) {
     reader(&Scratch::new(text, "toml"), text);
 }
 
-fn wish(_: &Scratch, text: &[u8]) {
-    let Some(PageWish::Why { of, concepts }) = message::wish(&String::from_utf8_lossy(text)) else { return };
+fn page_request(_: &Scratch, text: &[u8]) {
+    let Some(PageRequest::Why { of, concepts }) = message::request(&String::from_utf8_lossy(text)) else {
+        return;
+    };
     let map = fcm::load::map("tactile").expect("the map ships");
     if let Some(why) = message::why(&map, of.as_deref(), &concepts) {
         assert!(why.paths.len() <= 24 && why.sum.is_finite(), "{why:?}");

@@ -72,7 +72,7 @@ test("what touches mean to the robot is above the picture, and opened by the key
   await browser.until(`${bars} > 10`);
   const concepts = "Object.keys(taxel.store.states.robot_intent.concepts).length";
   assert.equal(await browser.value(bars), await browser.value(concepts));
-  // Nobody has told anything, and nothing is known of the joints.
+  // Nobody has sent anything, and nothing is known of the joints.
   assert.match(await browser.value('document.getElementById("mind-defaults").textContent'), /vision/);
   const touches = '[...document.querySelectorAll("#mind-touches tbody tr")].map((row) => row.textContent)';
   // Touches come and go: those of the two boards need not be there in one moment.
@@ -84,8 +84,8 @@ test("what touches mean to the robot is above the picture, and opened by the key
   await browser.until('!document.getElementById("mind-details").open');
 });
 
-test("what is told reaches the robot of the page", async () => {
-  view.tell("told vision -1");
+test("what is reported reaches the robot of the page", async () => {
+  view.send("host_input vision -1");
   await browser.until('!taxel.store.states.robot_intent.defaults.includes("vision")');
 });
 
@@ -97,7 +97,7 @@ test("the page of a board is that of its garment, and grey while it is not live"
   await browser.until('document.body.classList.contains("lost")');
   const grey = 'getComputedStyle(document.querySelector(".view:not([hidden])")).filter';
   assert.match(await browser.value(grey), /grayscale/);
-  // The program is there: the page tells of the other boards, and does not look disconnected.
+  // The program is there: the page reports the other boards, and does not look disconnected.
   await new Promise((done) => setTimeout(done, 3500));
   assert.equal(await browser.value('document.getElementById("absence").hidden'), true);
   assert.equal(await browser.value("taxel.store.states.robot.boards[0].state"), "live");

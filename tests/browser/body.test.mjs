@@ -84,7 +84,7 @@ test("the robot goes along with its joints, without another image", async () => 
       return link.map((part, axis) => part - base[axis]);
     })()`);
   const [still, rest] = [await links(), await origin("left_hand")];
-  view.tell('{"positions": {"waist": 1.0471975511965976}}');
+  view.send('{"positions": {"waist": 1.0471975511965976}}');
   await browser.until("taxel.store.states.poses.links.torso.turn[2] > 0.49");
   await browser.until(`${ROBOT}.poses === taxel.store.states.poses.links`);
   // About the vertical: the left (x) goes back (y) by the sine.
@@ -92,7 +92,7 @@ test("the robot goes along with its joints, without another image", async () => 
   const wanted = [rest[0] / 2 + rest[1] * Math.sqrt(0.75), rest[1] / 2 - rest[0] * Math.sqrt(0.75), rest[2]];
   moved.forEach((part, axis) => assert.ok(Math.abs(part - wanted[axis]) < 0.1, `${rest} to ${moved}, not ${wanted}`));
   assert.deepEqual((await links()).base_link, still.base_link);
-  view.tell('{"positions": {"waist": 0}}');
+  view.send('{"positions": {"waist": 0}}');
   await browser.until("taxel.store.states.poses.links.torso.turn[2] === 0");
 });
 
@@ -104,7 +104,7 @@ test("an image keeps the posture in which it was taken", async () => {
   const turn = () => browser.value(`taxel.views.body.parts(taxel.store, taxel.store.garment, taxel.store.shown(),
     taxel.settings)[0].poses.torso.turn[2]`);
   assert.equal(await turn(), 0);
-  view.tell('{"positions": {"waist": 0.5235987755982988}}');
+  view.send('{"positions": {"waist": 0.5235987755982988}}');
   await browser.until("taxel.store.states.poses.links.torso.turn[2] > 0.2");
   assert.equal(await turn(), 0);
   await browser.value("taxel.store.pause(false)");

@@ -94,7 +94,7 @@ test(`${PRESSES} presses of one to five fingers are felt as their file plays the
   t.diagnostic(`view: ${PRESSES} presses, ${touches} touches, ${live.size} frames with contacts: all as the file plays them`);
 });
 
-test("how soon a press is told, and seen", async (t) => {
+test("how soon a press is reported, and seen", async (t) => {
   const { browser } = both;
   await choose(browser, "fingertip");
   await browser.value('taxel.ask({ script: "five" })');
@@ -113,9 +113,9 @@ test("how soon a press is told, and seen", async (t) => {
       image(message);
       if (!press || message.image[press.taxel] < store.garment.low) return;
       const { began } = press;
-      const told = performance.now() - began;
+      const reported = performance.now() - began;
       press = null;
-      requestAnimationFrame(() => delays.push([told, performance.now() - began, message.frame.contacts.length]));
+      requestAnimationFrame(() => delays.push([reported, performance.now() - began, message.frame.contacts.length]));
     };
   })()`);
   const random = numbers(3);

@@ -1,4 +1,4 @@
-// Modules of the page that need no browser: the force of a touch by hand, what the program is told of it, where it meets
+// Modules of the page that need no browser: the force of a touch by hand, what the program hears of it, where it meets
 // the garment, and the outlines of the tools.
 
 import { test } from "node:test";
@@ -12,8 +12,8 @@ const [law, fingers, aims, outlines, garments] = await Promise.all(
 const PALM = { name: "palm", size_mm: [100, 85], force_n: 8, most_n: 60 };
 const STRAP = { name: "strap", size_mm: [250, 20], force_n: 3, most_n: 30 };
 const PANEL = { name: "back", region: "back", link: "torso", rows: 32, columns: 16, pitch_um: [12_000, 10_000] };
-const worn = garments.garmentOf({ panels: [PANEL, { ...PANEL, name: "chest" }], absent: [] });
-const [back, chest] = worn.panels;
+const dressed = garments.garmentOf({ panels: [PANEL, { ...PANEL, name: "chest" }], absent: [] });
+const [back, chest] = dressed.panels;
 /** One frame of the screen, ms. */
 const FRAME = 16;
 
@@ -68,17 +68,17 @@ test("the first message of a press has its place and already some force", () => 
 
 test("a finger that rests says something only while its force changes", () => {
   const finger = press();
-  const told = (until) => {
+  const sent = (until) => {
     let count = 0;
     for (; now < until; now += FRAME) count += finger.next(now) ? 1 : 0;
     return count;
   };
   let now = 0;
-  assert.ok(told(60) <= 4);
-  assert.ok(told(440) <= 1, "it keeps its force");
-  assert.ok(told(2400) > 100, "it grows");
-  told(2600);
-  assert.equal(told(5000), 0, "it has its greatest force");
+  assert.ok(sent(60) <= 4);
+  assert.ok(sent(440) <= 1, "it keeps its force");
+  assert.ok(sent(2400) > 100, "it grows");
+  sent(2600);
+  assert.equal(sent(5000), 0, "it has its greatest force");
   finger.move([7.5, 11], now);
   assert.equal(finger.next(now), null, "it has not moved");
   finger.move([8.5, 11], now);
@@ -200,7 +200,7 @@ test("a point of a face has the shares that lead to it", () => {
 test("cloth is met between its taxels, and other boards' cloth is not", () => {
   // The back, turned and leaning: two taxels are 12 pixels apart along a row, 10 and 3 along a column.
   const seen = Float32Array.from(
-    { length: 3 * worn.taxels },
+    { length: 3 * dressed.taxels },
     (_, at) => [12, 3, 0][at % 3] * (Math.floor(at / 3) % 16) + [-3, 10, 1][at % 3] * (Math.floor(at / 48) % 32),
   );
   const faces = Uint32Array.from([5 * 16 + 4, 5 * 16 + 5, 6 * 16 + 5, 6 * 16 + 4]);
@@ -208,15 +208,15 @@ test("cloth is met between its taxels, and other boards' cloth is not", () => {
   const plot = aims.plotCloth(back, stage, (taxel) => [seen[3 * taxel], seen[3 * taxel + 1]]);
   const point = plot([4.25, 5.75]);
   near(point, [100 + 12 * 4.25 - 3 * 5.75, 200 + 3 * 4.25 + 10 * 5.75]);
-  const { panel, at } = aims.onCloth(worn, stage, { seen, faces }, point);
+  const { panel, at } = aims.onCloth(dressed, stage, { seen, faces }, point);
   assert.equal(panel, back);
   near(at, [4.25, 5.75], 1e-4);
-  assert.equal(aims.onCloth(worn, stage, { seen, faces }, [100, 200]), null, "beside the face");
-  const others = Uint32Array.from({ length: worn.taxels }, () => worn.taxels + 7);
-  assert.equal(aims.onCloth(worn, stage, { seen, faces, taxels: others }, point), null);
+  assert.equal(aims.onCloth(dressed, stage, { seen, faces }, [100, 200]), null, "beside the face");
+  const others = Uint32Array.from({ length: dressed.taxels }, () => dressed.taxels + 7);
+  assert.equal(aims.onCloth(dressed, stage, { seen, faces, taxels: others }, point), null);
   // A taxel without neighbours is a face of its own.
-  const alone = Uint32Array.from({ length: worn.taxels }, () => 5 * 16 + 4);
-  assert.deepEqual(aims.onCloth(worn, stage, { seen, faces, taxels: alone }, point), { panel: back, at: [4, 5] });
+  const alone = Uint32Array.from({ length: dressed.taxels }, () => 5 * 16 + 4);
+  assert.deepEqual(aims.onCloth(dressed, stage, { seen, faces, taxels: alone }, point), { panel: back, at: [4, 5] });
   // Beyond the outermost taxels it goes straight on.
   near(plot([-0.5, 31.5]), [100 - 6 - 94.5, 200 - 1.5 + 315]);
 });

@@ -129,12 +129,12 @@ test("a report shows where the garment folded at its moment", async () => {
   const file = join(folder, "elbow.html");
   await run(PROGRAM, ["report", recording, ...OPTIONS, "--folds", table, "-o", file]);
   await browser.visit(`file://${file}`, {});
-  const [told, flat, robot] = await browser.value(`[
+  const [written, flat, robot] = await browser.value(`[
     /Strokes: the garment folds here, (\\d+) taxels/.exec(document.body.textContent)[1],
     ...[...document.querySelectorAll(".fold, #robot svg path[stroke='var(--halo)'][fill=none]")]
       .map((path) => (path.getAttribute("d").match(/M/g) ?? []).length).filter((count) => count),
   ]`);
-  assert.equal(flat, Number(told));
+  assert.equal(flat, Number(written));
   assert.ok(robot > 0 && robot <= flat, `${robot} of ${flat}`);
   assert.deepEqual(await violations(browser), []);
 });

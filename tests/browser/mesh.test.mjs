@@ -16,8 +16,8 @@ const HELLO = {
   absent: [{ panel: 0, row: 3, column: 2, rows: 1, columns: 1 }],
   counts_per_newton: 1000,
 };
-const worn = garment.garmentOf(HELLO);
-const built = mesh.meshOf(worn.panels, worn.absent, false);
+const dressed = garment.garmentOf(HELLO);
+const built = mesh.meshOf(dressed.panels, dressed.absent, false);
 const BOX = built.box;
 
 test("every four neighbours make a face, except where a taxel is missing", () => {
@@ -27,13 +27,13 @@ test("every four neighbours make a face, except where a taxel is missing", () =>
   assert.deepEqual([...built.places.slice(0, 2)], [6, 5]);
   // The arm stands beside the back, or before it if the picture is tall.
   assert.ok(built.places[2 * 12] > 36 && built.places[2 * 12 + 1] === 5);
-  const tall = mesh.meshOf(worn.panels, worn.absent, true);
+  const tall = mesh.meshOf(dressed.panels, dressed.absent, true);
   assert.ok(tall.places[2 * 12] === 6 && tall.places[2 * 12 + 1] > 40);
 });
 
 test("heights are pressure, up to their end, and what is flat has the colour of the scale", () => {
-  const relief = mesh.flat(worn.taxels);
-  const image = new Uint16Array(worn.taxels);
+  const relief = mesh.flat(dressed.taxels);
+  const image = new Uint16Array(dressed.taxels);
   image[4] = 100;
   image[12] = 900;
   mesh.raise(relief, built, image, { top: 200, highest: 400 });
@@ -121,7 +121,7 @@ test("the foremost face under a point gives its nearest taxel", () => {
 });
 
 test("maxima are found once, the greatest first", () => {
-  const [back] = worn.panels;
+  const [back] = dressed.panels;
   const image = Uint16Array.of(0, 0, 9, 0, 0, 0, 7, 7, 0, 0, 0, 0, 50, 0, 0, 0);
   assert.deepEqual(peaks.maxima(image, back, 5), [
     { row: 0, column: 2, value: 9 },
@@ -130,21 +130,21 @@ test("maxima are found once, the greatest first", () => {
 });
 
 test("taxels have places, and counts have units", () => {
-  assert.equal(worn.taxels, 16);
-  const { panel, row, column } = garment.placeOf(worn, 15);
+  assert.equal(dressed.taxels, 16);
+  const { panel, row, column } = garment.placeOf(dressed, 15);
   assert.deepEqual([panel.name, row, column], ["arm", 1, 1]);
-  assert.equal(units.pressure(worn, 120), "1.0 kPa");
-  assert.equal(units.force(worn, 2500), "2.5 N");
+  assert.equal(units.pressure(dressed, 120), "1.0 kPa");
+  assert.equal(units.force(dressed, 2500), "2.5 N");
   const raw = garment.garmentOf({ ...HELLO, counts_per_newton: null });
   assert.equal(units.pressure(raw, 120), "120 counts");
 });
 
-test("ticks have the decimals that tell them apart", () => {
-  const told = (end) => {
+test("ticks have the decimals that distinguish them", () => {
+  const labels = (end) => {
     const marks = mesh.ticks(end);
     return marks.map((mark) => mark.toFixed(mesh.decimals(marks)));
   };
-  assert.deepEqual(told(0.2), ["0.00", "0.05", "0.10", "0.15", "0.20"]);
-  assert.deepEqual(told(8), ["0.0", "2.5", "5.0", "7.5"]);
-  for (const end of [0.07, 0.2, 0.9, 1.7, 3, 42, 800]) assert.equal(new Set(told(end)).size, mesh.ticks(end).length, end);
+  assert.deepEqual(labels(0.2), ["0.00", "0.05", "0.10", "0.15", "0.20"]);
+  assert.deepEqual(labels(8), ["0.0", "2.5", "5.0", "7.5"]);
+  for (const end of [0.07, 0.2, 0.9, 1.7, 3, 42, 800]) assert.equal(new Set(labels(end)).size, mesh.ticks(end).length, end);
 });

@@ -32,7 +32,7 @@ export class View {
   }
 
   /** Writes a line to its standard input. */
-  tell(line) {
+  send(line) {
     this.program.stdin.write(`${line}\n`);
   }
 

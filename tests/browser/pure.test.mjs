@@ -77,15 +77,15 @@ test("marks are found beside the pointer, and from one to the next", () => {
 
 test("every event of the half minute has its mark, however many there are", () => {
   const store = new Store();
-  const tell = (from, to, us) => {
+  const marked = (from, to, us) => {
     for (let n = from; n < to; n += 1) store.line({ type: "say", time_us: n * us, kind: "onset", said: String(n) });
     return store.marks.length;
   };
-  assert.equal(tell(0, 2_500, 10_000), 2_500);
-  assert.equal(tell(2_500, 6_000, 10_000), 3_001);
-  assert.equal(tell(60, 600, 1_000_000), 512, "few a second");
+  assert.equal(marked(0, 2_500, 10_000), 2_500);
+  assert.equal(marked(2_500, 6_000, 10_000), 3_001);
+  assert.equal(marked(60, 600, 1_000_000), 512, "few a second");
   store.connected();
-  assert.equal(tell(0, 9_000, 1_000), 4_096, "more than anybody reads");
+  assert.equal(marked(0, 9_000, 1_000), 4_096, "more than anybody reads");
 });
 
 test("intentions last until another leads", () => {
@@ -159,12 +159,12 @@ test("what is felt is said of now, of what has just ended, and of the moment at 
     image(4, 1_000, "nothing touches", ""),
   ];
   const store = { paused: false, states: {}, at: (number) => images[number], span: () => [0, images.length] };
-  const told = (number) => sentences.sentence({ ...store, shown: () => images[number] });
-  assert.deepEqual(told(0), { when: "now", what: "nothing touches", meaning: "" });
-  assert.deepEqual(told(1), { when: "now", what: "a touch on the back, 2 N", meaning: "kindness" });
-  assert.deepEqual(told(2), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
-  assert.deepEqual(told(3), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
-  assert.deepEqual(told(4), { when: "now", what: "nothing touches", meaning: "" });
+  const spoken = (number) => sentences.sentence({ ...store, shown: () => images[number] });
+  assert.deepEqual(spoken(0), { when: "now", what: "nothing touches", meaning: "" });
+  assert.deepEqual(spoken(1), { when: "now", what: "a touch on the back, 2 N", meaning: "kindness" });
+  assert.deepEqual(spoken(2), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
+  assert.deepEqual(spoken(3), { when: "just now", what: "a touch on the back, 8 N", meaning: "kindness" });
+  assert.deepEqual(spoken(4), { when: "now", what: "nothing touches", meaning: "" });
   const paused = sentences.sentence({ ...store, paused: true, shown: () => images[1] });
   assert.equal(paused.when, "at 0.10 s");
   assert.equal(sentences.sentence({ ...store, shown: () => null }), null);

@@ -22,8 +22,8 @@ test.after(() => rm(folder, { recursive: true }));
 
 const moment = "taxel.store.moment()";
 const clock = () => both.browser.value("document.getElementById('clock').textContent");
-const ask = async (wish, until) => {
-  await both.browser.value(`void taxel.ask(${JSON.stringify(wish)})`);
+const ask = async (request, until) => {
+  await both.browser.value(`void taxel.ask(${JSON.stringify(request)})`);
   await both.browser.until(until);
   await drawn(both.browser);
 };
@@ -163,14 +163,14 @@ test("a line of the log leads to its moment, and so does an address", async () =
   await browser.until(`Math.abs(${moment} - 1.5) < 0.01`);
 });
 
-test("who shares the moment with others is told so", async () => {
+test("who shares the moment with others is informed", async () => {
   const { browser, view } = both;
-  const told = "document.getElementById('viewers').textContent";
-  assert.equal(await browser.value(told), "");
+  const written = "document.getElementById('viewers').textContent";
+  assert.equal(await browser.value(written), "");
   const other = new WebSocket(`${view.url.replace("http", "ws")}socket`);
-  await browser.until(`${told} === "2 viewers: all see this moment"`);
+  await browser.until(`${written} === "2 viewers: all see this moment"`);
   other.close();
-  await browser.until(`${told} === ""`);
+  await browser.until(`${written} === ""`);
 });
 
 test("a telephone has room for all of it", async () => {

@@ -68,7 +68,7 @@ test("a report has the surface of the page, which turns and is read", async () =
   // Just below the peak.
   const mark = await box(browser, ".marks b");
   await browser.pointer(mark.left + mark.width / 2, mark.top + 28);
-  await browser.until(`/, row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("told").textContent)`);
+  await browser.until(`/, row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("pointed").textContent)`);
 });
 
 test("a report shows the garment on its robot, which turns and is read", async () => {
@@ -79,8 +79,8 @@ test("a report shows the garment on its robot, which turns and is read", async (
   await browser.value('document.getElementById("robot").scrollIntoView()');
   await browser.until("document.querySelectorAll('#robot svg g g').length === 5");
   assert.deepEqual(await violations(browser), []);
-  const told = () => browser.value("[...document.querySelectorAll('#robot svg g g text')].map((text) => text.textContent)");
-  for (const text of await told()) assert.match(text, /^\d+ · [\d.]+ N$/);
+  const written = () => browser.value("[...document.querySelectorAll('#robot svg g g text')].map((text) => text.textContent)");
+  for (const text of await written()) assert.match(text, /^\d+ · [\d.]+ N$/);
   const found = await (await screen(browser)).colours(await box(browser, "#robot"));
   assert.ok(found.length > 50, `${found.length} colours`);
   const bones = () => browser.value("document.querySelector('#robot svg path').getAttribute('d')");
@@ -96,7 +96,7 @@ test("a report shows the garment on its robot, which turns and is read", async (
     `(({ left, top, width }) => ({ left, top, width }))(${names}.getBoundingClientRect())`,
   );
   await browser.pointer(left + width / 2, top - 20);
-  await browser.until(`/^(chest|back), row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("told-robot").textContent)`);
+  await browser.until(`/^(chest|back), row \\d+, column \\d+: [\\d.]+ N$/.test(document.getElementById("pointed-robot").textContent)`);
 });
 
 test("page and report show a touch in one palette on one scale", async () => {

@@ -1,4 +1,4 @@
-// Pause, steps back, saving, and ill taxels.
+// Pause, steps back, saving, and faulty taxels.
 
 import { test } from "node:test";
 import assert from "node:assert/strict";
@@ -10,11 +10,11 @@ import { promisify } from "node:util";
 import { drawn, page, show } from "./page.fixture.mjs";
 
 const folder = await mkdtemp(join(tmpdir(), "taxel-view-"));
-const scene = join(folder, "ill.toml");
+const scene = join(folder, "faulty.toml");
 await writeFile(
   scene,
-  `title = "three ill taxels"
-description = "A pat on a garment with three ill taxels."
+  `title = "three faulty taxels"
+description = "A pat on a garment with three faulty taxels."
 duration_s = 2
 [faults]
 from_s = 0.3
@@ -124,9 +124,9 @@ test("a moment is saved as JSON, and the board's bytes as a recording", async ()
   assert.ok(frames.every(({ decoded, lost }) => decoded && lost === 0));
 });
 
-test("ill taxels are on the map of health", async () => {
+test("faulty taxels are on the map of health", async () => {
   const { browser } = both;
-  await browser.until("taxel.store.ill().size >= 3", 30);
+  await browser.until("taxel.store.faulty().size >= 3", 30);
   await show(browser, "health");
   // The script begins again every two seconds, and a shorted taxel that rests meanwhile is taken back: each is named at some time.
   for (const text of [

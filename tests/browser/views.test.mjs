@@ -100,10 +100,10 @@ test("without a body the panels stand by region, and say what is felt there", as
     regions.map(([name]) => name),
     [...new Set(panels.map(({ region }) => region))],
   );
-  for (const [name, told] of regions) {
+  for (const [name, written] of regions) {
     const count = contacts.filter(({ region }) => region === name).length;
     const wanted = count === 0 ? /^no contact$/ : new RegExp(`^${count} contacts?, [\\d.]+ N, at most [\\d.]+ kPa$`);
-    assert.match(told, wanted, name);
+    assert.match(written, wanted, name);
   }
   assert.ok(contacts.length > 0);
   // A touched panel has the colours of the scale.

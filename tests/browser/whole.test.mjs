@@ -121,7 +121,7 @@ test("other boards are followed while the robot is looked at, and no longer", as
   await browser.until(`${followed}.length === 0`);
 });
 
-test("the robot wears the garments of all boards, and contacts have their names", async () => {
+test("the robot carries the garments of all boards, and contacts have their names", async () => {
   await show(browser, "body", "contacts");
   await browser.until(`${ROBOT}.cloth?.taxels.some((taxel) => taxel >= 2048)`);
   await browser.until(`${LABELS}.some((text) => text.startsWith("hand "))`);
@@ -132,10 +132,10 @@ test("the robot wears the garments of all boards, and contacts have their names"
   assert.match(await browser.value(`${ROBOT}.note.textContent`), /No place on the robot: bare: mat\./);
 });
 
-test("the joints that are told move it", async () => {
+test("the joints that are sent move it", async () => {
   const height = `${ROBOT}.standing.places[3 * ${ROBOT}.cloth.taxels.findIndex((taxel) => taxel >= 2048) + 2]`;
   const before = await browser.value(height);
-  view.tell('{"positions": {"left_shoulder_pitch": 1.5}}');
+  view.send('{"positions": {"left_shoulder_pitch": 1.5}}');
   await browser.until(`Math.abs(${height} - ${before}) > 50`);
 });
 

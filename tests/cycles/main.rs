@@ -13,7 +13,7 @@ use taxel_bench::stages::case::{Case, Step};
 use taxel_bench::stages::format::{Form, FormRow};
 use taxel_bench::stages::row::{Cost, Row};
 use taxel_bench::stages::table::Table;
-use taxel_bench::stages::twin::{Told, Twin};
+use taxel_bench::stages::twin::{StepResult, Twin};
 
 /// The tables as they were last written.
 const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench");
@@ -72,7 +72,7 @@ fn measure() -> Result<Table, String> {
     let costs = together(&steps)?;
     let of_cases = cases.iter().zip(&steps).zip(&costs);
     let rows: Vec<Row> =
-        of_cases.map(|((case, steps), (costs, told))| Row::of(case, steps, costs, told)).collect();
+        of_cases.map(|((case, steps), (costs, results))| Row::of(case, steps, costs, results)).collect();
     let of_forms = forms.iter().zip(costs.iter().skip(cases.len()));
     let forms: Vec<FormRow> = of_forms.map(|(form, (costs, _))| form.row(costs)).collect();
     let compiler = std::env::var("TAXEL_COMPILER").unwrap_or("an unknown compiler".into());
@@ -85,7 +85,7 @@ fn measure() -> Result<Table, String> {
 }
 
 /// What a group of steps costs on the board, and what this machine did.
-type Group = (Vec<Cost>, Vec<Told>);
+type Group = (Vec<Cost>, Vec<StepResult>);
 
 /// Both by groups of steps.
 fn together(groups: &[Vec<Step>]) -> Result<Vec<Group>, String> {
@@ -94,13 +94,13 @@ fn together(groups: &[Vec<Step>]) -> Result<Vec<Group>, String> {
     let mut done = Vec::new();
     for (number, steps) in groups.iter().enumerate() {
         let answers: Vec<_> = answers.by_ref().take(steps.len()).collect();
-        let told: Vec<Told> = steps.iter().map(|step| twin.perform(step)).collect();
-        if let Some(step) = answers.iter().zip(&told).position(|(board, host)| board.said != host.said) {
+        let results: Vec<StepResult> = steps.iter().map(|step| twin.perform(step)).collect();
+        if let Some(step) = answers.iter().zip(&results).position(|(board, host)| board.said != host.said) {
             return Err(format!(
                 "group {number}, step {step}: the board says something else than this machine"
             ));
         }
-        done.push((answers.iter().map(|answer| answer.cost).collect(), told));
+        done.push((answers.iter().map(|answer| answer.cost).collect(), results));
     }
     Ok(done)
 }

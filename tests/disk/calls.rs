@@ -1,6 +1,6 @@
 //! The system's calls that change files, under the names by which the C library offers them.
 //!
-//! Each has the C library's contract: pointers lead to texts of C, or to as many bytes as are told.
+//! Each has the C library's contract: pointers lead to texts of C, or to as many bytes as are reported.
 
 use super::place::{named, of_open};
 use super::plan::{Kind, Verdict, fail, kill, next};

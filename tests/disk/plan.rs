@@ -34,7 +34,7 @@ pub enum Verdict {
     GoAndKill,
 }
 
-/// The faults of a run, as the environment tells them.
+/// The faults of a run, as the environment reports them.
 struct Plan {
     folder: PathBuf,
     notes: CString,
@@ -49,17 +49,17 @@ struct Plan {
 fn plan() -> Option<&'static Plan> {
     static PLAN: OnceLock<Option<Plan>> = OnceLock::new();
     PLAN.get_or_init(|| {
-        let told = |name: &str| std::env::var_os(format!("TAXEL_DISK_{name}")).unwrap_or_default();
-        let path = |name| CString::new(told(name).as_bytes()).unwrap_or_default();
-        let folder = PathBuf::from(told("FOLDER"));
+        let reported = |name: &str| std::env::var_os(format!("TAXEL_DISK_{name}")).unwrap_or_default();
+        let path = |name| CString::new(reported(name).as_bytes()).unwrap_or_default();
+        let folder = PathBuf::from(reported("FOLDER"));
         (folder.is_absolute()).then(|| Plan {
             folder,
             notes: path("NOTES"),
-            call: told("CALL").to_str().and_then(|call| call.parse().ok()).unwrap_or(0),
-            fault: told("FAULT").to_string_lossy().into_owned(),
+            call: reported("CALL").to_str().and_then(|call| call.parse().ok()).unwrap_or(0),
+            fault: reported("FAULT").to_string_lossy().into_owned(),
             target: path("TARGET"),
             precious: path("PRECIOUS"),
-            held: PathBuf::from(told("HELD")),
+            held: PathBuf::from(reported("HELD")),
             count: AtomicU64::new(0),
         })
     })

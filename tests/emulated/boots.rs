@@ -101,8 +101,8 @@ fn a_supply_that_sags_resets_the_chip_and_costs_nothing_that_is_saved() {
     for (millivolts, browns) in [(950, false), (900, true)] {
         assert_eq!(board.sag(millivolts), browns, "{millivolts} mV");
     }
-    let told = started(&mut board, |boot| boot.cause == BootCause::Power);
-    assert_eq!(told, (name("saved"), Boot::default()));
+    let reported = started(&mut board, |boot| boot.cause == BootCause::Power);
+    assert_eq!(reported, (name("saved"), Boot::default()));
     board.end();
 }
 
@@ -116,8 +116,8 @@ fn a_request_or_a_grounded_pin_leads_to_what_ships_and_back() {
     for (undo, used, aside) in [(false, "shipped", Aside::Request), (true, "saved", Aside::No)] {
         done(&mut board, &Request::ResetSettings { undo });
         assert_eq!(board.wait_for("reset")["reset"], "program");
-        let told = started(&mut board, |boot| boot.cause == BootCause::Request && boot.aside == aside);
-        assert_eq!(told, (name(used), Boot { cause: BootCause::Request, resets: 0, aside }));
+        let reported = started(&mut board, |boot| boot.cause == BootCause::Request && boot.aside == aside);
+        assert_eq!(reported, (name(used), Boot { cause: BootCause::Request, resets: 0, aside }));
     }
     board.end();
     let mut board = start(&flash, &["--ground", LED]);

@@ -72,7 +72,7 @@ fn five_moving_contacts() {
     println!("{rate:.1} frames/s perceived, a scan takes {} us; stack {}", health.scan_us, spent["stack"]);
     println!("of {frames} frames {shown} images and {} lists of contacts were sent", contacts.len());
     println!("{}", spent["check"]);
-    tell_stages(&marks, &spent);
+    print_stages(&marks, &spent);
     println!("bytes per frame: {:?}", mean(&bytes, frames as usize));
     assert!(contacts.iter().all(|n| *n == 5), "{contacts:?}");
     assert!(contacts.len() as u32 + 1 >= frames, "contacts go before images: a list for each frame");
@@ -92,7 +92,7 @@ fn mean(bytes: &BTreeMap<String, usize>, frames: usize) -> BTreeMap<&str, usize>
 }
 
 /// Prints the cycles that each stage took between two looks at the marks, per scan.
-fn tell_stages(before: &Value, after: &Value) {
+fn print_stages(before: &Value, after: &Value) {
     const STAGES: [&str; 9] =
         ["outside", "condition", "contact", "shape", "symbol", "intent", "react", "encode", "scan"];
     let spent = |stage: usize, what: &str| {

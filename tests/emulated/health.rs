@@ -38,7 +38,7 @@ fn self_test(board: &mut Emulated) -> Findings {
 }
 
 #[test]
-fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
+fn every_fault_of_a_line_or_an_input_is_reported_as_itself() {
     let garment = Garment::reference();
     let mut script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
     // At rest near ground, as the simulated garment is not: its source moves it away from there.
@@ -58,13 +58,13 @@ fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
     }
     board.fault(&[]);
     assert_eq!(self_test(&mut board), whole);
-    println!("{} faults of lines and inputs told as themselves, as on the simulated board", faults.len());
+    println!("{} faults of lines and inputs reported as themselves, as on the simulated board", faults.len());
     board.end();
 }
 
 /// While frames stream and nobody asks: one fault of each kind, after each of which the garment is whole again.
 #[test]
-fn what_breaks_in_use_is_told_by_itself() {
+fn what_breaks_in_use_is_reported_by_itself() {
     let garment = Garment::reference();
     let script = scripts::parse("duration_s = 1\nseed = 8", "rest.toml").unwrap();
     let codes = frame_codes(&script, &garment, FRAME_PERIOD_US, 61).unwrap();
@@ -97,7 +97,7 @@ fn what_breaks_in_use_is_told_by_itself() {
             }
         };
         assert_eq!(found.findings.faults, [PinFault { pin, fault }]);
-        println!("GPIO {pin} {fault}: told after {} us", found.time.since(broken));
+        println!("GPIO {pin} {fault}: reported after {} us", found.time.since(broken));
         board.fault(&[]);
         assert!(self_test(&mut board).faults.is_empty());
     }
@@ -142,12 +142,12 @@ fn on_this_machine(codes: &[u16]) -> BTreeMap<u16, TaxelHealth> {
         let report = ScanReport { start: Micros(frame * FRAME_PERIOD_US), ..ScanReport::default() };
         board.step(report.start, Input::Scanned(Ok(Scan { codes: &codes, report })), &mut ());
     }
-    let ill = (0..2048).map(|taxel| (taxel as u16, board.health_of(taxel)));
-    ill.filter(|(_, health)| *health != TaxelHealth::Good).collect()
+    let faulty = (0..2048).map(|taxel| (taxel as u16, board.health_of(taxel)));
+    faulty.filter(|(_, health)| *health != TaxelHealth::Good).collect()
 }
 
 #[test]
-fn dead_stuck_and_noisy_taxels_are_told_as_themselves() {
+fn dead_stuck_and_noisy_taxels_are_reported_as_themselves() {
     let healthy = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 1000 } else { 60 };
     let (script, broken, shown) = breaking(healthy);
     let garment = Garment::reference();
@@ -164,9 +164,9 @@ fn dead_stuck_and_noisy_taxels_are_told_as_themselves() {
             Report::Frame(image) => frame = image.time.since(begin) / FRAME_PERIOD_US,
             Report::HealthMap(map) => {
                 let at = map.time.since(begin) / FRAME_PERIOD_US;
-                for ill in map.taxels {
-                    assert_eq!(ill.count, 1);
-                    found.entry(ill.first).or_insert((at, ill.health));
+                for faulty in map.taxels {
+                    assert_eq!(faulty.count, 1);
+                    found.entry(faulty.first).or_insert((at, faulty.health));
                 }
             }
             _ => {}

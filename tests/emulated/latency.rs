@@ -23,7 +23,7 @@ const SCAN_US: f64 = 5_120.0;
 /// How long a touch lasts, and the rest before the next one, us: from touch to touch the scan's phase moves
 /// on by 0.618 of its period, which spreads the touches evenly over it.
 const PERIOD_US: f64 = 22_062.0;
-/// Rests before the first touch: the board is told to tare meanwhile.
+/// Rests before the first touch: the board is asked to tare meanwhile.
 const RESTS: usize = 24;
 /// Most contacts at a time.
 const MOST: usize = 5;
@@ -99,7 +99,7 @@ impl Times {
         sorted[(sorted.len() * percent).div_ceil(100) - 1]
     }
 
-    fn tell(&self, what: &str) {
+    fn print(&self, what: &str) {
         let ms = |percent| self.percentile(percent) / 1000.0;
         println!(
             "{what}: median {:.2} ms, p99 {:.2} ms, largest {:.2} ms of {}",
@@ -111,7 +111,7 @@ impl Times {
     }
 }
 
-/// A time that the harness told.
+/// A time that the harness reported.
 fn us(line: &serde_json::Value) -> f64 {
     line["us"].as_f64().unwrap()
 }
@@ -181,13 +181,13 @@ fn from_voltage_to_message_and_pin() {
     let alone: Vec<f64> = (touches()..touches() + ALONE).map(reflex).collect();
     for (number, times) in (1..).zip(of_number) {
         let times = Times(times);
-        times.tell(&format!("onset over USB, {number} contacts"));
+        times.print(&format!("onset over USB, {number} contacts"));
         assert!(times.percentile(99) <= ONSET_US, "{number} contacts");
     }
     let (all, reflexes, alone) = (Times(all), Times(reflexes), Times(alone));
-    all.tell("onset over USB, all");
-    reflexes.tell("reflex to pressure");
-    alone.tell("reflex to pressure, the cable pulled");
+    all.print("onset over USB, all");
+    reflexes.print("reflex to pressure");
+    alone.print("reflex to pressure, the cable pulled");
     assert!(all.percentile(99) <= ONSET_US);
     assert!(reflexes.percentile(99) <= REFLEX_US);
     assert!(alone.percentile(99) <= REFLEX_US);
@@ -222,7 +222,7 @@ fn footprints() -> Vec<u16> {
     frames
 }
 
-/// From the voltage to the pin in an interlaced scan, which tells each reflex once.
+/// From the voltage to the pin in an interlaced scan, which reports each reflex once.
 fn reflexes(agree: Agree) -> Times {
     let period = PERIOD_US.to_string();
     let options = ["--link", "usb", "--period", &period, "--times", "--watch", "18"];
@@ -230,10 +230,10 @@ fn reflexes(agree: Agree) -> Times {
     let scene = postcard::to_allocvec(&scene().interlaced(agree)).unwrap();
     board.receive();
     let rise = begin(&mut board, &scene);
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     loop {
         match board.receive().report() {
-            Report::Reflex(reflex) => told.push(reflex),
+            Report::Reflex(reflex) => reported.push(reflex),
             Report::HealthMap(map) => assert!(map.taxels.is_empty(), "{map:?}"),
             Report::Frame(frame) if frame.time.0 as f64 > rise(touches()) => break,
             Report::Answer(answer) => assert_eq!(answer.refusal, None),
@@ -250,8 +250,8 @@ fn reflexes(agree: Agree) -> Times {
         .filter(|edge| edge["pin"] == PRESSURE_PIN && edge["level"] == true)
         .map(us)
         .collect();
-    assert_eq!((told.len(), edges.len()), (touches(), touches()));
-    for (touch, (reflex, edge)) in told.iter().zip(&edges).enumerate() {
+    assert_eq!((reported.len(), edges.len()), (touches(), touches()));
+    for (touch, (reflex, edge)) in reported.iter().zip(&edges).enumerate() {
         assert!((rise(touch)..rise(touch) + PERIOD_US).contains(edge), "touch {touch}");
         // The pin moves when the check is through.
         assert!((0.0..100.0).contains(&(edge - reflex.time.0 as f64)), "touch {touch}: {reflex:?} {edge}");
@@ -266,7 +266,7 @@ fn a_reflex_within_a_frame() {
         [(Agree::One, "one taxel's word", ONE_US), (Agree::Two, "two that agree", TWO_US)]
     {
         let times = reflexes(agree);
-        times.tell(&format!("interlaced: reflex by {what}"));
+        times.print(&format!("interlaced: reflex by {what}"));
         assert!(times.percentile(99) <= most);
     }
 }

@@ -35,11 +35,11 @@ fn a_chain_that_a_bus_error_has_broken_begins_anew() {
     next_frame(&mut board);
     for _ in 0..3 {
         let broken = board.look("dma-error").as_f64().unwrap() as u64;
-        let mut told = false;
+        let mut reported = false;
         loop {
             match board.receive().report() {
-                Report::Log(log) => told |= log.text == "scan: the converter stands still",
-                Report::Frame(Frame { time, .. }) if told => {
+                Report::Log(log) => reported |= log.text == "scan: the converter stands still",
+                Report::Frame(Frame { time, .. }) if reported => {
                     let after_ms = (time.0 - broken) as f64 / 1e3;
                     println!("a bus error: frames again {after_ms:.1} ms later");
                     assert!(after_ms < 60.0, "{after_ms}");

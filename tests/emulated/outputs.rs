@@ -48,16 +48,18 @@ fn start(flash: &Path) -> Emulated {
     Emulated::start(&Garment::reference(), &[100; 2048], 100, &options)
 }
 
-/// Waits for the answer to a request; what reactions were told meanwhile.
+/// Waits for the answer to a request; what reactions were reported meanwhile.
 fn done(board: &mut Emulated, request: &Request<'_>) -> Vec<(String, bool)> {
     board.ask(request);
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     loop {
         match board.receive().report() {
-            Report::Reaction(report) => told.push((report.reaction.name.to_string(), report.reaction.active)),
+            Report::Reaction(report) => {
+                reported.push((report.reaction.name.to_string(), report.reaction.active))
+            }
             Report::Answer(answer) if answer.request == request.number() => {
                 assert_eq!(answer.refusal, None);
-                return told;
+                return reported;
             }
             _ => {}
         }
@@ -75,7 +77,7 @@ fn when(board: &mut Emulated, name: &str, active: bool) -> u64 {
     }
 }
 
-/// Edges of the pins that the harness has told: pin, level, us.
+/// Edges of the pins that the harness has reported: pin, level, us.
 fn edges(board: &mut Emulated) -> Vec<(u64, Option<bool>, f64)> {
     let mut edges = Vec::new();
     board.said.retain(|said| {
@@ -87,10 +89,10 @@ fn edges(board: &mut Emulated) -> Vec<(u64, Option<bool>, f64)> {
     edges
 }
 
-/// What pins show and what messages tell, side by side.
+/// What pins show and what messages report, side by side.
 #[derive(Default)]
-struct Told {
-    /// Reactions that last, as told.
+struct PinsAndMessages {
+    /// Reactions that last, as reported.
     last: BTreeSet<String>,
     /// How often the reactions of a pin began, all of them being at rest.
     begun: BTreeMap<u64, u32>,
@@ -98,7 +100,7 @@ struct Told {
     pins: BTreeMap<u64, (bool, u32)>,
 }
 
-impl Told {
+impl PinsAndMessages {
     fn reaction(&mut self, scene: &Scene, name: &str, active: bool) {
         let row = scene.react.iter().find(|row| row.name.as_str() == name).unwrap();
         let pin = u64::from(row.output.unwrap().pin);
@@ -107,7 +109,7 @@ impl Told {
             u64::from(row.output.unwrap().pin) == pin
         };
         let rested = !self.last.iter().any(of_pin);
-        // `Start` tells once more what lasts.
+        // `Start` says once more what lasts.
         let is_new = if active { self.last.insert(name.into()) } else { self.last.remove(name) };
         assert!(active || is_new, "{name} ends twice");
         *self.begun.entry(pin).or_default() += u32::from(active && rested);
@@ -129,11 +131,13 @@ impl Told {
 }
 
 /// Reads on for so many seconds of the board.
-fn read(board: &mut Emulated, seconds: f64, scene: &Scene, told: &mut Told) {
+fn read(board: &mut Emulated, seconds: f64, scene: &Scene, reported: &mut PinsAndMessages) {
     let mut until = None;
     loop {
         match board.receive().report() {
-            Report::Reaction(report) => told.reaction(scene, &report.reaction.name, report.reaction.active),
+            Report::Reaction(report) => {
+                reported.reaction(scene, &report.reaction.name, report.reaction.active)
+            }
             Report::Answer(answer) => assert_eq!(answer.refusal, None, "{}", answer.request),
             Report::Contacts(ContactList { time, .. }) | Report::Frame(Frame { time, .. }) => {
                 let end = *until.get_or_insert(time.0 + (seconds * 1e6) as u64);
@@ -163,13 +167,13 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
     board.receive();
     done(&mut board, &Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
     done(&mut board, &Request::Tare { frames: 4 });
-    let (mut told, mut random) = (Told::default(), Rng::with_seed(1));
+    let (mut reported, mut random) = (PinsAndMessages::default(), Rng::with_seed(1));
     board.ask(&Request::Start);
-    read(&mut board, 0.3, &scene, &mut told);
+    read(&mut board, 0.3, &scene, &mut reported);
     board.look("stats");
-    told.edges(&scene, &edges(&mut board));
-    assert!(told.last.is_empty(), "{:?} last at rest", told.last);
-    (told.begun, told.pins) = Default::default();
+    reported.edges(&scene, &edges(&mut board));
+    assert!(reported.last.is_empty(), "{:?} last at rest", reported.last);
+    (reported.begun, reported.pins) = Default::default();
     let mut done = 0;
     for sequence in 0..sequences {
         for _ in 0..3 {
@@ -179,7 +183,7 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
                 1 => board.starve(3 + random.u32(..9)),
                 2 => {
                     board.stall(true);
-                    when_into(&mut board, "guard blind", &scene, &mut told);
+                    when_into(&mut board, "guard blind", &scene, &mut reported);
                     board.stall(false);
                 }
                 3 => {
@@ -187,34 +191,36 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
                     other.symbol.span_ms[0] += random.u32(..9);
                     board.ask(&Request::SetScene(&postcard::to_allocvec(&other).unwrap()));
                     // Over a UART, more than 1,000 bytes at once could be lost (docs/wire.md).
-                    when_answered(&mut board, &scene, &mut told);
+                    when_answered(&mut board, &scene, &mut reported);
                 }
                 4 => board.ask(&Request::Stream { raw_hz: random.u32(..5) as u16, budget_hz: 1 }),
                 5 => board.ask(&Request::SelfTest),
                 _ => board.ask(&Request::Start),
             }
         }
-        read(&mut board, 0.4, &scene, &mut told);
+        read(&mut board, 0.4, &scene, &mut reported);
         board.look("stats");
-        told.edges(&scene, &edges(&mut board));
-        for (pin, (asserted, count)) in &told.pins {
+        reported.edges(&scene, &edges(&mut board));
+        for (pin, (asserted, count)) in &reported.pins {
             assert!(!asserted, "sequence {sequence}: GP{pin} is asserted at rest");
-            assert_eq!(Some(count), told.begun.get(pin), "sequence {sequence}: GP{pin}");
+            assert_eq!(Some(count), reported.begun.get(pin), "sequence {sequence}: GP{pin}");
         }
-        assert!(told.last.is_empty(), "sequence {sequence}: {:?}", told.last);
+        assert!(reported.last.is_empty(), "sequence {sequence}: {:?}", reported.last);
     }
-    let asserted: u32 = told.pins.values().map(|(_, count)| count).sum();
+    let asserted: u32 = reported.pins.values().map(|(_, count)| count).sum();
     println!(
-        "{sequences} sequences of {done} requests, faults and touches: pins were asserted {asserted} times, each told, and each end"
+        "{sequences} sequences of {done} requests, faults and touches: pins were asserted {asserted} times, each reported, and each end"
     );
     board.end();
 }
 
 /// Reads on until a change of the scene is answered.
-fn when_answered(board: &mut Emulated, scene: &Scene, told: &mut Told) {
+fn when_answered(board: &mut Emulated, scene: &Scene, reported: &mut PinsAndMessages) {
     loop {
         match board.receive().report() {
-            Report::Reaction(report) => told.reaction(scene, &report.reaction.name, report.reaction.active),
+            Report::Reaction(report) => {
+                reported.reaction(scene, &report.reaction.name, report.reaction.active)
+            }
             Report::Answer(answer) => {
                 assert_eq!(answer.refusal, None, "{}", answer.request);
                 if answer.request == Request::SetScene(&[]).number() {
@@ -227,10 +233,10 @@ fn when_answered(board: &mut Emulated, scene: &Scene, told: &mut Told) {
 }
 
 /// Reads on until a reaction of this name begins.
-fn when_into(board: &mut Emulated, name: &str, scene: &Scene, told: &mut Told) {
-    while !told.last.contains(name) {
+fn when_into(board: &mut Emulated, name: &str, scene: &Scene, reported: &mut PinsAndMessages) {
+    while !reported.last.contains(name) {
         if let Report::Reaction(report) = board.receive().report() {
-            told.reaction(scene, &report.reaction.name, report.reaction.active);
+            reported.reaction(scene, &report.reaction.name, report.reaction.active);
         }
     }
 }
@@ -268,7 +274,7 @@ fn pins_stand_at_their_fault_levels_before_the_program_runs() {
 }
 
 #[test]
-fn a_converter_that_stands_still_is_told_as_blindness_and_frames_come_again() {
+fn a_converter_that_stands_still_is_reported_as_blindness_and_frames_come_again() {
     let mut board = start(&flash("stall"));
     let bytes = postcard::to_allocvec(&scene()).unwrap();
     board.receive();
@@ -276,8 +282,8 @@ fn a_converter_that_stands_still_is_told_as_blindness_and_frames_come_again() {
     done(&mut board, &Request::SetScene(&bytes));
     for _ in 0..3 {
         let stalled = board.stall(true);
-        let told = when(&mut board, "guard blind", true) as f64;
-        let after_ms = (told - stalled) / 1e3;
+        let reported = when(&mut board, "guard blind", true) as f64;
+        let after_ms = (reported - stalled) / 1e3;
         println!("blind {after_ms:.1} ms after the converter stood still, at a level of {BLIND_MS} ms");
         assert!((f64::from(BLIND_MS) - 6.0..=f64::from(BLIND_MS) + 25.0).contains(&after_ms), "{after_ms}");
         board.stall(false);

@@ -29,7 +29,7 @@ fn codes() -> Vec<u16> {
     (0..FRAMES * TAXELS).map(|at| level(at % TAXELS) + noise(at / TAXELS, at % TAXELS)).collect()
 }
 
-/// A board that wears an empty garment, whose codes are shown over and over, and knows it for empty.
+/// A board with an empty garment, whose codes are shown over and over, and knows it for empty.
 fn tared(garment: &Garment, scene: &Scene) -> Emulated {
     let mut board = Emulated::start(garment, &codes(), 0, &["--loop"]);
     let garment = postcard::to_allocvec(garment).unwrap();
@@ -159,15 +159,15 @@ fn a_mean_of_scans() {
         scene.plan.depth = depth;
         board.obey(&Request::SetScene(&postcard::to_allocvec(&scene).unwrap()));
         board.obey(&Request::Start);
-        let mut told = 0;
-        while told < 3 {
+        let mut reported = 0;
+        while reported < 3 {
             let message = board.receive();
             match message.report() {
                 Report::Raw(raw) => {
                     let mut have = vec![0; TAXELS];
                     decode_image(raw.data, None, &mut have).unwrap();
                     assert_eq!(have, mean, "{depth:?}, frame {}", raw.frame);
-                    told += 1;
+                    reported += 1;
                 }
                 Report::Health(health) => println!("{depth:?}: {} us a frame", health.scan_us),
                 _ => {}

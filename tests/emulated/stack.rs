@@ -155,14 +155,14 @@ fn refused(board: &mut Emulated, request: &Request<'_>) -> String {
     }
 }
 
-/// Whether a board told just what this machine infers from the inputs that it told.
+/// Whether a board reported just what this machine infers from the inputs that it reported.
 fn agrees(report: &IntentReport, map: &Map) -> bool {
     let mut start = [0; CONCEPTS];
     let inputs = start.iter_mut().zip(&report.concepts).take(INPUTS);
     inputs.for_each(|(to, value)| *to = value.0);
     let run = map.infer(&start, STEPS);
-    let told = report.concepts.iter().map(|value| value.0);
-    run.state.into_iter().take(map.len()).eq(told)
+    let reported = report.concepts.iter().map(|value| value.0);
+    run.state.into_iter().take(map.len()).eq(reported)
         && (run.steps, run.outcome) == (report.steps, report.outcome)
 }
 
@@ -194,7 +194,7 @@ fn watch(board: &mut Emulated, map: Option<&Map>) {
     }
 }
 
-/// What is told first: the setup as it is, empty where it does not fit.
+/// What is reported first: the setup as it is, empty where it does not fit.
 fn hello(board: &mut Emulated) -> (Vec<u8>, Vec<u8>) {
     loop {
         if let Report::Hello(Hello { garment, scene, .. }) = board.receive().report() {
@@ -230,7 +230,7 @@ fn the_stack_has_room() {
     board.obey(&Request::SetScene(&scene));
     free(&mut board, "greatest scene");
     board.ask(&Request::Start);
-    assert_eq!(hello(&mut board), (garment, scene), "they are told whole");
+    assert_eq!(hello(&mut board), (garment, scene), "they are reported whole");
     free(&mut board, "greatest hello");
     let map = Map::build(&greatest_scene().intent.unwrap().map).unwrap();
     watch(&mut board, Some(&map));

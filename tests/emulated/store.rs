@@ -10,7 +10,7 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{Hello, Report, Request};
 
 /// Garment and scene of a board that has just started.
-fn worn(board: &mut Emulated) -> (Garment, Scene) {
+fn setup(board: &mut Emulated) -> (Garment, Scene) {
     loop {
         let message = board.receive();
         if let Report::Hello(Hello { garment, scene, .. }) = message.report() {
@@ -33,8 +33,8 @@ fn a_save_survives_a_restart_and_a_power_cut() {
     let codes: Vec<u16> = (0..TAXELS).map(|taxel| 100 + (taxel * 1367 % TAXELS) as u16).collect();
 
     let mut board = Emulated::start(&garment, &codes, 0, &kept);
-    assert_eq!(worn(&mut board), (Garment::reference(), Scene::shipped()));
-    garment.name = name("worn");
+    assert_eq!(setup(&mut board), (Garment::reference(), Scene::shipped()));
+    garment.name = name("stored");
     let bytes = postcard::to_allocvec(&garment).unwrap();
     board.obey(&Request::SetGarment(&bytes));
     let old = Scene { name: name("old"), ..Scene::shipped() };
@@ -66,7 +66,7 @@ fn a_save_survives_a_restart_and_a_power_cut() {
 
     // It rests from the first scan on: a baseline would follow lower codes downwards.
     let mut board = Emulated::run(&garment, &codes, &[&kept[..], &["--cut", "3"]].concat());
-    assert_eq!(worn(&mut board), (garment.clone(), old.clone()));
+    assert_eq!(setup(&mut board), (garment.clone(), old.clone()));
     board.obey(&Request::Start);
     // The baseline came back, too: what the garment shows at rest is no touch.
     loop {
@@ -82,7 +82,7 @@ fn a_save_survives_a_restart_and_a_power_cut() {
     board.end_of_power();
 
     let mut board = Emulated::start(&garment, &codes, 0, &kept);
-    let (worn_after, scene) = worn(&mut board);
-    assert!(worn_after == garment && (scene == old || scene == new), "{}", scene.name);
+    let (after, scene) = setup(&mut board);
+    assert!(after == garment && (scene == old || scene == new), "{}", scene.name);
     board.end();
 }

@@ -105,7 +105,7 @@ fn what_presses_on_the_robot_is_the_same_on_the_board_and_lasts_over_a_restart()
     assert!(kinds["Pressing"] as usize > FRAMES / 2, "{kinds:?}");
 }
 
-/// Nobody tells the posture: the left arm may fold in any way, and only what is stronger is felt there.
+/// Nobody sends the posture: the left arm may fold in any way, and only what is stronger is felt there.
 #[test]
 fn what_folds_is_the_same_on_the_board_and_lasts_over_a_restart() {
     let codes = five();

@@ -38,8 +38,8 @@ pub struct Course<'a> {
     pub dwell: u64,
 }
 
-/// Where the robot is, as it is told while frames are shown.
-pub struct Told {
+/// Where the robot is, as it is sent while frames are shown.
+pub struct RobotState {
     /// Time since the first frame, us.
     pub us: u64,
     /// Angles of the joints that fold the garment.
@@ -50,7 +50,7 @@ pub struct Told {
 
 /// A message to the board, and when it arrived there.
 struct Sent {
-    told: Told,
+    sent: RobotState,
     posture_at: Option<Micros>,
     /// Of the poses, and the first frame that was reported in them: the report of what presses is made when the
     /// link has room for it.
@@ -90,23 +90,23 @@ struct Heard {
     /// The frames whose images stand alone.
     keys: BTreeSet<u32>,
     sent: Vec<Sent>,
-    /// When posture and poses in force arrived, as last told.
+    /// When posture and poses in force arrived, as last sent.
     posed: [Option<Micros>; 2],
-    /// When those arrived that were told before the frames began.
+    /// When those arrived that were sent before the frames began.
     before: Micros,
 }
 
 impl Heard {
     /// Listens until the frames that began at `from` and later have come, to the first of `to` and later.
-    /// With every report of folds the board is told what `tell` has for that time after `from`.
+    /// With every report of folds the board is sent what `state_at` has for that time after `from`.
     fn listen(
         &mut self,
         board: &mut Emulated,
         (from, to): (Micros, Micros),
-        tell: &dyn Fn(u64) -> Option<Told>,
+        state_at: &dyn Fn(u64) -> Option<RobotState>,
     ) {
         let (mut before, mut thinned, mut bytes) = (None, None, 0);
-        // The image is the last report of a frame; the next health report tells whether one was left out. One
+        // The image is the last report of a frame; the next health report says whether one was left out. One
         // that was left out before these frames, when the scene changed, does not matter; one of the frames is
         // missed by whoever compares them.
         while thinned.is_none() {
@@ -125,11 +125,11 @@ impl Heard {
                 Report::Folds(folds) => {
                     let are_known =
                         self.sent.iter().all(|it| it.posture_at.is_some() && it.poses_at.is_some());
-                    let told = tell(folds.time.since(from)).filter(|_| are_known && folds.time < to);
-                    let Some(told) = told.filter(|_| folds.time >= from) else { continue };
-                    board.ask(&Request::Posture(told.posture.clone()));
-                    board.ask(&Request::SetPoses(&told.poses));
-                    self.sent.push(Sent { told, posture_at: None, poses_at: None });
+                    let sent = state_at(folds.time.since(from)).filter(|_| are_known && folds.time < to);
+                    let Some(sent) = sent.filter(|_| folds.time >= from) else { continue };
+                    board.ask(&Request::Posture(sent.posture.clone()));
+                    board.ask(&Request::SetPoses(&sent.poses));
+                    self.sent.push(Sent { sent, posture_at: None, poses_at: None });
                 }
                 _ => {}
             }
@@ -229,15 +229,15 @@ pub fn same(board: &mut Emulated, course: &Course<'_>, kinds: &[&str]) -> BTreeM
     counts
 }
 
-/// Compares reports like [`same`] while the robot moves: `tell` says where it is, by the time since the first
-/// frame, us; it is asked with each report of folds. Returns the reports, and what was told, with the times at
+/// Compares reports like [`same`] while the robot moves: `state_at` says where it is, by the time since the first
+/// frame, us; it is asked with each report of folds. Returns the reports, and what was sent, with the times at
 /// which the poses arrived.
 pub fn followed(
     board: &mut Emulated,
     course: &Course<'_>,
     kinds: &[&str],
-    tell: &dyn Fn(u64) -> Option<Told>,
-) -> (Reports, Vec<(Micros, Told)>) {
+    state_at: &dyn Fn(u64) -> Option<RobotState>,
+) -> (Reports, Vec<(Micros, RobotState)>) {
     let Course { tables, requests, codes, dwell } = *course;
     let mut heard = Heard::default();
     let begun = match requests.split_last() {
@@ -260,7 +260,7 @@ pub fn followed(
     // The board takes the time of a scan some microseconds after its first address.
     let from = Micros(played.0 - SCAN_US / 2);
     let to = Micros(from.0 + count * dwell * SCAN_US);
-    heard.listen(board, (from, to), tell);
+    heard.listen(board, (from, to), state_at);
     let Heard { mut reports, times, keys, sent, before, .. } = heard;
     let first = begun.unwrap_or(*times.keys().next().unwrap());
     let is_compared = |(frame, kind, _): &(u32, &str, Vec<u8>)| {
@@ -276,9 +276,9 @@ pub fn followed(
     (1..first).for_each(|_| twin.scan(&[Code(0); TAXELS], Micros(0)));
     requests.iter().for_each(|request| twin.ask(request, before));
     let (mut postures, mut poses) = (VecDeque::new(), VecDeque::new());
-    for Sent { told, posture_at, poses_at } in &sent {
-        postures.extend(posture_at.map(|at| (at, Request::Posture(told.posture.clone()))));
-        poses.extend(poses_at.map(|(at, frame)| (frame, at, Request::SetPoses(&told.poses))));
+    for Sent { sent, posture_at, poses_at } in &sent {
+        postures.extend(posture_at.map(|at| (at, Request::Posture(sent.posture.clone()))));
+        poses.extend(poses_at.map(|(at, frame)| (frame, at, Request::SetPoses(&sent.poses))));
     }
     let mut perceived = BTreeSet::new();
     // An image that was left out had a scan before the next one.
@@ -309,8 +309,8 @@ pub fn followed(
     assert!(missed.is_empty(), "frames that were not perceived: {missed:?}");
     twin.reports.retain(is_compared);
     compare(&reports, &twin.reports);
-    let told = sent.into_iter().filter_map(|it| Some((it.poses_at?.0, it.told))).collect();
-    (reports, told)
+    let sent = sent.into_iter().filter_map(|it| Some((it.poses_at?.0, it.sent))).collect();
+    (reports, sent)
 }
 
 fn compare(board: &Reports, host: &Reports) {

@@ -8,7 +8,7 @@ use crate::board::Emulated;
 use crate::images::{Images, TAXELS};
 use crate::surface::moving::{Moving, bend};
 use crate::surface::{store, table};
-use crate::twin::Told;
+use crate::twin::RobotState;
 use std::collections::BTreeMap;
 use taxel_core::board::TableKind;
 use taxel_core::format::Code;
@@ -21,7 +21,7 @@ use taxel_suite::pattern::TouchPattern;
 
 /// Time from scan to scan, us.
 const SCAN_US: u64 = 5_120;
-/// Scans at rest: the board is told to tare and to stream meanwhile.
+/// Scans at rest: the board is asked to tare and to stream meanwhile.
 const REST: usize = 100;
 /// Scans of a scene's beginning that are not looked at: contacts begin, and lists are long.
 const BEGIN: usize = 8;
@@ -78,7 +78,7 @@ fn codes_of(pattern: TouchPattern, number: u32) -> [u16; TAXELS] {
     codes.map(|code| code.0)
 }
 
-/// A board on USB that streams, with a budget for each frame; when the first frame was shown. `begin` tells
+/// A board on USB that streams, with a budget for each frame; when the first frame was shown. `begin` sends
 /// it what it needs before.
 fn streaming(
     scene: &Scene,
@@ -108,7 +108,7 @@ struct Came {
     images: Vec<u32>,
     budgets: Vec<Budget>,
     bytes: usize,
-    /// Numbers of contacts that were told, and of the taxels under them.
+    /// Numbers of contacts that were reported, and of the taxels under them.
     felt: Vec<(usize, u32)>,
 }
 
@@ -163,7 +163,7 @@ fn what_is_perceived_arrives_interlaced() {
     arrives(&scene, MOST_INTERLACED, &shown, &played, |_| {}, |_| None);
 }
 
-/// A robot that moves, in a garment that folds over 512 taxels: its posture and its poses are told fifty
+/// A robot that moves, in a garment that folds over 512 taxels: its posture and its poses are sent fifty
 /// times a second, and what presses where in the base comes with each frame.
 fn arrives_of_a_moving_body(patterns: &[Shown], most: u64) -> BTreeMap<usize, Came> {
     let shown = (patterns.to_vec(), 60);
@@ -175,7 +175,7 @@ fn arrives_of_a_moving_body(patterns: &[Shown], most: u64) -> BTreeMap<usize, Ca
     scene.stream.pressing_hz = u16::MAX;
     let tables = [(TableKind::Surface, table().0), (TableKind::Folds, &FOLDS.0[..])];
     let begin = |board: &mut Emulated| store(board, &tables);
-    arrives(&scene, most, &shown, &played, begin, |us| Some(moving.told(us)))
+    arrives(&scene, most, &shown, &played, begin, |us| Some(moving.sent(us)))
 }
 
 #[test]
@@ -184,31 +184,31 @@ fn what_is_perceived_of_a_moving_body_arrives_interlaced() {
 }
 
 /// Sixteen contacts on some 500 taxels, a fourth of them on the fold, leave little time between two scans,
-/// also where a posture comes. Each scan is perceived and told, with its image; with frame pointers, images
+/// also where a posture comes. Each scan is perceived and reported, with its image; with frame pointers, images
 /// may be left out, and are counted.
 #[test]
 fn sixteen_contacts_on_a_moving_body_leave_no_scan_out() {
     let came = arrives_of_a_moving_body(&[(TouchPattern::Sixteen, !has_frame_pointers())], MOST_INTERLACED);
     let felt = &came[&0].felt;
-    assert!(felt.len() >= 50, "each scan is told");
+    assert!(felt.len() >= 50, "each scan is reported");
     assert!(
         felt.iter().all(|(contacts, taxels)| *contacts == 16 && (490..=512).contains(taxels)),
         "{felt:?}"
     );
 }
 
-/// Time from one posture that is told to the next, us.
-const TOLD_US: u64 = 20_000;
+/// Time from one posture that is sent to the next, us.
+const SENT_US: u64 = 20_000;
 
-/// Shows scenes and compares what comes of each with what was counted. `begin` tells the board what it needs
-/// before, `tell` where the robot is, by the time since the first scan that is shown.
+/// Shows scenes and compares what comes of each with what was counted. `begin` sends the board what it needs
+/// before, `state_at` where the robot is, by the time since the first scan that is shown.
 fn arrives(
     used: &Scene,
     most: u64,
     (shown, scans): &(Vec<Shown>, usize),
     codes: &[u16],
     begin: impl Fn(&mut Emulated),
-    tell: impl Fn(u64) -> Option<Told>,
+    state_at: impl Fn(u64) -> Option<RobotState>,
 ) -> BTreeMap<usize, Came> {
     let scans = *scans;
     let window = scans - BEGIN;
@@ -226,11 +226,11 @@ fn arrives(
         if let Some((number, time)) = images.take(&message) {
             let since = time.saturating_sub(played);
             if since >= due
-                && let Some(told) = tell(since)
+                && let Some(sent) = state_at(since)
             {
-                board.ask(&Request::Posture(told.posture));
-                board.ask(&Request::SetPoses(&told.poses));
-                due = since - since % TOLD_US + TOLD_US;
+                board.ask(&Request::Posture(sent.posture));
+                board.ask(&Request::SetPoses(&sent.poses));
+                due = since - since % SENT_US + SENT_US;
             }
             let Some(of) = scene(time) else { continue };
             if of >= shown.len() {

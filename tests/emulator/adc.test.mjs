@@ -69,7 +69,7 @@ test('a full FIFO loses the sample and says so; the flag is cleared by writing i
   assert.equal(it.readUint32(FCS) & (1 << 11), 0);
 });
 
-test('a starved FIFO loses as many samples as it is told to, and then goes on', () => {
+test('a starved FIFO loses as many samples as it is asked to, and then goes on', () => {
   const { it, advance } = adc();
   it.writeUint32(FCS, 1);
   it.starved = 2;

@@ -3,7 +3,7 @@ import { test } from 'node:test';
 import { board } from './board.fixture.mjs';
 import { ChipReset } from './chip_reset.mjs';
 
-test('each cause has its bit, and the regulator keeps what it is told', () => {
+test('each cause has its bit, and the regulator keeps what it is sent', () => {
   const { chip } = board();
   const read = (cause) => new ChipReset(chip, cause).readUint32(8);
   assert.deepEqual([read(), read('power'), read('pin'), read('debugger')], [0x100, 0x100, 0x10000, 0x100000]);

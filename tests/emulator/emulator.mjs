@@ -71,7 +71,7 @@ function attachGarment(machine) {
 }
 
 /** Says when messages have come whole, and when pins have changed. */
-function tellTimes(machine, link) {
+function sendTimes(machine, link) {
   if (options.times) link.onEnd = (bytes) => say({ end: { bytes, us: machine.micros } });
   for (const pin of pinsOf(options.watch)) {
     let last;
@@ -141,7 +141,7 @@ async function main() {
       machine.pads.faults = pinsOf(options.ground).map((pin) => ({ pin, fault: 'stuck-low' }));
       board.machine = machine;
       if (options.race !== undefined) board.intruder = new Intruder(machine, USB_IRQ, options.race, () => machine.chip.usbCtrl.update());
-      tellTimes(machine, link);
+      sendTimes(machine, link);
       if (overUsb) {
         machine.usb.plug();
         machine.usb.open(link.client !== undefined);

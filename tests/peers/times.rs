@@ -14,7 +14,7 @@ use taxel_peers::scenes::{self, Scene};
 
 /// Repetitions that are timed together, and how often. All take turns within a round: what else the machine
 /// does, and how fast it is just then, meets them alike. It only ever adds, so the quickest round of each
-/// counts; how the ratio of a round is mostly is told, too.
+/// counts; how the ratio of a round is mostly is reported, too.
 const ROUNDS: usize = 201;
 const REPEATED: u32 = 25;
 

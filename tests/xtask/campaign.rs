@@ -118,7 +118,7 @@ const RUNS: &[(&str, Run, &str)] = &[
     (
         "fit",
         Run::Library("body::fit::simulated"),
-        "a garment worn up to 20 mm and 5 degrees otherwise, found by 100 touches on six bodies, 40 times each (simulated)",
+        "a garment displaced by up to 20 mm and 5 degrees, found by 100 touches on six bodies, 40 times each (simulated)",
     ),
     (
         "meaning",
@@ -216,7 +216,7 @@ const RUNS: &[(&str, Run, &str)] = &[
     (
         "absent",
         Run::Program("table::"),
-        "every command without a board, with one that hangs, is busy or not permitted, is lost or another one, and with two: what is told, and when",
+        "every command without a board, with one that hangs, is busy or not permitted, is lost or another one, and with two: what is reported, and when",
     ),
     (
         "fleet",

@@ -50,15 +50,15 @@ fn folder(toolchain: &Toolchain) -> PathBuf {
 
 /// Builds an image; returns its flash and RAM, bytes. Error if they exceed its limits.
 fn build(toolchain: &Toolchain, name: &str, features: &[&str], log: &Path) -> Result<[u64; 2], String> {
-    let told = |error| format!("{name}: {error}");
+    let named = |error| format!("{name}: {error}");
     let mut build = image(toolchain, features);
-    process::run_into(build.env("CARGO_TARGET_DIR", folder(toolchain)), log).map_err(told)?;
+    process::run_into(build.env("CARGO_TARGET_DIR", folder(toolchain)), log).map_err(named)?;
     let elf = folder(toolchain).join(TARGET).join("release/taxel-firmware");
-    let [flash, ram] = firmware::sizes_of(&elf).map_err(told)?;
+    let [flash, ram] = firmware::sizes_of(&elf).map_err(named)?;
     let most = MOST.into_iter().find(|(image, _)| *image == name);
     match most.filter(|(_, most)| exceeds([flash, ram], *most)) {
         Some((_, most)) => {
-            Err(told(format!("flash {flash}, RAM {ram}, at most {} and {} KiB", most[0], most[1])))
+            Err(named(format!("flash {flash}, RAM {ram}, at most {} and {} KiB", most[0], most[1])))
         }
         None => Ok([flash, ram]),
     }

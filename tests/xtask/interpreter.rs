@@ -30,9 +30,9 @@ pub fn interpreter(minor: u32) -> Option<String> {
 
 /// Version of an interpreter.
 pub fn version(python: &str) -> Option<[u32; 2]> {
-    let told =
+    let reported =
         process::output(Command::new(python).args(["-c", "import sys; print(*sys.version_info[:2])"]))?;
-    let mut numbers = told.split(' ').map(str::parse);
+    let mut numbers = reported.split(' ').map(str::parse);
     Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
 }
 

@@ -1,6 +1,6 @@
 //! `cargo xtask size`: the lines of the product by crate and language, without blank lines, comments and tests.
 //!
-//! What tells them apart is the layout by `rustfmt`: an item behind `#[cfg(test)]` ends with the line that is
+//! What distinguishes them is the layout by `rustfmt`: an item behind `#[cfg(test)]` ends with the line that is
 //! indented no deeper and ends with `;`, `,` or `}`. Comments within comments are not known.
 
 use crate::{paths, process};

@@ -57,7 +57,7 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
     };
     let variables = [variables, &[("TAXEL_FRAMES", FRAMES)]].concat();
     // A million frames take each of them minutes.
-    let told: Vec<_> = thread::scope(|scope| {
+    let reported: Vec<_> = thread::scope(|scope| {
         let run = |python: &'_ String| {
             let (python, log) = (python.clone(), log.with_extension(format!("{}.log", minor(python))));
             let _ = std::fs::remove_file(&log);
@@ -68,8 +68,8 @@ pub fn campaign(log: &Path, variables: &[(&str, &str)]) -> End<Vec<String>> {
         runs.into_iter().map(|run| run.join().unwrap_or_else(|_| Err("its thread ended".into()))).collect()
     });
     let mut lines = vec![wheels::shown(&wheel)];
-    for (python, told) in found.iter().zip(told) {
-        match told? {
+    for (python, reported) in found.iter().zip(reported) {
+        match reported? {
             Ok(said) => lines.extend(said),
             Err(why) => return Ok(Err(format!("{python}: {why}"))),
         }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Beginnings of the names of variables that cargo sets for what it runs.
-const TOLD: [&str; 2] = ["CARGO_MANIFEST_", "CARGO_PKG_"];
+const SET_BY_CARGO: [&str; 2] = ["CARGO_MANIFEST_", "CARGO_PKG_"];
 
 /// Tests library and program with Zenoh, checks the types of the cases, and runs them. Returns what they print. Not run
 /// if the user may make no machines.
@@ -29,11 +29,12 @@ fn tested(log: &Path) -> Result<[PathBuf; 2], String> {
     let of = [&of[..], &["--features", "full,zenoh"]].concat();
     for what in [&["test", "--test", "zenoh"][..], &["build", "--bin", "taxel-bench"]] {
         let mut cargo = cargo(&[what, &of].concat(), paths::root());
-        // What cargo tells this program of itself: `ring` would be built anew for it, and all that is above.
-        let told = std::env::vars_os().map(|(name, _)| name);
-        let told =
-            told.filter(|name| name.to_str().is_some_and(|name| TOLD.iter().any(|t| name.starts_with(t))));
-        told.for_each(|name| _ = cargo.env_remove(name));
+        // What cargo sets for this program: `ring` would be built anew for it, and all that is above.
+        let set_by_cargo = std::env::vars_os().map(|(name, _)| name);
+        let set_by_cargo = set_by_cargo.filter(|name| {
+            name.to_str().is_some_and(|name| SET_BY_CARGO.iter().any(|t| name.starts_with(t)))
+        });
+        set_by_cargo.for_each(|name| _ = cargo.env_remove(name));
         process::run_into(&mut cargo, log)?;
     }
     Ok(["taxel", "taxel-bench"].map(|name| paths::target().join("debug").join(name)))

@@ -197,15 +197,15 @@ def spread(late: list[float]) -> str:
 
 def lateness(listener: Process, lines: Process) -> tuple[list[float], list[float]]:
     """Ms from the sending of contacts to Zenoh's client, and to the line of a viewer, on another machine."""
-    told = [json.loads(line) for _, line in listener.lines if line.startswith('{"scan"')]
-    put = {contacts["scan"]: contacts["put"] for contacts in told}
+    reported = [json.loads(line) for _, line in listener.lines if line.startswith('{"scan"')]
+    put = {contacts["scan"]: contacts["put"] for contacts in reported}
     to_line = []
     for at, line in lines.lines:
         # The last line may be cut off.
         contacts = json.loads(line) if line.startswith("{") and line.endswith("}") else {}
         if contacts.get("type") == "contacts" and contacts["frame"] in put:
             to_line.append((at - put[contacts["frame"]]) * 1000)
-    return [(contacts["came"] - contacts["put"]) * 1000 for contacts in told], to_line
+    return [(contacts["came"] - contacts["put"]) * 1000 for contacts in reported], to_line
 
 
 def followed(
@@ -332,14 +332,14 @@ def two_publishers(folder: Path) -> str:
         viewer.wait_for("it is offered twice", 40)
         time.sleep(5)
         viewer.end()
-        told = [end.said("is offered by another program, too") is not None for end in (first, second)]
+        reported = [end.said("is offered by another program, too") is not None for end in (first, second)]
         second.end()
         first.end()
         result = judged(recording, truths)
     finally:
         stage.end()
-    if refused != 2 or not all(told) or result.parts != 2:
-        raise SystemExit(f"two publishers: status {refused}, told {told}, {result}")
+    if refused != 2 or not all(reported) or result.parts != 2:
+        raise SystemExit(f"two publishers: status {refused}, reported {reported}, {result}")
     return (
         "two publishers of one name: the second is refused at its start (status 2); begun while the cable is cut, both go "
         f"on and say so, and the viewer goes over to the one that it reaches and stays with it: {result}"
@@ -367,20 +367,20 @@ def rights(folder: Path) -> str:
         source = f"zenoh:{BOARD}@{config('user', 'viewer', 'look')}"
         viewer = stage.start("viewer", PROGRAM, "live", "--source", source, "--for", "12s")
         plain = stage.client("stranger", RB)
-        told = {}
+        reported = {}
         for name, file in {"stranger": plain, "wrong": config("wrong", "viewer", "x"), "guest": config("guest", "guest", "guest")}.items():
             asked = stage.listen("other", file, "all")
             asked.process.wait(40)
             asked.end()
-            told[name] = json.loads([line for _, line in asked.lines if line.startswith("{")][-1])
+            reported[name] = json.loads([line for _, line in asked.lines if line.startswith("{")][-1])
         viewer.end(signal.SIGCONT, longest=60)
         end = next((line for _, line in viewer.lines if line.startswith("end: ")), None)
     finally:
         stage.end()
     if not end or " 0 refused" not in end:
         raise SystemExit(f"a viewer with rights gets nothing: {viewer.lines[-5:]}")
-    if any("refused" not in told[name] for name in ("stranger", "wrong")) or any(told["guest"].values()):
-        raise SystemExit(f"without rights: {told}")
+    if any("refused" not in reported[name] for name in ("stranger", "wrong")) or any(reported["guest"].values()):
+        raise SystemExit(f"without rights: {reported}")
     return (
         "rules of examples/zenoh, tried with Zenoh's Python client: without a name or with a wrong password it is not let "
         "in; with a name that has no rule it gets 0 samples, replies and signs of life, and what it publishes reaches "
@@ -442,9 +442,9 @@ def tls(folder: Path) -> str:
     finally:
         stage.end()
     end = next((line for _, line in viewer.lines if line.startswith("end: ")), None)
-    told = [json.loads(line) for _, line in asked.lines if line.startswith("{")]
-    if not end or " 0 refused" not in end or "refused" not in told[-1]:
-        raise SystemExit(f"TLS: {viewer.lines[-5:]}, {told}")
+    reported = [json.loads(line) for _, line in asked.lines if line.startswith("{")]
+    if not end or " 0 refused" not in end or "refused" not in reported[-1]:
+        raise SystemExit(f"TLS: {viewer.lines[-5:]}, {reported}")
     return f"TLS of examples/zenoh: who has no certificate is not let in; a viewer with one: {end.removeprefix('end: ')}"
 
 

@@ -1,6 +1,6 @@
-"""Zenoh's Python client: tells what it gets below taxel/, one JSON object a line, until it is killed.
+"""Zenoh's Python client: prints what it gets below taxel/, one JSON object a line, until it is killed.
 
-With `contacts` it tells the times of frames with contacts; with `all` it tries everything that a stranger could."""
+With `contacts` it prints the times of frames with contacts; with `all` it tries everything that a stranger could."""
 
 import json
 import sys
@@ -11,14 +11,14 @@ import zenoh
 
 
 def contacts(session: zenoh.Session) -> None:
-    def told(sample: zenoh.Sample) -> None:
+    def put(sample: zenoh.Sample) -> None:
         came = time.time()
         frame = wire.read(sample.payload.to_bytes().strip(b"\0"))
         if frame and frame.report == wire.CONTACTS and sample.timestamp:
             put = sample.timestamp.get_time().timestamp()
             print(json.dumps({"scan": frame.scan, "put": put, "came": came}), flush=True)
 
-    session.declare_subscriber("taxel/*/*/wire/main", told)
+    session.declare_subscriber("taxel/*/*/wire/main", put)
     time.sleep(3600)
 
 

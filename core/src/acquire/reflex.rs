@@ -36,7 +36,7 @@ pub struct Reflex<const TAXELS: usize> {
     armed: bool,
     /// Mask of the rows that have begun and are not at rest again.
     begun: u8,
-    untold: Deque<Early, ROWS>,
+    unreported: Deque<Early, ROWS>,
     recent: Recent,
 }
 
@@ -51,7 +51,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
             next: 0,
             armed: false,
             begun: 0,
-            untold: Deque::new(),
+            unreported: Deque::new(),
             recent: Recent::new(),
         }
     }
@@ -82,13 +82,13 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         if self.reflexes != *reflexes {
             self.reflexes = reflexes.clone();
             self.begun = 0;
-            self.untold.clear();
+            self.unreported.clear();
             self.disarm();
         }
         // A row without a pin is at rest when its reaction has ended, one with a pin when the pin is.
         let pinned = self.reflexes.rows().iter().filter(|row| row.output.is_some());
-        let untold = self.untold.iter().fold(0, |mask, early| mask | 1 << (early.index & 7));
-        self.begun &= active | untold | pinned.fold(0, |mask, row| mask | row.bit());
+        let unreported = self.unreported.iter().fold(0, |mask, early| mask | 1 << (early.index & 7));
+        self.begun &= active | unreported | pinned.fold(0, |mask, row| mask | row.bit());
         if reflexes.is_empty() {
             return;
         }
@@ -142,7 +142,7 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
         if row.agree == Agree::One || other.is_some() {
             self.begun |= row.bit();
             // There is room for every row, and a row begins again only after it was reported.
-            let _ = self.untold.push_back(Early { index: row.index, time: now, taxel, code, other });
+            let _ = self.unreported.push_back(Early { index: row.index, time: now, taxel, code, other });
         }
     }
 
@@ -160,8 +160,8 @@ impl<const TAXELS: usize> Reflex<TAXELS> {
     }
 
     /// Returns the next reflex that was not returned yet.
-    pub fn told(&mut self) -> Option<Early> {
-        self.untold.pop_front()
+    pub fn take_early(&mut self) -> Option<Early> {
+        self.unreported.pop_front()
     }
 
     /// The sub-fields of the scan.

@@ -216,9 +216,9 @@ struct SortedVotes {
 impl SortedVotes {
     const NONE: SortedVotes = SortedVotes { numbers: [0; WITNESSES], count: 0 };
 
-    fn of(told: &[Option<i32>]) -> SortedVotes {
+    fn of(numbers: &[Option<i32>]) -> SortedVotes {
         let mut sorted = SortedVotes::NONE;
-        told.iter().flatten().for_each(|number| sorted.insert(*number));
+        numbers.iter().flatten().for_each(|number| sorted.insert(*number));
         sorted
     }
 

@@ -185,9 +185,12 @@ mod tests {
             ledger.turn(at(2_800 + slow), Activity::Encode, false);
             ledger.turn(at(2_850 + slow), Activity::Else, number == 3);
         }
-        let told: Vec<_, 4> =
+        let reported: Vec<_, 4> =
             budgets.iter().map(|b| (b.frame, b.frames, b.process_us, b.encode_us, b.send_us)).collect();
-        assert_eq!(told, [(1, 1, 2_000, 350, 500), (2, 1, 2_900, 350, 500), (3, 1, 2_000, 350, 500 + 2_270)]);
+        assert_eq!(
+            reported,
+            [(1, 1, 2_000, 350, 500), (2, 1, 2_900, 350, 500), (3, 1, 2_000, 350, 500 + 2_270)]
+        );
         assert_eq!((budgets[1].scan_us, budgets[1].overruns, budgets[1].thinned_frames), (5_100, 4, 5));
         assert_eq!((budgets[1].time, ledger.process_us()), (Micros(5_120), 2_000));
     }
@@ -201,12 +204,12 @@ mod tests {
             ledger.is_late()
         };
         assert_eq!([0, 2_560, 2_561, 5_000, 0].map(|by| late(1, by)), [false, false, true, true, false]);
-        let told = (0..800).filter(|number| !late(*number, 4_000)).count();
-        assert_eq!(told, 50, "an image now and then");
+        let reported = (0..800).filter(|number| !late(*number, 4_000)).count();
+        assert_eq!(reported, 50, "an image now and then");
     }
 
     #[test]
-    fn a_report_of_many_frames_tells_the_dearest() {
+    fn a_report_of_many_frames_gives_the_dearest() {
         let mut ledger = FrameBudget::new();
         let mut budgets = Vec::<Budget, 4>::new();
         for number in 1..=400u32 {
@@ -216,7 +219,7 @@ mod tests {
             budgets.extend(ledger.due(start, &Health::default()));
             ledger.turn(Micros(start.0 + 1_000 + u64::from(number % 100)), Activity::Else, false);
         }
-        let told: Vec<_, 4> = budgets.iter().map(|b| (b.frames, b.process_us)).collect();
-        assert_eq!(told, [(1, 1_001), (198, 1_099), (200, 1_099)]);
+        let reported: Vec<_, 4> = budgets.iter().map(|b| (b.frames, b.process_us)).collect();
+        assert_eq!(reported, [(1, 1_001), (198, 1_099), (200, 1_099)]);
     }
 }

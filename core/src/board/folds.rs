@@ -1,4 +1,4 @@
-//! The garment's folds: their table follows garment and scene; what is expected of them is told.
+//! The garment's folds: their table follows garment and scene; what is expected of them is reported.
 
 use super::outbox::{Reports, only};
 use super::pace::Pace;
@@ -20,7 +20,7 @@ pub(super) struct Folds {
     /// True if it fits the present garment.
     fits: bool,
     rate: Pace,
-    /// Frame to tell of.
+    /// Frame to report.
     due: Option<(u32, Micros)>,
 }
 
@@ -43,10 +43,10 @@ impl Folds {
         let Setup { layout, scene, .. } = &perception.setup;
         let table = self.table.and_then(|table| FoldTable::check(table, layout).ok());
         (self.fits, self.rate) = (table.is_some(), Pace::new(RATE_HZ));
-        perception.state.condition.wear(table, &scene.joints);
+        perception.state.condition.use_folds(table, &scene.joints);
     }
 
-    /// Notes a frame to tell of.
+    /// Notes a frame to report.
     pub fn note(&mut self, frame: u32, time: Micros) {
         if self.fits && (self.rate.due(time) || self.due.is_some()) {
             self.due = Some((frame, time));
@@ -72,7 +72,7 @@ impl Folds {
         let report = FoldsReport {
             frame,
             time,
-            posed: folds.posture.told(),
+            posed: folds.posture.updated(),
             followed: folds.is_followed(),
             taxels,
             total,

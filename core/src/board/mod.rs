@@ -200,7 +200,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         Ok(())
     }
 
-    /// Sets how the board started, which each `Hello` tells.
+    /// Sets how the board started, which each `Hello` reports.
     pub fn booted(&mut self, boot: Boot) {
         self.boot = Some(boot);
     }
@@ -607,8 +607,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 return self.later(number, |board| board.jobs.add(Work::Reset { undo }));
             }
             Request::Posture(posture) => {
-                let told = self.state.condition.posture_mut();
-                told.accept(&posture, &self.setup.scene.joints, now).map_err(Refusal::of)
+                let known = self.state.condition.posture_mut();
+                known.accept(&posture, &self.setup.scene.joints, now).map_err(Refusal::of)
             }
             Request::SetPoses(_) if !cfg!(feature = "surface") => Err(Refusal::left_out("surface")),
             Request::SetPoses(bytes) => self.surface.take_poses(bytes, now),

@@ -1,4 +1,4 @@
-//! Saves of the settings: they are limited, because the flash wears out, and wait for touches to end.
+//! Saves of the settings: they are limited, because the flash is used up by them, and wait for touches to end.
 
 use super::quota::Quota;
 use crate::format::Micros;

@@ -1,4 +1,4 @@
-//! The garment's surface: what presses on the robot is told at a rate of its own.
+//! The garment's surface: what presses on the robot is reported at a rate of its own.
 
 use super::outbox::{Reports, only};
 use super::pace::Pace;
@@ -24,11 +24,11 @@ pub(super) struct Surface {
     regions: [RegionReports; USED],
     hz: u16,
     rate: Pace,
-    /// Frame to tell of.
+    /// Frame to report.
     due: Option<(u32, Micros)>,
-    /// True if the last report told of something.
-    told: bool,
-    /// True if the next frame is not told of, because there was much to tell of this one.
+    /// True if the last report reported something.
+    reported: bool,
+    /// True if the next frame is not reported, because there was much to report of this one.
     pauses: bool,
 }
 
@@ -42,30 +42,30 @@ impl Surface {
             hz: 0,
             rate: Pace::NEVER,
             due: None,
-            told: false,
+            reported: false,
             pauses: false,
         }
     }
 
     /// The table in force.
     pub fn table(&self) -> Option<Table<'static>> {
-        if self.is_worn() { Table::view(self.table?) } else { None }
+        if self.is_in_force() { Table::view(self.table?) } else { None }
     }
 
     /// True if a table is in force; cheaper than to view it.
-    fn is_worn(&self) -> bool {
+    fn is_in_force(&self) -> bool {
         cfg!(feature = "surface") && self.fits
     }
 
     /// Puts a table in force if it fits the garment; forgets poses, which are of the links of another. What
-    /// was told by the table before is told anew, as of frame `at`.
+    /// was reported by the table before is reported anew, as of frame `at`.
     pub fn install(&mut self, table: Option<&'static [u8]>, layout: &Layout, at: (u32, Micros)) {
         self.table = table;
         self.fits = table.is_some_and(|table| Table::check(table, layout).is_ok());
         self.poses = SurfaceState::new();
         let table = self.table();
         self.regions.iter_mut().for_each(|regions| regions.reset(table.as_ref(), at));
-        self.due = self.told.then_some(at);
+        self.due = self.reported.then_some(at);
     }
 
     /// Names the regions again before their next states.
@@ -73,12 +73,12 @@ impl Surface {
         self.regions.iter_mut().for_each(RegionReports::name_regions);
     }
 
-    /// Sets the rate of reports of what presses on the robot. What was told at another rate before is told
-    /// anew, as of frame `at`; without a rate, that nothing presses.
+    /// Sets the rate of reports of what presses on the robot. What was reported at another rate before is
+    /// reported anew, as of frame `at`; without a rate, that nothing presses.
     pub fn pace(&mut self, hz: u16, at: (u32, Micros)) {
         if core::mem::replace(&mut self.hz, hz) != hz {
             self.rate = Pace::new(hz);
-            self.due = self.told.then_some(at);
+            self.due = self.reported.then_some(at);
         }
     }
 
@@ -107,17 +107,17 @@ impl Surface {
         }
     }
 
-    /// Another garment is worn.
+    /// Another garment is in use.
     pub fn revalidate(&mut self, layout: &Layout, at: (u32, Micros)) {
         if cfg!(feature = "surface") {
             self.install(self.table, layout, at);
         }
     }
 
-    /// Notes a frame to tell of: when something touches, and once when nothing does any more. `present` are
+    /// Notes a frame to report: when something touches, and once when nothing does any more. `present` are
     /// its contacts.
     pub fn note(&mut self, frame: u32, time: Micros, present: &[Placed], touched: bool) {
-        if !self.is_worn() || !(touched || self.told) || core::mem::take(&mut self.pauses) {
+        if !self.is_in_force() || !(touched || self.reported) || core::mem::take(&mut self.pauses) {
             return;
         }
         if self.rate.due(time) || self.due.is_some() {
@@ -164,7 +164,7 @@ impl Surface {
     ) -> bool {
         let Some((frame, time)) = self.due.take() else { return true };
         let Some(table) = self.table().filter(|_| !self.rate.is_never()) else {
-            self.told = false;
+            self.reported = false;
             let nothing: &[()] = &[];
             return tx_frame.put(Report::PRESSING, &(frame, time, None::<Micros>, nothing, nothing));
         };
@@ -173,8 +173,8 @@ impl Surface {
         sum(&mut pressing, &table);
         let frames = self.poses.at(time);
         let (contacts, links) = (pressing.contacts(&frames), pressing.links(&table));
-        self.told = contacts.len() > 0;
-        let report = (frame, time, self.poses.told(), Each(contacts), Each(links));
+        self.reported = contacts.len() > 0;
+        let report = (frame, time, self.poses.updated(), Each(contacts), Each(links));
         if !pressing.is_in_doubt() && frames.errors().next().is_none() {
             // A reader takes what is missing as empty.
             return tx_frame.put(Report::PRESSING, &report);
@@ -184,12 +184,12 @@ impl Surface {
     }
 }
 
-/// Contacts, and taxels under them, that are told of in each frame if this is asked for. More are told of in
+/// Contacts, and taxels under them, that are reported in each frame if this is asked for. More are reported in
 /// every second one: a frame has no time for them beside all else.
 const MOST_CONTACTS: usize = 16;
 const MOST_TAXELS: u32 = 512;
 
-/// True if there are more than can be told of in each frame.
+/// True if there are more than can be reported in each frame.
 fn are_many(present: &[Placed]) -> bool {
     let taxels = || present.iter().map(|placed| u32::from(placed.contact.area)).sum::<u32>();
     present.len() > MOST_CONTACTS || taxels() > MOST_TAXELS
@@ -205,22 +205,22 @@ mod tests {
     use super::*;
     use crate::contact::Contact;
 
-    /// Frames that are told of if each of them has so many contacts of nine taxels.
-    fn told(contacts: u32) -> std::vec::Vec<u32> {
+    /// Frames that are reported if each of them has so many contacts of nine taxels.
+    fn reported(contacts: u32) -> std::vec::Vec<u32> {
         let present: std::vec::Vec<Placed> =
             (0..contacts).map(|id| Contact::of_nine(id, 0, 900).into()).collect();
         let mut surface = Surface { fits: true, rate: Pace::new(u16::MAX), ..Surface::new() };
-        let mut told = |frame: u32| {
+        let mut reported = |frame: u32| {
             surface.note(frame, Micros(u64::from(frame) * 5_120), &present, true);
             surface.due.take().is_some_and(|(noted, _)| noted == frame)
         };
-        (0..8).filter(|frame| told(*frame)).collect()
+        (0..8).filter(|frame| reported(*frame)).collect()
     }
 
     #[test]
-    fn many_contacts_are_told_of_in_every_second_frame() {
-        assert_eq!(told(16), [0, 1, 2, 3, 4, 5, 6, 7]);
-        assert_eq!(told(17), [0, 2, 4, 6]);
+    fn many_contacts_are_reported_in_every_second_frame() {
+        assert_eq!(reported(16), [0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(reported(17), [0, 2, 4, 6]);
     }
 
     #[test]

@@ -132,9 +132,9 @@ mod tests {
         let board = Played(Cell::new(0xdead_beef));
         let start = |reset| Boots::begin((&board, reset), false);
         assert_eq!(start(Reset::Power).boot(), Boot::default());
-        let told: Vec<Boot> = (0..4).map(|_| start(Reset::Watchdog).boot()).collect();
+        let boots: Vec<Boot> = (0..4).map(|_| start(Reset::Watchdog).boot()).collect();
         let of = |resets, aside| Boot { cause: BootCause::Watchdog, resets, aside };
-        assert_eq!(told, [of(1, Aside::No), of(2, Aside::No), of(3, Aside::Resets), of(4, Aside::Resets)]);
+        assert_eq!(boots, [of(1, Aside::No), of(2, Aside::No), of(3, Aside::Resets), of(4, Aside::Resets)]);
         // A minute with the shipped settings is no evidence about the stored ones.
         start(Reset::Watchdog).alive(MINUTE);
         assert_eq!(start(Reset::Watchdog).boot(), of(1, Aside::Resets));
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn panics_count_as_the_watchdog_does_and_are_told_apart() {
+    fn panics_count_as_the_watchdog_does_and_are_distinguished() {
         let board = Played(Cell::new(0));
         let start = |reset| Boots::begin((&board, reset), false).boot();
         start(Reset::Power);

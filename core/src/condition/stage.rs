@@ -154,17 +154,17 @@ fn learn<const TAXELS: usize, const CONTACTS: usize>(
     let is_read = |taxel| all_read || layout.place(taxel).is_some_and(|place| is_on(place.panel.into()));
     folds.learn(|taxels| {
         if let Some(first) = consecutive(taxels).filter(|_| all_read) {
-            let told = !touched.four(first) & 0xF;
-            if told == 0 {
+            let known = !touched.four(first) & 0xF;
+            if known == 0 {
                 return (0, [0; 4]);
             }
             if let Some([0, 0, 0, 0]) = images.calibrated.get(first..first + 4)
                 && let Some(pressures) = calibration.pressures(first, codes, falling)
             {
-                return (told, pressures);
+                return (known, pressures);
             }
         }
-        each_told(taxels, |taxel| {
+        each_known(taxels, |taxel| {
             let is_quiet = images.calibrated.get(taxel) == Some(&0) && !touched.has(taxel);
             let code = codes.get(taxel).filter(|_| is_quiet && is_read(taxel))?;
             Some(calibration.pressure(taxel, *code, falling))
@@ -177,17 +177,17 @@ fn asked<const CONTACTS: usize>(folds: &FoldState, feedback: &Feedback<CONTACTS>
     if feedback.home.is_empty() { 0..0 } else { folds.turn() }
 }
 
-/// Pressures of those of four taxels that tell them, and a bit for each of these.
+/// Pressures of those of four taxels that have one, and a bit for each of these.
 #[inline(never)] // few fours are apart
-fn each_told(taxels: &[u16; 4], tell: impl Fn(usize) -> Option<u16>) -> (u32, [u16; 4]) {
-    let (mut told, mut pressures) = (0, [0; 4]);
+fn each_known(taxels: &[u16; 4], pressure_of: impl Fn(usize) -> Option<u16>) -> (u32, [u16; 4]) {
+    let (mut known, mut pressures) = (0, [0; 4]);
     for (at, (taxel, to)) in taxels.iter().zip(&mut pressures).enumerate() {
-        if let Some(pressure) = tell(usize::from(*taxel)) {
+        if let Some(pressure) = pressure_of(usize::from(*taxel)) {
             *to = pressure;
-            told |= 1 << at;
+            known |= 1 << at;
         }
     }
-    (told, pressures)
+    (known, pressures)
 }
 
 #[cfg(test)]
@@ -381,7 +381,7 @@ mod tests {
         use crate::fold::{JointAngle, Posture};
         let (condition, layout, mut state) = rig(plain(), 250);
         let joints = [crate::format::name("elbow")];
-        state.wear(Some(folding(&layout)), &joints);
+        state.use_folds(Some(folding(&layout)), &joints);
         let none = Feedback::<4>::new();
         let mut codes = vec![Code(250); 2048];
         state.tare(1);

@@ -57,15 +57,15 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         &self.folds
     }
 
-    /// Angles of the joints, as the host tells them.
+    /// Angles of the joints, as the host sends them.
     pub fn posture_mut(&mut self) -> &mut PostureState {
         &mut self.folds.posture
     }
 
     /// Puts a table of folds in force, or none; `joints` are the scene's.
     #[cfg(feature = "folds")]
-    pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
-        self.folds.wear(table, joints);
+    pub(crate) fn use_folds(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
+        self.folds.use_folds(table, joints);
         // The limits are those of the table before.
         self.calibration.limits_for = None;
     }

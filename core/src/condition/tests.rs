@@ -105,7 +105,7 @@ fn what_has_not_changed_need_not_be_renewed() {
         let rest = if falling { 700 } else { 64_500 };
         for state in &mut pair {
             state.reset(&layout, Code(rest));
-            state.wear(Some(table), &joints);
+            state.use_folds(Some(table), &joints);
             (0..2048).for_each(|taxel| assert!(state.set_baseline(taxel, Code(rest))));
         }
         let mut feedback = Feedback::<4>::new();
@@ -113,13 +113,13 @@ fn what_has_not_changed_need_not_be_renewed() {
         let mut floor = 24;
         for frame in 0..6_000 {
             now = Micros(now.0 + if drawn.below(400) == 0 { 600_000 } else { 5_128 });
-            // It moves, it stands still and is told, it is not told.
-            let told = match drawn.below(600) {
+            // It moves, it stands still and is sent, it is not sent.
+            let sent = match drawn.below(600) {
                 0 => None,
                 n => Some(if frame % 900 < 500 && n % 4 != 0 { 300 } else { 0 }),
             };
             if frame % 4 == 0
-                && let Some(turn) = told
+                && let Some(turn) = sent
             {
                 let posture = turned(&mut angles, turn, &mut drawn);
                 for state in &mut pair {

@@ -27,7 +27,7 @@ pub enum Filter {
     Median,
     /// Clamps a taxel to the greatest mean of the four 2x2 squares that it belongs to. It keeps fingers of
     /// 2x2 taxels, edges and right corners, halves lines one taxel wide and quarters impulses. For noise so
-    /// strong that no taxel alone tells it from a touch (`Scene::against_noise`).
+    /// strong that no taxel alone distinguishes it from a touch (`Scene::against_noise`).
     Square,
     /// Clamps like [`Filter::Conservative`], but a taxel that exceeds its neighbours keeps the value it also
     /// had in the previous frame: an impulse of one frame is removed, and a point on a single taxel passes

@@ -1,4 +1,4 @@
-//! Posture: angles of the robot's joints, as the host has last told them.
+//! Posture: angles of the robot's joints, as the host has last sent them.
 
 use crate::format::{Invalid, Micros, Name};
 use heapless::Vec;
@@ -25,11 +25,11 @@ pub struct Posture {
     pub joints: Vec<JointAngle, JOINTS>,
 }
 
-/// The posture as last told.
+/// The posture as last sent.
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct PostureState {
     angles: [Option<i16>; JOINTS],
-    told: Option<Micros>,
+    updated: Option<Micros>,
     /// Time of the last message in which a joint had moved.
     moved: Option<Micros>,
 }
@@ -44,29 +44,29 @@ pub const STALE_US: u64 = 500_000;
 impl PostureState {
     /// None yet.
     pub const fn new() -> PostureState {
-        PostureState { angles: [None; JOINTS], told: None, moved: None }
+        PostureState { angles: [None; JOINTS], updated: None, moved: None }
     }
 
     /// Takes a message that arrived at `now`, for a scene with `joints`. A refused message changes nothing.
     pub fn accept(&mut self, posture: &Posture, joints: &[Name], now: Micros) -> Result<(), Invalid> {
         let known = joints.len().min(JOINTS);
-        for told in &posture.joints {
-            if usize::from(told.joint) >= known {
+        for given in &posture.joints {
+            if usize::from(given.joint) >= known {
                 return Err(Invalid { parameter: "posture.joint", must: "must be a joint of the scene" });
             }
-            if !(-18_000..=18_000).contains(&told.centidegrees) {
+            if !(-18_000..=18_000).contains(&given.centidegrees) {
                 return Err(Invalid { parameter: "posture.centidegrees", must: "must be -18000 to 18000" });
             }
         }
-        for told in &posture.joints {
-            if let Some(angle) = self.angles.get_mut(usize::from(told.joint)) {
-                if angle.is_some_and(|was| was.abs_diff(told.centidegrees) >= MOVES) {
+        for given in &posture.joints {
+            if let Some(angle) = self.angles.get_mut(usize::from(given.joint)) {
+                if angle.is_some_and(|was| was.abs_diff(given.centidegrees) >= MOVES) {
                     self.moved = Some(now);
                 }
-                *angle = Some(told.centidegrees);
+                *angle = Some(given.centidegrees);
             }
         }
-        self.told = Some(now);
+        self.updated = Some(now);
         Ok(())
     }
 
@@ -82,12 +82,12 @@ impl PostureState {
 
     /// True if the last message came less than [`STALE_US`] before `now`.
     pub fn is_fresh(&self, now: Micros) -> bool {
-        self.told.is_some_and(|told| now.since(told) < STALE_US)
+        self.updated.is_some_and(|updated| now.since(updated) < STALE_US)
     }
 
     /// Time of the last message.
-    pub fn told(&self) -> Option<Micros> {
-        self.told
+    pub fn updated(&self) -> Option<Micros> {
+        self.updated
     }
 }
 
@@ -103,12 +103,12 @@ mod tests {
         let mut state = PostureState::default();
         let bad = Posture { joints: [angle(0, 900), angle(2, 0)].into_iter().collect() };
         assert_eq!(state.accept(&bad, &joints, Micros(5)).unwrap_err().parameter, "posture.joint");
-        assert_eq!((state.angle(0), state.told()), (None, None));
+        assert_eq!((state.angle(0), state.updated()), (None, None));
         let far = Posture { joints: [angle(0, 18_001)].into_iter().collect() };
         assert_eq!(state.accept(&far, &joints, Micros(5)).unwrap_err().parameter, "posture.centidegrees");
         let good = Posture { joints: [angle(1, -18_000)].into_iter().collect() };
         state.accept(&good, &joints, Micros(7)).unwrap();
-        assert_eq!((state.angle(0), state.angle(1), state.told()), (None, Some(-18_000), Some(Micros(7))));
+        assert_eq!((state.angle(0), state.angle(1), state.updated()), (None, Some(-18_000), Some(Micros(7))));
         assert_eq!(state.angle(99), None);
     }
 
@@ -116,14 +116,14 @@ mod tests {
     fn a_joint_moves_while_its_angle_changes_and_a_little_longer() {
         let joints = [name("elbow")];
         let mut state = PostureState::default();
-        let mut tell = |centidegrees, us| {
+        let mut moved_by = |centidegrees, us| {
             let posture = Posture { joints: [JointAngle { joint: 0, centidegrees }].into_iter().collect() };
             state.accept(&posture, &joints, Micros(us)).unwrap();
             [us, us + 299_999, us + 300_000].map(|us| state.moves(Micros(us)))
         };
-        assert_eq!(tell(-18_000, 0), [false; 3], "nobody knows from where");
-        assert_eq!(tell(18_000, 1_000_000), [true, true, false]);
-        assert_eq!(tell(18_000 - 19, 2_000_000), [false; 3], "it trembles");
-        assert_eq!(tell(18_000 - 19 - 20, 3_000_000), [true, true, false]);
+        assert_eq!(moved_by(-18_000, 0), [false; 3], "nobody knows from where");
+        assert_eq!(moved_by(18_000, 1_000_000), [true, true, false]);
+        assert_eq!(moved_by(18_000 - 19, 2_000_000), [false; 3], "it trembles");
+        assert_eq!(moved_by(18_000 - 19 - 20, 3_000_000), [true, true, false]);
     }
 }

@@ -163,10 +163,10 @@ fn change_each(values: &mut [u16], taxels: &[u16; 4], [a, b]: LevelPairs, change
     }
 }
 
-/// Corrections after a comparison of those of four taxels that tell.
+/// Corrections after a comparison of those of four taxels that say what they feel.
 #[inline(never)] // own registers
 pub(super) fn compare(
-    mut told: u32,
+    mut known: u32,
     felt: &[u16; 4],
     mut expected: u32,
     mut corrections: u32,
@@ -174,11 +174,11 @@ pub(super) fn compare(
 ) -> u32 {
     // After four turns each byte is where it was.
     for felt in felt {
-        if told & 1 == 1 {
+        if known & 1 == 1 {
             let to = lesson.corrected(*felt, expected as u8, corrections as u8);
             corrections = corrections & !0xFF | u32::from(to);
         }
-        (corrections, expected, told) = (corrections.rotate_right(8), expected >> 8, told >> 1);
+        (corrections, expected, known) = (corrections.rotate_right(8), expected >> 8, known >> 1);
     }
     corrections
 }

@@ -104,7 +104,7 @@ impl FoldState {
 
     /// Puts a table in force, or none; `joints` are the scene's. Corrections are forgotten.
     #[cfg(feature = "folds")]
-    pub(crate) fn wear(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
+    pub(crate) fn use_folds(&mut self, table: Option<FoldTable<'static>>, joints: &[Name]) {
         self.in_force.fill(InForce { table, ..InForce::NOTHING });
         self.joints = [None; KNOWN];
         for (joint, to) in (0..).zip(&mut self.joints) {
@@ -125,7 +125,7 @@ impl FoldState {
             let _ = joints.push(name(table.joint(joint).unwrap_or_default()));
             let _ = posture.joints.push(JointAngle { joint, centidegrees });
         }
-        self.wear(Some(table), &joints);
+        self.use_folds(Some(table), &joints);
         self.posture.accept(&posture, &joints, Micros(0))?;
         self.begin(Micros(0), true);
         self.renew(None::<fn(&[u16; 4]) -> u32>, |_, _| ());
@@ -144,7 +144,9 @@ impl FoldState {
         self.bends = [Bend::NONE; FOLDS];
         self.quads = [Quad::NONE; FOLDED / 4];
         self.held.fill(0);
-        self.in_force.iter_mut().for_each(|worn| *worn = InForce { table: worn.table, ..InForce::NOTHING });
+        self.in_force
+            .iter_mut()
+            .for_each(|active| *active = InForce { table: active.table, ..InForce::NOTHING });
     }
 
     /// The table in force.
@@ -154,7 +156,7 @@ impl FoldState {
 
     /// True if the folds are known at the present posture: contacts then mean something while joints move.
     pub fn is_followed(&self) -> bool {
-        self.in_force.first().is_some_and(|worn| worn.table.is_some() && worn.is_posed)
+        self.in_force.first().is_some_and(|active| active.table.is_some() && active.is_posed)
     }
 
     /// True if something is expected of a taxel, or it is in doubt: its baseline does not follow its code.
@@ -169,17 +171,17 @@ impl FoldState {
 
     /// Gives some taxels, or all of them if `whole`, their turn: see [`FoldState::turn`].
     pub(crate) fn begin(&mut self, now: Micros, whole: bool) {
-        let Some(worn) = self.in_force.first_mut() else { return };
-        let Some(table) = worn.table else { return };
+        let Some(active) = self.in_force.first_mut() else { return };
+        let Some(table) = active.table else { return };
         let all = table.taxels().len() as u16;
-        let since = worn.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US)) as u32;
+        let since = active.renewed.map_or(TURN_US, |renewed| now.since(renewed).min(TURN_US)) as u32;
         let share = (u32::from(all) * since).div_ceil(TURN_US as u32) as u16;
         let count = if whole { all } else { share.clamp(1, all.max(1)) };
-        let [_, end] = worn.turn;
+        let [_, end] = active.turn;
         let start = if end >= all { 0 } else { end };
         let turn = [start, start.saturating_add(count).min(all)];
         let is_posed = self.posture.is_fresh(now);
-        *worn = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
+        *active = InForce { table: Some(table), turn, renewed: Some(now), is_posed };
         if whole {
             self.bends.iter_mut().for_each(Bend::set);
         }
@@ -411,10 +413,10 @@ impl FoldState {
                 for ((taxels, Quad { expected, .. }), corrections) in
                     taxels.iter().zip(expected).zip(corrections)
                 {
-                    let (told, felt) = felt(taxels);
-                    if told != 0 {
-                        *corrections = compare(told, &felt, *expected, *corrections, lesson);
-                        bend.compared += told.count_ones() as u16;
+                    let (known, felt) = felt(taxels);
+                    if known != 0 {
+                        *corrections = compare(known, &felt, *expected, *corrections, lesson);
+                        bend.compared += known.count_ones() as u16;
                     }
                 }
                 bend.renew();

@@ -111,7 +111,7 @@ mod tests {
     use std::string::ToString;
 
     #[test]
-    fn pins_are_told_as_people_write_them() {
+    fn pins_are_reported_as_people_write_them() {
         let feather = Pins::FEATHER;
         assert_eq!(PinList(feather.inputs).to_string(), "GP26 to GP29");
         assert_eq!(PinList(feather.outputs).to_string(), "GP2, GP3, GP6 to GP12, GP18 to GP20, GP24, GP25");

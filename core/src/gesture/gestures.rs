@@ -146,7 +146,7 @@ impl Gestures {
         state.due = self.later(now);
         let decision = touches.decide(&state.touch);
         state.announced.take(&decision, now, &self.demand())?;
-        Some(told(state, panel, &decision, now, false))
+        Some(reported(state, panel, &decision, now, false))
     }
 
     fn touches(&self, area: &Area) -> TouchClassifier<'static> {
@@ -182,11 +182,11 @@ impl Gestures {
     fn end(&self, state: &mut GestureState, area: &Area) -> Gesture {
         let decision = self.touches(area).conclude(&state.touch);
         let panel = state.panel.take().unwrap_or_default();
-        told(state, panel, &decision, state.touched, true)
+        reported(state, panel, &decision, state.touched, true)
     }
 }
 
-fn told(state: &GestureState, panel: u8, decision: &Decision, now: Micros, ended: bool) -> Gesture {
+fn reported(state: &GestureState, panel: u8, decision: &Decision, now: Micros, ended: bool) -> Gesture {
     Gesture {
         touch: state.number,
         panel,
@@ -249,7 +249,7 @@ mod tests {
             self.stage.process(&mut self.state, &self.layout, &image, present, now)
         }
 
-        fn told(&mut self, frames: u64, panel: u8, of: fn(u64) -> (usize, u16)) -> Vec<Gesture> {
+        fn reported(&mut self, frames: u64, panel: u8, of: fn(u64) -> (usize, u16)) -> Vec<Gesture> {
             (0..frames)
                 .filter_map(|frame| {
                     let (column, pressure) = of(frame);
@@ -267,18 +267,18 @@ mod tests {
     #[test]
     fn pats_are_one_touch_that_ends_once_and_another_begins() {
         let mut shown = ShownFrame::new(|_| ());
-        let told = shown.told(195 * 4, 2, pats);
-        assert!(!told.is_empty() && told.len() < 5, "{told:?}");
-        assert!(told.iter().all(|g| (g.touch, g.panel, g.ended) == (1, 2, false)));
-        assert_eq!(shown.stage.name(told.last().unwrap().class), "pat");
-        let end = shown.told(400, 2, |_| (0, 0));
+        let reported = shown.reported(195 * 4, 2, pats);
+        assert!(!reported.is_empty() && reported.len() < 5, "{reported:?}");
+        assert!(reported.iter().all(|g| (g.touch, g.panel, g.ended) == (1, 2, false)));
+        assert_eq!(shown.stage.name(reported.last().unwrap().class), "pat");
+        let end = shown.reported(400, 2, |_| (0, 0));
         assert_eq!(end.len(), 1);
         assert_eq!(
             (end[0].touch, end[0].ended, shown.stage.name(end[0].class)),
             (1, true, "pat".try_into().unwrap())
         );
         assert!(end[0].observed_ms.abs_diff(3_700) < 100, "{end:?}");
-        let next = shown.told(200, 0, |_| (4, 60));
+        let next = shown.reported(200, 0, |_| (4, 60));
         assert!(next.iter().all(|g| (g.touch, g.panel) == (2, 0)) && !next.is_empty());
     }
 
@@ -287,7 +287,8 @@ mod tests {
         let mut shown = ShownFrame::new(|config| {
             (config.decide_ms, config.onset_ms, config.lead, config.gain) = (50, 0, 0, 512)
         });
-        let told = shown.told(195 * 3, 1, |frame| ((frame as usize / 20) % 8, 300 + 5 * (frame as u16 % 60)));
+        let reported =
+            shown.reported(195 * 3, 1, |frame| ((frame as usize / 20) % 8, 300 + 5 * (frame as u16 % 60)));
         // The same frames without a garment, one every 1/54 s.
         let model = Model::read(ShippedModel::Gestures.bytes()).unwrap();
         let (touches, mut state) = (TouchClassifier::new(model, 32, 16), TouchState::new());
@@ -305,8 +306,8 @@ mod tests {
             touches.process(&mut state, &image);
             decisions.push((now, touches.decide(&state)));
         }
-        assert!(told.len() > 1, "{told:?}");
-        for gesture in told {
+        assert!(reported.len() > 1, "{reported:?}");
+        for gesture in reported {
             let at = SCAN_US + 1000 * u64::from(gesture.observed_ms);
             let (_, decision) = decisions.iter().find(|(now, _)| now.abs_diff(at) < 1000).unwrap();
             assert_eq!((gesture.class as usize, gesture.lead), (decision.class, decision.lead));
@@ -317,8 +318,8 @@ mod tests {
     #[test]
     fn another_panel_is_not_watched_meanwhile() {
         let mut shown = ShownFrame::new(|_| ());
-        shown.told(100, 3, |_| (4, 60));
-        let other = shown.told(300, 1, |_| (4, 900));
+        shown.reported(100, 3, |_| (4, 60));
+        let other = shown.reported(300, 1, |_| (4, 900));
         // The touch of panel 3 ends a second after its last frame, then that of panel 1 begins.
         assert_eq!(
             other.iter().filter(|g| g.ended).map(|g| (g.touch, g.panel)).collect::<Vec<_>>(),
@@ -331,7 +332,7 @@ mod tests {
                 .all(|g| g.touch == 1 && g.panel == 3 || g.touch == 2 && g.panel == 1)
         );
         shown.state.forget();
-        assert!(shown.told(300, 1, |_| (4, 0)).is_empty());
+        assert!(shown.reported(300, 1, |_| (4, 0)).is_empty());
         assert_eq!(Sheet::new(32, 16).with_gain(128).cells(&[10; 512])[0], 40);
     }
 }

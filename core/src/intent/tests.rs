@@ -352,7 +352,7 @@ fn of_several_touches_the_strongest_counts() {
 
 /// The same force in the same time, applied at once or gradually.
 #[test]
-fn how_steeply_the_force_came_tells_a_blow_from_a_grab() {
+fn how_steeply_the_force_came_distinguishes_a_blow_from_a_grab() {
     let came = |rise_ms: u32| {
         announced((0..260u32).map(|at| {
             let ms = 5 * at.saturating_sub(20);

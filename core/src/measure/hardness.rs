@@ -14,7 +14,7 @@
 //! 1985, 4.2) the patch has radius a, the force is 4/3 E a^3 / R, and dF/dA = 2 E a / (pi R): proportional to
 //! the common modulus E of both. So the cue compares objects of one shape: a sharper object of the same
 //! material also seems harder. A contact that never has more taxels than in its first frame counts as grown
-//! by one taxel: this is the greatest hardness that the garment can tell.
+//! by one taxel: this is the greatest hardness that the garment can measure.
 
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};

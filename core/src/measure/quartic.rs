@@ -1,6 +1,6 @@
-//! Moments of the fourth order about the centroid, which tell corners from round ends.
+//! Moments of the fourth order about the centroid, which distinguish corners from round ends.
 //!
-//! Moments of the second order cannot tell a rectangle from the ellipse with the same axes. Those of the
+//! Moments of the second order cannot distinguish a rectangle from the ellipse with the same axes. Those of the
 //! fourth order can: they weigh what is far from the centroid, and how it lies around it. Taken as complex
 //! moments, with z = x + iy from the centroid, their lengths do not change when the contact turns, so that no
 //! direction has to be known.
@@ -18,7 +18,7 @@ use crate::segment::run::Run;
 /// J and sum r^4 f count the width of the taxels themselves. Of a contact of more than 400 taxels in at least
 /// 24 rows, every second row is taken. A contact that crosses a seam is not measured: together with its
 /// contour it would cost more than a frame has left. Nor is one that has more than seven groups of taxels in a
-/// run, which is none of the shapes that this tells apart.
+/// run, which is none of the shapes that this distinguishes.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Quartic {
     /// `m sum r^4 f / J^2`: 4/3 for a disc of even pressure, 7/5 for a square, 1 for a ring

@@ -46,8 +46,8 @@ impl Pipeline {
         #[cfg(feature = "gesture")]
         let gesture = self.gestures.as_ref().and_then(|stage| {
             let totals = present.iter().map(|placed| (placed.contact.panel, placed.contact.total));
-            let told = stage.process(&mut state.gesture, layout, &image, totals, now)?;
-            Some((told, stage.name(told.class)))
+            let reported = stage.process(&mut state.gesture, layout, &image, totals, now)?;
+            Some((reported, stage.name(reported.class)))
         });
         #[cfg(not(feature = "gesture"))]
         let gesture = None;
@@ -164,5 +164,5 @@ fn look<const RUNS: usize, const PARTS: usize>(
     if let Some((index, placed)) = chosen.and_then(|index| Some((index, present.get(index)?))) {
         taught.look(contact, layout, image, (index, &placed.contact));
     }
-    contact.slots().iter_mut().for_each(|placed| taught.tell(&placed.contact, &mut placed.shape));
+    contact.slots().iter_mut().for_each(|placed| taught.classify(&placed.contact, &mut placed.shape));
 }

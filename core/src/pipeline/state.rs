@@ -147,7 +147,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         pressing.sum(table, &self.contact, layout, [self.condition.calibrated(), values]);
     }
 
-    /// Taxels under those contacts that do not tell what they feel. `full` is the code at the end of the
+    /// Taxels under those contacts that do not say what they feel. `full` is the code at the end of the
     /// converter's range.
     pub(crate) fn doubt(
         &self,

@@ -34,7 +34,6 @@ pub enum Cause {
     /// the scan, and during a tare.
     Blind,
     /// Number of faulty taxels.
-    #[serde(rename = "ill")]
     Faulty,
     /// Time since the last message of a host, ms.
     Silent,

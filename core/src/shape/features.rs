@@ -16,7 +16,7 @@ pub type ShapeFeatures = [i16; FEATURES];
 /// - anisotropy, in 1/512;
 /// - logarithm to base 2 of the area in taxels, in 1/64: the effect of a grid on a shape depends on the
 ///   number of taxels;
-/// - the three ratios of the [`Quartic`], in 1/512: they tell corners from round ends.
+/// - the three ratios of the [`Quartic`], in 1/512: they distinguish corners from round ends.
 ///
 /// None of them depends on pressure, position or direction. Never panics: forms above 16 saturate, no area
 /// counts as one taxel, and the anisotropy is clamped to 0 to 1.

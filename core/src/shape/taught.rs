@@ -146,7 +146,7 @@ impl<const CONTACTS: usize> Taught<CONTACTS> {
 
     /// Replaces the built-in base's result in `shape` by that of the gallery: class, 1 + that of the gallery,
     /// and accuracy of such votes. Unknown if the contact has no result yet.
-    pub fn tell(&self, contact: &Contact, shape: &mut Shape) {
+    pub fn classify(&self, contact: &Contact, shape: &mut Shape) {
         let known = self.known.iter().find(|known| known.contact == contact.id);
         (shape.class, shape.confidence) =
             known.map_or((Class::UNKNOWN, Q15(0)), |known| (known.class, known.confidence));

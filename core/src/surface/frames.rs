@@ -1,4 +1,4 @@
-//! Where the links are in the frame in which contacts are told, as the host says.
+//! Where the links are in the frame in which contacts are reported, as the host says.
 
 use super::motion::{LinkMotion, between};
 use super::pose::{Pose, Rigid};
@@ -10,7 +10,7 @@ use crate::format::{Invalid, Micros};
 #[derive(Debug, Default, Clone, PartialEq, Eq)]
 pub struct SurfaceState {
     poses: [Option<(Pose, Option<LinkMotion>)>; LINKS],
-    told: Option<Micros>,
+    updated: Option<Micros>,
 }
 
 /// A link of the table by its name, its pose and, if it is known, its motion.
@@ -26,7 +26,7 @@ pub struct LinkFrames {
 impl SurfaceState {
     /// No pose.
     pub const fn new() -> SurfaceState {
-        SurfaceState { poses: [None; LINKS], told: None }
+        SurfaceState { poses: [None; LINKS], updated: None }
     }
 
     /// Takes poses of links at the time `at`: they stand still from then on, or move as they say. A refused
@@ -42,19 +42,19 @@ impl SurfaceState {
             let must = "must be a link of the surface";
             *to.ok_or(Invalid { parameter: "pose.link", must })? = Some((*pose, *motion));
         }
-        *self = SurfaceState { poses: taken, told: Some(at) };
+        *self = SurfaceState { poses: taken, updated: Some(at) };
         Ok(())
     }
 
     /// Time of the last poses.
-    pub fn told(&self) -> Option<Micros> {
-        self.told
+    pub fn updated(&self) -> Option<Micros> {
+        self.updated
     }
 
     /// Where the links are at a time: carried on by their motion, if it is known.
     #[inline(never)] // M0+: out of line
     pub fn at(&self, time: Micros) -> LinkFrames {
-        let us = self.told.and_then(|told| between(told, time));
+        let us = self.updated.and_then(|updated| between(updated, time));
         let mut frames = [None; LINKS];
         for (frame, pose) in frames.iter_mut().zip(&self.poses) {
             *frame = match pose {

@@ -9,7 +9,7 @@ use super::pose::{Pose, Quaternion, Rigid};
 use crate::format::{Invalid, Micros};
 use serde::{Deserialize, Serialize};
 
-/// Motion of a link at the time of its pose, in the frame in which contacts are told.
+/// Motion of a link at the time of its pose, in the frame in which contacts are reported.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LinkMotion {
@@ -25,7 +25,8 @@ pub struct LinkMotion {
     pub acceleration: u32,
 }
 
-/// Longest time for which a pose is carried on, us. Older ones are not used: nothing is told in their frame.
+/// Longest time for which a pose is carried on, us. Older ones are not used: nothing is reported in their
+/// frame.
 pub const CARRIED_US: u32 = 200_000;
 
 /// Most of each number of a motion: 100 m/s, 128 rad/s, and 1 km/s^2 of acceleration.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A rotation as a quaternion x, y, z, w in units of 2^-30.
 pub type Quaternion = [i32; 4];
 
-/// Pose of a link: where it is and how it is turned in the frame in which contacts are told.
+/// Pose of a link: where it is and how it is turned in the frame in which contacts are reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pose {

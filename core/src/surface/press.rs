@@ -1,8 +1,8 @@
 //! Sums over the taxels of a contact: each presses with its value, against its normal.
 //!
-//! The filter cuts the crest of a touch down to its neighbours where it cannot be told from an impulse. What
-//! it cuts from a crest is part of the force: a taxel counts with its value before the filter, unless that
-//! exceeds the filtered one by more than noise, which an impulse does.
+//! The filter cuts the crest of a touch down to its neighbours where it cannot be distinguished from an
+//! impulse. What it cuts from a crest is part of the force: a taxel counts with its value before the filter,
+//! unless that exceeds the filtered one by more than noise, which an impulse does.
 
 use crate::contact::PressedRuns;
 use crate::filter::points::MARGIN;

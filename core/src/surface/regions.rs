@@ -75,7 +75,7 @@ pub struct RegionSymbol {
 
 /// Time for which a touch is an onset, ms.
 pub const ONSET_MS: u64 = 150;
-/// Time for which a release is told, ms.
+/// Time for which a release is reported, ms.
 pub const RELEASED_MS: u64 = 500;
 /// Way that a contact has gone before its direction is known, um.
 const STEP_UM: i32 = 5_000;

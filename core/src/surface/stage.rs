@@ -171,7 +171,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         }
     }
 
-    /// Finds the taxels of the last frame that do not tell what they feel: those that are saturated, and those
+    /// Finds the taxels of the last frame that do not say what they feel: those that are saturated, and those
     /// that are faulty. Needs no sums.
     #[inline(never)] // M0+: out of line
     pub fn doubt<const RUNS: usize, const LABELS: usize, S: Slot>(
@@ -182,7 +182,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         [calibrated, filtered]: [&[u16]; 2],
         senses: &TaxelLimits<'_, impl Fn(usize) -> u16>,
     ) {
-        // A contact may be saturated if its peak is within the upper half of what that taxel can tell.
+        // A contact may be saturated if its peak is within the upper half of what that taxel can measure.
         let mut levels = [u16::MAX; CONTACTS];
         for (level, slot) in levels.iter_mut().zip(contact.present()) {
             let touch = slot.contact();
@@ -232,7 +232,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         }
     }
 
-    /// True if some taxel does not tell what it feels.
+    /// True if some taxel does not say what it feels.
     pub fn is_in_doubt(&self) -> bool {
         !self.blind.is_empty() || self.sums.iter().any(|sums| sums.saturated > 0)
     }
@@ -290,7 +290,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
 }
 
 impl Landing {
-    /// The contact as it is told: also in the frame of the poses.
+    /// The contact as it is reported: also in the frame of the poses.
     #[inline(never)] // M0+: out of line
     fn landed(&self, frames: &LinkFrames) -> Landed {
         let (id, spot, force) = (self.id, self.spot, self.sums.force().map(counts));

@@ -10,7 +10,7 @@ use crate::format::{Inverse, root};
 use crate::garment::{Layout, Place};
 use serde::{Deserialize, Serialize};
 
-/// By how much a force, its moment and its place may be off for the taxels that do not tell what they feel.
+/// By how much a force, its moment and its place may be off for the taxels that do not say what they feel.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Uncertainty {
     /// Number of saturated taxels: with one or more, forces and moments are the least that they may be.

@@ -203,16 +203,18 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_of_six_taxels_is_told_within_a_hundredth() {
+    fn a_wave_of_six_taxels_is_reported_within_a_hundredth() {
         for full in [255.0, 4095.0, 65535.0] {
             for way in [[0.05, 0.0], [0.0, -0.1], [0.1, 0.1], [-0.2, 0.05]] {
                 let (before, now) = (waves(6.0, [0.0; 2], [0.2, full]), waves(6.0, way, [0.2, full]));
-                let Flow::Moved(told) = Flow::of(&pictures(&before, &now), [0; 2]) else { panic!("{way:?}") };
-                let told = told.map(|way| f64::from(way) / 65536.0);
-                let error = (told[0] - way[0]).hypot(told[1] - way[1]);
+                let Flow::Moved(moved) = Flow::of(&pictures(&before, &now), [0; 2]) else {
+                    panic!("{way:?}")
+                };
+                let moved = moved.map(|way| f64::from(way) / 65536.0);
+                let error = (moved[0] - way[0]).hypot(moved[1] - way[1]);
                 // Eight bits round to 1/255 of the peak.
                 let rounding = if full < 256.0 { 0.01 } else { 0.0 };
-                assert!(error < 0.015 * way[0].hypot(way[1]) + rounding, "{full} {way:?} {told:?}");
+                assert!(error < 0.015 * way[0].hypot(way[1]) + rounding, "{full} {way:?} {moved:?}");
             }
         }
         // Plain central differences find sin(k) / k of the slope, 17 % too little.
@@ -225,12 +227,12 @@ mod tests {
     fn more_pressure_everywhere_is_no_way() {
         let before = waves(7.0, [0.0; 2], [0.2, 4000.0]);
         let now = before.map(|row| row.map(|value| value + 60));
-        let Flow::Moved(told) = Flow::of(&pictures(&before, &now), [0; 2]) else { panic!() };
-        assert!(told.iter().all(|way| way.abs() < 65536 / 500), "{told:?}");
+        let Flow::Moved(moved) = Flow::of(&pictures(&before, &now), [0; 2]) else { panic!() };
+        assert!(moved.iter().all(|way| way.abs() < 65536 / 500), "{moved:?}");
     }
 
     #[test]
-    fn what_is_no_motion_is_told_apart() {
+    fn what_is_no_motion_is_distinguished() {
         let flat = picture(|_, _| 2000.0);
         assert_eq!(Flow::of(&pictures(&flat, &flat), [0; 2]), Flow::Flat);
         let (one, other) = (waves(6.0, [0.0; 2], [0.2, 4000.0]), waves(4.0, [1.3, 0.7], [0.2, 4000.0]));

@@ -184,15 +184,15 @@ impl DenseCondition {
             }
             Some(if code.abs_diff(rest) > noise { code - known } else { rest - known })
         };
-        let told = |noise: u32| -> (Vec<Option<i32>>, Vec<i32>, i32) {
+        let reported = |noise: u32| -> (Vec<Option<i32>>, Vec<i32>, i32) {
             let all: Vec<Option<i32>> = places.iter().zip(&known).map(|of| beyond(of, noise)).collect();
             let mut sorted: Vec<i32> = all.iter().flatten().copied().collect();
             sorted.sort_unstable();
             let middle = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
             (all, sorted, middle)
         };
-        let quiet = told(4);
-        let (beyond, sorted, middle) = if quiet.2.abs() > 5 { told(0) } else { quiet };
+        let quiet = reported(4);
+        let (beyond, sorted, middle) = if quiet.2.abs() > 5 { reported(0) } else { quiet };
         let far = |one: &&i32| **one * middle.signum() * 4 >= middle.abs() && one.signum() == middle.signum();
         let on = |way: i32| sorted.iter().filter(|one| one.signum() == way).count() * 2 > sorted.len();
         let [_, before] = self.common[panel].0;

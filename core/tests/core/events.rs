@@ -1,4 +1,4 @@
-//! Events of contacts: every onset and release is told, however many there are in a frame.
+//! Events of contacts: every onset and release is reported, however many there are in a frame.
 
 use std::collections::BTreeMap;
 use taxel_core::acquire::{Scan, ScanReport};
@@ -19,8 +19,8 @@ struct MatAndHost {
     now: u64,
 }
 
-/// Phases of the events that were told of each contact.
-type ToldPhases = BTreeMap<u32, Vec<Phase>>;
+/// Phases of the events that were reported of each contact.
+type ReportedPhases = BTreeMap<u32, Vec<Phase>>;
 
 impl MatAndHost {
     fn new() -> MatAndHost {
@@ -55,7 +55,7 @@ impl MatAndHost {
     }
 
     /// Reads all that is pending.
-    fn read(&mut self, told: &mut ToldPhases) {
+    fn read(&mut self, reported: &mut ReportedPhases) {
         loop {
             let bytes = self.board.pending(Micros(self.now), &mut ()).to_vec();
             if bytes.is_empty() {
@@ -67,7 +67,7 @@ impl MatAndHost {
                 let (_, report): (u32, Report) = wire::decode(frame.unwrap()).unwrap();
                 let Report::Symbols(list) = report else { continue };
                 for event in list.events {
-                    told.entry(event.contact).or_default().push(event.phase);
+                    reported.entry(event.contact).or_default().push(event.phase);
                 }
             }
         }
@@ -76,17 +76,17 @@ impl MatAndHost {
 
 #[test]
 fn in_a_frame_all_contacts_end_and_as_many_begin() {
-    let (mut bench, mut told) = (MatAndHost::new(), ToldPhases::new());
+    let (mut bench, mut reported) = (MatAndHost::new(), ReportedPhases::new());
     for first in [0, 2, 0, 2] {
         bench.scan(Some(first));
-        bench.read(&mut told);
+        bench.read(&mut reported);
     }
     for _ in 0..2 {
         bench.scan(None);
-        bench.read(&mut told);
+        bench.read(&mut reported);
     }
-    assert_eq!((told.len(), bench.board.health().lost), (4 * CONTACTS, 0));
-    for (contact, phases) in told {
+    assert_eq!((reported.len(), bench.board.health().lost), (4 * CONTACTS, 0));
+    for (contact, phases) in reported {
         assert_eq!(phases, [Phase::Onset, Phase::Released], "{contact}");
     }
 }

@@ -36,16 +36,16 @@ fn driven(bench: &mut BoardAndHost) -> Vec<bool> {
         .collect()
 }
 
-/// Ends and beginnings that are told.
-fn told(bench: &mut BoardAndHost) -> Vec<bool> {
-    let mut told = Vec::new();
+/// Ends and beginnings that are reported.
+fn reported(bench: &mut BoardAndHost) -> Vec<bool> {
+    let mut reported = Vec::new();
     bench.drain(usize::MAX, |report| {
         if let Report::Reaction(report) = report {
             assert_eq!((report.reaction.index, report.reaction.name.as_str()), (0, "guard"));
-            told.push(report.reaction.active);
+            reported.push(report.reaction.active);
         }
     });
-    told
+    reported
 }
 
 /// A board whose reaction lasts at 200 counts, inside the hysteresis.
@@ -54,12 +54,12 @@ fn guarding() -> BoardAndHost {
     bench.ask(&Request::Start);
     bench.ask(&Request::Tare { frames: 1 });
     bench.scan();
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![false], vec![]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![false], vec![]));
     for code in [900, 200] {
         bench.press(&FINGER, code);
         (0..3).for_each(|_| bench.scan());
     }
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![true], vec![true]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![true], vec![true]));
     bench
 }
 
@@ -74,9 +74,9 @@ fn another_stream_and_other_gestures_touch_nothing_else() {
     (other.stream.frames_hz, other.stream.pressing_hz) = (20, 10);
     (other.contact.forms_in_frame, other.gestures) = (3, Some(GestureConfig::default()));
     set(&mut bench, &other);
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![], vec![]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![], vec![]));
     bench.scan();
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![], vec![]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![], vec![]));
     other.stream.key_ms = 0;
     let why = bench.answer(&Request::SetScene(&postcard::to_allocvec(&other).unwrap())).unwrap();
     assert_eq!(why, "scene: stream.key_ms must be 1 to 1000");
@@ -97,20 +97,20 @@ fn a_reaction_goes_on_in_another_table_until_that_decides() {
     assert_eq!(driven(&mut bench), [true], "not low for a moment");
     bench.scan();
     assert_eq!(
-        (driven(&mut bench), told(&mut bench)),
+        (driven(&mut bench), reported(&mut bench)),
         (vec![], vec![]),
         "200 counts are inside the hysteresis"
     );
     // The new table says that it is over.
     other.react[0].hysteresis = 50;
     set(&mut bench, &other);
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![true], vec![]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![true], vec![]));
     (0..3).for_each(|_| bench.scan());
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![false], vec![false]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![false], vec![false]));
 }
 
 #[test]
-fn what_has_no_row_any_more_ends_and_is_told() {
+fn what_has_no_row_any_more_ends_and_is_reported() {
     let renamed = |mut scene: Scene| {
         scene.react[0].name = name("watch");
         scene
@@ -122,9 +122,9 @@ fn what_has_no_row_any_more_ends_and_is_told() {
     for change in [renamed, without] {
         let mut bench = guarding();
         bench.ask(&Request::SetScene(&postcard::to_allocvec(&change(scene())).unwrap()));
-        assert_eq!((driven(&mut bench), told(&mut bench)), (vec![false], vec![false]));
+        assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![false], vec![false]));
     }
     let mut bench = guarding();
     bench.ask(&Request::SetGarment(&postcard::to_allocvec(&Garment::block()).unwrap()));
-    assert_eq!((driven(&mut bench), told(&mut bench)), (vec![false], vec![false]));
+    assert_eq!((driven(&mut bench), reported(&mut bench)), (vec![false], vec![false]));
 }

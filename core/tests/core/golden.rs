@@ -383,8 +383,8 @@ fn a_hello_of_any_version_says_which_it_is() {
 /// Words and keys of files that differ from the names in the code.
 #[test]
 fn files_keep_their_words() {
-    assert_eq!(serde_json::to_string(&Cause::Faulty).unwrap(), r#""ill""#);
-    assert_eq!(serde_json::from_str::<Cause>(r#""ill""#).unwrap(), Cause::Faulty);
+    assert_eq!(serde_json::to_string(&Cause::Faulty).unwrap(), r#""faulty""#);
+    assert_eq!(serde_json::from_str::<Cause>(r#""faulty""#).unwrap(), Cause::Faulty);
     let head = GalleryHead {
         names: Vec::new(),
         space: Space { origin: [0; MEASURES], weights: Vec::new(), shift: 0 },

@@ -13,6 +13,7 @@ mod garment;
 mod golden;
 mod hard;
 mod interlaced;
+mod late_host;
 mod moments;
 mod outputs;
 mod owners;
@@ -23,7 +24,6 @@ mod reflex;
 mod shape;
 mod sweep;
 mod taught;
-mod told;
 mod tracking;
 mod wire;
 

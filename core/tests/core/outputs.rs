@@ -1,6 +1,6 @@
 //! Outputs that can be relied on: whatever is asked, whatever fails, whatever touches, no pin is at rest
-//! while its cause holds, and every begin and end is told. The judge is a board of its own: it knows what was
-//! done, when, and what was told.
+//! while its cause holds, and every begin and end is reported. The judge is a board of its own: it knows what
+//! was done, when, and what was reported.
 
 mod present;
 
@@ -48,8 +48,8 @@ struct Judge {
     scene: Scene,
     random: fastrand::Rng,
     pins: BTreeMap<u8, bool>,
-    /// Names of the reactions that were told to last.
-    told: Vec<String>,
+    /// Names of the reactions that were reported as lasting.
+    reported: Vec<String>,
     /// When a frame was perceived last.
     seen: Option<u64>,
     heard: u64,
@@ -78,7 +78,7 @@ impl Judge {
             scene: scene(),
             random: fastrand::Rng::with_seed(seed),
             pins: BTreeMap::new(),
-            told: Vec::new(),
+            reported: Vec::new(),
             seen: None,
             heard: 0,
             failed: false,
@@ -120,17 +120,17 @@ impl Judge {
         self.read();
     }
 
-    /// Reads what the board tells; the numbers of requests that it refuses.
+    /// Reads what the board reports; the numbers of requests that it refuses.
     fn read(&mut self) -> Vec<u8> {
-        let (told, mut refused) = (&mut self.told, Vec::new());
+        let (reported, mut refused) = (&mut self.reported, Vec::new());
         self.bench.drain(usize::MAX, |report| match report {
             Report::Reaction(report) => {
                 let name = report.reaction.name.to_string();
-                let known = told.iter().position(|other| *other == name);
+                let known = reported.iter().position(|other| *other == name);
                 match (report.reaction.active, known) {
-                    (true, None) => told.push(name),
-                    (false, Some(at)) => _ = told.remove(at),
-                    (active, _) => panic!("{name} was told to be {active} twice"),
+                    (true, None) => reported.push(name),
+                    (false, Some(at)) => _ = reported.remove(at),
+                    (active, _) => panic!("{name} was reported as {active} twice"),
                 }
             }
             Report::Answer(answer) => refused.extend(answer.refusal.map(|_| answer.request)),
@@ -232,8 +232,8 @@ impl Judge {
         self.read().contains(&request.number())
     }
 
-    fn is_told(&self, name: &str) -> bool {
-        self.told.iter().any(|other| other == name)
+    fn is_reported(&self, name: &str) -> bool {
+        self.reported.iter().any(|other| other == name)
     }
 
     fn judge(&self) {
@@ -244,7 +244,11 @@ impl Judge {
         };
         let must = |holds: bool, name: &str, pin: u8| {
             if holds {
-                assert!(self.is_told(name) && asserted(pin), "{doing}: {name} holds, told: {:?}", self.told);
+                assert!(
+                    self.is_reported(name) && asserted(pin),
+                    "{doing}: {name} holds, reported: {:?}",
+                    self.reported
+                );
             }
         };
         let since = |then: u64| (self.bench.now - then) / 1000;
@@ -253,11 +257,16 @@ impl Judge {
         must(since(self.heard) >= SILENT_MS, "lonely", 20);
         let guard = self.scene.react[0].name.as_str();
         must(self.pressed && self.tared && self.settled >= SETTLED, guard, 18);
-        // A pin is where its rows, as told, want it.
+        // A pin is where its rows, as reported, want it.
         for pin in [18, 20, 25] {
             let rows = self.scene.react.iter().filter(|row| row.output.is_some_and(|line| line.pin == pin));
-            let lasts = rows.map(|row| self.is_told(&row.name)).reduce(|a, b| a || b);
-            assert_eq!(asserted(pin), lasts.unwrap_or(false), "{doing}: pin {pin}, told: {:?}", self.told);
+            let lasts = rows.map(|row| self.is_reported(&row.name)).reduce(|a, b| a || b);
+            assert_eq!(
+                asserted(pin),
+                lasts.unwrap_or(false),
+                "{doing}: pin {pin}, reported: {:?}",
+                self.reported
+            );
         }
         assert_eq!(self.pins.get(&24).copied().unwrap_or(false), self.beat, "{doing}: the sign of life");
     }
@@ -277,12 +286,12 @@ impl Judge {
         }
         self.settle();
         self.judge();
-        assert!(!self.tared || self.told.is_empty(), "{:?}", self.told);
+        assert!(!self.tared || self.reported.is_empty(), "{:?}", self.reported);
     }
 }
 
 #[test]
-fn no_pin_is_at_rest_while_its_cause_holds_and_no_end_is_untold() {
+fn no_pin_is_at_rest_while_its_cause_holds_and_no_end_is_unreported() {
     let sequences = if crate::is_campaign() { 100_000 } else { 1_000 };
     let mut steps = 0;
     for seed in 0..sequences {
@@ -296,6 +305,6 @@ fn no_pin_is_at_rest_while_its_cause_holds_and_no_end_is_untold() {
         judge.end();
     }
     println!(
-        "{sequences} sequences of requests, faults and touches, {steps} steps: no pin at rest while its cause holds, no end untold"
+        "{sequences} sequences of requests, faults and touches, {steps} steps: no pin at rest while its cause holds, no end unreported"
     );
 }

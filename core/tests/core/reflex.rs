@@ -129,7 +129,7 @@ fn a_footprint_is_met_at_once_and_agrees_soon() {
             latest = latest.max(begun);
             let (row, pin) = if corner < PANEL { (0, (18, true)) } else { (1, (19, false)) };
             assert!(rig.reflex.pins(1 << row).eq([pin]));
-            let early = rig.reflex.told().unwrap();
+            let early = rig.reflex.take_early().unwrap();
             assert_eq!((early.index, early.time), (row, Micros(rig.fields * FIELD_US)));
             assert_eq!((early.code, early.other.is_some()), (Code(PRESSED), agree == Agree::Two));
             assert!(
@@ -138,14 +138,14 @@ fn a_footprint_is_met_at_once_and_agrees_soon() {
                     .flatten()
                     .all(|taxel| pressure[usize::from(taxel)] == PRESSED)
             );
-            assert_eq!(rig.reflex.told(), None);
+            assert_eq!(rig.reflex.take_early(), None);
             // It begins once, and again when its pin was put to rest.
             assert!((0..8).all(|_| rig.field(&pressure) == 0));
             rig.reflex.driven(pin.0, pin.1);
             assert!((0..8).all(|_| rig.field(&pressure) == 0));
             rig.reflex.driven(pin.0, !pin.1);
             assert!((0..8).any(|_| rig.field(&pressure) == 1 << row));
-            rig.reflex.told().unwrap();
+            rig.reflex.take_early().unwrap();
             rig.reflex.driven(pin.0, !pin.1);
         }
         assert_eq!(latest, most, "{agree:?}");
@@ -178,7 +178,7 @@ fn other_rows_forget_what_was_begun() {
     rig.setup =
         Setup::build(&BoardInfo::feather("test"), Garment::reference(), scene(Agree::Two), TAXELS).unwrap();
     rig.watch(0, &[]);
-    assert_eq!(rig.reflex.told(), None::<Early>);
+    assert_eq!(rig.reflex.take_early(), None::<Early>);
     assert!((0..8).all(|_| rig.field(&touched(100, 3)) == 0), "the limits are not all set");
     (0..TAXELS / 64).for_each(|_| rig.watch(0, &[]));
     assert!((0..8).any(|_| rig.field(&touched(100, 3)) == 1));
@@ -222,7 +222,7 @@ fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
         for _ in 0..8 {
             let begun = rig.field(&pressure);
             began += begun.count_ones() as usize;
-            while rig.reflex.told().is_some() {}
+            while rig.reflex.take_early().is_some() {}
             [(18, false), (19, true)].into_iter().for_each(|(pin, level)| rig.reflex.driven(pin, level));
         }
     }

@@ -1,12 +1,12 @@
-//! A base of shapes is exchanged while something touches: no class is told under the names of another base.
+//! A base of shapes is exchanged while something touches: no class is reported under the names of another base.
 
 use crate::board::{BoardAndHost, FINGER};
 use taxel_core::scene::Scene;
 use taxel_core::shape::{Class, ConfidenceTable, Exemplar, GalleryHead, Space};
 use taxel_core::wire::{Report, Request};
 
-/// Classes of the contacts in lists that come after the base was told, and the last frame of them.
-fn told(bench: &mut BoardAndHost) -> Vec<(u32, Class)> {
+/// Classes of the contacts in lists that come after the base was reported, and the last frame of them.
+fn reported(bench: &mut BoardAndHost) -> Vec<(u32, Class)> {
     let (mut exchanged, mut classes) = (false, Vec::new());
     bench.drain(usize::MAX, |report| match report {
         Report::Shapes(_) => exchanged = true,
@@ -15,12 +15,12 @@ fn told(bench: &mut BoardAndHost) -> Vec<(u32, Class)> {
         }
         _ => {}
     });
-    assert!(exchanged, "the base was not told");
+    assert!(exchanged, "the base was not reported");
     classes
 }
 
 #[test]
-fn a_class_of_one_base_is_never_told_as_one_of_another() {
+fn a_class_of_one_base_is_never_reported_as_one_of_another() {
     let mut bench = BoardAndHost::new(Scene::shipped());
     bench.ask(&Request::Start);
     bench.ask(&Request::Tare { frames: 1 });
@@ -40,23 +40,23 @@ fn a_class_of_one_base_is_never_told_as_one_of_another() {
     let head = postcard::to_allocvec(&head).unwrap();
     let prototypes = postcard::to_allocvec(&vec![Exemplar { class: 1, at: [0; 12] }]).unwrap();
 
-    // The list that tells the onset is still to be sent when the base arrives: it was made with the one
+    // The list that reports the onset is still to be sent when the base arrives: it was made with the one
     // before.
     bench.press(&FINGER, 900);
     bench.scan();
     bench.ask(&Request::SetShapes(&head));
     bench.ask(&Request::AddShapes(&prototypes));
-    let classes = told(&mut bench);
+    let classes = reported(&mut bench);
     assert!(!classes.is_empty() && classes.iter().all(|(_, class)| *class == Class::UNKNOWN), "{classes:?}");
     (0..8).for_each(|_| bench.scan());
     bench.ask(&Request::Start);
-    assert!(told(&mut bench).iter().all(|(_, class)| *class == Class(2)));
+    assert!(reported(&mut bench).iter().all(|(_, class)| *class == Class(2)));
 
-    // Another head arrives: from here on the built-in base is in force again, and this is told.
+    // Another head arrives: from here on the built-in base is in force again, and this is reported.
     bench.press(&FINGER, 0);
     bench.press(&[44, 45, 60, 61], 900);
     bench.scan();
     bench.ask(&Request::SetShapes(&head));
-    let classes = told(&mut bench);
+    let classes = reported(&mut bench);
     assert!(!classes.is_empty() && classes.iter().all(|(_, class)| *class == Class::UNKNOWN), "{classes:?}");
 }

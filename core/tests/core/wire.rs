@@ -59,7 +59,7 @@ fn described(values: &[u16], base: &[u16]) -> Vec<u8> {
         bytes.push(value as u8);
         bytes
     };
-    let (mut code, mut told, mut at) = (Vec::new(), 0, 0);
+    let (mut code, mut encoded, mut at) = (Vec::new(), 0, 0);
     while at < numbers.len() {
         let window = &numbers[at..numbers.len().min(at + 127)];
         let end = window.windows(2).position(|two| two == [0, 0]).unwrap_or(window.len());
@@ -68,10 +68,10 @@ fn described(values: &[u16], base: &[u16]) -> Vec<u8> {
             at += 1;
             continue;
         }
-        code.extend([varint((at - told) as u32), varint(run as u32)].concat());
+        code.extend([varint((at - encoded) as u32), varint(run as u32)].concat());
         code.extend(window[..run].iter().flat_map(|number| varint((number << 1 ^ number >> 31) as u32)));
         at += run;
-        told = at;
+        encoded = at;
     }
     code
 }
@@ -274,7 +274,7 @@ fn a_wrong_image_is_refused_with_its_byte() {
 
 /// Quiet taxels are looked at in blocks, in which two values must not cancel each other.
 #[test]
-fn two_taxels_that_are_alike_are_told_wherever_they_lie() {
+fn two_taxels_that_are_alike_are_reported_wherever_they_lie() {
     for (first, second) in (0..24).flat_map(|first| (first + 1..24).map(move |second| (first, second))) {
         let mut values = [0u16; 24];
         (values[first], values[second]) = (0x0a5f, 0x0a5f);

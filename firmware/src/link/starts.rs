@@ -1,7 +1,7 @@
 //! Starts of the frames of the USB, one each millisecond, which all boards on one host controller share.
 //!
-//! An interrupt comes late by whatever keeps interrupts off, and nobody could tell by how much. It therefore
-//! only tells when the next start is due. That one is watched for: the controller is asked for the number of
+//! An interrupt comes late by whatever keeps interrupts off, and nobody could say by how much. It therefore
+//! only says when the next start is due. That one is watched for: the controller is asked for the number of
 //! its frame again and again, and the frame has begun between the last question that was answered with the old
 //! number and the first answer with the new one. Whatever comes between makes this time longer; the time
 //! itself is what is stated.
@@ -23,8 +23,8 @@ const AHEAD_US: u64 = 60;
 /// Most by which a start may have been before it was seen, us. If it is more, another one is watched for.
 const MOST_US: u64 = 10;
 
-/// A start that the interrupt has told: number of the frame, and when.
-static TOLD: Signal<CriticalSectionRawMutex, (u16, Micros)> = Signal::new();
+/// A start that the interrupt has reported: number of the frame, and when.
+static NOTICED: Signal<CriticalSectionRawMutex, (u16, Micros)> = Signal::new();
 /// A start that was seen.
 static SEEN: Signal<CriticalSectionRawMutex, StartOfFrame> = Signal::new();
 
@@ -46,20 +46,20 @@ fn await_next() {
     });
 }
 
-/// Tells of a start, if it has woken the controller's interrupt.
+/// Reports a start, if it has woken the controller's interrupt.
 pub(super) fn notice() {
     if USB.ints().read().dev_sof() {
         USB.inte().modify(|interrupts| interrupts.set_dev_sof(false));
-        TOLD.signal((number(), now()));
+        NOTICED.signal((number(), now()));
     }
 }
 
-/// Watches for the start after each one that is told.
+/// Watches for the start after each one that is reported.
 #[embassy_executor::task]
 pub(super) async fn watch() {
     loop {
-        let (last, told) = TOLD.wait().await;
-        Timer::at(Instant::from_micros(told.0 + FRAME_US - AHEAD_US)).await;
+        let (last, noticed) = NOTICED.wait().await;
+        Timer::at(Instant::from_micros(noticed.0 + FRAME_US - AHEAD_US)).await;
         match start_after(last) {
             Some(start) => SEEN.signal(start),
             None => await_next(),

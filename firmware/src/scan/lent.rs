@@ -11,6 +11,6 @@ static TAXEL_LENT: AtomicU32 = AtomicU32::new(0);
 
 /// Marks these codes as complete and about to be perceived.
 #[inline]
-pub fn tell(codes: &[Code]) {
+pub fn mark(codes: &[Code]) {
     TAXEL_LENT.store(codes.as_ptr() as u32, Ordering::Relaxed);
 }

@@ -155,7 +155,7 @@ impl Acquire for Scanner {
             }
             By::Chain | By::Nobody => self.next().await,
         }?;
-        lent::tell(scan.codes);
+        lent::mark(scan.codes);
         Ok(scan)
     }
 
@@ -170,7 +170,7 @@ impl Acquire for Scanner {
     }
 
     fn reflex(&mut self) -> Option<Early> {
-        reflex::told()
+        reflex::take_early()
     }
 
     fn rest(&mut self) {

@@ -35,9 +35,9 @@ pub fn watch(reflexes: Option<&Reflexes>, active: u8, limit: impl Fn(u16) -> Opt
     with(|reflex| reflex.watch(reflexes, active, limit));
 }
 
-/// Calls [`Reflex::told`].
-pub fn told() -> Option<Early> {
-    with(Reflex::told)
+/// Calls [`Reflex::take_early`].
+pub fn take_early() -> Option<Early> {
+    with(Reflex::take_early)
 }
 
 /// Calls [`Reflex::driven`].

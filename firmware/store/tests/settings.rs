@@ -243,7 +243,7 @@ fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
     let mut flash = SimFlash::default();
     let aside = |flash: &mut SimFlash, aside| Store::new(flash, range(64)).unwrap().put_aside(aside);
     assert_eq!(aside(&mut flash, true), Ok(Saved::Unchanged), "there is nothing to be put aside");
-    let garment = Garment { name: name("worn"), ..Garment::block() };
+    let garment = Garment { name: name("stored"), ..Garment::block() };
     let kept = HostSettings::new(garment.clone(), 64);
     save(&mut flash, &kept).unwrap();
     assert_eq!(start(&mut flash), (Found::Settings, garment.clone(), SAVES.into()));
@@ -259,7 +259,7 @@ fn what_is_put_aside_is_kept_until_it_is_taken_up_or_replaced() {
 #[test]
 fn power_may_fail_while_settings_are_put_aside() {
     let mut flash = SimFlash::default();
-    let garment = Garment { name: name("worn"), ..Garment::block() };
+    let garment = Garment { name: name("stored"), ..Garment::block() };
     save(&mut flash, &HostSettings::new(garment.clone(), 64)).unwrap();
     for round in 0..40 {
         let (before, old) = (flash.clone(), start(&mut flash));

@@ -27,7 +27,7 @@ pub struct Bench<const T: usize, const R: usize, const P: usize> {
     codes: [Code; T],
     /// Frames that the converter has made since the last scan and nobody fetched.
     pub overruns: u32,
-    /// What the next scan tells of the converter.
+    /// What the next scan reports of the converter.
     pub temperature: Option<Celsius>,
 }
 
@@ -52,7 +52,7 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
         bench
     }
 
-    /// What it wears.
+    /// Its garment.
     pub fn garment(&self) -> &Garment {
         &self.board.setup().garment
     }

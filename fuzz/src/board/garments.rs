@@ -7,7 +7,7 @@ use taxel_core::scene::Scene;
 
 /// A garment and what it is used for.
 pub struct Outfit {
-    /// What is worn.
+    /// The garment.
     pub garment: Garment,
     /// What for.
     pub scene: Scene,

@@ -18,14 +18,14 @@ use taxel_core::wire::Request;
 /// Actions of an input at most: a fuzzer has more of many short ones than of a long one.
 const ACTIONS: usize = 400;
 
-/// Runs a board through the actions that the bytes are. The first chooses what it wears.
+/// Runs a board through the actions that the bytes are. The first chooses its garment.
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
-    let wears = bytes.byte();
-    if wears & 1 == 0 {
-        through(&mut Bench::<64, 32, 32>::new(garments::small(wears >> 1)), bytes);
+    let garment = bytes.byte();
+    if garment & 1 == 0 {
+        through(&mut Bench::<64, 32, 32>::new(garments::small(garment >> 1)), bytes);
     } else {
-        through(&mut Bench::<TAXELS, RUNS, PARTS>::new(garments::large(wears >> 1)), bytes);
+        through(&mut Bench::<TAXELS, RUNS, PARTS>::new(garments::large(garment >> 1)), bytes);
     }
 }
 

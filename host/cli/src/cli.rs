@@ -10,7 +10,7 @@ use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
 use std::ffi::OsString;
-use taxel::tell::{verbose, words};
+use taxel::text::{verbose, words};
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
@@ -137,8 +137,8 @@ fn in_words(error: clap::Error) -> clap::Error {
     if ours == theirs {
         return error;
     }
-    let told = error.to_string();
-    let message = told.trim_start_matches("error: ").replacen(&theirs, &ours, 1);
+    let text = error.to_string();
+    let message = text.trim_start_matches("error: ").replacen(&theirs, &ours, 1);
     clap::Error::raw(error.kind(), message)
 }
 

@@ -1,10 +1,10 @@
-//! Where the garment folds, for what shows it: a table of folds, and the angles that a board was told.
+//! Where the garment folds, for what shows it: a table of folds, and the angles that a board was sent.
 
 use anyhow::Result;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use taxel::client::{Client, Worn};
+use taxel::client::{BoardDescription, Client};
 use taxel::files::folds;
 #[cfg(feature = "schema")]
 use taxel::json::schema::TypeIs;
@@ -34,44 +34,46 @@ pub struct Folding {
     table: Vec<u8>,
     /// Counts from which on a taxel shows pressure; none before a garment is known that the table fits.
     floor: Option<u16>,
-    posture: ToldPosture,
+    posture: SentPosture,
     /// The line that was handed over last.
     line: Option<FoldingLine>,
 }
 
-/// The angles that a board was told, degrees.
+/// The angles that a board was sent, degrees.
 #[derive(Debug)]
-enum ToldPosture {
-    /// By joint, and when the last one was told.
+enum SentPosture {
+    /// By joint, and when the last one was sent.
     Live(BTreeMap<String, f32>, Option<u64>),
     /// All of a recording.
     Recorded(Angles),
 }
 
 impl Folding {
-    /// Reads a table, for a board that is told its posture from now on.
+    /// Reads a table, for a board that is sent its posture from now on.
     pub fn read(file: &Path) -> Result<Folding> {
-        let posture = ToldPosture::Live(BTreeMap::new(), None);
+        let posture = SentPosture::Live(BTreeMap::new(), None);
         Ok(Folding { file: file.into(), table: folds::read(file)?, floor: None, posture, line: None })
     }
 
     /// Reads a table for a recording. Error if no angles are in it.
     pub fn recorded(file: &Path, recording: &BoardRecording) -> Result<Folding> {
         let angles = Angles::read(recording)?;
-        Ok(Folding { posture: ToldPosture::Recorded(angles), ..Folding::read(file)? })
+        Ok(Folding { posture: SentPosture::Recorded(angles), ..Folding::read(file)? })
     }
 
-    /// The board wears this garment. The error says that the table is not for it.
-    pub fn wear(&mut self, worn: &Worn) -> Result<()> {
+    /// The board has this garment. The error says that the table is not for it.
+    pub fn use_garment(&mut self, description: &BoardDescription) -> Result<()> {
         self.floor = None;
-        folds::check(&self.file, &self.table, &worn.layout)?;
-        self.floor = Some(worn.scene.condition.floor.max(1));
+        folds::check(&self.file, &self.table, &description.layout)?;
+        self.floor = Some(description.scene.condition.floor.max(1));
         Ok(())
     }
 
     /// Takes postures among requests to the board.
     pub fn asked(&mut self, client: &Client, requests: &[u8]) {
-        let (ToldPosture::Live(angles, told_us), Some(worn)) = (&mut self.posture, client.worn()) else {
+        let (SentPosture::Live(angles, sent_us), Some(description)) =
+            (&mut self.posture, client.description())
+        else {
             return;
         };
         for frame in requests.split(|byte| *byte == 0) {
@@ -79,12 +81,12 @@ impl Folding {
             let Ok(Request::Posture(posture)) = wire::open(&mut frame).and_then(wire::decode) else {
                 continue;
             };
-            for told in &posture.joints {
-                if let Some(joint) = worn.scene.joints.get(usize::from(told.joint)) {
-                    angles.insert(joint.to_string(), f32::from(told.centidegrees) / 100.0);
+            for sent in &posture.joints {
+                if let Some(joint) = description.scene.joints.get(usize::from(sent.joint)) {
+                    angles.insert(joint.to_string(), f32::from(sent.centidegrees) / 100.0);
                 }
             }
-            *told_us = client.board_time().map(|time| time.0);
+            *sent_us = client.board_time().map(|time| time.0);
         }
     }
 
@@ -101,14 +103,14 @@ impl Folding {
     pub fn at(&self, time_us: u64) -> Option<FoldingLine> {
         let (floor, table) = (self.floor?, FoldTable::view(&self.table)?);
         let of_recording;
-        let (angles, told_us) = match &self.posture {
-            ToldPosture::Live(angles, told_us) => (angles, *told_us),
-            ToldPosture::Recorded(all) => {
+        let (angles, sent_us) = match &self.posture {
+            SentPosture::Live(angles, sent_us) => (angles, *sent_us),
+            SentPosture::Recorded(all) => {
                 of_recording = all.at(time_us);
                 (&of_recording.0, of_recording.1)
             }
         };
-        let followed = told_us.is_some_and(|told| time_us.saturating_sub(told) < STALE_US);
+        let followed = sent_us.is_some_and(|sent| time_us.saturating_sub(sent) < STALE_US);
         let all = expected(&table, |joint| angles.get(joint).copied().filter(|_| followed));
         let presses = |counts: Option<f32>| counts.is_none_or(|counts| counts >= f32::from(floor));
         let taxels = all.into_iter().filter(|(_, counts)| presses(*counts)).map(|(taxel, _)| taxel).collect();

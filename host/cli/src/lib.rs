@@ -12,7 +12,7 @@
 //! | [`watch`] | a followed board: options, loop, sentences about events |
 //! | [`terminal`] | views in the terminal |
 //! | [`folding`] | where the garment folds, for what shows it |
-//! | [`on_robot`] | the robot that wears the garment, for what shows it |
+//! | [`on_robot`] | the robot that carries the garment, for what shows it |
 //! | [`report`] | a recording or a board on one page |
 //! | [`serve`] | the door of a server on this machine |
 //! | [`view`] | the page in the browser, and its server |
@@ -25,7 +25,7 @@
 
 // First: the modules below use its macros.
 #[macro_use]
-mod told;
+mod stderr;
 
 pub mod fault;
 

@@ -8,7 +8,7 @@ use taxel_core::intent::Leading;
 /// Colours and scale of pressure, and colours of the intentions.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct PaletteTold {
+pub struct PagePalette {
     /// Red, green and blue of each step.
     pub ramp: Vec<Rgb>,
     /// Number of equal parts of the scale.
@@ -93,7 +93,7 @@ pub fn mix(a: Rgb, b: Rgb, part: f64) -> Rgb {
     [between(a[0], b[0]), between(a[1], b[1]), between(a[2], b[2])]
 }
 
-/// Colour of an intention: of Okabe and Ito, which the colour-blind can tell apart.
+/// Colour of an intention: of Okabe and Ito, which the colour-blind can distinguish.
 pub fn intention(leading: Leading) -> Rgb {
     match leading {
         Leading::None => [128, 128, 128],
@@ -111,11 +111,11 @@ pub fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// All of it, as the page is told.
-pub fn told() -> PaletteTold {
+/// All of it, as the page gets it.
+pub fn for_page() -> PagePalette {
     let intentions = Leading::INTENTIONS.into_iter();
     let colour = |leading: Leading| (leading.as_str().to_string(), hex(intention(leading)).into());
-    PaletteTold {
+    PagePalette {
         ramp: (0..STEPS).map(ramp).collect(),
         bands: BANDS,
         start: START,

@@ -6,7 +6,7 @@ use crate::fault;
 use std::error::Error as _;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
-use taxel::tell::words;
+use taxel::text::words;
 
 /// Beginning of errors about the standard output.
 const OUTPUT: &str = "the standard output cannot be written";
@@ -19,14 +19,14 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(()) => 0,
         Err(error) => match of_closed_output(&error) {
             Some(ErrorKind::BrokenPipe) => 0,
-            Some(ErrorKind::StorageFull) => tell(error.context(OUTPUT)),
-            _ => tell(error),
+            Some(ErrorKind::StorageFull) => print_error(error.context(OUTPUT)),
+            _ => print_error(error),
         },
     }
 }
 
 /// Prints an error. If that fails, the exit status still reports it.
-fn tell(error: anyhow::Error) -> u8 {
+fn print_error(error: anyhow::Error) -> u8 {
     _ = writeln!(std::io::stderr(), "error: {}", words::sentence(error.as_ref()));
     fault::status(&error)
 }
@@ -50,7 +50,7 @@ fn leave_where_nobody_reads() {
         match text.strip_prefix("failed printing to stdout: ") {
             Some(why) if why.contains("Broken pipe") => std::process::exit(0),
             Some(why) => {
-                tell(anyhow::anyhow!("{why}").context(OUTPUT));
+                print_error(anyhow::anyhow!("{why}").context(OUTPUT));
                 std::process::exit(1)
             }
             None => report(panic),

@@ -38,7 +38,7 @@ def hardest(recording: taxel.Recording) -> tuple[float, str, int] | None:
 
 
 def row(folder: str, file: str) -> dict[str, Any]:
-    """What is told of a recording."""
+    """What is reported of a recording."""
     try:
         recording = taxel.read(Path(folder) / file)
         found = hardest(recording)
@@ -54,29 +54,29 @@ def row(folder: str, file: str) -> dict[str, Any]:
 
 
 def rows(folder: str, files: list[str]) -> list[dict[str, Any]]:
-    """What is told of some recordings."""
+    """What is reported of some recordings."""
     return [row(folder, file) for file in files]
 
 
 def by_ray(folder: str, pieces: list[list[str]], address: str | None, workers: int | None) -> list[list[dict[str, Any]]]:
-    """What is told of all pieces, in their order."""
+    """What is reported of all pieces, in their order."""
     import ray
 
     ray.init(address=address, num_cpus=workers)
     task = ray.remote(rows)
-    told: list[list[dict[str, Any]]] = ray.get([task.remote(folder, piece) for piece in pieces])
+    of_pieces: list[list[dict[str, Any]]] = ray.get([task.remote(folder, piece) for piece in pieces])
     ray.shutdown()
-    return told
+    return of_pieces
 
 
 def main() -> None:
-    told = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    told.add_argument("folder", help="folder of the recordings; each machine sees it by this path")
-    told.add_argument("output", help="table to write (.parquet)")
-    told.add_argument("--address", help="a Ray cluster: auto, HOST:PORT, ray://HOST:PORT")
-    told.add_argument("--workers", type=int, help="cores of this machine to use, without a cluster")
-    told.add_argument("--one", action="store_true", help="no Ray: this process alone")
-    args = told.parse_args()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", help="folder of the recordings; each machine sees it by this path")
+    parser.add_argument("output", help="table to write (.parquet)")
+    parser.add_argument("--address", help="a Ray cluster: auto, HOST:PORT, ray://HOST:PORT")
+    parser.add_argument("--workers", type=int, help="cores of this machine to use, without a cluster")
+    parser.add_argument("--one", action="store_true", help="no Ray: this process alone")
+    args = parser.parse_args()
     folder = str(Path(args.folder).resolve())
     files = sorted(str(path.relative_to(folder)) for path in Path(folder).rglob("*.mcap"))
     pieces = [files[at : at + PIECE] for at in range(0, len(files), PIECE)]

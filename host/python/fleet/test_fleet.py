@@ -22,7 +22,7 @@ RECORDINGS = 1000
 
 def run(*words: object) -> str:
     """Runs Python with these arguments; returns what it printed."""
-    # Nothing is told to Ray's makers.
+    # Nothing is sent to Ray's makers.
     variables = os.environ | {"RAY_USAGE_STATS_ENABLED": "0"}
     done = subprocess.run([sys.executable, *map(str, words)], env=variables, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

@@ -18,7 +18,7 @@ use taxel::error::SourceError;
 use taxel::robot::{BoardConfig, ConfigPlace, Required, read_board};
 use taxel::session::{JointTime, POSES_HZ, Poll, Posing, Returns, RunLimit, Session};
 use taxel::source::SourceOptions;
-use taxel::tell::words;
+use taxel::text::words;
 use taxel_core::format::Micros;
 
 /// Time between two attempts to open a board that is waited for.
@@ -154,7 +154,7 @@ fn warn(py: Python<'_>, sentence: &str) -> PyResult<()> {
     PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &CString::new(sentence)?, 2)
 }
 
-/// The robot that wears a body, if one is named.
+/// The robot that carries a body, if one is named.
 fn posing(
     body: Option<&str>,
     robot: Option<&str>,
@@ -166,7 +166,7 @@ fn posing(
         anyhow::ensure!(!is_alone, argument("motion and poses_hz are those of a robot: name one"));
         return Ok(None);
     };
-    let body = body.ok_or_else(|| argument("a robot wears a body: name one"))?;
+    let body = body.ok_or_else(|| argument("a robot needs a body: name one"))?;
     let motion = bounds.map(str::parse).transpose();
     let motion: Option<Motion> = motion.map_err(|why| argument(format!("motion: {why}")))?;
     Ok(Some(Posing::open(body, robot, motion.unwrap_or_default(), hz.unwrap_or(POSES_HZ))?))
@@ -203,12 +203,12 @@ impl Board {
             let posing = posing(config.body.as_deref(), robot.as_deref(), motion.as_deref(), poses_hz)?;
             open(&config, &options, returns, posing)
         };
-        let mut is_told = false;
+        let mut is_reported = false;
         let open = loop {
             match py.detach(opened) {
                 Ok(open) => break open,
                 Err(error) if wait && blames_board(&error) => {
-                    if !std::mem::replace(&mut is_told, true) {
+                    if !std::mem::replace(&mut is_reported, true) {
                         warn(py, &format!("{}; waiting for it", words::sentence(error.as_ref())))?;
                     }
                 }

@@ -4,7 +4,7 @@ use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::{PyErr, create_exception};
 use taxel::error::{ErrorKind, UsageError as WrongUse};
-use taxel::tell::words;
+use taxel::text::words;
 
 create_exception!(
     taxel,

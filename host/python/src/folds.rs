@@ -14,7 +14,7 @@ use taxel_core::garment::Layout;
 /// A day's sweep: names of joints, their angles [n, joints] in degrees, pressures [n, taxels] in counts.
 type Swept<'py> = (Vec<String>, PyReadonlyArray2<'py, f32>, PyReadonlyArray2<'py, u16>);
 
-/// The table of folds for a board, and what is told of each.
+/// The table of folds for a board, and what is reported of each.
 #[pyfunction]
 pub fn learn_folds<'py>(
     py: Python<'py>,
@@ -38,10 +38,10 @@ pub fn learn_folds<'py>(
     let layout = Layout::build(&garment, TAXELS, u16::MAX).map_err(raised)?;
     let mut read = Vec::new();
     for (joints, angles, felt) in &sweeps {
-        let (&[frames, told], &[scans, taxels]) = (angles.shape(), felt.shape()) else {
+        let (&[frames, reported], &[scans, taxels]) = (angles.shape(), felt.shape()) else {
             return Err(usage("a sweep has angles [n, joints] and pressures [n, taxels]"));
         };
-        if frames != scans || told != joints.len() || joints.is_empty() {
+        if frames != scans || reported != joints.len() || joints.is_empty() {
             return Err(usage("a sweep has angles [n, joints] and pressures [n, taxels]"));
         }
         let (angles, felt) = (angles.as_slice(), felt.as_slice());
@@ -49,15 +49,15 @@ pub fn learn_folds<'py>(
             return Err(usage("the frames must lie one after the other"));
         };
         let mut sweep = FoldSweep::new(joints.clone(), taxels);
-        for (angles, felt) in angles.chunks(told).zip(felt.chunks(taxels.max(1))) {
+        for (angles, felt) in angles.chunks(reported).zip(felt.chunks(taxels.max(1))) {
             sweep.push(angles, felt).map_err(raised)?;
         }
         read.push(sweep);
     }
     let settings = FoldSettings { folds, step_deg, shift_mm, shift_deg };
     let learned = py.detach(|| learn(&layout, &read, &settings)).map_err(raised)?;
-    let told = learned.folds.iter().map(|fold| value::dict(py, &about(fold))).collect::<PyResult<_>>()?;
-    Ok((PyBytes::new(py, &learned.table), told))
+    let reported = learned.folds.iter().map(|fold| value::dict(py, &about(fold))).collect::<PyResult<_>>()?;
+    Ok((PyBytes::new(py, &learned.table), reported))
 }
 
 fn about(fold: &LearnedFold) -> serde_json::Value {

@@ -55,10 +55,10 @@ impl KeptMoments {
     /// unless all have.
     fn newest<T>(&self, what: &RobotMoments<T>) -> Option<u64> {
         let live = (0..self.boards.len()).filter(|board| !self.boards[*board].1);
-        what.told_by_all(live).or_else(|| what.told_by_all(0..self.boards.len()))
+        what.reported_by_all(live).or_else(|| what.reported_by_all(0..self.boards.len()))
     }
 
-    /// The newest image of each board until a time of the host, us; without one, until all boards have told
+    /// The newest image of each board until a time of the host, us; without one, until all boards have sent
     /// theirs.
     pub fn frames(&self, host_us: Option<u64>) -> Vec<Option<Fact>> {
         let at_us = host_us.or_else(|| self.newest(&self.frames));
@@ -66,8 +66,8 @@ impl KeptMoments {
         (0..self.boards.len()).map(latest).collect()
     }
 
-    /// The contacts of each board at a time of the host, us, interpolated; without one, until all boards have
-    /// told theirs.
+    /// The contacts of each board at a time of the host, us, interpolated; without one, until all boards have sent
+    /// theirs.
     pub fn contacts(&self, host_us: Option<u64>) -> Vec<Option<MomentFact>> {
         let at_us = host_us.or_else(|| self.newest(&self.contacts));
         let found = |board: usize| {

@@ -26,8 +26,9 @@ pub fn overview(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
         .map(|info| {
             let channel = &info.channel;
             let count = found.counts.get(&channel.id).copied().unwrap_or(0);
-            let told = json!({ "encoding": channel.message_encoding, "schema": info.schema, "count": count });
-            (channel.topic.clone(), told)
+            let reported =
+                json!({ "encoding": channel.message_encoding, "schema": info.schema, "count": count });
+            (channel.topic.clone(), reported)
         })
         .collect();
     let metadata: serde_json::Map<_, _> =
@@ -168,7 +169,7 @@ pub struct RecordedMessages {
 }
 
 /// A message: topic, log time and publish time in ns, data.
-type Told<Data> = (String, u64, u64, Data);
+type MessageOf<Data> = (String, u64, u64, Data);
 
 #[pymethods]
 impl RecordedMessages {
@@ -182,14 +183,14 @@ impl RecordedMessages {
         slf
     }
 
-    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Told<Py<PyBytes>>>> {
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<MessageOf<Py<PyBytes>>>> {
         let found = py.detach(|| self.next()).map_err(raised)?;
         Ok(found.map(|(topic, log, publish, data)| (topic, log, publish, PyBytes::new(py, &data).unbind())))
     }
 }
 
 impl RecordedMessages {
-    fn next(&self) -> anyhow::Result<Option<Told<Vec<u8>>>> {
+    fn next(&self) -> anyhow::Result<Option<MessageOf<Vec<u8>>>> {
         let mut messages = held(&self.messages);
         while let Some(message) = messages.next_message()? {
             let (header, data) = (message.header, message.data.to_vec());

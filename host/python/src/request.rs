@@ -92,10 +92,10 @@ fn feed(values: &Values) -> Result<Feed> {
 
 /// Angles by the names of the scene's joints, degrees.
 fn posture(client: &Client, values: &Values) -> Result<Posture> {
-    let Some(worn) = client.worn() else {
+    let Some(description) = client.description() else {
         bail!(argument("the board's joints are known once its Hello has been read"));
     };
-    let joints = &worn.scene.joints;
+    let joints = &description.scene.joints;
     let mut posture = Posture::default();
     for (joint, degrees) in values.0["degrees"].as_object().into_iter().flatten() {
         let Some(index) = joints.iter().position(|known| known == joint.as_str()) else {
@@ -105,9 +105,9 @@ fn posture(client: &Client, values: &Values) -> Result<Posture> {
         };
         let angle = degrees.as_f64().filter(|angle| (-180.0..=180.0).contains(angle));
         let angle = angle.ok_or_else(|| argument(format!("{joint} must be -180 to 180 degrees")))?;
-        let told = JointAngle { joint: index as u8, centidegrees: (angle * 100.0).round() as i16 };
+        let reported = JointAngle { joint: index as u8, centidegrees: (angle * 100.0).round() as i16 };
         let too_many = || argument(format!("a posture has at most {JOINTS} joints"));
-        posture.joints.push(told).map_err(|_| too_many())?;
+        posture.joints.push(reported).map_err(|_| too_many())?;
     }
     Ok(posture)
 }

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel::client::Event;
-use taxel::mind::{BoardSense, MindReader, RobotMeaningLine, RobotMind, RobotReasons, ToldLine};
+use taxel::mind::{BoardSense, HostInputLine, MindReader, RobotMeaningLine, RobotMind, RobotReasons};
 use taxel::robot::{
     BoardContact, BoardEvent, BoardLine, BoardOrder, BoardState, ContactReader, ReadRobot, RobotEvent,
     RobotStream, WhenFull,
@@ -42,7 +42,7 @@ struct OpenRobot {
     kept: Option<KeptMoments>,
     /// Host time of the begin, us.
     begun_us: u64,
-    /// What is told next.
+    /// What is reported next.
     waiting: VecDeque<Fact>,
 }
 
@@ -86,7 +86,7 @@ impl OpenRobot {
         Ok(OpenRobot { robot, session, mind, kept, begun_us, waiting: VecDeque::new() })
     }
 
-    /// Looks for what is told next; none if nothing has come for a while.
+    /// Looks for what is reported next; none if nothing has come for a while.
     fn look(&mut self) -> anyhow::Result<Option<Fact>> {
         if self.waiting.is_empty() {
             match self.session.wait(LOOK) {
@@ -101,7 +101,7 @@ impl OpenRobot {
         self.waiting.is_empty() && self.session.is_over()
     }
 
-    /// Lets the mind hear something at the host's time, us, and tells what it means if that is news.
+    /// Lets the mind hear something at the host's time, us, and says what it means if that is news.
     fn mean(&mut self, hear: impl FnOnce(&mut RobotMind, u64) -> bool) -> anyhow::Result<()> {
         let now_us = self.session.now_us();
         let Some(mind) = self.mind.as_mut() else { return Ok(()) };
@@ -114,17 +114,17 @@ impl OpenRobot {
         Ok(())
     }
 
-    /// Tells the mind what others know, and the boards the robot's posture.
-    fn tell(&mut self, line: &ToldLine) -> anyhow::Result<()> {
-        let mut told =
+    /// Sends the mind what others know, and the boards the robot's posture.
+    fn take_input(&mut self, line: &HostInputLine) -> anyhow::Result<()> {
+        let mut taken =
             Err(argument("the boards are not at one time: open the robot with realtime=True").into());
         self.mean(|mind, now_us| {
-            let news = mind.tell(line, now_us).map(|news| news.is_some());
+            let news = mind.take_input(line, now_us).map(|news| news.is_some());
             let is_news = matches!(news, Ok(true));
-            told = news.map(drop).map_err(anyhow::Error::from);
+            taken = news.map(drop).map_err(anyhow::Error::from);
             is_news
         })?;
-        told.map(|()| self.session.take_joints(line.from_us(self.session.now_us()), line.joints()))
+        taken.map(|()| self.session.take_joints(line.from_us(self.session.now_us()), line.joints()))
     }
 
     fn take(&mut self, event: RobotEvent<BoardFact>) -> anyhow::Result<()> {
@@ -166,7 +166,7 @@ impl Robot {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is told next; none if nothing has come for a while, and an outer none at the end.
+    /// What is reported next; none if nothing has come for a while, and an outer none at the end.
     fn look(&self) -> anyhow::Result<Option<Option<Fact>>> {
         while self.asking.load(Ordering::Acquire) > 0 {
             std::thread::sleep(Duration::from_micros(100));
@@ -197,9 +197,9 @@ impl Robot {
 }
 
 impl Robot {
-    fn told(&self, line: &ToldLine) -> anyhow::Result<()> {
+    fn take_input(&self, line: &HostInputLine) -> anyhow::Result<()> {
         match self.interrupt().as_mut() {
-            Some(robot) => robot.tell(line),
+            Some(robot) => robot.take_input(line),
             None => Err(argument("the robot is closed").into()),
         }
     }
@@ -287,7 +287,7 @@ impl Robot {
     }
 
     /// The newest image of each board, a `Frame` or None, until this time of the host, ns; by default until all
-    /// boards have told theirs.
+    /// boards have sent theirs.
     #[pyo3(signature = (host_ns=None))]
     fn frames<'py>(&self, py: Python<'py>, host_ns: Option<u64>) -> PyResult<Bound<'py, PyDict>> {
         let host_us = host_ns.map(|ns| ns / 1000);
@@ -296,7 +296,7 @@ impl Robot {
     }
 
     /// The contacts of each board, a `Moment` or None, at this time of the host, ns; by default the newest that
-    /// all boards have told of.
+    /// all boards have reported.
     #[pyo3(signature = (host_ns=None))]
     fn contacts<'py>(&self, py: Python<'py>, host_ns: Option<u64>) -> PyResult<Bound<'py, PyDict>> {
         let host_us = host_ns.map(|ns| ns / 1000);
@@ -329,18 +329,18 @@ impl Robot {
         py.detach(send).map_err(raised)
     }
 
-    /// Tells the robot's map what others know: a value of -1 to 1 by its name, of this age.
+    /// Sends the robot's map what others know: a value of -1 to 1 by its name, of this age.
     #[pyo3(signature = (name, value, *, age_ms=0))]
-    fn tell(&self, py: Python<'_>, name: String, value: f64, age_ms: u32) -> PyResult<()> {
-        let line = ToldLine { told: [(name, value)].into(), age_ms, ..ToldLine::default() };
-        py.detach(|| self.told(&line)).map_err(raised)
+    fn set_input(&self, py: Python<'_>, name: String, value: f64, age_ms: u32) -> PyResult<()> {
+        let line = HostInputLine { host_input: [(name, value)].into(), age_ms, ..HostInputLine::default() };
+        py.detach(|| self.take_input(&line)).map_err(raised)
     }
 
-    /// Tells positions of the robot's joints, rad or m, of this age.
+    /// Sends positions of the robot's joints, rad or m, of this age.
     #[pyo3(signature = (positions, *, age_ms=0))]
     fn set_joints(&self, py: Python<'_>, positions: BTreeMap<String, f64>, age_ms: u32) -> PyResult<()> {
-        let line = ToldLine { positions, age_ms, ..ToldLine::default() };
-        py.detach(|| self.told(&line)).map_err(raised)
+        let line = HostInputLine { positions, age_ms, ..HostInputLine::default() };
+        py.detach(|| self.take_input(&line)).map_err(raised)
     }
 
     /// Why the robot's map has its activations now.

@@ -9,9 +9,9 @@ use pyo3::types::PyDict;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use taxel::mind::{self, RobotMeaningLine, RobotReasons, RobotTouchLine, ToldLine};
+use taxel::mind::{self, HostInputLine, RobotMeaningLine, RobotReasons, RobotTouchLine};
 use taxel::robot::ReadRobot;
-use taxel::tell::words;
+use taxel::text::words;
 
 /// The boards of a robot without pins and without a clock, and what touches mean to it.
 #[pyclass(frozen, subclass, module = "taxel")]
@@ -30,8 +30,8 @@ impl VirtualRobot {
         self.robot.board(board).ok_or_else(|| argument(words::unknown("board", board, names)).into())
     }
 
-    fn told(&self, line: &ToldLine, time_us: u64) -> anyhow::Result<()> {
-        self.lock().mind().tell(line, time_us)?;
+    fn take_input(&self, line: &HostInputLine, time_us: u64) -> anyhow::Result<()> {
+        self.lock().mind().take_input(line, time_us)?;
         Ok(())
     }
 }
@@ -83,14 +83,14 @@ impl VirtualRobot {
         fact.map(|fact| event::object(py, fact)).transpose()
     }
 
-    /// Tells the robot's map what others know at a time: a value of -1 to 1 by its name, of this age.
+    /// Sends the robot's map what others know at a time: a value of -1 to 1 by its name, of this age.
     #[pyo3(signature = (name, value, time_us, *, age_ms=0))]
-    fn tell(&self, py: Python<'_>, name: String, value: f64, time_us: u64, age_ms: u32) -> PyResult<()> {
-        let line = ToldLine { told: [(name, value)].into(), age_ms, ..ToldLine::default() };
-        py.detach(|| self.told(&line, time_us)).map_err(raised)
+    fn set_input(&self, py: Python<'_>, name: String, value: f64, time_us: u64, age_ms: u32) -> PyResult<()> {
+        let line = HostInputLine { host_input: [(name, value)].into(), age_ms, ..HostInputLine::default() };
+        py.detach(|| self.take_input(&line, time_us)).map_err(raised)
     }
 
-    /// Tells positions of the robot's joints, rad or m, at a time, of this age.
+    /// Sends positions of the robot's joints, rad or m, at a time, of this age.
     #[pyo3(signature = (positions, time_us, *, age_ms=0))]
     fn set_joints(
         &self,
@@ -99,8 +99,8 @@ impl VirtualRobot {
         time_us: u64,
         age_ms: u32,
     ) -> PyResult<()> {
-        let line = ToldLine { positions, age_ms, ..ToldLine::default() };
-        py.detach(|| self.told(&line, time_us)).map_err(raised)
+        let line = HostInputLine { positions, age_ms, ..HostInputLine::default() };
+        py.detach(|| self.take_input(&line, time_us)).map_err(raised)
     }
 
     /// What touches the robot now: a dict for each touch.

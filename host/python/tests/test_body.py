@@ -12,7 +12,7 @@ import pytest
 import taxel
 
 
-def test_a_body_on_the_board_tells_what_presses_where() -> None:
+def test_a_body_on_the_board_says_what_presses_where() -> None:
     board = taxel.VirtualBoard()
     rest = np.full(board.taxels, 100, dtype=np.uint16)
     board.set_body("reference")
@@ -87,7 +87,7 @@ def test_joints_become_poses_of_the_links() -> None:
 
 
 def is_refused(board: taxel.Board, positions: dict[str, float]) -> bool:
-    """Tells positions of joints."""
+    """Sends positions of joints."""
     try:
         board.set_joints(positions)
     except taxel.Error:
@@ -96,7 +96,7 @@ def is_refused(board: taxel.Board, positions: dict[str, float]) -> bool:
 
 
 def test_wrong_joints_and_robots_are_refused_by_name() -> None:
-    with pytest.raises(taxel.UsageError, match="a robot wears a body"):
+    with pytest.raises(taxel.UsageError, match="a robot needs a body"):
         taxel.open("sim:pat", robot="reference")
     with pytest.raises(taxel.UsageError, match="name one"):
         taxel.open("sim:pat", body="reference", poses_hz=10.0)
@@ -108,7 +108,7 @@ def test_wrong_joints_and_robots_are_refused_by_name() -> None:
         with pytest.raises(taxel.UsageError, match="no robot was named"):
             board.set_joints({"waist": 0.0})
     with taxel.open("sim:pat", body="reference", robot="reference", realtime=True, seconds=2) as board:
-        # Until the board has told its time, positions are passed over.
+        # Until the board has sent its time, positions are passed over.
         next(event for event in board if isinstance(event, taxel.Frame) and is_refused(board, {"wast": 0.0}))
         for positions, why in [({"wast": 0.0}, 'no joint "wast"'), ({"waist": 9.0}, "out of its range")]:
             with pytest.raises(taxel.Error, match=why):

@@ -39,11 +39,11 @@ def test_messages_are_those_of_mcap(recording: Path) -> None:
 
 def test_events_are_the_recorded_messages(recording: Path) -> None:
     mine = taxel.read(recording)
-    told = {kind: [json.loads(one.data) for one in mine.messages(f"/taxel/{kind}")]
+    reported = {kind: [json.loads(one.data) for one in mine.messages(f"/taxel/{kind}")]
             for kind in ("frames", "contacts", "intent", "symbols")}
     frames = list(mine.frames())
-    assert len(frames) == len(told["frames"]) > 300
-    for frame, line in zip(frames, told["frames"], strict=True):
+    assert len(frames) == len(reported["frames"]) > 300
+    for frame, line in zip(frames, reported["frames"], strict=True):
         assert (frame.frame, frame.time_us, frame.host_ns) == (
             line["frame"], line["time_us"], line["host_time_us"] * 1000)
         assert frame.image is not None and line["total"] == frame.image.sum()
@@ -51,9 +51,9 @@ def test_events_are_the_recorded_messages(recording: Path) -> None:
         assert np.hstack(list(frame.panels.values())).astype("<u2").tobytes() in image.data
     for kind in ("intent", "symbols"):
         events = [event.to_dict() for event in mine if event.type == kind]
-        lines = [{key: line[key] for key in event} for event, line in zip(events, told[kind], strict=True)]
+        lines = [{key: line[key] for key in event} for event, line in zip(events, reported[kind], strict=True)]
         assert events == lines, kind
-    for touches, line in zip(mine.contacts(), told["contacts"], strict=True):
+    for touches, line in zip(mine.contacts(), reported["contacts"], strict=True):
         assert touches.frame == line["frame"] and len(touches.contacts) == len(line["contacts"])
         for contact, written in zip(touches.contacts, line["contacts"], strict=True):
             for key in written.keys() & contact.dtype.names:
@@ -89,8 +89,8 @@ print(read.images().values.nbytes, most() - before)
 def test_images_take_the_memory_of_their_array(tmp_path: Path) -> None:
     file = tmp_path / "five.mcap"
     program("record", "--source", "sim:five", "--for", "60s", "-o", str(file))
-    told = subprocess.run([sys.executable, "-c", MEMORY, str(file)], check=True, capture_output=True, text=True)
-    array, taken = map(int, told.stdout.split())
+    reported = subprocess.run([sys.executable, "-c", MEMORY, str(file)], check=True, capture_output=True, text=True)
+    array, taken = map(int, reported.stdout.split())
     print(f"images of {array / 1e6:.0f} MB: resident memory grows by {taken / 1e6:.0f} MB")
     assert array > 40e6 and taken < 1.1 * array
 
@@ -103,7 +103,7 @@ def test_a_replay_is_the_recording(recording: Path) -> None:
     assert replayed == [event.json() for event in taxel.read(recording)]
 
 
-def test_what_is_no_recording_is_told(tmp_path: Path) -> None:
+def test_what_is_no_recording_is_reported(tmp_path: Path) -> None:
     file = tmp_path / "a.mcap"
     with pytest.raises(taxel.Error, match="a.mcap"):
         taxel.read(file)

@@ -40,13 +40,13 @@ def untimed(line: dict[str, Any]) -> dict[str, Any]:
 
 def test_events_of_each_board_are_the_lines_of_the_program(file: Path) -> None:
     lines = program("live", str(file), "--for", "1s", "--json").splitlines()
-    told = [line for line in map(json.loads, lines) if line["type"] != "board"]
+    reported = [line for line in map(json.loads, lines) if line["type"] != "board"]
     with taxel.open_robot(file, seconds=1) as robot:
         assert robot.boards == ["torso", "hand"]
         events = list(robot)
     for name in ("torso", "hand"):
         own = [event for event in events if event.board == name and not isinstance(event, taxel.BoardState)]
-        assert [untimed(event.to_dict()) for event in own] == [untimed(line) for line in told if line["board"] == name]
+        assert [untimed(event.to_dict()) for event in own] == [untimed(line) for line in reported if line["board"] == name]
         # All boards go by one time of the host.
         assert all(event.host_ns == event.to_dict()["host_time_us"] * 1000 for event in own)
         states = [event.state for event in events if isinstance(event, taxel.BoardState) and event.board == name]
@@ -80,7 +80,7 @@ def test_a_board_is_asked_by_its_name(file: Path) -> None:
 def test_images_and_contacts_of_all_boards_are_aligned(file: Path) -> None:
     with pytest.raises(taxel.UsageError, match="keep must be a time of 0 to 3600 seconds"):
         taxel.open_robot(file, keep=-1.0)
-    told: dict[str, list[taxel.Contacts]] = {"torso": [], "hand": []}
+    reported: dict[str, list[taxel.Contacts]] = {"torso": [], "hand": []}
     newest: dict[str, taxel.Frame] = {}
     with taxel.open_robot(file, seconds=2, keep=3600) as robot:
         for event in robot:
@@ -88,12 +88,12 @@ def test_images_and_contacts_of_all_boards_are_aligned(file: Path) -> None:
             if isinstance(event, taxel.Frame):
                 newest[board] = event
             if isinstance(event, taxel.Contacts):
-                told[board].append(event)
+                reported[board].append(event)
             if isinstance(event, taxel.BoardState) and event.state == "over" and board == "hand":
                 assert robot.frames(host_ns=1) == {"torso": None, "hand": None}
         # Between two lists a contact is between them.
         one, two = next(
-            pair for pair in zip(told["hand"], told["hand"][1:], strict=False) if len(pair[0].contacts) and len(pair[1].contacts)
+            pair for pair in zip(reported["hand"], reported["hand"][1:], strict=False) if len(pair[0].contacts) and len(pair[1].contacts)
         )
         middle = (one.host_ns + two.host_ns) // 2
         moment = robot.contacts(middle)["hand"]
@@ -109,9 +109,9 @@ def test_images_and_contacts_of_all_boards_are_aligned(file: Path) -> None:
             frame = frames[name]
             assert frame is not None and frame.image is not None and event.image is not None
             assert frame.host_ns == event.host_ns and np.array_equal(frame.image, event.image)
-        # By default: the newest that all have told of.
+        # By default: the newest that all have reported.
         aligned = robot.contacts()
-        last = min(events[-1].host_ns for events in told.values())
+        last = min(events[-1].host_ns for events in reported.values())
         assert {name: moment is not None and moment.host_ns <= last + 1000 for name, moment in aligned.items()} == {
             "torso": True,
             "hand": True,
@@ -146,14 +146,14 @@ def test_the_robot_s_map_says_what_touches_of_two_boards_mean(tmp_path: Path) ->
     why: dict[str, Any] = {}
     with taxel.open_robot(file, realtime=True) as robot:
         with pytest.raises(taxel.UsageError, match='did you mean "vision"'):
-            robot.tell("visoin", 0.5)
+            robot.set_input("visoin", 0.5)
         with pytest.raises(taxel.UsageError, match="must be -1 to 1"):
-            robot.tell("vision", 1.5)
+            robot.set_input("vision", 1.5)
         with pytest.raises(taxel.Error, match='there is no joint "knee"'):
             robot.set_joints({"knee": 0.5})
         for event in robot:
             if not meant:
-                robot.tell("voice", 0.5, age_ms=20)
+                robot.set_input("voice", 0.5, age_ms=20)
             if isinstance(event, taxel.RobotIntent):
                 meant.append(event)
                 if "hug" in event.holding and not why:
@@ -170,7 +170,7 @@ def test_the_robot_s_map_says_what_touches_of_two_boards_mean(tmp_path: Path) ->
 def test_boards_at_times_of_their_own_have_no_mind(file: Path) -> None:
     with taxel.open_robot(file, seconds=0.1) as robot:
         with pytest.raises(taxel.UsageError, match="realtime=True"):
-            robot.tell("vision", 0.5)
+            robot.set_input("vision", 0.5)
         with pytest.raises(taxel.UsageError, match="realtime=True"):
             robot.why()
 
@@ -188,7 +188,7 @@ def test_a_robot_is_stepped_by_hand(tmp_path: Path) -> None:
     with pytest.raises(taxel.UsageError, match="3 codes for a garment of 2048 taxels"):
         robot.step("torso", np.zeros(3, np.uint16), 0)
     with pytest.raises(taxel.UsageError, match='did you mean "vision"'):
-        robot.tell("visoin", 0.5, 0)
+        robot.set_input("visoin", 0.5, 0)
     meant: list[taxel.RobotIntent] = []
     for time_us in range(0, 1_500_000, 5_000):
         codes = np.full(2048, 100, np.uint16)

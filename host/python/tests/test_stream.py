@@ -34,11 +34,11 @@ def test_events_are_the_lines_of_the_program(scene: str) -> None:
 
 def test_images_are_the_pixels_of_the_program() -> None:
     lines = program("live", "--source", "sim:five", "--frames", "200", "--json", "--pixels").splitlines()
-    told = [line for line in map(json.loads, lines) if line["type"] == "frame"]
+    reported = [line for line in map(json.loads, lines) if line["type"] == "frame"]
     with taxel.open("sim:five", frames=200) as board:
         frames = [event for event in board if isinstance(event, taxel.Frame)]
-    assert len(frames) == len(told) == 200
-    for frame, line in zip(frames, told, strict=True):
+    assert len(frames) == len(reported) == 200
+    for frame, line in zip(frames, reported, strict=True):
         assert list(frame.panels) == [panel["name"] for panel in line["panels"]]
         for panel in line["panels"]:
             assert frame.panels[panel["name"]].tolist() == panel["rows"]
@@ -79,12 +79,12 @@ def test_contacts_are_structured() -> None:
             if not isinstance(event, (taxel.Contacts, taxel.Frame)):
                 continue
             assert event.contacts.dtype == taxel.CONTACT and not event.contacts.flags.writeable
-            for record, told in zip(event.contacts, event.to_dict()["contacts"], strict=True):
+            for record, reported in zip(event.contacts, event.to_dict()["contacts"], strict=True):
                 seen += 1
                 for name in taxel.CONTACT.names or ():
                     value = record[name].item()
                     absent = -1 if name == "form_age" else None
-                    want = told.get(name, absent)
+                    want = reported.get(name, absent)
                     assert value == want or (want is None and np.isnan(value)), name
     assert seen > 500
 
@@ -109,7 +109,7 @@ def test_requests_are_answered() -> None:
     assert answers["feed"] is not None, "the shipped map has no concept of this name"
 
 
-def test_postures_are_told_by_names() -> None:
+def test_postures_are_given_by_names() -> None:
     with taxel.open("sim:pat", tare=0, seconds=1) as board:
         answers: list[taxel.Answer] = []
         for event in board:
@@ -148,7 +148,7 @@ def test_nothing_is_simulated_in_place_of_a_board(
     began = time.monotonic()
     with pytest.raises(taxel.BoardError, match=why):
         taxel.open()
-    print(f"python: {opens}: told after {time.monotonic() - began:.1f} s")
+    print(f"python: {opens}: reported after {time.monotonic() - began:.1f} s")
 
 
 def test_a_board_that_is_waited_for_is_opened_once_it_is_there(recording: os.PathLike[str]) -> None:
@@ -176,7 +176,7 @@ def test_what_is_simulated_says_so() -> None:
     assert hello.simulated is True
 
 
-def test_wrong_use_is_told_in_a_sentence() -> None:
+def test_wrong_use_is_reported_in_a_sentence() -> None:
     with pytest.raises(taxel.UsageError, match='no script of touches "nope"'):
         taxel.open("sim:nope")
     with pytest.raises(taxel.UsageError, match=r"known are auto, usb\[:SERIAL\]"):
@@ -361,7 +361,7 @@ def test_another_board_is_an_error(recording: os.PathLike[str], tmp_path: Path) 
         for event in board:
             if isinstance(event, taxel.Frame) and event.image is not None:
                 sizes.add(event.image.size)
-    assert str(error.value).endswith("it wears the garment block-4x16, not reference") and sizes == {2048}
+    assert str(error.value).endswith("it has the garment block-4x16, not reference") and sizes == {2048}
 
 
 def megabytes() -> float:

@@ -15,9 +15,9 @@ from taxel import fcm
 def test_moments_are_those_of_the_command(tmp_path: Path) -> None:
     image = np.random.default_rng(7).integers(0, 400, (12, 9), np.uint16)
     np.save(tmp_path / "image.npy", image)
-    told = json.loads(program("features", "--json", str(tmp_path / "image.npy")))
-    assert taxel.moments(image) == told
-    assert told["m"] == int(image.sum())
+    reported = json.loads(program("features", "--json", str(tmp_path / "image.npy")))
+    assert taxel.moments(image) == reported
+    assert reported["m"] == int(image.sum())
 
 
 def test_features_are_of_the_board() -> None:

@@ -70,7 +70,7 @@ class Listener:
 
     def hear(self, kind, topic, qos=RELIABLE):
         got = Got()
-        # rclpy tells from its signature that a callback takes the information, too.
+        # rclpy knows from its signature that a callback takes the information, too.
         self.node.create_subscription(kind, topic, lambda message, info: got(message, info), qos)
         return got
 

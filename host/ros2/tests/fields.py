@@ -29,8 +29,8 @@ def contact(message, line, per_newton, frames):
     assert message.force == message.total / per_newton
     # Without a body there is no place on a link.
     assert message.body_link or math.isnan(message.link_position.x)
-    told = set(line) - set(SAME) - {"phase", "x_mm", "y_mm", "breadth_mm", "peak_breadth_mm", "azimuth"}
-    assert not told, f"without a field: {told}"
+    stated = set(line) - set(SAME) - {"phase", "x_mm", "y_mm", "breadth_mm", "peak_breadth_mm", "azimuth"}
+    assert not stated, f"without a field: {stated}"
     own = set(message.get_fields_and_field_types()) - set(SAME)
     on_link = {"body_link", "link_position", "link_normal", "link_force"}
     other = {"header", "contact", "phase", "position", "force", "azimuth", "breadth", "peak_breadth"}
@@ -41,9 +41,9 @@ def contacts(message, line, per_newton=1000.0, frames="tactile/"):
     """All fields of a list; `frames` is what the names of the panels' frames begin with."""
     assert message.frame == line["frame"] and message.dropped == line["dropped"]
     assert message.header.frame_id == ""
-    for own, told in [(message.contacts, line["contacts"]), (message.released, line["released"])]:
-        assert len(own) == len(told)
-        for one, other in zip(own, told):
+    for own, stated in [(message.contacts, line["contacts"]), (message.released, line["released"])]:
+        assert len(own) == len(stated)
+        for one, other in zip(own, stated):
             assert one.header.stamp == message.header.stamp
             contact(one, other, per_newton, frames)
 
@@ -52,17 +52,17 @@ def symbols(message, line):
     """All fields of Symbols.msg."""
     assert message.frame == line["frame"]
     assert len(message.events) == len(line["events"]) and len(message.regions) == len(line["regions"])
-    for one, told in zip(message.events, line["events"]):
-        words = told["words"]
+    for one, stated in zip(message.events, line["events"]):
+        words = stated["words"]
         own = [one.strength, one.extent, one.span, one.moving, one.shape]
         assert own == [words[key] for key in ["strength", "extent", "span", "moving", "shape"]]
-        assert [one.contact, PHASES[one.phase]] == [told["contact"], told["phase"]]
-        assert one.region == told["region"]
-        assert [one.peak_total, one.duration] == [told["peak_total"], told["duration_ms"] / 1000]
-    for one, told in zip(message.regions, line["regions"]):
+        assert [one.contact, PHASES[one.phase]] == [stated["contact"], stated["phase"]]
+        assert one.region == stated["region"]
+        assert [one.peak_total, one.duration] == [stated["peak_total"], stated["duration_ms"] / 1000]
+    for one, stated in zip(message.regions, line["regions"]):
         for key in ["region", "contacts", "total", "peak", "moving"]:
-            assert getattr(one, key) == told[key], key
-        assert one.since == told["since_us"] / 1e6
+            assert getattr(one, key) == stated[key], key
+        assert one.since == stated["since_us"] / 1e6
 
 
 def intent(message, line):
@@ -85,18 +85,18 @@ def health(message, line):
     assert [message.scan, message.process] == [line["scan_us"] / 1e6, line["process_us"] / 1e6]
 
 
-def vector(point, told, scale=1.0):
+def vector(point, stated, scale=1.0):
     """The same point or vector: two roundings apart."""
-    for own, other in zip((point.x, point.y, point.z), told):
-        assert math.isclose(own, other / scale, rel_tol=1e-12, abs_tol=1e-12), (point, told)
+    for own, other in zip((point.x, point.y, point.z), stated):
+        assert math.isclose(own, other / scale, rel_tol=1e-12, abs_tol=1e-12), (point, stated)
 
 
-def uncertain(message, told, per_newton):
+def uncertain(message, stated, per_newton):
     """What is unknown: nothing if the line has none."""
-    told = told or dict.fromkeys(["saturated", "faulty", "less", "more", "off_m"], 0)
-    assert [message.saturated, message.faulty] == [told["saturated"], told["faulty"]]
-    assert [message.less, message.more] == [told["less"] / per_newton, told["more"] / per_newton]
-    assert metres(message.off, told["off_m"] * 1000)
+    stated = stated or dict.fromkeys(["saturated", "faulty", "less", "more", "off_m"], 0)
+    assert [message.saturated, message.faulty] == [stated["saturated"], stated["faulty"]]
+    assert [message.less, message.more] == [stated["less"] / per_newton, stated["more"] / per_newton]
+    assert metres(message.off, stated["off_m"] * 1000)
 
 
 BODY_PHASES = ["free", "onset", "held", "moving", "released"]
@@ -106,34 +106,34 @@ WAYS = ["none", "forward", "back", "left", "right", "up", "down"]
 def body_regions(message, line):
     """All fields of BodyRegions.msg."""
     assert message.frame == line["frame"] and len(message.regions) == len(line["regions"])
-    for one, told in zip(message.regions, line["regions"]):
+    for one, stated in zip(message.regions, line["regions"]):
         own = [one.region, BODY_PHASES[one.phase], WAYS[one.way], one.contacts, one.strength, one.extent, one.shape]
-        assert own == [told[key] for key in ["region", "phase", "way", "contacts", "strength", "extent", "shape"]]
-        assert one.since == told["since_us"] / 1e6
+        assert own == [stated[key] for key in ["region", "phase", "way", "contacts", "strength", "extent", "shape"]]
+        assert one.since == stated["since_us"] / 1e6
 
 
 def pressing(message, line, per_newton=1000.0):
     """All fields of Pressing.msg."""
     assert message.frame == line["frame"] and message.newtons
     for own, key, scale in [("pose_age", "pose_age_us", 1e6), ("pose_error", "pose_error_m", 1.0)]:
-        own, told = getattr(message, own), line[key]
-        assert math.isnan(own) if told is None else math.isclose(own, told / scale, rel_tol=1e-12), key
+        own, stated = getattr(message, own), line[key]
+        assert math.isnan(own) if stated is None else math.isclose(own, stated / scale, rel_tol=1e-12), key
     assert [len(message.contacts), len(message.links)] == [len(line["contacts"]), len(line["links"])]
-    for one, told in zip(message.contacts, line["contacts"]):
-        assert [one.id, one.link] == [told["id"], told["link"]]
-        vector(one.position, told["at_m"])
-        vector(one.normal, told["normal"])
-        vector(one.force, told["force"], per_newton)
-        if told["base"] is None:
+    for one, stated in zip(message.contacts, line["contacts"]):
+        assert [one.id, one.link] == [stated["id"], stated["link"]]
+        vector(one.position, stated["at_m"])
+        vector(one.normal, stated["normal"])
+        vector(one.force, stated["force"], per_newton)
+        if stated["base"] is None:
             assert math.isnan(one.base_position.x)
         else:
-            vector(one.base_position, told["base"]["at_m"])
-            vector(one.base_normal, told["base"]["normal"])
-            vector(one.base_force, told["base"]["force"], per_newton)
-        uncertain(one.uncertain, told["uncertain"], per_newton)
-    for one, told in zip(message.links, line["links"]):
-        assert [one.link, one.pressed] == [told["link"], told["pressed"] / per_newton]
-        vector(one.force, told["force"], per_newton)
-        vector(one.moment, told["moment"], per_newton)
-        vector(one.center, told["center_m"])
-        uncertain(one.uncertain, told["uncertain"], per_newton)
+            vector(one.base_position, stated["base"]["at_m"])
+            vector(one.base_normal, stated["base"]["normal"])
+            vector(one.base_force, stated["base"]["force"], per_newton)
+        uncertain(one.uncertain, stated["uncertain"], per_newton)
+    for one, stated in zip(message.links, line["links"]):
+        assert [one.link, one.pressed] == [stated["link"], stated["pressed"] / per_newton]
+        vector(one.force, stated["force"], per_newton)
+        vector(one.moment, stated["moment"], per_newton)
+        vector(one.center, stated["center_m"])
+        uncertain(one.uncertain, stated["uncertain"], per_newton)

@@ -1,4 +1,4 @@
-"""Tells the joints of the reference robot, 100 times a second, each position of 15 ms before: the waist swings. In a
+"""Sends the joints of the reference robot, 100 times a second, each position of 15 ms before: the waist swings. In a
 process of its own, which is not held up by what another one hears."""
 
 import math

@@ -39,8 +39,8 @@ def robot(tmp_path):
 def test_each_board_says_below_its_name_what_it_says_alone(listener, robot):
     boards = {}
     for board in ["torso", "left_hand"]:
-        told = listener.hear(String, f"/{board}/taxel/json")
-        boards[board] = told, listener.hear(Contacts, f"/{board}/taxel/contacts")
+        heard = listener.hear(String, f"/{board}/taxel/json")
+        boards[board] = heard, listener.hear(Contacts, f"/{board}/taxel/contacts")
     images = listener.hear(Image, "/left_hand/tactile/mat/image", NEWEST)
     with taxel(robot):
         # On a busy machine ROS finds one topic of a node seconds before another.
@@ -66,9 +66,9 @@ def test_each_board_says_below_its_name_what_it_says_alone(listener, robot):
     assert images.messages[0].header.frame_id == "tactile/left_hand/mat"
 
 
-def compared(told, contacts):
+def compared(heard, contacts):
     """Lists of contacts with the line of JSON of the same frame: a scene that is repeated counts its frames on."""
-    lines = [json.loads(message.data) for message in told.messages]
+    lines = [json.loads(message.data) for message in heard.messages]
     lines = {line["frame"]: line for line in lines if line["type"] == "contacts"}
     return [(message, lines[message.frame]) for message in contacts.messages if message.frame in lines]
 
@@ -86,19 +86,19 @@ def test_the_robot_says_who_is_missing(listener, robot):
     assert statuses()["taxel: torso"].level == b"\0"
 
 
-def test_the_robot_says_what_touches_mean_and_hears_what_is_told(listener, robot):
+def test_the_robot_says_what_touches_mean_and_takes_host_input(listener, robot):
     # Both boards are let go at a time, so that the meaning changes.
     Path(robot).write_text(ROBOT.replace("sim:five", "sim:press"))
     meant = listener.hear(RobotIntent, "/robot_intent")
-    vision = listener.node.create_publisher(Float64, "/taxel/told/vision", 10)
+    vision = listener.node.create_publisher(Float64, "/taxel/host_input/vision", 10)
 
-    def is_told():
+    def is_reported():
         vision.publish(Float64(data=-0.5))
         return any("vision" not in message.defaults for message in meant.messages)
 
     with taxel(robot):
         listener.spin(lambda: {touch.board for one in meant.messages for touch in one.touches} == BOARDS, 30)
-        listener.spin(is_told, 30)
+        listener.spin(is_reported, 30)
         # Without a description the robot has no joints.
         listener.spin(lambda: listener.node.count_subscribers("/joint_states") == 2)
     for message in meant.messages:
@@ -109,8 +109,8 @@ def test_the_robot_says_what_touches_mean_and_hears_what_is_told(listener, robot
         for touch in message.touches:
             assert touch.board in BOARDS and touch.region and touch.mover == RobotTouch.UNSURE
             assert math.isnan(touch.approach_normal) and math.isnan(touch.hardness)
-    told = [(message.leading, [*message.holding]) for message in meant.messages]
-    assert all(one != other for one, other in zip(told, told[1:]))
+    heard = [(message.leading, [*message.holding]) for message in meant.messages]
+    assert all(one != other for one, other in zip(heard, heard[1:]))
     assert any("vision" in message.defaults for message in meant.messages)
 
 

@@ -32,13 +32,13 @@ weight = 1
 """
 
 
-def said(told, kind):
-    lines = [json.loads(message.data) for message in told.messages]
+def said(heard, kind):
+    lines = [json.loads(message.data) for message in heard.messages]
     return [line for line in lines if line["type"] == kind]
 
 
 def test_services_pass_on_what_the_board_says(listener):
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     with taxel("--source", "sim:idle"):
         assert listener.call(Trigger, "/taxel/tare", Trigger.Request()).success
         assert listener.call(Trigger, "/taxel/save", Trigger.Request()).success
@@ -49,7 +49,7 @@ def test_services_pass_on_what_the_board_says(listener):
         moon = scene('[[react]]\nname = "x"\ncause = "pressure"\nregion = "moon"\nlevel = 3\n')
         assert not moon.success
         assert moon.message.startswith("the board refuses: scene: react[0].region must be")
-    asked = [line["request"] for line in said(told, "answer")]
+    asked = [line["request"] for line in said(heard, "answer")]
     assert {"tare", "save", "set-scene"} <= set(asked), asked
 
 
@@ -79,9 +79,9 @@ def test_parameters_are_checked_and_work(listener):
         assert [values[0].string_value, values[1].double_value] == ["sim:pat", 50.0]
         assert [values[2].integer_value, values[3].integer_value, values[4].bool_value] == [64, 2000, False]
         listener.spin(lambda: len(images.messages) > 20)
-        wishes = {"image_hz": 0.0, "source": "usb", "tare_frames": 0, "concept_timeout_ms": 500}
-        wishes = [Parameter(name, value=value).to_parameter_msg() for name, value in wishes.items()]
-        asked = SetParameters.Request(parameters=wishes)
+        wanted = {"image_hz": 0.0, "source": "usb", "tare_frames": 0, "concept_timeout_ms": 500}
+        wanted = [Parameter(name, value=value).to_parameter_msg() for name, value in wanted.items()]
+        asked = SetParameters.Request(parameters=wanted)
         results = listener.call(SetParameters, "/taxel/set_parameters", asked).results
         assert [one.successful for one in results] == [True, False, False, True]
         assert results[2].reason == "tare_frames must be 1 to 4096"
@@ -94,7 +94,7 @@ def test_parameters_are_checked_and_work(listener):
 def test_joint_states_arrive_as_posture_with_their_stamp(listener):
     joints = listener.node.create_publisher(JointState, "/joint_states", 10)
     posture = listener.hear(JointState, "/taxel/posture", LATCHED)
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     sent = {}
     with taxel("--source", "sim:pat"):
         scene = 'joints = ["elbow", "left_shoulder_p"]\n'
@@ -119,7 +119,7 @@ def test_joint_states_arrive_as_posture_with_their_stamp(listener):
         # The wire has hundredths of a degree.
         for own, other in zip(message.position, position[1:]):
             assert abs(math.degrees(own) - math.degrees(other)) <= 0.005 + 1e-9
-    assert len([line for line in said(told, "answer") if line["request"] == "posture"]) >= 30
+    assert len([line for line in said(heard, "answer") if line["request"] == "posture"]) >= 30
 
 
 def test_concepts_are_topics(listener, tmp_path):

@@ -1,4 +1,4 @@
-"""Places, forces and the posture of a robot that wears the garment."""
+"""Places, forces and the posture of a robot that carries the garment."""
 
 import json
 import math
@@ -21,14 +21,14 @@ BODY = ("--body", "reference")
 ROBOT = (*BODY, "--robot", "reference")
 
 
-def by_frame(told, kind):
-    lines = [json.loads(message.data) for message in told.messages]
+def by_frame(heard, kind):
+    lines = [json.loads(message.data) for message in heard.messages]
     return {line["frame"]: line for line in lines if line["type"] == kind}
 
 
 @contextmanager
 def joints(*words):
-    """Tells joint states."""
+    """Sends joint states."""
     process = subprocess.Popen([sys.executable, Path(__file__).parent / "joints.py", *words])
     yield
     process.kill()
@@ -38,14 +38,14 @@ def joints(*words):
 def test_what_presses_on_a_robot_that_moves(listener):
     pressing = listener.hear(Pressing, "/taxel/pressing")
     contacts = listener.hear(Contacts, "/taxel/contacts")
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     posed = lambda: [one for one in pressing.messages if not math.isnan(one.pose_error)]
     motion = f"angular={SWING * FASTNESS**2}"
     # More than are compared: on a busy machine one of the topics may lack what the other has.
     with joints(), taxel("sim:five", *ROBOT, "--motion", motion):
         listener.spin(lambda: len(posed()) > 450, 60)
         listener.rest(0.5)
-    lines = by_frame(told, "pressing")
+    lines = by_frame(heard, "pressing")
     compared = [one for one in pressing.messages if one.frame in lines]
     assert len(compared) > 300
     for one in compared:
@@ -55,7 +55,8 @@ def test_what_presses_on_a_robot_that_moves(listener):
     worst, widest, judged = 0.0, 0.0, 0
     ages = sorted(one.pose_age for one in posed())
     age = ages[len(ages) // 2]
-    # A busy machine tells poses late. That they are old is then true, and what follows judges the bound for it.
+    # A busy machine sends poses late. That they are old is then true, and what follows judges the bound for
+    # it.
     assert age > -0.02 and (age < 0.1 or not LONG), ages
     for one in posed():
         angle = waist(stamp_us(one.header.stamp))
@@ -90,12 +91,12 @@ def test_regions_of_the_body_say_what_json_says(listener, tmp_path):
     reference = Path(__file__).parents[2] / "taxel/bodies/reference.toml"
     body.write_text(reference.read_text() + region)
     regions = listener.hear(BodyRegions, "/taxel/regions")
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     phases = lambda: {one.regions[0].phase for one in regions.messages}
     with taxel("--source", "sim:pat", "--body", str(body)):
         listener.spin(lambda: phases() >= {BodyRegion.ONSET, BodyRegion.RELEASED}, 30)
         listener.rest(0.5)
-    lines = by_frame(told, "regions")
+    lines = by_frame(heard, "regions")
     compared = [one for one in regions.messages if one.frame in lines]
     assert len(compared) > 3
     for one in compared:
@@ -105,15 +106,15 @@ def test_regions_of_the_body_say_what_json_says(listener, tmp_path):
 def test_forces_by_link_and_points_in_its_frame(listener):
     forces = listener.hear(WrenchStamped, "/tactile/links/torso/wrench", 10)
     points = listener.hear(PointCloud2, "/tactile/back/points", NEWEST)
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     pressed = lambda: [one for one in forces.messages if one.wrench.force.x]
     with taxel("--source", "sim:pat", *BODY, "--image-hz", "30"):
         listener.spin(lambda: len(pressed()) > 30 and len(points.messages) > 5, 30)
-        # Nothing presses any more: that is told, too.
+        # Nothing presses any more: that is reported, too.
         listener.spin(lambda: forces.messages[-1].wrench.force.x == 0, 20)
         listener.rest(0.5)
     # Messages of one scan have the same stamp.
-    all_lines = [json.loads(message.data) for message in told.messages]
+    all_lines = [json.loads(message.data) for message in heard.messages]
     lines = {line["host_time_us"]: line for line in all_lines if line["type"] == "pressing"}
     compared = 0
     for one in pressed():
@@ -143,7 +144,7 @@ def test_without_a_robot_joint_states_are_what_they_were(listener):
         assert one.header.frame_id == "" and math.isnan(one.pose_age) and math.isnan(one.pose_error)
 
 
-def test_wrong_joint_states_are_told_and_do_no_harm(listener):
+def test_wrong_joint_states_are_reported_and_do_no_harm(listener):
     pressing = listener.hear(Pressing, "/taxel/pressing")
     rosout = listener.hear(Log, "/rosout")
     said = lambda: [one.msg for one in rosout.messages if one.msg.startswith("joint_states: ")]

@@ -44,13 +44,13 @@ def resident(process):
 
 def test_all_contacts_arrive_and_say_what_json_says(listener):
     got = listener.hear(Contacts, "/taxel/contacts")
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     with taxel("--source", SOURCE, "--image-hz", "0"):
         listener.spin(lambda: len(of_five(got)) == MANY, 20 + MANY / 150)
         listener.rest(0.5)
     many = complete(got)
     by_frame = {}
-    for message in told.messages:
+    for message in heard.messages:
         line = json.loads(message.data)
         if line["type"] == "contacts":
             by_frame[line["frame"]] = line

@@ -17,10 +17,10 @@ from taxel_msgs.msg import Contacts, Health, Intent, Reaction, Symbols
 PITCH = (0.012, 0.010)
 
 
-def by_type(told):
+def by_type(heard):
     """Lines of JSON by type and frame."""
     all_lines = {}
-    for message in told.messages:
+    for message in heard.messages:
         line = json.loads(message.data)
         all_lines.setdefault((line["type"], line.get("frame", line.get("time_us"))), []).append(line)
     return all_lines
@@ -29,7 +29,7 @@ def by_type(told):
 def test_words_reactions_and_intention_say_what_json_says(listener, tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text('[[react]]\nname = "pressed"\ncause = "contacts"\nlevel = 1\n')
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     heard = [
         (listener.hear(Symbols, "/taxel/symbols"), "symbols", fields.symbols),
         (listener.hear(Intent, "/taxel/intent"), "intent", fields.intent),
@@ -39,7 +39,7 @@ def test_words_reactions_and_intention_say_what_json_says(listener, tmp_path):
         reactions = heard[2][0].messages
         listener.spin(lambda: {one.active for one in reactions} == {True, False}, 20)
         listener.rest(2)
-    lines = by_type(told)
+    lines = by_type(heard)
     for got, kind, same in heard:
         compared = 0
         for message in got.messages:
@@ -50,14 +50,14 @@ def test_words_reactions_and_intention_say_what_json_says(listener, tmp_path):
     assert heard[2][0].messages[0].name == "pressed"
 
 
-def test_health_is_told_to_who_comes_later(listener):
+def test_health_is_sent_to_who_comes_later(listener):
     with taxel("--source", "sim:pat"):
         listener.rest(3)
         health = listener.hear(Health, "/taxel/health", LATCHED)
         diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
-        told = listener.hear(String, "/taxel/json")
+        heard = listener.hear(String, "/taxel/json")
         listener.spin(lambda: len(diagnostics.messages) > 1 and len(health.messages) > 1)
-    of_health = [all_lines for (kind, _), all_lines in by_type(told).items() if kind == "health"]
+    of_health = [all_lines for (kind, _), all_lines in by_type(heard).items() if kind == "health"]
     lines = {line["scans"]: line for all_lines in of_health for line in all_lines}
     for message in health.messages:
         for line in filter(None, [lines.get(message.scans)]):
@@ -65,7 +65,7 @@ def test_health_is_told_to_who_comes_later(listener):
     status = diagnostics.messages[0].status[0]
     assert status.level == b"\0" and status.name == "taxel: board"
     assert status.hardware_id.startswith("taxel-sim")
-    assert {value.key for value in status.values} >= {"scans", "lost", "ill_taxels"}
+    assert {value.key for value in status.values} >= {"scans", "lost", "faulty_taxels"}
 
 
 def test_images_points_and_forces_agree(listener):
@@ -103,10 +103,10 @@ def test_images_points_and_forces_agree(listener):
 def test_with_clock_the_stamps_are_the_boards_time(listener):
     clock = listener.hear(Clock, "/clock")
     contacts = listener.hear(Contacts, "/taxel/contacts")
-    told = listener.hear(String, "/taxel/json")
+    heard = listener.hear(String, "/taxel/json")
     with taxel("--source", "sim:five", "--clock"):
         listener.spin(lambda: len(contacts.messages) > 50 and len(clock.messages) > 200, 20)
-    lines = by_type(told)
+    lines = by_type(heard)
     frames = [one for one in contacts.messages if ("contacts", one.frame) in lines]
     assert len(frames) > 20
     for one in frames:

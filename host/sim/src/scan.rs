@@ -57,10 +57,10 @@ impl<'l, C: Clock + Clone> SimScan<'l, C> {
 
     /// Prepares a scan of another circuit or plan.
     fn begin(&mut self, circuit: &Circuit, plan: &Plan) {
-        if self.of.as_ref().is_some_and(|(worn, read)| worn == circuit && read == plan) {
+        if self.of.as_ref().is_some_and(|(known, read)| known == circuit && read == plan) {
             return;
         }
-        if self.of.as_ref().is_none_or(|(worn, _)| worn != circuit) {
+        if self.of.as_ref().is_none_or(|(known, _)| known != circuit) {
             self.codes.fill(Code(0));
         }
         self.of = Some((circuit.clone(), *plan));
@@ -216,7 +216,7 @@ impl<C: Clock + Clone> Acquire for SimScan<'_, C> {
     }
 
     fn reflex(&mut self) -> Option<Early> {
-        self.reflex.told()
+        self.reflex.take_early()
     }
 }
 

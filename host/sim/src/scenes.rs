@@ -90,10 +90,10 @@ mod tests {
 
     #[test]
     fn scenes_put_their_force_where_they_say() {
-        let close = |found: [f32; 4], told: [f32; 4]| {
+        let close = |found: [f32; 4], reported: [f32; 4]| {
             assert!(
-                found.iter().zip(told).all(|(f, t)| (f - t).abs() <= 0.02 * t),
-                "{found:?} is not {told:?}"
+                found.iter().zip(reported).all(|(f, t)| (f - t).abs() <= 0.02 * t),
+                "{found:?} is not {reported:?}"
             );
         };
         for peak in [0.3, 0.57, 0.84] {

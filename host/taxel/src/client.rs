@@ -20,6 +20,7 @@ mod buses;
 pub mod cleaned;
 pub mod clock;
 mod counts;
+mod description;
 mod event;
 pub mod growths;
 mod held;
@@ -38,11 +39,11 @@ mod stamps;
 mod syncs;
 mod time;
 mod wanted;
-mod worn;
 
 pub use again::Restored;
 pub use buses::Buses;
 pub use counts::Counts;
+pub use description::{BoardDescription, SIMULATED, is_simulated};
 pub use event::{Event, ImageNews};
 pub use identity::Identity;
 pub use known::leads;
@@ -50,10 +51,9 @@ pub use requests::{request_name, scene_bytes};
 pub use retained_state::RetainedState;
 pub use scene_change::SceneChange;
 pub use stamps::{NS, Stamp, Stamps, time_of};
-pub use worn::{SIMULATED, Worn, is_simulated};
 
 use crate::client::growths::Growths;
-use crate::tell::words::printable;
+use crate::text::words::printable;
 use held::{Beside, HeldRequest};
 use life::Life;
 use ongoing::Ongoing;
@@ -111,7 +111,7 @@ pub struct Client {
     is_only: bool,
     /// Short name of the source, and the serial number on USB that its link has now.
     link: (String, Option<String>),
-    worn: Option<Worn>,
+    description: Option<BoardDescription>,
     picture: Picture,
     raw: Vec<u16>,
     contacts: Vec<Placed>,
@@ -119,7 +119,7 @@ pub struct Client {
     ongoing: Ongoing,
     released: Vec<u32>,
     /// The releases belong to a frame that was reported.
-    told: bool,
+    is_reported: bool,
     regions: Vec<RegionState>,
     intention: Option<IntentReport>,
     /// Last report with the announced intention in the lead.
@@ -135,7 +135,7 @@ pub struct Client {
     health: Option<Health>,
     budget: Option<Budget>,
     celsius: Option<Celsius>,
-    ill: BTreeMap<u16, TaxelHealth>,
+    faulty: BTreeMap<u16, TaxelHealth>,
     self_test: Option<SelfTestReport>,
     /// Classes taught to the board; empty while the built-in base is in use.
     shapes: Vec<String>,
@@ -173,14 +173,14 @@ impl Client {
             identity: Identity::default(),
             is_only: false,
             link: Default::default(),
-            worn: None,
+            description: None,
             picture: Picture::default(),
             raw: Vec::new(),
             contacts: Vec::new(),
             growths: Growths::default(),
             ongoing: Ongoing::default(),
             released: Vec::new(),
-            told: false,
+            is_reported: false,
             regions: Vec::new(),
             intention: None,
             led: None,
@@ -191,7 +191,7 @@ impl Client {
             health: None,
             budget: None,
             celsius: None,
-            ill: BTreeMap::new(),
+            faulty: BTreeMap::new(),
             self_test: None,
             shapes: Vec::new(),
             surface_regions: Vec::new(),
@@ -304,7 +304,7 @@ impl Client {
             return Ok(None);
         }
         if number == Report::HELLO
-            && let Some(Err(why)) = Hello::protocol_of(body).map(Worn::speaks)
+            && let Some(Err(why)) = Hello::protocol_of(body).map(BoardDescription::speaks)
         {
             // Whatever else it holds is not this protocol's.
             self.understood(false);
@@ -328,7 +328,7 @@ impl Client {
         self.end_all();
         // Its contacts are counted anew.
         self.ongoing = Ongoing::default();
-        self.ill.clear();
+        self.faulty.clear();
         self.self_test = None;
     }
 
@@ -417,7 +417,7 @@ impl Client {
 
     fn take_health(&mut self, health: Health) -> Event {
         self.health = Some(health);
-        self.told_time(health.time);
+        self.note_time(health.time);
         Event::Health(health)
     }
 
@@ -433,20 +433,20 @@ impl Client {
 
     /// No event of a board that is refused.
     fn take_hello(&mut self, hello: &Hello<'_>) -> Option<Event> {
-        Some(match Worn::read(hello) {
-            Ok(worn) => {
-                if !self.greeted(&worn) {
+        Some(match BoardDescription::read(hello) {
+            Ok(description) => {
+                if !self.greeted(&description) {
                     self.line.clear();
                     return None;
                 }
-                if self.worn.as_ref().is_none_or(|before| before.garment != worn.garment) {
+                if self.description.as_ref().is_none_or(|before| before.garment != description.garment) {
                     self.forget();
                 }
-                if self.concepts() != worn.concepts() {
+                if self.concepts() != description.concepts() {
                     // Activations belong to the concepts of the scene before.
                     (self.intention, self.led) = (None, None);
                 }
-                self.worn = Some(worn);
+                self.description = Some(description);
                 Event::Hello
             }
             Err(why) => Event::Unusable(why),
@@ -454,13 +454,16 @@ impl Client {
     }
 
     fn take_frame(&mut self, frame: &Frame<'_>) -> Event {
-        let every = self.worn.as_ref().is_some_and(|worn| worn.scene.stream.frames_hz == u16::MAX);
+        let every = self
+            .description
+            .as_ref()
+            .is_some_and(|description| description.scene.stream.frames_hz == u16::MAX);
         self.counts.frame(frame.frame, every);
-        self.told_time(frame.time);
-        if self.told {
+        self.note_time(frame.time);
+        if self.is_reported {
             self.released.clear();
         }
-        self.told = true;
+        self.is_reported = true;
         let taxels = self.layout().map_or(0, |layout| layout.taxels());
         let news = self.picture.take(frame, taxels);
         if self.picture.wants_key() {
@@ -474,7 +477,7 @@ impl Client {
     }
 
     fn take_contacts(&mut self, list: &ContactList) -> Event {
-        if std::mem::take(&mut self.told) {
+        if std::mem::take(&mut self.is_reported) {
             self.released.clear();
         }
         let (gone, mut here): (Vec<_>, Vec<_>) =
@@ -495,10 +498,10 @@ impl Client {
     fn take_map(&mut self, map: &HealthMap) -> Event {
         let taxels = self.layout().map_or(0, |layout| layout.taxels());
         let span = usize::from(map.first)..usize::from(map.end);
-        self.ill.retain(|taxel, _| !span.contains(&usize::from(*taxel)));
-        for ill in &map.taxels {
-            let end = ill.first.saturating_add(ill.count).min(map.end);
-            self.ill.extend((ill.first.max(map.first)..end).map(|taxel| (taxel, ill.health)));
+        self.faulty.retain(|taxel, _| !span.contains(&usize::from(*taxel)));
+        for faulty in &map.taxels {
+            let end = faulty.first.saturating_add(faulty.count).min(map.end);
+            self.faulty.extend((faulty.first.max(map.first)..end).map(|taxel| (taxel, faulty.health)));
         }
         Event::HealthMap { time: map.time, whole: span.end >= taxels }
     }

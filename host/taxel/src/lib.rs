@@ -13,7 +13,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`error`] | what fails, by concern, for programs and for people |
-//! | [`tell`] | errors in plain words, steps and progress of long work |
+//! | [`text`] | errors in plain words, steps and progress of long work |
 //! | [`sim`] | the simulated garment and its scripts of touches |
 //! | [`files`] | safe outputs, recorded frames, garments, scripts, calibrations |
 //! | [`body`] | the garment on the robot: where each taxel lies, forces by link |
@@ -54,12 +54,12 @@
 
 // First: the modules below use its macros.
 #[macro_use]
-mod told;
+mod stderr;
 
 #[macro_use]
 pub mod error;
 
-pub mod tell;
+pub mod text;
 
 /// The simulated garment and its scripts of touches.
 pub use taxel_sim as sim;

@@ -85,8 +85,8 @@ impl VirtualBoard {
         let folds = self.board.state().condition.folds();
         let taxels =
             folds.table().into_iter().flat_map(|table| table.folded()).flat_map(|(_, taxels)| taxels);
-        let told = |taxel: &u16| folds.of(*taxel).map(|[expected, doubt]| [*taxel, expected, doubt]);
-        taxels.filter_map(told).collect()
+        let reported = |taxel: &u16| folds.of(*taxel).map(|[expected, doubt]| [*taxel, expected, doubt]);
+        taxels.filter_map(reported).collect()
     }
 
     /// The client, for requests; they reach the board with the next step.
@@ -96,7 +96,7 @@ impl VirtualBoard {
 
     /// One scan, which started and ended at this time, with the codes of all taxels by their numbers. Hands
     /// over the events that it causes. A scene with a rate of its own takes only the scans that are due.
-    pub fn step(&mut self, codes: &[u16], time: Micros, told: &mut EventSink<'_>) -> Result<()> {
+    pub fn step(&mut self, codes: &[u16], time: Micros, reported: &mut EventSink<'_>) -> Result<()> {
         require!(
             self.last.is_none_or(|last| last <= time),
             UsageError::Argument,
@@ -110,7 +110,7 @@ impl VirtualBoard {
         let requests = self.client.take_requests();
         self.board.step(time, Input::Received(&requests), &mut ());
         self.is_due |= self.work(time);
-        self.send(time, told)?;
+        self.send(time, reported)?;
         // A request may just have changed the garment.
         let taxels = self.taxels();
         require!(
@@ -125,7 +125,7 @@ impl VirtualBoard {
             let report = ScanReport { start: time, ..ScanReport::default() };
             let scan = Scan { codes: &self.codes, report };
             self.board.step(time, Input::Scanned(Ok(scan)), &mut ());
-            self.send(time, told)?;
+            self.send(time, reported)?;
         }
         Ok(())
     }
@@ -169,7 +169,7 @@ impl VirtualBoard {
     }
 
     /// Takes all that the board sends.
-    fn send(&mut self, now: Micros, told: &mut EventSink<'_>) -> Result<()> {
+    fn send(&mut self, now: Micros, reported: &mut EventSink<'_>) -> Result<()> {
         loop {
             let bytes = self.board.pending(now, &mut ());
             let count = bytes.len();
@@ -178,7 +178,7 @@ impl VirtualBoard {
             }
             for byte in bytes {
                 if let Some(event) = self.client.push(*byte) {
-                    told(&self.client, &event).context("an event could not be handed over")?;
+                    reported(&self.client, &event).context("an event could not be handed over")?;
                 }
             }
             self.board.sent(count);

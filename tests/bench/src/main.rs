@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use taxel::files::output;
-use taxel::tell::words;
+use taxel::text::words;
 use taxel_bench::boards::{self, player};
 use taxel_bench::{Report, acquisition, amplifier, mind, nmi, record, stages, tap};
 use taxel_cli::fault;

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use taxel::body::DVec3;
 use taxel::body::robot::RobotJoint;
-use taxel::mind::{BoardSense, MindReader, RobotMind, ToldLine};
+use taxel::mind::{BoardSense, HostInputLine, MindReader, RobotMind};
 use taxel::robot::ReadRobot;
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
@@ -182,7 +182,7 @@ fn hear(robot: &ReadRobot, senses: &[Vec<Vec<BoardSense>>]) -> Result<()> {
         if begun_us.is_multiple_of(JOINTS_US) {
             let moved = 0.1 * (begun_us as f64 * 2e-6).sin();
             let positions = joints.iter().map(|(joint, at)| (joint.to_string(), at + moved)).collect();
-            mind.tell(&ToldLine { positions, ..ToldLine::default() }, begun_us)?;
+            mind.take_input(&HostInputLine { positions, ..HostInputLine::default() }, begun_us)?;
         }
         for (board, senses) in senses.iter().enumerate() {
             let now_us = begun_us + board as u64 * PERIOD_US / count;

@@ -1,4 +1,4 @@
-//! Cost of recording compared with perception, and speed of replay. What the processor does is told apart from
+//! Cost of recording compared with perception, and speed of replay. What the processor does is distinguished from
 //! what is waited for: the disk, and other programs.
 
 use anyhow::{Context, Result};
@@ -53,7 +53,7 @@ pub struct RecordCost {
 /// Time of a frame, us.
 #[derive(Debug, Clone, Copy)]
 pub struct Spent {
-    /// Of the processor, in this thread; none if the system does not tell it.
+    /// Of the processor, in this thread; none if the system does not report it.
     pub cpu: Option<f64>,
     /// From beginning to end.
     pub elapsed: f64,

@@ -13,8 +13,8 @@ fn costs_are_printed() {
     let rows = cost.json()["rows"].as_array().unwrap().clone();
     assert!(rows.iter().all(|row| cost.table().contains(row[0].as_str().unwrap())));
     assert!(cost.perceived.elapsed > 0.0 && cost.replayed.elapsed > 0.0, "{cost:?}");
-    let told = std::fs::exists("/proc/thread-self/schedstat").unwrap();
-    assert_eq!(cost.recorded.cpu.is_some_and(|us| us > 0.0), told, "{cost:?}");
+    let reported = std::fs::exists("/proc/thread-self/schedstat").unwrap();
+    assert_eq!(cost.recorded.cpu.is_some_and(|us| us > 0.0), reported, "{cost:?}");
     println!("{}", cost.table());
 }
 

@@ -2,7 +2,7 @@
 //! back in the base, and what the elbow folds is none.
 
 use super::{REST, sent, storing, table};
-use crate::twin::{Course, Reports, SCAN_US, Told, followed};
+use crate::twin::{Course, Reports, RobotState, SCAN_US, followed};
 use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use taxel_suite::folds::FOLDS;
 
 /// Scans that are shown.
 const SCANS: usize = 600;
-/// Time in which nobody tells where the robot is, us.
+/// Time in which nobody sends where the robot is, us.
 const SILENT: Range<u64> = 1_000_000..2_000_000;
 /// Most by which a place in the base may differ from that in f64, m.
 const APART: f64 = 1e-4;
@@ -56,10 +56,10 @@ impl Moving {
         self.surface.poses(&self.robot.poses(&posture), 0).unwrap()
     }
 
-    /// What is told of the robot after so many us.
-    pub fn told(&self, us: u64) -> Told {
+    /// What is sent of the robot after so many us.
+    pub fn sent(&self, us: u64) -> RobotState {
         let bent = JointAngle { joint: 0, centidegrees: (100.0 * elbow(us)) as i16 };
-        Told {
+        RobotState {
             us,
             posture: Posture { joints: [bent].into_iter().collect() },
             poses: sent(self.surface.surface().links().iter().zip(self.poses(us))),
@@ -127,15 +127,15 @@ fn a_robot_that_moves_is_felt_in_its_base_and_not_where_it_folds() {
     let scene = postcard::to_allocvec(&scene).unwrap();
     let requests = [Request::Start, Request::SetScene(&scene)];
     let course = Course { tables: &tables, requests: &requests, codes: &codes, dwell: 1 };
-    let tell = |us: u64| (!SILENT.contains(&us)).then(|| moving.told(us));
+    let state_at = |us: u64| (!SILENT.contains(&us)).then(|| moving.sent(us));
     let kinds = ["Frame", "Contacts", "Symbols", "Intent", "Pressing", "Folds"];
-    let (reports, told) = followed(&mut board, &course, &kinds, &tell);
+    let (reports, sent) = followed(&mut board, &course, &kinds, &state_at);
     board.end();
 
     // Posture, none any more, and one again: each report says which.
     let (folds, pressing) = read(&reports);
-    let is_told = |it: &FoldsReport| it.posed.is_some_and(|at| it.time.since(at) < STALE_US);
-    assert!(folds.iter().all(|it| it.followed == is_told(it)));
+    let is_reported = |it: &FoldsReport| it.posed.is_some_and(|at| it.time.since(at) < STALE_US);
+    assert!(folds.iter().all(|it| it.followed == is_reported(it)));
     let mut turns: Vec<bool> = folds.iter().map(|it| it.followed).collect();
     turns.dedup();
     assert_eq!(turns.strip_prefix(&[false]).unwrap_or(&turns), [true, false, true]);
@@ -143,8 +143,8 @@ fn a_robot_that_moves_is_felt_in_its_base_and_not_where_it_folds() {
     // Contacts in the base are where the host's kinematics have them.
     let mut judged = 0;
     for PressingReport { posed, contacts, .. } in &pressing {
-        let told = told.iter().find(|(arrived, _)| Some(*arrived) == *posed);
-        let Some((_, Told { us, .. })) = told else { continue };
+        let sent = sent.iter().find(|(arrived, _)| Some(*arrived) == *posed);
+        let Some((_, RobotState { us, .. })) = sent else { continue };
         let poses = moving.poses(*us);
         for contact in contacts {
             let exact = poses[usize::from(contact.spot.link)].point(metres(contact.spot.at));

@@ -1,4 +1,4 @@
-"""A robot in MuJoCo that wears a taxel garment: contacts and folds as newtons on each taxel.
+"""A robot in MuJoCo that carries a taxel garment: contacts and folds as newtons on each taxel.
 
 The solver of a simulator that nobody of this project wrote says what presses where.
 :mod:`~taxel_physics.spread` spreads that over the taxels, whose places the program ``taxel`` gives, and

@@ -33,7 +33,7 @@ SCAN_US = 5_000
 """Time from scan to scan."""
 
 JOINTS_US, LATE_US, READ_RAD = 10_000, 8_000, 1e-4
-"""Joints are told this often, this late, with this standard deviation: an encoder of 16 bits."""
+"""Joints are sent this often, this late, with this standard deviation: an encoder of 16 bits."""
 
 SPEED_M_S = (0.06, 0.5)
 """Speeds of the robot's surface along its normal when it moves itself."""
@@ -107,7 +107,7 @@ class Felt:
 
 
 class Bumps:
-    """A world whose robot wears a garment, and the very board that feels it."""
+    """A world whose robot carries a garment, and the very board that feels it."""
 
     def __init__(self, world: World, places: Places, folder: Path, body: str = "reference") -> None:
         self.world, self.places = world, places
@@ -219,15 +219,15 @@ class Bumps:
             meant = robot.step("board", fabric.codes(newtons), now_us)
             if meant is not None:
                 felt.leading.append(meant.leading)
-            told = self._strongest(robot.touches(), (bump.link, bump.by))
-            if told and first is not None:
-                felt.mover, felt.approach = told.mover, told.approach
+            strongest = self._strongest(robot.touches(), (bump.link, bump.by))
+            if strongest and first is not None:
+                felt.mover, felt.approach = strongest.mover, strongest.approach
             now_us += SCAN_US
         return felt
 
     @staticmethod
     def _strongest(touches: list[taxel.RobotTouch], links: tuple[str, str]) -> taxel.RobotTouch | None:
-        """The strongest touch of the links; of two links that touch each other, the one that is not told right."""
+        """The strongest touch of the links; of two links that touch each other, the one that is not reported right."""
         on = [[touch for touch in touches if touch.link == link] for link in links]
         most = [max(each, key=lambda touch: touch.load) for each in on if each]
         return min(most, key=lambda touch: touch.mover == "own", default=None)

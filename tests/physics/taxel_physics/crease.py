@@ -1,7 +1,7 @@
 """The garment creases where a joint bends: bulges press on its taxels although nothing touches it.
 
 The bulges move and grow with the angle, lag behind it, and lie elsewhere each day; ``creases.toml`` has the
-numbers and says what they mean. This is a model, and knows nothing of how anyone tells folds from touches.
+numbers and says what they mean. This is a model, and knows nothing of how anyone distinguishes folds from touches.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ class Creases:
                 on = places.on(side["link"])
                 along, around = _unrolled(places.at[on], side)
                 for bulge in read["bulge"]:
-                    # Drawn for all, so that what a garment wears does not change the day of the rest.
+                    # Drawn for all, so that what a garment lies on does not change the day of the rest.
                     own = rng.normal(size=4)
                     if bulge["side"] == number and len(on) > 0:
                         self._bulges.append(

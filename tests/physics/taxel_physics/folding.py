@@ -1,7 +1,7 @@
 """A garment that creases while its joints move, on the very board, which knows of its folds or does not.
 
 The creases are those of :mod:`~taxel_physics.crease`, or of a :mod:`~taxel_physics.pattern`; the codes are those
-of :mod:`~taxel_physics.fabric`. A posture is told to the board 50 times a second, as a robot tells it: between two
+of :mod:`~taxel_physics.fabric`. A posture is sent to the board 50 times a second, as a robot reports it: between two
 of them the joints go on.
 """
 
@@ -86,7 +86,7 @@ class Moment:
     time_s: float
     """Since the motion began."""
     known: Array
-    """(joints,) Angles as last told to the board, or as they would be, rad."""
+    """(joints,) Angles as last sent to the board, or as they would be, rad."""
     folds: Array
     """(taxels,) Forces of the garment's folds, N."""
     frame: taxel.Frame
@@ -98,7 +98,7 @@ class Moment:
 
 
 class Folding:
-    """A garment on one day, and the board that wears it."""
+    """A garment on one day, and the board with it."""
 
     def __init__(
         self,
@@ -121,8 +121,8 @@ class Folding:
         self.board = taxel.VirtualBoard(str(garment))
         self.touch = np.zeros(places.taxels)
         """(taxels,) Forces of what else presses, N: to be set between two moments."""
-        self.told = True
-        """False from when on the board is told no posture."""
+        self.sent = True
+        """False from when on the board is sent no posture."""
         self._folds = folds or Creases(places, day)
         self._time_us = 0
         self._leading = "none"
@@ -154,7 +154,7 @@ class Folding:
                 folds = self._folds.step(bent, step * self.scan_us * 1e-6)
             if scan % posture == 0:
                 known = angles
-                if self.told:
+                if self.sent:
                     degrees = np.degrees(angles).tolist()
                     self.board.set_posture(dict(zip(self.joints, degrees, strict=True)))
             frame, said = self._scan(folds + self.touch)

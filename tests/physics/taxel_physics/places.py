@@ -35,7 +35,7 @@ class Places:
     """(taxels, 3) Direction away from the robot there, of length 1."""
 
     def on(self, link: str) -> npt.NDArray[np.intp]:
-        """Numbers of the taxels on a link, rising; none on a link that wears nothing."""
+        """Numbers of the taxels on a link, rising; none on a link that carries nothing."""
         if link not in self.links:
             return np.empty(0, np.intp)
         return np.flatnonzero(self.link == self.links.index(link))
@@ -49,7 +49,7 @@ class Places:
 def places(
     body: str | Path = "reference", taxels: int = 2048, garment: str | Path = "reference"
 ) -> Places:
-    """Places of a body and the garment that it wears, each a preset's name or a TOML file.
+    """Places of a body and its garment, each a preset's name or a TOML file.
 
     ``taxels`` is the garment's number of taxels. Raises ``RuntimeError`` with the program's own words.
     """

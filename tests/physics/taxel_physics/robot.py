@@ -77,7 +77,7 @@ def _torso(inner: str) -> str:
 
 
 def reference() -> Robot:
-    """Torso and two arms, for the body ``reference``. The forearms wear nothing."""
+    """Torso and two arms, for the body ``reference``. The forearms carry nothing."""
     top, bottom = 0.01, -0.335
     ends = [(z, _cone_radius(z, -0.16, 0.04, 1.5)) for z in (bottom, top)]
 
@@ -100,7 +100,7 @@ def reference() -> Robot:
 
 
 def bent() -> Robot:
-    """Torso and a left arm that wears both sleeves, for the body ``bent.toml``.
+    """Torso and a left arm that carries both sleeves, for the body ``bent.toml``.
 
     The elbow's hinge lies at its inner side, and the forearm crosses the upper arm when it is folded back:
     smooth surfaces meet there, not the ends of the links, where no taxels are.

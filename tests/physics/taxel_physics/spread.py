@@ -6,7 +6,7 @@ those of the touch. With a profile p, widths D and equations A f = b this is
     minimise  (f - p)^T D^-1 (f - p) / 2 + |A f - b|^2 / (2 eps),   f >= 0,
 
 whose solution is f = max(0, p + D A^T y), where y has as many numbers as there are equations: eight. Newton's
-method finds it in a few steps. What the equations lack is told, not hidden: on a cone, for example, no taxel
+method finds it in a few steps. What the equations lack is reported, not hidden: on a cone, for example, no taxel
 forces have exactly a wide touch's direction.
 """
 

@@ -19,8 +19,8 @@ PRESSES = 240
 
 
 @dataclass(frozen=True)
-class Worn:
-    """A robot and the garment that it wears."""
+class Dressed:
+    """A robot and its garment."""
 
     name: str
     world: World
@@ -37,26 +37,26 @@ class Pressed:
 
 
 @pytest.fixture(scope="session", params=["reference", "bent"])
-def worn(request: pytest.FixtureRequest) -> Worn:
+def dressed(request: pytest.FixtureRequest) -> Dressed:
     """Both bodies, one after the other."""
     name = str(request.param)
     if name == "reference":
-        return Worn(name, World(reference()), places())
-    return Worn(name, World(bent()), places(BODIES / "bent.toml"))
+        return Dressed(name, World(reference()), places())
+    return Dressed(name, World(bent()), places(BODIES / "bent.toml"))
 
 
 @pytest.fixture(scope="session")
-def pressed(worn: Worn) -> list[Pressed]:
+def pressed(dressed: Dressed) -> list[Pressed]:
     """What presses at random give on a body; those that slip past the link, or find no way, do not count."""
     found: list[Pressed] = []
-    for attempt, each in enumerate(random_presses(worn.places, worn.world, seed=11)):
+    for attempt, each in enumerate(random_presses(dressed.places, dressed.world, seed=11)):
         assert attempt < 2 * PRESSES, "most presses must reach their link"
         if len(found) == PRESSES:
             break
-        for touch in press(worn.world, each) or []:
+        for touch in press(dressed.world, each) or []:
             # A robot that moves may press harder or more lightly than the object is pushed.
             if touch.by == each.by and FORCES_N[0] <= touch.newtons <= FORCES_N[1]:
-                found.append(Pressed(each, touch, spread(worn.world, worn.places, touch)))
+                found.append(Pressed(each, touch, spread(dressed.world, dressed.places, touch)))
     return found
 
 

@@ -41,7 +41,7 @@ class Learned:
 
     def day(self, day: int, knows: bool = True) -> Folding:
         """A board on one of the days that are judged; one that knows of no folds, if it should not."""
-        return self._worn(day, 1000 + day, self.table if knows else None)
+        return self._folding(day, 1000 + day, self.table if knows else None)
 
     def motion(self, day: int, seconds: float) -> Array:
         """(scans, joints) Angles of the joints, another motion each day."""
@@ -50,7 +50,7 @@ class Learned:
 
     def sweep(self, day: int, seconds: float) -> Sweep:
         """What a board that knows of no folds feels on a day."""
-        folding = self._worn(day, 50 + day, None)
+        folding = self._folding(day, 50 + day, None)
         moments = [
             (moment.known, moment.frame.image) for moment in folding.run(self.motion(day, seconds))
         ]
@@ -74,7 +74,7 @@ class Learned:
                 return shift_mm
         raise refused or ValueError("no shift")
 
-    def _worn(self, day: int, seed: int, table: Path | None) -> Folding:
+    def _folding(self, day: int, seed: int, table: Path | None) -> Folding:
         return Folding(
             self.places,
             day=day,
@@ -241,13 +241,13 @@ def r(pairs: Array) -> float:
 
 
 def touched(
-    learned: Learned, newtons: tuple[float, float], days: Iterable[int], seconds: float, told: bool = True
+    learned: Learned, newtons: tuple[float, float], days: Iterable[int], seconds: float, sent: bool = True
 ) -> list[Felt]:
     """Touches on these days; those that take a taxel to the end of its range do not count."""
     felt = []
     for day in days:
         folding = learned.day(day)
-        folding.told = told
+        folding.sent = sent
         touching = Touching(learned, folding, seed=3000 + day, newtons=newtons)
         felt += [touch for _, touch in touching.run(learned.motion(day, seconds)) if touch is not None]
     whole = [touch for touch in felt if not touch.full]
@@ -257,7 +257,7 @@ def touched(
 
 @dataclass(frozen=True)
 class Verdict:
-    """How well folds are told from touches, over some days."""
+    """How well folds are distinguished from touches, over some days."""
 
     taxels: int
     """Taxels in the table."""

@@ -38,12 +38,12 @@ def felt(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Felt]]:
     return found
 
 
-def test_whose_motion_it_was_is_told(felt: dict[str, list[Felt]]) -> None:
-    lines = ["Whose motion has caused a touch     told: own, other, unsure; announced an attack"]
+def test_whose_motion_it_was_is_reported(felt: dict[str, list[Felt]]) -> None:
+    lines = ["Whose motion has caused a touch     reported: own, other, unsure; announced an attack"]
     for kind, each in felt.items():
-        told = Counter(one.mover for one in each)
+        counted = Counter(one.mover for one in each)
         attacks = sum("attack" in one.leading for one in each)
-        counts = ", ".join(str(told[mover]) for mover in ("own", "other", "unsure"))
+        counts = ", ".join(str(counted[mover]) for mover in ("own", "other", "unsure"))
         lines.append(f"  {kind:8}{len(each):5} touches   {counts}; {attacks}")
     note("\n".join(lines))
     for kind in ("own", "other"):
@@ -65,9 +65,9 @@ def test_a_folded_arm_touches_itself(tmp_path: Path) -> None:
         each = folded.feel(bump, seed)
         if each is not None and each.mover is not None:
             felt.append(each)
-    told = Counter(one.mover for one in felt)
-    note(f"  folded  {FOLDS:5} touches   {told['own']}, {told['other']}, {told['unsure']}")
-    assert told["own"] >= RIGHT * FOLDS
+    counted = Counter(one.mover for one in felt)
+    note(f"  folded  {FOLDS:5} touches   {counted['own']}, {counted['other']}, {counted['unsure']}")
+    assert counted["own"] >= RIGHT * FOLDS
     assert not [one for one in felt if "attack" in one.leading]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from conftest import Pressed, Worn, table
+from conftest import Pressed, Dressed, table
 
 from taxel_physics.fabric import FORCES, Chain, Fabric
 from taxel_physics.places import Array
@@ -34,40 +34,40 @@ def chain(request: pytest.FixtureRequest) -> tuple[str, Chain]:
     return name, Chain(Fabric(2048, 21), scene=FORCES if name == "forces" else None)
 
 
-def errors(worn: Worn, each: Pressed, felt_newtons: Array) -> list[float]:
+def errors(dressed: Dressed, each: Pressed, felt_newtons: Array) -> list[float]:
     """Errors of one reading (taxels,), N, against the solver: force, centre, moment."""
-    return differences(worn, each, wrench(worn.places, felt_newtons, each.touch.link))
+    return differences(dressed, each, wrench(dressed.places, felt_newtons, each.touch.link))
 
 
-def differences(worn: Worn, each: Pressed, felt: Wrench) -> list[float]:
+def differences(dressed: Dressed, each: Pressed, felt: Wrench) -> list[float]:
     """Differences of a wrench from the solver's: force, centre, moment."""
     touch = each.touch
     true = touch.moment + np.cross(touch.point, touch.force)
     return [
         float(np.linalg.norm(felt.force - touch.force)) / touch.newtons,
         off_line(touch.force, touch.point, felt.center) / PITCH_M,
-        float(np.linalg.norm(felt.moment - true)) / touch.newtons / reach(worn.places, touch.link),
+        float(np.linalg.norm(felt.moment - true)) / touch.newtons / reach(dressed.places, touch.link),
     ]
 
 
 def test_links_feel_what_the_solver_says(
-    worn: Worn, pressed: list[Pressed], chain: tuple[str, Chain]
+    dressed: Dressed, pressed: list[Pressed], chain: tuple[str, Chain]
 ) -> None:
     kind, through = chain
     means, singles, forces, beyond = [], [], [], 0
     for each in pressed:
-        newtons = np.zeros(worn.places.taxels)
+        newtons = np.zeros(dressed.places.taxels)
         newtons[each.spread.taxels] = each.spread.newtons
         if through.fabric.is_full(newtons).any():
-            # The converter's range ends below the force: no chain can tell more than "at least".
+            # The converter's range ends below the force: no chain can report more than "at least".
             beyond += 1
             continue
         readings = through.read(newtons, FRAMES)
-        means.append(errors(worn, each, readings.mean(axis=0)))
-        singles.append(errors(worn, each, readings[0]))
+        means.append(errors(dressed, each, readings.mean(axis=0)))
+        singles.append(errors(dressed, each, readings[0]))
         forces.append(each.touch.newtons)
     columns = dict(zip(BARS, np.array(means).T, strict=True))
-    title = f"After the chain, body {worn.name}, scene {kind}, {len(means)} presses, mean of {FRAMES} images"
+    title = f"After the chain, body {dressed.name}, scene {kind}, {len(means)} presses, mean of {FRAMES} images"
     table(f"{title} ({beyond} more press a taxel beyond the converter's range)", columns, BARS)
     table("  the same in one image", dict(zip(BARS, np.array(singles).T, strict=True)), {})
     for low, high in ((0.5, 1.0), (1.0, 2.0), (2.0, 5.0), (5.0, 40.0)):

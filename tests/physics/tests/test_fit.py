@@ -1,4 +1,4 @@
-"""How a garment is worn, found by ``taxel body fit`` from presses whose points the solver knows."""
+"""How a garment sits, found by ``taxel body fit`` from presses whose points the solver knows."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import taxel
-from conftest import Worn, table
+from conftest import Dressed, table
 
 from taxel_physics.fabric import FRAME_US, Fabric
 from taxel_physics.places import BODIES, Array, Places, places
@@ -39,14 +39,14 @@ SETTLE, FRAMES = 4, 4
 
 
 def put_on(text: str, rng: np.random.Generator) -> str:
-    """The text of a body file whose panels are worn otherwise."""
+    """The text of a body file whose panels are displaced."""
     lines = []
     for line in text.splitlines():
         lines.append(line)
         if line.startswith("[[patches]]"):
             right, down = rng.uniform(-SHIFT_M, SHIFT_M, 2)
             turn = rng.uniform(-TURN_DEG, TURN_DEG)
-            lines.append(f"worn = {{ right = {right:.6f}, down = {down:.6f}, turn = {turn:.4f} }}")
+            lines.append(f"offset = {{ right = {right:.6f}, down = {down:.6f}, turn = {turn:.4f} }}")
     return "\n".join(lines)
 
 
@@ -87,19 +87,19 @@ class Feeling:
         return seen
 
 
-def known_touches(worn: Worn, truly: Places, seed: int, file: Path) -> int:
+def known_touches(dressed: Dressed, truly: Places, seed: int, file: Path) -> int:
     """Writes what the board feels of presses on a garment that lies at these places. Returns their number."""
     feeling = Feeling(seed)
     rows: list[tuple[str, float, float, str, float, float, float]] = []
-    for each in random_presses(worn.places, worn.world, seed):
+    for each in random_presses(dressed.places, dressed.world, seed):
         if len(rows) == PRESSES:
             break
         if each.by not in SMALL or each.moves:
             continue
-        for touch in press(worn.world, each) or []:
+        for touch in press(dressed.world, each) or []:
             if touch.by != each.by:
                 continue
-            carried = spread(worn.world, truly, touch)
+            carried = spread(dressed.world, truly, touch)
             newtons = np.zeros(truly.taxels)
             newtons[carried.taxels] = carried.newtons
             felt = feeling.feel(newtons)
@@ -115,8 +115,8 @@ def known_touches(worn: Worn, truly: Places, seed: int, file: Path) -> int:
     return len(rows)
 
 
-def test_a_garment_worn_otherwise_is_found_by_a_hundred_presses(worn: Worn, tmp_path: Path) -> None:
-    body = REFERENCE if worn.name == "reference" else BODIES / f"{worn.name}.toml"
+def test_a_displaced_garment_is_found_by_a_hundred_presses(dressed: Dressed, tmp_path: Path) -> None:
+    body = REFERENCE if dressed.name == "reference" else BODIES / f"{dressed.name}.toml"
     rng = np.random.default_rng(5)
     before, after = [], []
     for time in range(TIMES):
@@ -124,15 +124,15 @@ def test_a_garment_worn_otherwise_is_found_by_a_hundred_presses(worn: Worn, tmp_
         put.write_text(put_on(body.read_text(), rng))
         truly = places(put)
         touches, fitted = tmp_path / f"touches-{time}.csv", tmp_path / f"fitted-{time}.toml"
-        assert known_touches(worn, truly, 31 + time, touches) == PRESSES
+        assert known_touches(dressed, truly, 31 + time, touches) == PRESSES
         words = ["-m", "taxel", "body", "fit", str(body), "--touches", str(touches), "-o", str(fitted)]
         done = subprocess.run([sys.executable, *words], check=False, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         found = places(fitted)
-        apart = [np.linalg.norm(each.at - truly.at, axis=1).max() * 1e3 for each in (worn.places, found)]
+        apart = [np.linalg.norm(each.at - truly.at, axis=1).max() * 1e3 for each in (dressed.places, found)]
         before.append(apart[0])
         after.append(apart[1])
     columns = {"as its file says, mm": before, "as fitted, mm": after}
-    title = f"The taxel farthest from its place, body {worn.name}, worn at random {TIMES} times, {PRESSES} presses"
+    title = f"The taxel farthest from its place, body {dressed.name}, displaced at random {TIMES} times, {PRESSES} presses"
     table(title, columns, {"as fitted, mm": BAR_MM})
     assert max(after) < BAR_MM < min(before)

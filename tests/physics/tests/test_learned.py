@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from conftest import Worn, table
+from conftest import Dressed, table
 from judge import Day, Learned, r, touched, untouched
 
 SWEPT_DAYS, SWEPT_S = range(6), 90.0
@@ -48,19 +48,19 @@ STRONG_N = (6.0, 8.0)
 """Range of a strong touch's force."""
 
 SILENT_S = 60.0
-"""Length of the motion on each day on which no posture is told, or not always."""
+"""Length of the motion on each day on which no posture is sent, or not always."""
 
 STALE_LEFT, BLIND_LEFT = 0.001, 0.05
 """Most of the scans with a false contact while a posture is stale, and in the half second before."""
 
-TOLD_S, UNTOLD_S, STALE_S = 6.0, 3.0, 0.5
-"""Times for which postures are told and are not, in turn; and the age at which a posture counts no more."""
+SENT_S, SILENT_S, STALE_S = 6.0, 3.0, 0.5
+"""Times for which postures are sent and are not, in turn; and the age at which a posture counts no more."""
 
 
 @pytest.fixture(scope="module")
-def learned(worn: Worn, tmp_path_factory: pytest.TempPathFactory) -> Learned:
+def learned(dressed: Dressed, tmp_path_factory: pytest.TempPathFactory) -> Learned:
     """Learns a body's folds from sweeps."""
-    learned = Learned(worn.name, worn.places, tmp_path_factory.mktemp(worn.name) / "learned.folds")
+    learned = Learned(dressed.name, dressed.places, tmp_path_factory.mktemp(dressed.name) / "learned.folds")
     learned.learn(SWEPT_DAYS, SWEPT_S)
     return learned
 
@@ -151,32 +151,32 @@ def test_touches_are_found_and_their_force_is_known(learned: Learned) -> None:
 
 def test_without_a_posture_nothing_is_a_touch_but_what_is_strong(learned: Learned) -> None:
     silent = [Day() for _ in DAYS]
-    ends: dict[str, list[float]] = {name: [] for name in ("told", "not yet stale", "stale")}
+    ends: dict[str, list[float]] = {name: [] for name in ("sent", "not yet stale", "stale")}
     for day, never in zip(DAYS, silent, strict=True):
         folding = learned.day(day)
-        folding.told = False
+        folding.sent = False
         for moment in folding.run(learned.motion(day, SILENT_S)):
             never.note(moment)
         folding = learned.day(day)
         for moment in folding.run(learned.motion(day, SILENT_S)):
-            since_s = moment.time_s % (TOLD_S + UNTOLD_S)
-            folding.told = since_s < TOLD_S
-            state = "told" if folding.told else "not yet stale" if since_s < TOLD_S + STALE_S else "stale"
+            since_s = moment.time_s % (SENT_S + SILENT_S)
+            folding.sent = since_s < SENT_S
+            state = "sent" if folding.sent else "not yet stale" if since_s < SENT_S + STALE_S else "stale"
             ends[state].append(float(len(moment.frame.contacts) > 0))
-    touches = {newtons: touched(learned, newtons, DAYS[:2], TOUCHED_S, told=False) for newtons in (STRONG_N, FORCES_N)}
+    touches = {newtons: touched(learned, newtons, DAYS[:2], TOUCHED_S, sent=False) for newtons in (STRONG_N, FORCES_N)}
     columns = {
-        "never told: scans with a contact": [day.share for day in silent],
+        "never sent: scans with a contact": [day.share for day in silent],
         **{f"{name}: scans with one, share": [float(np.mean(scans))] for name, scans in ends.items()},
     }
     for (low, high), felt in touches.items():
         for where in ("pressed", "folding", "elsewhere"):
             found = [touch.found for touch in felt if touch.where == where]
             columns[f"{low:g}-{high:g} N, {where}: missed"] = [1.0 - float(np.mean(found))]
-    bars = {"never told: scans with a contact": 0.0, "stale: scans with one, share": STALE_LEFT}
+    bars = {"never sent: scans with a contact": 0.0, "stale: scans with one, share": STALE_LEFT}
     bars |= {f"{STRONG_N[0]:g}-{STRONG_N[1]:g} N, {where}: missed": MISSED for where in ("pressed", "folding")}
     title = f"Without a posture, body {learned.name}"
     table(f"{title}; or one that ends and is stale after {STALE_S:g} s", columns, bars)
-    assert max(columns["never told: scans with a contact"]) == 0.0
+    assert max(columns["never sent: scans with a contact"]) == 0.0
     for never in silent:
         assert never.intentions == {"none"}
     assert np.mean(ends["stale"]) <= STALE_LEFT

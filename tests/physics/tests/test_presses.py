@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from conftest import Pressed, Worn, table
+from conftest import Pressed, Dressed, table
 
 from taxel_physics.robot import OBJECTS
 from taxel_physics.wrench import off_line, reach, wrench
@@ -16,19 +16,19 @@ CENTER = "centre of pressure, pitches"
 MOMENT = "moment, share of force x reach"
 
 
-def test_forces_and_centres_are_the_solvers(worn: Worn, pressed: list[Pressed]) -> None:
+def test_forces_and_centres_are_the_solvers(dressed: Dressed, pressed: list[Pressed]) -> None:
     force: list[float] = []
     center, moment, sunk, carried = list(force), list(force), list(force), list(force)
     for each in pressed:
-        newtons = np.zeros(worn.places.taxels)
+        newtons = np.zeros(dressed.places.taxels)
         newtons[each.spread.taxels] = each.spread.newtons
         assert newtons.min() >= 0.0
-        felt, touch = wrench(worn.places, newtons, each.touch.link), each.touch
+        felt, touch = wrench(dressed.places, newtons, each.touch.link), each.touch
         force.append(float(np.linalg.norm(felt.force - touch.force)) / touch.newtons)
         center.append(off_line(touch.force, touch.point, felt.center) / PITCH_M)
         true = touch.moment + np.cross(touch.point, touch.force)
         moment.append(
-            float(np.linalg.norm(felt.moment - true)) / touch.newtons / reach(worn.places, touch.link)
+            float(np.linalg.norm(felt.moment - true)) / touch.newtons / reach(dressed.places, touch.link)
         )
         sunk.append(float(np.linalg.norm(felt.center - touch.point)) * 1e3)
         carried.append(float((each.spread.newtons > 0.01 * each.spread.newtons.max()).sum()))
@@ -43,16 +43,16 @@ def test_forces_and_centres_are_the_solvers(worn: Worn, pressed: list[Pressed]) 
     bars = {FORCE: 1e-3, CENTER: 0.1}
     still = sum(not each.press.moves for each in pressed)
     presses = f"{still} presses on a still robot, {len(pressed) - still} on a moving one"
-    title = f"Before noise, body {worn.name}: {presses}"
+    title = f"Before noise, body {dressed.name}: {presses}"
     table(title, columns, bars)
     assert len(pressed) >= 200
     assert {each.press.by for each in pressed} == set(OBJECTS)
-    assert {each.touch.link for each in pressed} == set(worn.places.links)
+    assert {each.touch.link for each in pressed} == set(dressed.places.links)
     assert max(force) < bars[FORCE]
     assert max(center) < bars[CENTER]
 
 
-def test_robots_that_move_do_move(worn: Worn, pressed: list[Pressed]) -> None:
+def test_robots_that_move_do_move(dressed: Dressed, pressed: list[Pressed]) -> None:
     """On a robot that is still, the solver's force is the push along the object's direction."""
     ratio: dict[bool, list[float]] = {True: [], False: []}
     for each in pressed:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from conftest import Pressed, Worn
+from conftest import Pressed, Dressed
 
 from taxel_physics.spread import nearest, spread
 
@@ -35,14 +35,14 @@ def test_a_profile_that_fits_is_kept() -> None:
     assert np.allclose(nearest(np.array([1.0, 2.0, 1.0]), left, np.ones(1)), [0.25, 0.5, 0.25])
 
 
-def test_what_cannot_be_carried_is_told(worn: Worn, pressed: list[Pressed]) -> None:
+def test_what_cannot_be_carried_is_reported(dressed: Dressed, pressed: list[Pressed]) -> None:
     """A force 10 degrees off the normals, and a point beyond the garment."""
-    worn.world.reset()
+    dressed.world.reset()
     touch = next(each.touch for each in pressed if each.touch.link == "torso")
     off = replace(touch, force=touch.force + np.array([0.0, 0.0, 0.176 * touch.newtons]))
-    assert spread(worn.world, worn.places, off).force_error > 0.1
-    top = worn.places.at[worn.places.on("torso")][:, 2].max()
+    assert spread(dressed.world, dressed.places, off).force_error > 0.1
+    top = dressed.places.at[dressed.places.on("torso")][:, 2].max()
     beyond = replace(touch, point=np.array([*touch.point[:2], top + 0.012]))
-    assert spread(worn.world, worn.places, beyond).center_error > 0.01
+    assert spread(dressed.world, dressed.places, beyond).center_error > 0.01
     away = replace(touch, point=np.array([*touch.point[:2], top + 0.2]))
-    assert spread(worn.world, worn.places, away).force_error == 1.0
+    assert spread(dressed.world, dressed.places, away).force_error == 1.0

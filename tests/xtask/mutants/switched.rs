@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 const VARIABLE: &str = "TAXEL_MUTANT";
 /// Shortest time after which tests are taken for endless. On a busy machine they may take long.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// The module that tells which mutant is in force, for each crate that has some.
+/// The module that says which mutant is in force, for each crate that has some.
 const MODULE: &str = r#"
 #[doc(hidden)]
 mod mutant {

@@ -1,4 +1,4 @@
-//! The list of contacts that waits for the link. Present contacts are told from the table of contacts; only
+//! The list of contacts that waits for the link. Present contacts are reported from the table of contacts; only
 //! those that have left it are copied.
 
 use crate::body::Placed;
@@ -10,7 +10,7 @@ use crate::wire::{Each, Health, LISTED};
 use heapless::Vec;
 use serde::ser::{Serialize, SerializeSeq, SerializeStruct, Serializer};
 
-/// What is to be told of the newest frame, and of what ended since the last list was sent.
+/// What is to be reported of the newest frame, and of what ended since the last list was sent.
 pub(super) struct ContactQueue {
     /// True if the list is to be sent.
     pub waits: bool,
@@ -22,13 +22,13 @@ pub(super) struct ContactQueue {
     pub dropped: u16,
     /// Number of present contacts that have a place in the list: the first ones.
     listed: u16,
-    /// Present contacts whose onset was not told yet.
+    /// Present contacts whose onset was not reported yet.
     begun: Vec<Begun, CONTACTS>,
     /// Contacts that ended, in the order of the list.
     ended: Vec<Ended, CONTACTS>,
 }
 
-/// A contact whose onset was not told yet, in the last frame in which it was present.
+/// A contact whose onset was not reported yet, in the last frame in which it was present.
 #[derive(Clone, Copy)]
 struct Begun {
     id: u32,
@@ -41,7 +41,7 @@ struct Ended {
     placed: Placed,
     /// Number of the frame with which it ended.
     frame: u32,
-    /// Set if its onset was not told yet either.
+    /// Set if its onset was not reported yet either.
     begun: Option<Begun>,
 }
 
@@ -193,14 +193,14 @@ fn first_group(ended: &[Ended]) -> (&[Ended], &[Ended]) {
     (ended.get(..count).unwrap_or(&[]), ended.get(count..).unwrap_or(&[]))
 }
 
-/// Adds the onsets that were not told. There is room: `ContactQueue::end` has counted, here and elsewhere.
+/// Adds the onsets that were not reported. There is room: `ContactQueue::end` has counted, here and elsewhere.
 fn onsets<'a>(group: &'a [Ended], entries: &mut Vec<Listed<'a>, LISTED>) {
     for ended in group.iter().filter(|ended| ended.begun.is_some()) {
         let _ = entries.push((&ended.placed, ended.begun));
     }
 }
 
-/// A contact; if its onset is told, with total and duration of then. With the end only these change.
+/// A contact; if its onset is reported, with total and duration of then. With the end only these change.
 type Listed<'a> = (&'a Placed, Option<Begun>);
 
 /// A [`ContactList`](crate::wire::ContactList) of what waits and of the table's present contacts.
@@ -208,7 +208,7 @@ pub(super) struct List<'a> {
     queue: &'a ContactQueue,
     present: &'a [Placed],
     unsure: &'a UnsureState<CONTACTS>,
-    /// Ages of the forms of the present contacts; empty if they are not told.
+    /// Ages of the forms of the present contacts; empty if they are not reported.
     ages: &'a [u8],
 }
 
@@ -275,7 +275,7 @@ mod tests {
 
     /// The list as a copy of every contact, in which onsets and ends stay until they are sent.
     fn copied(list: &mut std::vec::Vec<Placed>, present: &[Placed], released: &[Placed]) {
-        let untold: std::vec::Vec<u32> =
+        let unreported: std::vec::Vec<u32> =
             list.iter().filter(|p| p.contact.phase == Phase::Onset).map(|p| p.contact.id).collect();
         let is_present = |id| present.iter().any(|p| p.contact.id == id);
         list.retain(|old| match old.contact.phase {
@@ -285,7 +285,7 @@ mod tests {
         });
         for placed in present {
             let mut placed = placed.clone();
-            if untold.contains(&placed.contact.id) {
+            if unreported.contains(&placed.contact.id) {
                 placed.contact.phase = Phase::Onset;
             }
             list.push(placed);
@@ -332,8 +332,8 @@ mod tests {
                 form_ages: Vec::new(),
             };
             let unsure = UnsureState::default();
-            let told = postcard::to_allocvec(&List::of(&queue, &present, &unsure, &[])).unwrap();
-            assert_eq!([&told[..], &[0, 0]].concat(), postcard::to_allocvec(&copy).unwrap());
+            let encoded = postcard::to_allocvec(&List::of(&queue, &present, &unsure, &[])).unwrap();
+            assert_eq!([&encoded[..], &[0, 0]].concat(), postcard::to_allocvec(&copy).unwrap());
             waited = if queue.waits { waited + 1 } else { 0 };
             if rng.u8(..6) == 0 {
                 (queue.waits, waited) = (false, 0);

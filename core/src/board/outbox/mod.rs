@@ -352,7 +352,7 @@ impl<const TAXELS: usize> Outbox<TAXELS> {
         }
     }
 
-    /// Queues the ends of contacts whose garment is no longer worn. They precede the `Hello` of the next one,
+    /// Queues the ends of contacts whose garment is no longer in use. They precede the `Hello` of the next one,
     /// whose panels and regions have other names.
     pub fn end_contacts(
         &mut self,

@@ -8,7 +8,7 @@
 //! base, counted in its instructions. Taxels near a run are encoded by [stretches](super::stretch), with
 //! about 80 cycles for each stretch.
 
-use super::stretch::{LANES, ROOM, Taxels, Told, go_on, push, tell, tell_by_call, zigzag};
+use super::stretch::{LANES, ROOM, StretchEnd, Taxels, encode, encode_by_call, go_on, push, zigzag};
 use crate::wire::image_decode::RUN;
 use bytemuck::pod_align_to;
 use core::mem::take;
@@ -81,12 +81,12 @@ fn equal([a, b, c, d]: &[u32; 4], [e, f, g, h]: &[u32; 4]) -> bool {
 pub(super) struct Encoder<'a> {
     out: &'a mut [u8],
     /// First taxel that is not encoded yet.
-    told: usize,
+    encoded: usize,
 }
 
 impl<'a> Encoder<'a> {
     pub fn new(out: &'a mut [u8]) -> Self {
-        Encoder { out, told: 0 }
+        Encoder { out, encoded: 0 }
     }
 
     /// Number of bytes left.
@@ -107,33 +107,33 @@ impl<'a> Encoder<'a> {
 
     #[inline(never)]
     fn alone(&mut self, start: usize, values: &[u16]) -> Option<()> {
-        let (mut out, mut told, mut now) = (take(&mut self.out), self.told, values);
+        let (mut out, mut encoded, mut now) = (take(&mut self.out), self.encoded, values);
         loop {
             now = behind_zeros(now);
             let Some((first, more)) = now.split_first() else { break };
             let at = start + values.len() - now.len();
-            let (length, begun) = varint(out, (at - told) as u32)?.split_first_mut()?;
+            let (length, begun) = varint(out, (at - encoded) as u32)?.split_first_mut()?;
             let run = rest::<true>(varint(begun, zigzag((*first).into()))?, more, now, RUN - 1)?;
             *length = 1 + run.taxels as u8;
             now = more.get(run.taxels..)?;
-            (out, told) = (run.out, at + 1 + run.taxels);
+            (out, encoded) = (run.out, at + 1 + run.taxels);
         }
-        (self.out, self.told) = (out, told);
+        (self.out, self.encoded) = (out, encoded);
         Some(())
     }
 
     /// Begins a run. Returns the place of its length, one byte, which is filled in when the run ends.
     #[inline(always)]
     fn begin(&mut self, start: usize) -> Option<&'a mut u8> {
-        let out = varint(take(&mut self.out), (start - self.told) as u32)?;
+        let out = varint(take(&mut self.out), (start - self.encoded) as u32)?;
         let (length, rest) = out.split_first_mut()?;
-        (self.out, self.told) = (rest, start);
+        (self.out, self.encoded) = (rest, start);
         Some(length)
     }
 
     fn difference(&mut self, part: Range<usize>, values: &[u16], base: &[u16]) -> Option<()> {
         let base = base.get(..values.len())?;
-        let mut at = part.start.max(self.told);
+        let mut at = part.start.max(self.encoded);
         loop {
             at = self.stretches(at..part.end, values, base)?;
             if at >= part.end {
@@ -145,8 +145,8 @@ impl<'a> Encoder<'a> {
                 let length = self.begin(at)?;
                 let run = rest::<false>(take(&mut self.out), values.get(at..)?, base.get(at..)?, RUN)?;
                 *length = run.taxels as u8;
-                (self.out, self.told) = (run.out, at + run.taxels);
-                at = self.told;
+                (self.out, self.encoded) = (run.out, at + run.taxels);
+                at = self.encoded;
             }
         }
     }
@@ -157,7 +157,7 @@ impl<'a> Encoder<'a> {
     fn stretches(&mut self, taxels: Range<usize>, values: &[u16], base: &[u16]) -> Option<usize> {
         let base = base.get(..values.len())?;
         let mut out = take(&mut self.out);
-        let (mut at, mut skip) = (taxels.start, taxels.start - self.told);
+        let (mut at, mut skip) = (taxels.start, taxels.start - self.encoded);
         while at < taxels.end {
             // One by one: a compiler turns joined conditions into numbers first.
             let (now, last) = (values.get(at..)?, base.get(at..)?);
@@ -189,7 +189,7 @@ impl<'a> Encoder<'a> {
                 (at, skip) = (at + more.taxels, 0);
             }
         }
-        (self.out, self.told) = (out, at - skip);
+        (self.out, self.encoded) = (out, at - skip);
         Some(at)
     }
 }
@@ -205,9 +205,9 @@ type RunBuffer = [u8; 3 + ROOM];
 /// Encodes a stretch and the head of its run, behind `skip` unchanged taxels. Without a run the bytes have no
 /// meaning.
 #[inline(always)]
-fn begin_near(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -> Told {
+fn begin_near(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -> StretchEnd {
     let [first, length, room @ .., _] = place;
-    let seen = tell(room, now, base);
+    let seen = encode(room, now, base);
     *first = (skip + seen.unchanged()) as u8;
     *length = (seen.next() - seen.unchanged()) as u8;
     seen
@@ -215,9 +215,9 @@ fn begin_near(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -
 
 /// Encodes like [`begin_near`], behind more taxels.
 #[inline(never)] // rarely called
-fn begin_far(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -> Told {
+fn begin_far(place: &mut RunBuffer, skip: usize, now: &Taxels, base: &Taxels) -> StretchEnd {
     let [first, second, length, room @ ..] = place;
-    let seen = tell_by_call(room, now, base);
+    let seen = encode_by_call(room, now, base);
     let skip = skip + seen.unchanged();
     (*first, *second) = (skip as u8 | 128, (skip >> 7) as u8);
     *length = (seen.next() - seen.unchanged()) as u8;
@@ -310,8 +310,8 @@ mod tests {
                     let start = 3 + 5 + skip;
                     let base: Vec<u16> = (0..start + count + behind).map(|i| i as u16 & 7).collect();
                     let mut now = base.clone();
-                    let told = (3..8).chain(start..start + count);
-                    told.for_each(|i| now[i] += if i % 3 == 0 { 1000 } else { 1 });
+                    let encoded = (3..8).chain(start..start + count);
+                    encoded.for_each(|i| now[i] += if i % 3 == 0 { 1000 } else { 1 });
                     let mut code = vec![0; now.len() * 3 + 9];
                     let length = encode_image(&now, Some(&base), &mut code).unwrap();
                     assert_eq!(runs(&code[..length]), [(3, 5), (skip, count)]);
@@ -346,18 +346,18 @@ mod tests {
             }
             code.push(number as u8);
         };
-        let mut told = 0;
-        while let Some(start) = (told..values.len()).find(|i| !same(*i)) {
+        let mut encoded = 0;
+        while let Some(start) = (encoded..values.len()).find(|i| !same(*i)) {
             let last = start + RUN;
             let end = (start..last).find(|i| same(*i) && (i + 1 == last || same(i + 1))).unwrap_or(last);
-            number(start - told);
+            number(start - encoded);
             number(end - start);
             for i in start..end {
                 let before = base.map_or(if i == start { 0 } else { values[i - 1] }, |base| base[i]);
                 let difference = i32::from(values[i]) - i32::from(before);
                 number(if difference < 0 { -2 * difference - 1 } else { 2 * difference } as usize);
             }
-            told = end;
+            encoded = end;
         }
         code
     }

@@ -66,13 +66,13 @@ impl<const TAXELS: usize> ImageReference<TAXELS> {
             while let Some(run) = rows.run(next..end) {
                 next = run.end;
                 if of(run.start) != part.end {
-                    step.tell(part)?;
+                    step.encode(part)?;
                     part = of(run.start)..0;
                 }
                 part.end = of(run.end);
             }
         }
-        step.tell(part)?;
+        step.encode(part)?;
         (self.rows, self.sum) = (*image.rows.held(), step.sum);
         Some(room - step.encoder.room())
     }
@@ -93,7 +93,7 @@ struct BaseStep<'a> {
 impl BaseStep<'_> {
     /// Encodes and stores consecutive rows as one part: a run does not end where a row does.
     #[inline(never)] // M0+: out of line
-    fn tell(&mut self, part: Range<usize>) -> Option<()> {
+    fn encode(&mut self, part: Range<usize>) -> Option<()> {
         if part.is_empty() {
             return Some(());
         }

@@ -17,14 +17,14 @@ pub(super) const ROOM: usize = 2 * LANES;
 pub(super) type Taxels = [u16; LANES + 1];
 
 /// Result of a stretch: two numbers, which are returned in registers.
-pub(super) struct Told {
-    /// Bits 0 to 15: [`Told::unchanged`]; bits 16 to 30: [`Told::next`]; bit 31: [`ENDS`].
+pub(super) struct StretchEnd {
+    /// Bits 0 to 15: [`StretchEnd::unchanged`]; bits 16 to 30: [`StretchEnd::next`]; bit 31: [`ENDS`].
     taxels: u32,
     /// Address of the end of the written bytes.
     pub end: usize,
 }
 
-impl Told {
+impl StretchEnd {
     /// Number of unchanged taxels before the run; all of them without a run.
     #[inline(always)]
     pub fn unchanged(&self) -> usize {
@@ -50,33 +50,33 @@ const ENDS: u32 = 1 << 31;
 
 /// Encodes the differences of a run, which begins at the first changed taxel.
 #[inline(always)]
-pub(super) fn tell(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
+pub(super) fn encode(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> StretchEnd {
     let state = LaneState { out, within: false, unchanged: LANES as u32 };
-    lanes::<false>(state, now, base).unwrap_or_else(|told| told)
+    lanes::<false>(state, now, base).unwrap_or_else(|encoded| encoded)
 }
 
-/// Out-of-line [`tell`], for rare callers: it is a long piece of code.
+/// Out-of-line [`encode`], for rare callers: it is a long piece of code.
 #[inline(never)]
-pub(super) fn tell_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
-    tell(out, now, base)
+pub(super) fn encode_by_call(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> StretchEnd {
+    encode(out, now, base)
 }
 
-/// Encodes like [`tell`], within a run that continues with the first taxel. With `ALONE`, each taxel differs
+/// Encodes like [`encode`], within a run that continues with the first taxel. With `ALONE`, each taxel differs
 /// from the one before it, `base` begins with that of the first, and a taxel is unchanged if it is 0.
 #[inline(never)]
-fn tell_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> Told {
+fn encode_within<const ALONE: bool>(out: &mut [u8; ROOM], now: &Taxels, base: &Taxels) -> StretchEnd {
     let state = LaneState { out, within: true, unchanged: 0 };
-    lanes::<ALONE>(state, now, base).unwrap_or_else(|told| told)
+    lanes::<ALONE>(state, now, base).unwrap_or_else(|encoded| encoded)
 }
 
-/// Encodes at most `most` taxels like [`tell_within`]. `None` if there is no room.
+/// Encodes at most `most` taxels like [`encode_within`]. `None` if there is no room.
 #[inline(always)]
 pub(super) fn go_on<const ALONE: bool>(
     out: &mut [u8],
     now: &[u16],
     base: &[u16],
     most: usize,
-) -> Option<Told> {
+) -> Option<StretchEnd> {
     if most <= LANES {
         cold_path();
         return edge::<ALONE>(out, now, base, most);
@@ -90,23 +90,23 @@ pub(super) fn go_on<const ALONE: bool>(
         cold_path();
         return edge::<ALONE>(out, now, base, most);
     };
-    Some(tell_within::<ALONE>(room, near, base_near))
+    Some(encode_within::<ALONE>(room, near, base_near))
 }
 
 /// Encodes like [`go_on`], with fewer taxels or less room: the missing taxels count as unchanged.
 #[inline(never)]
-fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<Told> {
+fn edge<const ALONE: bool>(out: &mut [u8], now: &[u16], base: &[u16], most: usize) -> Option<StretchEnd> {
     let (mut near, mut base_near): (Taxels, Taxels) = ([0; LANES + 1], [0; LANES + 1]);
     let (places, values) = (near.iter_mut().zip(&mut base_near), now.iter().zip(base));
     for ((place, base_place), (value, base)) in places.zip(values).take(most) {
         (*place, *base_place) = (*value, *base);
     }
     let mut room = [0; ROOM];
-    let seen = tell_within::<ALONE>(&mut room, &near, &base_near);
+    let seen = encode_within::<ALONE>(&mut room, &near, &base_near);
     let used = room.get(..seen.end - room.as_ptr().addr())?;
     let place = out.get_mut(..used.len())?;
     place.copy_from_slice(used);
-    Some(Told { end: place.as_ptr_range().end.addr(), ..seen })
+    Some(StretchEnd { end: place.as_ptr_range().end.addr(), ..seen })
 }
 
 /// Remaining room, whether a run has begun, and number of unchanged taxels before it.
@@ -118,7 +118,11 @@ struct LaneState<'a> {
 
 /// Unrolled by hand: the compiler would keep a loop.
 #[inline(always)]
-fn lanes<const ALONE: bool>(state: LaneState<'_>, now: &Taxels, base: &Taxels) -> Result<Told, Told> {
+fn lanes<const ALONE: bool>(
+    state: LaneState<'_>,
+    now: &Taxels,
+    base: &Taxels,
+) -> Result<StretchEnd, StretchEnd> {
     let state = lane::<ALONE, 0>(state, now, base)?;
     let state = lane::<ALONE, 1>(state, now, base)?;
     let state = lane::<ALONE, 2>(state, now, base)?;
@@ -143,19 +147,19 @@ fn lanes<const ALONE: bool>(state: LaneState<'_>, now: &Taxels, base: &Taxels) -
     let state = lane::<ALONE, 21>(state, now, base)?;
     let state = lane::<ALONE, 22>(state, now, base)?;
     let state = lane::<ALONE, 23>(state, now, base)?;
-    Ok(state.told(LANES))
+    Ok(state.encoded(LANES))
 }
 
 impl LaneState<'_> {
     #[inline(always)]
-    fn told(&self, next: usize) -> Told {
-        Told { taxels: self.unchanged | (next as u32) << 16, end: self.out.as_ptr().addr() }
+    fn encoded(&self, next: usize) -> StretchEnd {
+        StretchEnd { taxels: self.unchanged | (next as u32) << 16, end: self.out.as_ptr().addr() }
     }
 
     #[inline(always)]
-    fn ended(&self, next: usize) -> Told {
-        let Told { taxels, end } = self.told(next);
-        Told { taxels: taxels | ENDS, end }
+    fn ended(&self, next: usize) -> StretchEnd {
+        let StretchEnd { taxels, end } = self.encoded(next);
+        StretchEnd { taxels: taxels | ENDS, end }
     }
 }
 
@@ -165,7 +169,7 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
     mut state: LaneState<'a>,
     now: &Taxels,
     base: &Taxels,
-) -> Result<LaneState<'a>, Told> {
+) -> Result<LaneState<'a>, StretchEnd> {
     if !state.within {
         if now[LANE] == base[LANE] {
             return Ok(state);
@@ -187,10 +191,10 @@ fn lane<'a, const ALONE: bool, const LANE: usize>(
     if !ALONE && difference == 0 && now[LANE + 1] == base[LANE + 1] {
         return Err(state.ended(LANE));
     }
-    let told = state.told(LANE);
+    let encoded = state.encoded(LANE);
     match write(state.out, difference) {
         Some(out) => Ok(LaneState { out, ..state }),
-        None => Err(told),
+        None => Err(encoded),
     }
 }
 

@@ -62,7 +62,7 @@ impl BoardAndHost {
         assert_eq!(self.answer(&Request::Posture(posture)), None);
     }
 
-    /// Scans with these pressures besides the fold's; returns contacts as (id, total), and what is told of
+    /// Scans with these pressures besides the fold's; returns contacts as (id, total), and what is reported of
     /// the folds.
     fn feel(&mut self, fold: f64, touch: &[(u16, f64)]) -> (Vec<(u32, u32)>, Option<FoldsReport>) {
         for taxel in 0..TAXELS as u16 {
@@ -71,19 +71,23 @@ impl BoardAndHost {
             self.press(&[usize::from(taxel)], (100.0 + fold + more) as u16);
         }
         self.scan();
-        let (mut contacts, mut told) = (None, None);
+        let (mut contacts, mut reported) = (None, None);
         self.drain(usize::MAX, |report| match report {
             Report::Contacts(list) => {
-                contacts =
-                    Some(list.contacts.iter().map(|told| (told.contact.id, told.contact.total)).collect())
+                contacts = Some(
+                    list.contacts
+                        .iter()
+                        .map(|reported| (reported.contact.id, reported.contact.total))
+                        .collect(),
+                )
             }
-            Report::Folds(report) => told = Some(report.clone()),
+            Report::Folds(report) => reported = Some(report.clone()),
             _ => {}
         });
-        (contacts.unwrap_or_default(), told)
+        (contacts.unwrap_or_default(), reported)
     }
 
-    /// Bends to and fro between 0 and 90 degrees for so many seconds, told at 50 Hz; the fold presses
+    /// Bends to and fro between 0 and 90 degrees for so many seconds, sent at 50 Hz; the fold presses
     /// `share` of what was learned. Returns the frames with contacts.
     fn sway(&mut self, seconds: f64, share: f64) -> usize {
         let mut touched = 0;
@@ -99,7 +103,7 @@ impl BoardAndHost {
 }
 
 /// A tared board with a table in force, unless it is empty.
-fn wearing(table: &[u8]) -> BoardAndHost {
+fn with_folds(table: &[u8]) -> BoardAndHost {
     let mut bench = BoardAndHost::new(Scene::shipped());
     bench.press(&std::array::from_fn::<_, TAXELS, _>(|taxel| taxel), 100);
     bench.ask(&Request::Start);
@@ -114,14 +118,14 @@ fn wearing(table: &[u8]) -> BoardAndHost {
 
 #[test]
 fn a_fold_is_no_touch_once_it_is_known() {
-    assert!(wearing(&[]).sway(3.2, 1.0) > 300, "unknown, it is one");
+    assert!(with_folds(&[]).sway(3.2, 1.0) > 300, "unknown, it is one");
     // 20 ms of posture and of turn are 1.8 degrees: at most 40 counts.
-    assert_eq!(wearing(&elbow(12, 0)).sway(20.0, 1.0), 0);
+    assert_eq!(with_folds(&elbow(12, 0)).sway(20.0, 1.0), 0);
 }
 
 #[test]
 fn a_touch_inside_a_fold_has_its_own_force() {
-    let mut bench = wearing(&elbow(5, 0));
+    let mut bench = with_folds(&elbow(5, 0));
     bench.bend(60.0);
     let touch = [(21, 500.0), (22, 500.0), (37, 500.0), (38, 500.0)];
     for _ in 0..40 {
@@ -133,17 +137,17 @@ fn a_touch_inside_a_fold_has_its_own_force() {
     let [(id, total)] = last[..] else { panic!("{last:?}") };
     assert!((1990..=2010).contains(&total), "{total}");
     // Its doubt is that of its four taxels.
-    let told = felt.iter().rev().find_map(|(_, told)| told.clone()).unwrap();
-    assert_eq!((told.taxels, told.total, told.doubt), (12, 12 * 480, 12 * 20));
-    assert!(told.followed);
-    assert_eq!(told.contacts.iter().map(|doubt| (doubt.id, doubt.doubt)).collect::<Vec<_>>(), [(id, 80)]);
+    let reported = felt.iter().rev().find_map(|(_, reported)| reported.clone()).unwrap();
+    assert_eq!((reported.taxels, reported.total, reported.doubt), (12, 12 * 480, 12 * 20));
+    assert!(reported.followed);
+    assert_eq!(reported.contacts.iter().map(|doubt| (doubt.id, doubt.doubt)).collect::<Vec<_>>(), [(id, 80)]);
 }
 
 #[test]
 fn the_doubt_of_a_touch_is_that_of_the_taxels_under_it_that_fold() {
     // From the left beside the fold to within it, across it, from within it to the right, and beside it.
     for (columns, folding) in [(2..6, 2), (5..8, 3), (7..12, 3), (3..11, 6), (10..13, 0)] {
-        let mut bench = wearing(&elbow(5, 0));
+        let mut bench = with_folds(&elbow(5, 0));
         for _ in 0..40 {
             bench.bend(60.0);
             bench.feel(480.0, &[]);
@@ -151,8 +155,8 @@ fn the_doubt_of_a_touch_is_that_of_the_taxels_under_it_that_fold() {
         let touch: Vec<_> =
             (0..3).flat_map(|row| columns.clone().map(move |column| (16 * row + column, 500.0))).collect();
         let felt: Vec<_> = (0..60).map(|_| bench.feel(480.0, &touch)).collect();
-        let told = felt.iter().rev().find_map(|(_, told)| told.clone()).unwrap();
-        let doubts: Vec<_> = told.contacts.iter().map(|doubt| doubt.doubt).collect();
+        let reported = felt.iter().rev().find_map(|(_, reported)| reported.clone()).unwrap();
+        let doubts: Vec<_> = reported.contacts.iter().map(|doubt| doubt.doubt).collect();
         let want = 2 * folding * 20;
         assert_eq!(doubts, if want > 0 { vec![want] } else { vec![] }, "{columns:?}");
     }
@@ -160,14 +164,14 @@ fn the_doubt_of_a_touch_is_that_of_the_taxels_under_it_that_fold() {
 
 #[test]
 fn without_a_fresh_posture_only_what_no_fold_presses_is_a_touch() {
-    let mut bench = wearing(&elbow(5, 0));
+    let mut bench = with_folds(&elbow(5, 0));
     bench.bend(60.0);
     let (mut touched, mut last) = (0, None);
     for frame in 0..200 {
         // The arm goes on without a word.
-        let (contacts, told) = bench.feel(if frame < 60 { 480.0 } else { 800.0 }, &[]);
+        let (contacts, reported) = bench.feel(if frame < 60 { 480.0 } else { 800.0 }, &[]);
         touched += usize::from(!contacts.is_empty() && frame > 110);
-        last = told.or(last);
+        last = reported.or(last);
     }
     let last = last.unwrap();
     assert_eq!((touched, last.followed, last.total), (0, false, 0));
@@ -183,8 +187,8 @@ fn without_a_fresh_posture_only_what_no_fold_presses_is_a_touch() {
 
 #[test]
 fn a_day_is_learned_while_nothing_touches() {
-    // Worn otherwise today: 25 % more than was learned, within what days may differ by.
-    let mut bench = wearing(&elbow(12, 90));
+    // It sits otherwise today: 25 % more than was learned, within what days may differ by.
+    let mut bench = with_folds(&elbow(12, 90));
     assert_eq!(bench.sway(30.0, 1.25), 0);
     bench.bend(90.0);
     let before = (0..60).filter_map(|_| bench.feel(1.25 * 800.0, &[]).1).last().unwrap();
@@ -194,7 +198,7 @@ fn a_day_is_learned_while_nothing_touches() {
     assert!(before.doubt <= 12 * 4 * (12 + 90 / 8 + 1), "{before:?}");
 
     // A fingertip rests on the fold for a while: that is no fold.
-    let mut bench = wearing(&elbow(12, 0));
+    let mut bench = with_folds(&elbow(12, 0));
     let rest: Vec<_> = FOLDED.map(|taxel| (taxel, 300.0)).to_vec();
     for degrees in [0.0, 30.0, 60.0, 90.0, 60.0, 30.0, 60.0] {
         for _ in 0..40 {
@@ -209,7 +213,7 @@ fn a_day_is_learned_while_nothing_touches() {
 
 #[test]
 fn a_gain_that_is_set_makes_no_touch_of_a_fold() {
-    let mut bench = wearing(&elbow(60, 0));
+    let mut bench = with_folds(&elbow(60, 0));
     // 480 counts are expected, 240 more or less.
     for _ in 0..40 {
         bench.bend(60.0);
@@ -222,7 +226,7 @@ fn a_gain_that_is_set_makes_no_touch_of_a_fold() {
 
 #[test]
 fn a_held_bend_is_no_drift() {
-    let mut bench = wearing(&elbow(12, 0));
+    let mut bench = with_folds(&elbow(12, 0));
     for _ in 0..12_000 {
         bench.bend(90.0);
         assert_eq!(bench.feel(830.0, &[]).0, []);
@@ -240,7 +244,7 @@ fn a_held_bend_is_no_drift() {
 
 #[test]
 fn a_tare_of_a_bent_arm_is_that_of_a_straight_one() {
-    let mut bench = wearing(&elbow(5, 0));
+    let mut bench = with_folds(&elbow(5, 0));
     for _ in 0..20 {
         bench.bend(60.0);
         bench.feel(480.0, &[]);
@@ -257,7 +261,7 @@ fn a_tare_of_a_bent_arm_is_that_of_a_straight_one() {
 
 #[test]
 fn a_tare_holds_no_baseline_for_what_was_expected_before() {
-    let mut bench = wearing(&elbow(0, 0));
+    let mut bench = with_folds(&elbow(0, 0));
     for _ in 0..40 {
         bench.bend(60.0);
         bench.feel(pressed(60.0), &[]);
@@ -308,7 +312,7 @@ fn a_table_that_is_wrong_is_refused_by_name() {
     );
     let most = good.len() - 12;
     assert_eq!(refusal(&|table| table[most] += 1), "folds must state the most that each taxel may feel");
-    let mut bench = wearing(&[]);
+    let mut bench = with_folds(&[]);
     let undamaged = Some("folds must arrive undamaged".to_string());
     let damaged = [&good[..300], &[1], &good[301..]].concat();
     assert_eq!(bench.send_table(TableKind::Folds, &damaged).last(), Some(&undamaged));
@@ -382,7 +386,7 @@ fn a_table_holds_what_was_written() {
 fn any_bytes_are_a_table_or_none_and_nothing_panics() {
     let mut noise = Noise(5);
     let (good, layout) = (elbow(20, 60), layout());
-    let mut worn = 0;
+    let mut accepted = 0;
     for _ in 0..4_000 {
         let mut table = good.clone();
         for _ in 0..1 + noise.below(4) {
@@ -400,8 +404,8 @@ fn any_bytes_are_a_table_or_none_and_nothing_panics() {
         if FoldTable::check(&table, &layout).is_err() {
             continue;
         }
-        worn += 1;
-        if worn % 20 > 0 {
+        accepted += 1;
+        if accepted % 20 > 0 {
             continue;
         }
         let mut bench = BoardAndHost::new(Scene::shipped());
@@ -414,12 +418,12 @@ fn any_bytes_are_a_table_or_none_and_nothing_panics() {
             bench.feel(noise.range(0.0, 3900.0), &[]);
         }
     }
-    assert!(worn > 200, "{worn}");
+    assert!(accepted > 200, "{accepted}");
 }
 
 #[test]
 fn without_its_table_a_taxel_feels_as_before() {
-    let mut bench = wearing(&elbow(12, 0));
+    let mut bench = with_folds(&elbow(12, 0));
     bench.bend(90.0);
     (0..40).for_each(|_| drop(bench.feel(800.0, &[])));
     bench.board.recall_table(TableKind::Folds, None);

@@ -66,8 +66,8 @@ impl BoardAndHost {
         self.board.step(Micros(self.now), Input::Tick, &mut ())
     }
 
-    /// Takes up to `budget` bytes off the board and calls `told` for every message; seq must not jump.
-    pub fn drain(&mut self, mut budget: usize, mut told: impl FnMut(&Report<'_>)) {
+    /// Takes up to `budget` bytes off the board and calls `take` for every message; seq must not jump.
+    pub fn drain(&mut self, mut budget: usize, mut take: impl FnMut(&Report<'_>)) {
         while budget > 0 {
             let bytes = self.board.pending(Micros(self.now), &mut ()).to_vec();
             let taken = bytes.len().min(budget);
@@ -81,7 +81,7 @@ impl BoardAndHost {
                 let (seq, report): (u32, Report) =
                     wire::decode(frame.expect("the board's frames are good")).expect("and its messages");
                 assert_eq!(self.next_seq.replace(seq + 1).unwrap_or(seq), seq);
-                told(&report);
+                take(&report);
             }
         }
     }
@@ -91,9 +91,9 @@ impl BoardAndHost {
         self.ask(request);
         let mut answer = None;
         self.drain(usize::MAX, |report| {
-            if let Report::Answer(told) = report {
-                assert_eq!(told.request, request.number());
-                answer = Some(told.refusal.map(str::to_string));
+            if let Report::Answer(take) = report {
+                assert_eq!(take.request, request.number());
+                answer = Some(take.refusal.map(str::to_string));
             }
         });
         answer.expect("every request is answered")

@@ -10,7 +10,7 @@ use taxel_core::scene::Scene;
 use taxel_core::wire::{Report, Request};
 
 #[test]
-fn jobs_that_fail_are_told() {
+fn jobs_that_fail_are_reported() {
     let mut bench = BoardAndHost::new(Scene::shipped());
     bench.ask(&Request::SelfTest);
     let jobs: Vec<_> =
@@ -19,48 +19,48 @@ fn jobs_that_fail_are_told() {
     bench.board.step(Micros(0), Input::Examined(Err(ScanError::Output(9))), &mut ());
     let error = ScanError::Converter { input: 26, taxel: 5 };
     bench.board.step(Micros(0), Input::Scanned(Err(error)), &mut ());
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     bench.drain(usize::MAX, |report| match report {
         Report::Answer(answer) => {
-            told.push(format!("{} {}", answer.request, answer.refusal.unwrap_or("yes")))
+            reported.push(format!("{} {}", answer.request, answer.refusal.unwrap_or("yes")))
         }
-        Report::Log(log) => told.push(log.text.to_string()),
+        Report::Log(log) => reported.push(log.text.to_string()),
         _ => {}
     });
     assert_eq!(
-        told,
+        reported,
         ["13 pin 9 cannot be driven", "scan: converter input on pin 26 gave no sample (at taxel 5)"]
     );
     assert!(matches!(bench.tick(), Some(Job::Scan(_))), "a failed scan is followed by the next");
 }
 
 #[test]
-fn each_hello_tells_how_the_board_came_to_start() {
+fn each_hello_says_how_the_board_came_to_start() {
     let mut bench = BoardAndHost::new(Scene::shipped());
     let boot = Boot { cause: BootCause::Panic, resets: 3, aside: Aside::Resets };
     bench.board.booted(boot);
-    let told = |bench: &mut BoardAndHost| {
-        let mut told = Vec::new();
+    let reported = |bench: &mut BoardAndHost| {
+        let mut reported = Vec::new();
         bench.drain(usize::MAX, |report| {
             if let Report::Hello(hello) = report {
-                told.push(hello.boot);
+                reported.push(hello.boot);
             }
         });
-        told
+        reported
     };
     bench.tick();
-    assert_eq!(told(&mut bench), [Some(boot)]);
+    assert_eq!(reported(&mut bench), [Some(boot)]);
     bench.now += 1_000_000;
     bench.tick();
-    assert_eq!(told(&mut bench), [Some(boot)], "each second");
+    assert_eq!(reported(&mut bench), [Some(boot)], "each second");
     bench.ask(&Request::Start);
-    assert_eq!(told(&mut bench), [Some(boot)]);
+    assert_eq!(reported(&mut bench), [Some(boot)]);
     // What is stored now is in force.
     bench.ask(&Request::Save);
     until_save(&mut bench);
     bench.board.step(Micros(bench.now), Input::Saved(Ok(Saved::Written)), &mut ());
     bench.ask(&Request::Start);
-    assert_eq!(told(&mut bench), [Some(Boot { aside: Aside::No, ..boot })]);
+    assert_eq!(reported(&mut bench), [Some(Boot { aside: Aside::No, ..boot })]);
 }
 
 #[test]

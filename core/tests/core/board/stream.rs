@@ -133,8 +133,8 @@ fn over_pressure_reacts_in_its_frame_and_drives_the_pin() {
         bench.press(&FINGER, code);
         bench.scan();
         bench.drain(usize::MAX, |report| {
-            if let Report::Reaction(told) = report {
-                course.push((code, told.reaction.active, told.reaction.value));
+            if let Report::Reaction(reported) = report {
+                course.push((code, reported.reaction.active, reported.reaction.value));
             }
         });
         while let Some(Job::Drive(pin, level)) = bench.tick() {

@@ -1,4 +1,4 @@
-//! The surface on the board: what presses on the robot is told.
+//! The surface on the board: what presses on the robot is reported.
 
 use super::tables::streaming;
 use super::{BoardAndHost, FINGER};
@@ -78,10 +78,10 @@ fn poses(at: Option<u64>, link: LinkPose) -> Vec<u8> {
     postcard::to_allocvec(&poses).unwrap()
 }
 
-/// With another rate what was told is told anew: an end that waited for the link is not dropped, and without a
-/// rate nothing presses any more.
+/// With another rate what was reported is reported anew: an end that waited for the link is not dropped, and
+/// without a rate nothing presses any more.
 #[test]
-fn the_end_of_a_press_is_told_when_the_rate_changes() {
+fn the_end_of_a_press_is_reported_when_the_rate_changes() {
     for (still, hz) in [(0, u16::MAX), (0, 20), (1000, 0)] {
         let mut bench = streaming();
         bench.board.recall_table(TableKind::Surface, Some(flat().leak()));
@@ -104,7 +104,7 @@ fn the_end_of_a_press_is_told_when_the_rate_changes() {
 }
 
 #[test]
-fn a_table_in_pieces_is_put_in_force_and_presses_are_told() {
+fn a_table_in_pieces_is_put_in_force_and_presses_are_reported() {
     let mut bench = streaming();
     let none = Some("no surface is in force".to_string());
     assert_eq!(bench.answer(&Request::SetPoses(&[0])), none);
@@ -144,21 +144,21 @@ fn a_table_in_pieces_is_put_in_force_and_presses_are_told() {
         "poses: these 9 bytes are none that this board can hold"
     );
     assert_eq!(bench.answer(&Request::SetPoses(&poses)), None);
-    let told = bench.now;
+    let reported = bench.now;
     let reports = bench.pressing(2);
     let last = reports.last().unwrap();
     let base = last.contacts[0].base.unwrap();
     assert_eq!((base.at, base.normal), ([-15_015, 15_015, 1_000_000], [0, 0, ONE]));
-    assert_eq!((base.force, last.posed), (last.contacts[0].force, Some(Micros(told))));
+    assert_eq!((base.force, last.posed), (last.contacts[0].force, Some(Micros(reported))));
 
     bench.press(&FINGER, 0);
     let reports = bench.pressing(20);
-    assert!(reports.last().unwrap().contacts.is_empty(), "the end is told");
+    assert!(reports.last().unwrap().contacts.is_empty(), "the end is reported");
     assert_eq!(bench.pressing(20), [], "once");
 }
 
 #[test]
-fn a_table_is_in_force_while_its_garment_is_worn() {
+fn a_table_is_in_force_while_its_garment_is_in_use() {
     let mut bench = streaming();
     bench.board.recall_table(TableKind::Surface, Some(Box::leak(flat().into_boxed_slice())));
     assert!(bench.board.surface().is_some());
@@ -175,26 +175,26 @@ fn a_table_is_in_force_while_its_garment_is_worn() {
 
 /// What the bench's regions feel by the next scans, and their names.
 #[derive(Default)]
-struct RegionsTold {
+struct RegionReports {
     names: Vec<String>,
     states: Vec<RegionsReport>,
 }
 
 impl BoardAndHost {
-    fn regions(&mut self, scans: usize) -> RegionsTold {
-        let mut told = RegionsTold::default();
+    fn regions(&mut self, scans: usize) -> RegionReports {
+        let mut reported = RegionReports::default();
         for _ in 0..scans {
             self.scan();
             self.drain(usize::MAX, |report| match report {
                 Report::RegionNames(report) => {
-                    assert!(told.states.is_empty(), "names come first");
-                    told.names = report.names.iter().map(ToString::to_string).collect();
+                    assert!(reported.states.is_empty(), "names come first");
+                    reported.names = report.names.iter().map(ToString::to_string).collect();
                 }
-                Report::Regions(report) => told.states.push(report.clone()),
+                Report::Regions(report) => reported.states.push(report.clone()),
                 _ => {}
             });
         }
-        told
+        reported
     }
 }
 
@@ -202,29 +202,29 @@ impl BoardAndHost {
 fn every_region_always_has_a_state() {
     let mut bench = streaming();
     bench.board.recall_table(TableKind::Surface, Some(Box::leak(flat().into_boxed_slice())));
-    let told = bench.regions(410);
-    assert_eq!(told.names, ["palm", "fingers"]);
-    assert_eq!(told.states.len(), 3, "once a second");
-    assert!(told.states[0].regions.iter().all(|region| region.phase == RegionPhase::Free));
-    let phases = |told: &RegionsTold, region: usize| {
-        let mut phases: Vec<_> = told.states.iter().map(|report| report.regions[region].phase).collect();
+    let reported = bench.regions(410);
+    assert_eq!(reported.names, ["palm", "fingers"]);
+    assert_eq!(reported.states.len(), 3, "once a second");
+    assert!(reported.states[0].regions.iter().all(|region| region.phase == RegionPhase::Free));
+    let phases = |reported: &RegionReports, region: usize| {
+        let mut phases: Vec<_> = reported.states.iter().map(|report| report.regions[region].phase).collect();
         phases.dedup();
         phases
     };
 
     bench.press(&FINGER, 1000);
-    let told = bench.regions(60);
-    assert_eq!(phases(&told, 0), [RegionPhase::Onset, RegionPhase::Held]);
-    assert_eq!(phases(&told, 1), [RegionPhase::Free]);
-    let [palm, fingers] = told.states.last().unwrap().regions[..] else { panic!("two regions") };
+    let reported = bench.regions(60);
+    assert_eq!(phases(&reported, 0), [RegionPhase::Onset, RegionPhase::Held]);
+    assert_eq!(phases(&reported, 1), [RegionPhase::Free]);
+    let [palm, fingers] = reported.states.last().unwrap().regions[..] else { panic!("two regions") };
     assert_eq!((palm.contacts, palm.way, fingers.contacts), (1, BodyDirection::None, 0));
     bench.press(&FINGER, 0);
-    let told = bench.regions(300);
-    assert_eq!(phases(&told, 0), [RegionPhase::Released, RegionPhase::Free]);
+    let reported = bench.regions(300);
+    assert_eq!(phases(&reported, 0), [RegionPhase::Released, RegionPhase::Free]);
 
     // A fingertip that slides from the palm to the fingers: along x of the link.
     let slide = |bench: &mut BoardAndHost| {
-        let mut told = RegionsTold::default();
+        let mut reported = RegionReports::default();
         for step in 0..90 {
             let x = 2.0 + 0.125 * f64::from(step);
             for taxel in 0..64 {
@@ -232,19 +232,19 @@ fn every_region_always_has_a_state() {
                 let share = (1.0 - (column - x).abs() / 1.8).max(0.0);
                 bench.press(&[taxel], if (1..3).contains(&row) { (share * 2500.0) as u16 } else { 0 });
             }
-            told.states.extend(bench.regions(1).states);
+            reported.states.extend(bench.regions(1).states);
         }
-        told
+        reported
     };
-    let told = slide(&mut bench);
-    let moving = |told: &RegionsTold, region: usize| -> Vec<BodyDirection> {
-        let of = told.states.iter().map(|report| report.regions[region]);
+    let reported = slide(&mut bench);
+    let moving = |reported: &RegionReports, region: usize| -> Vec<BodyDirection> {
+        let of = reported.states.iter().map(|report| report.regions[region]);
         let mut ways: Vec<_> = of.filter(|it| it.phase == RegionPhase::Moving).map(|it| it.way).collect();
         ways.dedup();
         ways
     };
-    assert_eq!(moving(&told, 0), [BodyDirection::Forward]);
-    assert_eq!(moving(&told, 1), [BodyDirection::Forward]);
+    assert_eq!(moving(&reported, 0), [BodyDirection::Forward]);
+    assert_eq!(moving(&reported, 1), [BodyDirection::Forward]);
     bench.press(&(0..64).collect::<Vec<_>>(), 0);
     bench.regions(200);
 
@@ -259,7 +259,7 @@ fn every_region_always_has_a_state() {
 
 /// Poses of links that move say how far off a place may be, and are forgotten after 0.2 s.
 #[test]
-fn bounds_are_told_with_what_they_bound() {
+fn bounds_are_reported_with_what_they_bound() {
     let mut bench = streaming();
     bench.board.recall_table(TableKind::Surface, Some(Box::leak(flat().into_boxed_slice())));
     assert_eq!(bench.ask_for_pressing(u16::MAX), None);
@@ -267,8 +267,8 @@ fn bounds_are_told_with_what_they_bound() {
     let motion =
         LinkMotion { velocity: [1_000_000, 0, 0], error: 700, drift: 10_000, ..LinkMotion::default() };
     let pose = Pose { at: [0; 3], turn: [0, 0, 0, 1 << 30] };
-    let told = bench.now;
-    assert_eq!(bench.pose(Some(told), (hand, pose, Some(motion))), None);
+    let reported = bench.now;
+    assert_eq!(bench.pose(Some(reported), (hand, pose, Some(motion))), None);
     bench.press(&FINGER, 1000);
     let mut judged = 0;
     for _ in 0..60 {
@@ -276,12 +276,12 @@ fn bounds_are_told_with_what_they_bound() {
         let now = bench.now;
         bench.drain(usize::MAX, |report| {
             if let Report::Pressing(report) = report {
-                let age = now - told;
+                let age = now - reported;
                 let base = report.contacts.first().and_then(|contact| contact.base);
                 let Some(base) = base else {
                     return assert!(report.contacts.is_empty() || age > 200_000);
                 };
-                assert!(age <= 200_000 && report.posed == Some(Micros(told)));
+                assert!(age <= 200_000 && report.posed == Some(Micros(reported)));
                 let [(0, off)] = report.pose_errors[..] else { panic!("{report:?}") };
                 let want = 700 + age / 100;
                 assert!((want..want + 70).contains(&u64::from(off)), "{off} {want}");

@@ -105,8 +105,8 @@ fn pieces_out_of_order_are_refused_by_what_comes_next() {
     // A piece that the flash did not take ends the table.
     bench.ask(&Request::SetTable(&pieces(TableKind::Surface, &table)[1]));
     bench.until_stored();
-    bench.board.step(Micros(bench.now), Input::TableStored(Err("the flash is worn")), &mut ());
-    assert_eq!(bench.table_answers(), [Some("the flash is worn".to_string())]);
+    bench.board.step(Micros(bench.now), Input::TableStored(Err("the flash is used up")), &mut ());
+    assert_eq!(bench.table_answers(), [Some("the flash is used up".to_string())]);
     assert_eq!(ask(&mut bench, length, 256, &table[256..512]), next(0));
     assert!(bench.board.surface().is_none());
     assert!(

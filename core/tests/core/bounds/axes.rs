@@ -51,7 +51,7 @@ impl Worst {
             axis(&Central { a: a as u64, b: b as u64, c: c as i64 }, area);
         let error = (Real::ratio(have.0, 32768) - anisotropy(central)).abs().to_f64();
         self.anisotropy = self.anisotropy.max(error);
-        // Whether there is a direction follows from what is told, so that a reader can tell.
+        // Whether there is a direction follows from what is reported, so that a reader can know.
         assert_eq!(azimuth.is_some(), have.0 >= limit(area), "{central:?} {area}");
         if let Some(azimuth) = azimuth {
             assert!(azimuth.0 > -(1 << 30) && azimuth.0 <= 1 << 30);

@@ -86,7 +86,7 @@ fn outside_their_range_forms_are_none_or_saturate() {
     // Two of 1 count 1,500 taxels apart: sqrt(J) / m = 1500 / sqrt(8) is beyond 256.
     let far = nmi(&moments(&vec![(0, 0, 1), (1500, 0, 1)]), 1);
     assert_eq!(forms(&far), [Fixed24(u32::MAX); FORMS]);
-    // The peak is taken as it is told: 0 makes the form 0.
+    // The peak is taken as it is reported: 0 makes the form 0.
     let pair = moments(&vec![(0, 0, 5), (9, 0, 5)]);
     assert_eq!((nmi(&pair, 0).peak, nmi(&pair, 0).peak_sheppard), (Fixed24(0), Fixed24(0)));
     assert!(nmi(&pair, 0).published.0 > 0);

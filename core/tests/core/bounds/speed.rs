@@ -9,7 +9,7 @@ use taxel_core::format::Fixed16;
 use taxel_core::garment::{Garment, Layout, PITCH_UM};
 use taxel_core::shape::Shape;
 
-fn told(pitch_um: [u32; 2], vx: i32, vy: i32) -> u32 {
+fn reported(pitch_um: [u32; 2], vx: i32, vy: i32) -> u32 {
     let mut garment = Garment::recorded(1, 1);
     garment.panels[0].pitch_um = pitch_um;
     let layout = Layout::build(&garment, 1, u16::MAX).unwrap();
@@ -29,7 +29,7 @@ fn speed_is_within_its_bound() {
         let along = |v: i32, pitch: u32| Real::ratio(i64::from(v) * i64::from(pitch / 100), 65_536);
         let (x, y) = (along(vx, pitch[0]), along(vy, pitch[1]));
         let want = (x.clone() * x + y.clone() * y).sqrt();
-        let error = (Real::whole(told(pitch, vx, vy)) - want.clone()).to_f64();
+        let error = (Real::whole(reported(pitch, vx, vy)) - want.clone()).to_f64();
         let want = want.to_f64();
         assert!(error <= stated.at(want) && error >= -stated.absolute, "{error} of {want}");
         worst = worst.max((error - stated.absolute) / want.max(1.0));
@@ -43,8 +43,8 @@ fn speed_outside_its_range_is_held() {
     let [least, most] = PITCH_UM;
     for pitch in [least, most] {
         let end = (pitch / 100) << 15;
-        assert_eq!(told([pitch; 2], i32::MIN, i32::MIN), end + end / 2);
+        assert_eq!(reported([pitch; 2], i32::MIN, i32::MIN), end + end / 2);
     }
-    assert_eq!(told([most; 2], i32::MIN, i32::MIN), 98_304_000);
-    assert_eq!(told([0, 0], 1 << 16, 0), 100, "10 mm are assumed");
+    assert_eq!(reported([most; 2], i32::MIN, i32::MIN), 98_304_000);
+    assert_eq!(reported([0, 0], 1 << 16, 0), 100, "10 mm are assumed");
 }

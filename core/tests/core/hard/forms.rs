@@ -28,7 +28,7 @@ fn one_taxel() {
     assert_eq!((contact.x, contact.y), (taxels(7.0), taxels(20.0)));
     assert_eq!((contact.azimuth, contact.anisotropy.0, contact.breadth), (None, 0, 100));
     assert_eq!(contact.edge, 0, "symmetric");
-    // Weaker than high, it is still the same contact; below half of its pressure it is gone, and told once.
+    // Weaker than high, it is still the same contact; below half of its pressure it is gone, and reported once.
     let contact = rig.set(0, 20, 7, 68).only();
     assert_eq!((contact.id, contact.phase, contact.peak_total), (1, Phase::Held, 1000));
     let frame = rig.set(0, 20, 7, 67).frame();

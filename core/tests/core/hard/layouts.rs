@@ -32,7 +32,9 @@ fn the_longest_strip_is_exact_and_the_next_is_refused() {
             let (rows, columns) = (rows + u16::from(rows > 1), columns + u16::from(columns > 1));
             assert!(most(rows, columns, full_scale) >= 1 << 64);
             let refused = build(rows, columns, full_scale).unwrap_err();
-            assert!(matches!(refused, GarmentError::Inexact { full_scale: told, .. } if told == full_scale));
+            assert!(
+                matches!(refused, GarmentError::Inexact { full_scale: stated, .. } if stated == full_scale)
+            );
         }
     }
 }

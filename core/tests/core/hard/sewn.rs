@@ -35,7 +35,7 @@ fn sewn_in_part([a, b]: [Side; 2], starts: [u16; 2], length: u16, reversed: bool
     garment
 }
 
-/// How many parts hang together, of which `beside` tells which two are neighbours.
+/// How many parts hang together, of which `beside` says which two are neighbours.
 fn parts<T: Copy>(taxels: &[T], beside: impl Fn(T, T) -> bool) -> usize {
     let mut left: Vec<T> = taxels.to_vec();
     let mut count = 0;
@@ -129,9 +129,9 @@ proptest! {
     }
 }
 
-/// A touch at every place of a panel, its borders and corners included, is told where it is.
+/// A touch at every place of a panel, its borders and corners included, is reported where it is.
 #[test]
-fn every_taxel_is_told_where_it_is() {
+fn every_taxel_is_reported_where_it_is() {
     let mut rig = ContactRig::mat();
     for (row, column) in (0..64).flat_map(|row| (0..32).map(move |column| (row, column))) {
         rig.state.reset();

@@ -17,7 +17,7 @@ const FINGERS: [[usize; 4]; 3] = [FINGER, [25, 26, 41, 42], [29, 30, 45, 46]];
 
 static SURFACE: LazyLock<Vec<u8>> = LazyLock::new(flat);
 
-/// A host that knows what it was told.
+/// A host that knows what it was sent.
 #[derive(Default)]
 struct Host {
     garment: Vec<u8>,
@@ -38,7 +38,7 @@ impl Host {
         match report {
             Report::Hello(hello) => {
                 let is_same = hello.garment == self.garment;
-                assert!(is_same || self.contacts.is_empty(), "the next garment is told before an end");
+                assert!(is_same || self.contacts.is_empty(), "the next garment is reported before an end");
                 self.garment = hello.garment.to_vec();
             }
             Report::Contacts(list) => self.list(list),
@@ -121,7 +121,7 @@ impl Rig {
         }
         match request {
             Request::Start => self.streams = true,
-            // What presses on links is told while something is streamed.
+            // What presses on links is reported while something is streamed.
             Request::Stop => (self.streams, self.host.surface) = (false, [0; 2]),
             Request::SetScene(bytes) => self.scene = postcard::from_bytes(bytes).unwrap(),
             _ => {}
@@ -211,7 +211,7 @@ impl Rig {
         }
     }
 
-    /// Nothing touches any more, and nothing is told to.
+    /// Nothing touches any more, and nothing is asked to.
     fn end(&mut self) {
         FINGERS.iter().for_each(|finger| self.bench.press(finger, 0));
         self.doing = "the end".into();

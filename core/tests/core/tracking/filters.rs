@@ -8,7 +8,7 @@ use taxel_core::format::{Code, Micros};
 use taxel_core::garment::{Garment, Layout};
 
 /// A finger of `rows` x `columns` taxels slides along the block from its second column to the last but one, a
-/// column in four frames: what is told of it in each frame.
+/// column in four frames: what is reported of it in each frame.
 fn slide(filter: Filter, rows: usize, columns: usize) -> Vec<Option<Contact>> {
     let layout = Layout::build(&Garment::block(), 64, 4095).unwrap();
     let config = ConditionConfig { filter, track_baseline: false, ..ConditionConfig::default() };
@@ -16,7 +16,7 @@ fn slide(filter: Filter, rows: usize, columns: usize) -> Vec<Option<Contact>> {
     let mut image = ConditionState::<64>::new();
     image.reset(&layout, Code(0));
     let mut state = ContactState::<4, 32>::new();
-    let told = |frame: usize| {
+    let reported = |frame: usize| {
         let mut codes = [Code(0); 64];
         for (row, column) in (1..=rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
             codes[row * 16 + 1 + frame / 4 + column] = Code(900);
@@ -27,15 +27,15 @@ fn slide(filter: Filter, rows: usize, columns: usize) -> Vec<Option<Contact>> {
         assert!(touches.present.len() < 2);
         touches.present.first().cloned()
     };
-    (0..4 * (15 - columns)).map(told).collect()
+    (0..4 * (15 - columns)).map(reported).collect()
 }
 
 /// It is one contact from the first frame to the last, and has gone all the way.
 fn survives(filter: Filter, rows: usize, columns: usize) -> bool {
-    let told = slide(filter, rows, columns);
+    let reported = slide(filter, rows, columns);
     let way = (14 - columns) as f64;
-    told.iter().all(|contact| contact.as_ref().is_some_and(|contact| contact.id == 1))
-        && told.last().unwrap().as_ref().is_some_and(|contact| contact.dx.to_f64() == way)
+    reported.iter().all(|contact| contact.as_ref().is_some_and(|contact| contact.id == 1))
+        && reported.last().unwrap().as_ref().is_some_and(|contact| contact.dx.to_f64() == way)
 }
 
 fn is_gone(filter: Filter, rows: usize, columns: usize) -> bool {

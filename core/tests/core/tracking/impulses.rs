@@ -14,7 +14,7 @@ const REST: u16 = 100;
 const FULL: u16 = 4095;
 
 /// Conditioning and contacts of the shipped scene.
-struct Worn {
+struct Dressed {
     layout: Layout,
     condition: Condition,
     contacts: Contacts,
@@ -25,14 +25,14 @@ struct Worn {
     newest: u32,
 }
 
-impl Worn {
-    fn new() -> Worn {
+impl Dressed {
+    fn new() -> Dressed {
         let scene = Scene::shipped();
         let layout = Layout::build(&Garment::reference(), TAXELS, FULL).unwrap();
         let mut image = Box::new(ConditionState::new());
         image.reset(&layout, Code(REST));
         let (condition, contacts) = (scene.condition.build().unwrap(), scene.contact.build().unwrap());
-        Worn { layout, condition, contacts, image, state: Box::default(), frame: 0, newest: 0 }
+        Dressed { layout, condition, contacts, image, state: Box::default(), frame: 0, newest: 0 }
     }
 
     /// How many contacts begin in a frame.
@@ -57,9 +57,9 @@ fn idle(noise: &mut Noise, codes: &mut [Code]) {
 #[test]
 fn impulses_of_one_frame_begin_no_contact() {
     let frames = if crate::is_campaign() { 100_000 } else { 10_000 };
-    let (mut worn, mut noise, mut rng) = (Worn::new(), Noise(1), Noise(7));
+    let (mut dressed, mut noise, mut rng) = (Dressed::new(), Noise(1), Noise(7));
     let mut codes = vec![Code(REST); TAXELS];
-    let areas = worn.layout.areas().to_vec();
+    let areas = dressed.layout.areas().to_vec();
     // When each taxel and its neighbours rest again.
     let mut rests = vec![0u32; TAXELS];
     let mut impulses = 0;
@@ -81,7 +81,7 @@ fn impulses_of_one_frame_begin_no_contact() {
             codes[taxel(row, column)] = Code(FULL - height);
             impulses += 1;
         }
-        assert_eq!(worn.begin(&codes), 0, "frame {frame}");
+        assert_eq!(dressed.begin(&codes), 0, "frame {frame}");
     }
     println!("{frames} frames, {impulses} impulses: no contact");
     assert!(impulses > 5 * frames);
@@ -95,21 +95,21 @@ fn expected(part: f64) -> f64 {
 
 /// The table of `docs/bounds.md`. Some contacts have several causes, so that fewer begin than to first order.
 #[test]
-fn independent_impulses_begin_as_many_contacts_as_is_told() {
+fn independent_impulses_begin_as_many_contacts_as_is_reported() {
     let (part, frames) = (0.01, 4_000u32);
-    let (mut worn, mut noise) = (Worn::new(), Noise(3));
+    let (mut dressed, mut noise) = (Dressed::new(), Noise(3));
     let mut codes = vec![Code(REST); TAXELS];
     let mut begun = 0;
     for _ in 0..frames {
         codes.fill(Code(REST));
         let hit = codes.iter_mut().filter(|_| noise.unit() < part);
         hit.for_each(|code| code.0 = FULL);
-        begun += worn.begin(&codes);
+        begun += dressed.begin(&codes);
     }
     let (expected, measured) = (expected(part), f64::from(begun) / f64::from(frames));
     let line = format!("{:6} % {frames:10} {expected:14.6} {measured:12.6}", 100.0 * part);
     println!("impulses     frames   contacts begun a frame: expected, measured\n{line}");
-    let told = include_str!("../../../../docs/bounds.md");
-    assert!(told.contains(&line), "docs/bounds.md does not hold this line");
+    let reported = include_str!("../../../../docs/bounds.md");
+    assert!(reported.contains(&line), "docs/bounds.md does not hold this line");
     assert!((0.8..1.0).contains(&(measured / expected)));
 }

@@ -1,4 +1,4 @@
-//! Slip: told within three frames of the start of a motion, and of no contact that is held.
+//! Slip: reported within three frames of the start of a motion, and of no contact that is held.
 
 use crate::random::Noise;
 use crate::tracking::rig::{FRAME_US, Texture, TrackingRig, felt};
@@ -27,7 +27,7 @@ fn above_noise() -> ContactConfig {
     ContactConfig { low: 330, high: 660, ..ContactConfig::default() }
 }
 
-/// Held for 60 frames, then moving: frames from the first that differs until the slip is told; none of the
+/// Held for 60 frames, then moving: frames from the first that differs until the slip is reported; none of the
 /// held ones is one.
 fn onset(config: ContactConfig, noise: f64, speed: f64, degrees: f64, pressure: Pressure) -> Option<usize> {
     let mut rig = TrackingRig::new(&Garment::mat(), config);
@@ -57,7 +57,7 @@ fn mat_of(mm: u32) -> Garment {
 fn a_slip_is_one_of_cm_per_second() {
     let config = ContactConfig::default();
     for mm in [4, 5, 8, 10, 15] {
-        // A dome of 4 cm, whose speed is told in cm/s.
+        // A dome of 4 cm, whose speed is reported in cm/s.
         let (taxels, pressure) = (10.0 / f64::from(mm), dome(20.0 / f64::from(mm)));
         let onset = |speed: f64| {
             let mut rig = TrackingRig::new(&mat_of(mm), config);
@@ -78,7 +78,7 @@ fn slip_step(config: ContactConfig) -> f64 {
 }
 
 #[test]
-fn a_slip_is_told_within_three_frames() {
+fn a_slip_is_reported_within_three_frames() {
     let config = ContactConfig::default();
     let (texture, ridges) = (Texture::new(3), Texture::ridges(7.0));
     let things: [(&str, Pressure); 5] = [
@@ -91,10 +91,10 @@ fn a_slip_is_told_within_three_frames() {
     for (what, pressure) in things {
         for factor in [1.5, 3.0, 10.0, 25.0] {
             for degrees in [0.0, 31.0, 180.0] {
-                let told = onset(config, 0.0, factor * slip_step(config), degrees, pressure);
+                let reported = onset(config, 0.0, factor * slip_step(config), degrees, pressure);
                 assert!(
-                    told.is_some_and(|frame| frame <= 3),
-                    "{what}, {factor} times the slip speed: {told:?}"
+                    reported.is_some_and(|frame| frame <= 3),
+                    "{what}, {factor} times the slip speed: {reported:?}"
                 );
             }
         }
@@ -104,9 +104,9 @@ fn a_slip_is_told_within_three_frames() {
 }
 
 #[test]
-fn with_noise_a_slip_that_is_clear_of_it_is_told_within_three_frames() {
+fn with_noise_a_slip_that_is_clear_of_it_is_reported_within_three_frames() {
     let texture = Texture::new(3);
-    // The pattern of a smooth palm is told less exactly under noise than that of a texture.
+    // The pattern of a smooth palm is reported less exactly under noise than that of a texture.
     let things: [(&str, Pressure, f64); 3] = [
         ("a finger", &dome(2.6), 0.2),
         ("a texture", &|x, y| texture.at(x, y), 0.2),
@@ -115,8 +115,11 @@ fn with_noise_a_slip_that_is_clear_of_it_is_told_within_three_frames() {
     for (what, pressure, least) in things {
         for speed in [least, 2.0 * least] {
             for degrees in [0.0, 31.0, 180.0] {
-                let told = onset(above_noise(), 0.02, speed, degrees, pressure);
-                assert!(told.is_some_and(|frame| frame <= 3), "{what}, {speed} taxels a frame: {told:?}");
+                let reported = onset(above_noise(), 0.02, speed, degrees, pressure);
+                assert!(
+                    reported.is_some_and(|frame| frame <= 3),
+                    "{what}, {speed} taxels a frame: {reported:?}"
+                );
             }
         }
     }
@@ -247,7 +250,7 @@ fn a_touch_at_the_first_column_is_followed_as_any_other() {
 }
 
 #[test]
-fn a_scene_that_does_not_ask_for_slip_is_not_told() {
+fn a_scene_that_does_not_ask_for_slip_is_not_reported() {
     let config = ContactConfig { slip_speed: NO_SLIP, ..ContactConfig::default() };
     assert_eq!(onset(config, 0.0, 0.5, 0.0, &dome(3.0)), None);
 }

@@ -115,7 +115,7 @@ fn a_texture_that_slides_under_the_whole_panel() {
 
 #[test]
 fn a_texture_that_slides_inside_a_constant_outline() {
-    // Half the side; a taxel a frame is what the picture of the smaller ones can tell.
+    // Half the side; a taxel a frame is what the picture of the smaller ones can measure.
     for (seed, half) in [(5, 5.0), (6, 6.0), (7, 8.0)] {
         let texture = Texture::new(seed);
         let pad = |at: [f64; 2], way: [f64; 2]| {

@@ -11,7 +11,7 @@ pub mod touches;
 pub mod views;
 
 /// Prints a command's messages besides its output: on standard error if the output is the standard output.
-pub fn tell(is_standard: bool, text: &str) {
+pub fn print_beside(is_standard: bool, text: &str) {
     if is_standard {
         eprint!("{text}");
     } else {

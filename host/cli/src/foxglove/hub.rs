@@ -1,6 +1,6 @@
 //! Connects the board's thread with those of the clients.
 
-use super::protocol::{Channel, ClientWish};
+use super::protocol::{Channel, ClientRequest};
 use super::subscriber::{ChannelMessage, Subscriber};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -47,21 +47,21 @@ impl FoxgloveHub {
     }
 
     /// Handles a client's request.
-    pub fn wish(&self, client: &Subscriber, wish: ClientWish) {
+    pub fn request(&self, client: &Subscriber, request: ClientRequest) {
         let shared = self.lock();
-        match wish {
-            ClientWish::Subscribe(all) => all
+        match request {
+            ClientRequest::Subscribe(all) => all
                 .into_iter()
                 .for_each(|(id, channel)| client.subscribe(id, channel, shared.known.get(&channel))),
-            ClientWish::Unsubscribe(ids) => ids.into_iter().for_each(|id| client.unsubscribe(id)),
+            ClientRequest::Unsubscribe(ids) => ids.into_iter().for_each(|id| client.unsubscribe(id)),
         }
     }
 
     /// Sends a message to all subscribers.
-    pub fn tell(&self, told: ChannelMessage) {
-        let told = Arc::new(told);
+    pub fn send(&self, message: ChannelMessage) {
+        let message = Arc::new(message);
         let mut shared = self.lock();
-        shared.clients.iter().for_each(|client| client.tell(&told));
-        shared.known.insert(told.channel, told);
+        shared.clients.iter().for_each(|client| client.send(&message));
+        shared.known.insert(message.channel, message);
     }
 }

@@ -17,7 +17,7 @@ pub type Channel = u32;
 
 /// A request of a client.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ClientWish {
+pub enum ClientRequest {
     /// Numbers of subscriptions, each with its channel.
     Subscribe(Vec<(u32, Channel)>),
     /// Numbers of ended subscriptions.
@@ -25,16 +25,16 @@ pub enum ClientWish {
 }
 
 /// Parses a client's message; none if it is not supported.
-pub fn wish(text: &str) -> Option<ClientWish> {
+pub fn request(text: &str) -> Option<ClientRequest> {
     let said: Value = serde_json::from_str(text).ok()?;
     let number = |value: &Value| u32::try_from(value.as_u64()?).ok();
     match said["op"].as_str()? {
         "subscribe" => {
             let each = said["subscriptions"].as_array()?.iter();
             let pair = |one: &Value| Some((number(&one["id"])?, number(&one["channelId"])?));
-            Some(ClientWish::Subscribe(each.filter_map(pair).collect()))
+            Some(ClientRequest::Subscribe(each.filter_map(pair).collect()))
         }
-        "unsubscribe" => Some(ClientWish::Unsubscribe(
+        "unsubscribe" => Some(ClientRequest::Unsubscribe(
             said["subscriptionIds"].as_array()?.iter().filter_map(number).collect(),
         )),
         _ => None,
@@ -119,13 +119,13 @@ mod tests {
     fn what_a_client_wants_is_read_and_nothing_else() {
         let wanted =
             r#"{"op":"subscribe","subscriptions":[{"id":7,"channelId":3},{"id":-1,"channelId":3},{}]}"#;
-        assert_eq!(wish(wanted), Some(ClientWish::Subscribe(vec![(7, 3)])));
+        assert_eq!(request(wanted), Some(ClientRequest::Subscribe(vec![(7, 3)])));
         assert_eq!(
-            wish(r#"{"op":"unsubscribe","subscriptionIds":[7, "x"]}"#),
-            Some(ClientWish::Unsubscribe(vec![7]))
+            request(r#"{"op":"unsubscribe","subscriptionIds":[7, "x"]}"#),
+            Some(ClientRequest::Unsubscribe(vec![7]))
         );
         for other in ["", "[]", "7", "{}", r#"{"op":7}"#, r#"{"op":"subscribe"}"#, r#"{"op":"advertise"}"#] {
-            assert_eq!(wish(other), None, "{other}");
+            assert_eq!(request(other), None, "{other}");
         }
         assert_eq!((channel("hello"), channel("contacts"), channel("x")), (Some(1), Some(3), None));
         let texts = ["", "f", "fo", "foo", "foob"].map(|text| base64(text.as_bytes()));

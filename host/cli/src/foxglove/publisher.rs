@@ -27,13 +27,13 @@ impl Observer for Publisher {
         let ns = stamp.host_ns();
         if let Some(channel) = record::topic(event).and_then(protocol::channel) {
             let data = record::json_message(client, event, stamp)?;
-            self.hub.tell(ChannelMessage { channel, ns, data });
+            self.hub.send(ChannelMessage { channel, ns, data });
         }
         // Images are long: not unless somebody wants them.
         if matches!(event, Event::Frame { image: ImageNews::Whole, .. }) && self.hub.wants(protocol::IMAGES) {
             let mut data = Vec::new();
             record::append_image(client, stamp, &mut data);
-            self.hub.tell(ChannelMessage { channel: protocol::IMAGES, ns, data });
+            self.hub.send(ChannelMessage { channel: protocol::IMAGES, ns, data });
         }
         Ok(())
     }

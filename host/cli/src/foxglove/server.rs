@@ -83,9 +83,9 @@ fn talk(
             read(reading, rest, hub, client);
             client.close();
         });
-        let told =
+        let is_sent =
             reader.is_ok() && hello.iter().all(|line| socket.send(Message::text(line.clone())).is_ok());
-        while told && let Some(message) = client.next() {
+        while is_sent && let Some(message) = client.next() {
             if socket.send(message).is_err() {
                 break;
             }
@@ -102,7 +102,7 @@ fn read(stream: TcpStream, rest: Vec<u8>, hub: &FoxgloveHub, client: &Subscriber
     while let Ok(said) = socket.read() {
         match said {
             Message::Text(text) => {
-                protocol::wish(&text).into_iter().for_each(|wish| hub.wish(client, wish));
+                protocol::request(&text).into_iter().for_each(|request| hub.request(client, request));
             }
             Message::Ping(bytes) => client.pong(bytes),
             _ => {}

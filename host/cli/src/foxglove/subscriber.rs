@@ -50,7 +50,7 @@ impl Subscriber {
                 return;
             }
             waiting.subscriptions.insert(id, channel);
-            known.into_iter().for_each(|told| waiting.put(id, told));
+            known.into_iter().for_each(|sent| waiting.put(id, sent));
         });
     }
 
@@ -65,11 +65,11 @@ impl Subscriber {
     }
 
     /// Queues a message if the client subscribes to its channel.
-    pub fn tell(&self, told: &Arc<ChannelMessage>) {
+    pub fn send(&self, sent: &Arc<ChannelMessage>) {
         self.0.change(|waiting| {
-            let of = |(id, channel): (&u32, &Channel)| (*channel == told.channel).then_some(*id);
+            let of = |(id, channel): (&u32, &Channel)| (*channel == sent.channel).then_some(*id);
             let ids: Vec<u32> = waiting.subscriptions.iter().filter_map(of).collect();
-            ids.into_iter().for_each(|id| waiting.put(id, told));
+            ids.into_iter().for_each(|id| waiting.put(id, sent));
         });
     }
 
@@ -99,9 +99,9 @@ impl Subscriber {
 }
 
 impl SubscriberQueue {
-    fn put(&mut self, id: u32, told: &Arc<ChannelMessage>) {
-        self.messages.push_back((id, told.clone()));
-        self.bytes += told.data.len();
+    fn put(&mut self, id: u32, sent: &Arc<ChannelMessage>) {
+        self.messages.push_back((id, sent.clone()));
+        self.bytes += sent.data.len();
         while self.bytes > WAITING {
             let Some((_, oldest)) = self.messages.pop_front() else { return };
             self.bytes -= oldest.data.len();
@@ -119,9 +119,9 @@ impl SubscriberQueue {
         if self.left_out > 0 {
             return Some(Message::text(protocol::left_out(std::mem::take(&mut self.left_out))));
         }
-        let (id, told) = self.messages.pop_front()?;
-        self.bytes -= told.data.len();
-        Some(Message::binary(protocol::data(id, told.ns, &told.data)))
+        let (id, sent) = self.messages.pop_front()?;
+        self.bytes -= sent.data.len();
+        Some(Message::binary(protocol::data(id, sent.ns, &sent.data)))
     }
 }
 
@@ -133,9 +133,9 @@ mod tests {
     fn nothing_grows_while_nobody_reads() {
         let slow = Subscriber::default();
         slow.subscribe(9, 2, None);
-        let told = |ns| Arc::new(ChannelMessage { channel: 2, ns, data: vec![b' '; 1 << 20] });
-        (0..20).for_each(|ns| slow.tell(&told(ns)));
-        slow.tell(&Arc::new(ChannelMessage { channel: 3, ns: 0, data: Vec::new() }));
+        let sent = |ns| Arc::new(ChannelMessage { channel: 2, ns, data: vec![b' '; 1 << 20] });
+        (0..20).for_each(|ns| slow.send(&sent(ns)));
+        slow.send(&Arc::new(ChannelMessage { channel: 3, ns: 0, data: Vec::new() }));
         assert!(slow.wants(2) && !slow.wants(3));
         let text = slow.next().unwrap().into_text().unwrap();
         assert!(text.contains("12 messages were left out"), "{text}");

@@ -7,35 +7,35 @@ import { heightOf } from "../view/page/mesh.js";
 import { Relief } from "../view/page/relief.js";
 import { OnRobot } from "../view/page/on-robot.js";
 
-const told = JSON.parse($("data").textContent ?? "");
-take(told.palette);
-const garment = garmentOf(told);
-const highest = heightOf(told.image, told.top);
+const data = JSON.parse($("data").textContent ?? "");
+take(data.palette);
+const garment = garmentOf(data);
+const highest = heightOf(data.image, data.top);
 
 /** @type {import("../view/page/relief.js").Scene} */
 const scene = {
   key: "report",
   panels: garment.panels,
   absent: garment.absent,
-  image: told.image,
-  top: told.top,
+  image: data.image,
+  top: data.top,
   highest,
-  height: { highest: highest * told.per_count, unit: told.unit },
-  peaks: told.peaks,
+  height: { highest: highest * data.per_count, unit: data.unit },
+  peaks: data.peaks,
   chosen: null,
 };
 
 /** @type {import("../view/page/on-robot.js").BodyScene | null} */
-const onRobot = told.body && {
-  body: told.body,
-  figure: told.figure,
-  poses: told.poses?.links ?? null,
+const onRobot = data.body && {
+  body: data.body,
+  figure: data.figure,
+  poses: data.poses?.links ?? null,
   panels: garment.panels,
-  image: told.image,
+  image: data.image,
   unknown: null,
-  top: told.top,
-  pressing: told.pressing,
-  folding: told.folding?.taxels ?? [],
+  top: data.top,
+  pressing: data.pressing,
+  folding: data.folding?.taxels ?? [],
   force: words,
   chosen: null,
 };
@@ -51,7 +51,7 @@ const changed = () =>
  * @param {number} value
  */
 function words(value) {
-  return `${Number((value * told.per_count).toPrecision(3))} ${told.unit}`;
+  return `${Number((value * data.per_count).toPrecision(3))} ${data.unit}`;
 }
 
 /**
@@ -66,11 +66,11 @@ const point = (picture, below) => (taxel) => {
   changed();
   if (taxel === null) return;
   const { panel, row, column } = placeOf(garment, taxel);
-  $(below).textContent = `${panel.name}, row ${row}, column ${column}: ${words(told.image[taxel])}`;
+  $(below).textContent = `${panel.name}, row ${row}, column ${column}: ${words(data.image[taxel])}`;
 };
 
-const relief = new Relief($("surface"), { changed, point: point(scene, "told") });
-const robot = onRobot && new OnRobot($("robot"), { changed, point: point(onRobot, "told-robot") });
+const relief = new Relief($("surface"), { changed, point: point(scene, "pointed") });
+const robot = onRobot && new OnRobot($("robot"), { changed, point: point(onRobot, "pointed-robot") });
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const themed = () => {
   document.documentElement.dataset.theme = dark.matches ? "dark" : "light";

@@ -51,7 +51,7 @@ pub fn page(seen: &Seen) -> Result<String> {
         format!("<div class=\"panels\">\n{}</div>\n", drawn.collect::<String>())
     };
     let scale = seen.scale();
-    let force = format!("{} {}", scale.told(*total as f64), scale.unit());
+    let force = format!("{} {}", scale.text_of(*total as f64), scale.unit());
     let mut sections = vec![
         (
             "Pressure, 2-D",
@@ -92,7 +92,7 @@ pub fn page(seen: &Seen) -> Result<String> {
         ("Events", tables::events(seen)),
         ("Health", tables::health(seen)),
     ];
-    if seen.wearer.is_some() {
+    if seen.shown_robot.is_some() {
         let text = format!(
             "<p>The same moment: the panels on the robot in the same colours; an arrow for what presses there.</p>\n{}",
             surface::ROBOT
@@ -116,29 +116,29 @@ fn strokes(FoldingLine { followed, taxels }: &FoldingLine) -> String {
         (true, 0) => " The garment folds nowhere.".into(),
         (true, count) => format!(" Strokes: the garment folds here, {count} taxels."),
         (false, count) => {
-            format!(" Strokes: the garment may fold here, {count} taxels; no posture was told.")
+            format!(" Strokes: the garment may fold here, {count} taxels; no posture was sent.")
         }
     }
 }
 
 /// Source, contents and duration.
 fn head(seen: &Seen) -> String {
-    let Some(worn) = &seen.worn else { return String::new() };
+    let Some(description) = &seen.description else { return String::new() };
     let [first, last] = seen.totals.span();
-    let calibration = match (worn.calibration.as_str(), seen.counts_per_newton) {
+    let calibration = match (description.calibration.as_str(), seen.counts_per_newton) {
         ("", None) => "none, pressure is in counts".into(),
         ("", Some(counts)) => format!("none, the source knows that {counts} counts are a newton"),
-        (told, _) => told.to_string(),
+        (reported, _) => reported.to_string(),
     };
-    let simulated = if worn.is_simulated() { "simulated board, " } else { "" };
+    let simulated = if description.is_simulated() { "simulated board, " } else { "" };
     let text = format!(
         "{simulated}{}; garment {} of {} taxels in {} panels, scene {}; calibration: {calibration}; {:.2} s, {} frames. \
          taxel {}.",
-        worn.firmware,
-        worn.garment.name,
-        worn.layout.taxels(),
-        worn.layout.areas().len(),
-        worn.scene.name,
+        description.firmware,
+        description.garment.name,
+        description.layout.taxels(),
+        description.layout.areas().len(),
+        description.scene.name,
         last.saturating_sub(first) as f64 / 1e6,
         seen.counts.frames,
         env!("CARGO_PKG_VERSION")

@@ -34,8 +34,8 @@ pub fn table(then: &[u16], hold: &[u16], top: u16, scale: PageUnit) -> String {
         let to = if index == 0 { 0 } else { limits.get(index).copied().unwrap_or(top) };
         let range = match index {
             0 => "0".to_string(),
-            _ if index == limits.len() => format!("{} and more", scale.told(from)),
-            _ => format!("{} to {}", scale.told(from), scale.told(to)),
+            _ if index == limits.len() => format!("{} and more", scale.text_of(from)),
+            _ => format!("{} to {}", scale.text_of(from), scale.text_of(to)),
         };
         let fill = colour(f64::midpoint(f64::from(from), f64::from(to)), top);
         let bar = |count: usize| {

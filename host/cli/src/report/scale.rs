@@ -23,7 +23,7 @@ impl PageUnit {
     }
 
     /// Formats counts in the unit, without its name.
-    pub fn told(self, counts: impl Into<f64>) -> String {
+    pub fn text_of(self, counts: impl Into<f64>) -> String {
         let value = self.value(counts.into());
         match self.per_newton {
             None => value.to_string(),

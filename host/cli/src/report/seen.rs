@@ -4,12 +4,12 @@ use super::scale::PageUnit;
 use super::series::Series;
 use crate::fault::own;
 use crate::folding::{Folding, FoldingLine};
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use crate::watch::narrate::Narrator;
 use crate::watch::shape::shape;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use taxel::client::{Client, Counts, Event, ImageNews, Stamp, Worn};
+use taxel::client::{BoardDescription, Client, Counts, Event, ImageNews, Stamp};
 use taxel::recording::Skipped;
 use taxel::session::Observer;
 use taxel_core::body::Placed;
@@ -29,7 +29,7 @@ pub struct Seen {
     /// Name of the recording or the board.
     pub label: String,
     pub(super) counts_per_newton: Option<f32>,
-    pub(super) worn: Option<Worn>,
+    pub(super) description: Option<BoardDescription>,
     pub(super) counts: Counts,
     /// The moment of the greatest force.
     pub(super) top: Moment,
@@ -48,9 +48,9 @@ pub struct Seen {
     /// Number of sentences left out.
     pub(super) unsaid: usize,
     pub(super) health: Option<Health>,
-    pub(super) ill: BTreeMap<u16, TaxelHealth>,
-    /// The robot that wears the garment; none if it is not shown.
-    pub(super) wearer: Option<Wearer>,
+    pub(super) faulty: BTreeMap<u16, TaxelHealth>,
+    /// The robot that carries the garment; none if it is not shown.
+    pub(super) shown_robot: Option<ShownRobot>,
     /// Where it folds; none without a table.
     folding: Option<Folding>,
     /// Damage of a recording.
@@ -85,7 +85,7 @@ impl Seen {
         Seen {
             label,
             counts_per_newton,
-            worn: None,
+            description: None,
             counts: Counts::default(),
             top: Moment::default(),
             hold: Vec::new(),
@@ -97,8 +97,8 @@ impl Seen {
             sentences: Vec::new(),
             unsaid: 0,
             health: None,
-            ill: BTreeMap::new(),
-            wearer: None,
+            faulty: BTreeMap::new(),
+            shown_robot: None,
             folding: None,
             skipped: Skipped::default(),
             narrator: Narrator::new(counts_per_newton),
@@ -106,8 +106,8 @@ impl Seen {
     }
 
     /// Also shows the garment on this robot.
-    pub fn on(self, wearer: Option<Wearer>) -> Seen {
-        Seen { wearer, ..self }
+    pub fn on(self, shown_robot: Option<ShownRobot>) -> Seen {
+        Seen { shown_robot, ..self }
     }
 
     /// Also shows where the garment folds.
@@ -122,7 +122,7 @@ impl Seen {
 
     /// Panels of the garment.
     pub(super) fn areas(&self) -> &[Area] {
-        self.worn.as_ref().map_or(&[], |worn| worn.layout.areas())
+        self.description.as_ref().map_or(&[], |description| description.layout.areas())
     }
 
     fn image(&mut self, client: &Client, time_us: u64) {
@@ -134,7 +134,10 @@ impl Seen {
         self.hold.resize(image.len(), 0);
         self.hold.iter_mut().zip(image).for_each(|(held, value)| *held = (*held).max(*value));
         if total > self.top.total || self.top.image.is_empty() {
-            let pressing = self.wearer.as_ref().and_then(|wearer| wearer.pressing(client, Micros(time_us)));
+            let pressing = self
+                .shown_robot
+                .as_ref()
+                .and_then(|shown_robot| shown_robot.pressing(client, Micros(time_us)));
             self.top = Moment {
                 time_us,
                 total,
@@ -182,14 +185,14 @@ impl Observer for Seen {
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
-                self.worn = client.worn().cloned();
-                if let (Some(wearer), Some(worn)) = (&mut self.wearer, client.worn())
-                    && !wearer.wears(worn)
+                self.description = client.description().cloned();
+                if let (Some(shown_robot), Some(description)) = (&mut self.shown_robot, client.description())
+                    && !shown_robot.has(description)
                 {
-                    wearer.wear(worn).map_err(own)?;
+                    shown_robot.put_on(description).map_err(own)?;
                 }
-                if let (Some(folding), Some(worn)) = (&mut self.folding, client.worn()) {
-                    folding.wear(worn).map_err(own)?;
+                if let (Some(folding), Some(description)) = (&mut self.folding, client.description()) {
+                    folding.use_garment(description).map_err(own)?;
                 }
                 self.concepts = client.concepts().iter().map(ToString::to_string).collect();
             }
@@ -204,12 +207,14 @@ impl Observer for Seen {
                 let values = report.concepts.iter().map(|value| value.to_f64()).collect();
                 self.activations.push(report.time.0, values);
             }
-            Event::Pressing(report) => self.wearer.iter_mut().for_each(|wearer| wearer.take(report)),
+            Event::Pressing(report) => {
+                self.shown_robot.iter_mut().for_each(|shown_robot| shown_robot.take(report))
+            }
             Event::Health(health) => self.health = Some(*health),
-            Event::HealthMap { .. } => self.ill.clone_from(client.ill()),
+            Event::HealthMap { .. } => self.faulty.clone_from(client.faulty()),
             _ => {}
         }
-        for sentence in self.narrator.tell(client, event) {
+        for sentence in self.narrator.narrate(client, event) {
             if self.sentences.len() < SENTENCES { self.sentences.push(sentence) } else { self.unsaid += 1 }
         }
         Ok(())

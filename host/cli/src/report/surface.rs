@@ -2,7 +2,7 @@
 
 use super::script;
 use super::seen::Seen;
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use crate::palette;
 use serde_json::{Value, json};
 
@@ -10,14 +10,14 @@ use serde_json::{Value, json};
 pub const STYLE: &str = include_str!("../view/page/relief.css");
 
 /// Where the script draws the robot.
-pub const ROBOT: &str = "<div id=\"robot\"></div>\n<p id=\"told-robot\">&nbsp;</p>\n";
+pub const ROBOT: &str = "<div id=\"robot\"></div>\n<p id=\"pointed-robot\">&nbsp;</p>\n";
 
 /// The surface on a scale that ends at `top` counts.
 pub fn draw(seen: &Seen, top: u16) -> String {
     // Nothing in a text can end the element that holds it.
     let data = data(seen, top).to_string().replace('<', "\\u003c");
     format!(
-        "<div id=\"surface\" data-top=\"{top}\"></div>\n<p id=\"told\">&nbsp;</p>\n\
+        "<div id=\"surface\" data-top=\"{top}\"></div>\n<p id=\"pointed\">&nbsp;</p>\n\
          <noscript><p>The surface is drawn by a script of this page.</p></noscript>\n\
          <script type=\"application/json\" id=\"data\">{data}</script>\n<script type=\"module\">{}</script>\n",
         script::bundle()
@@ -40,20 +40,20 @@ fn data(seen: &Seen, top: u16) -> Value {
         let area = seen.areas().get(usize::from(contact.panel))?;
         let row = usize::from(contact.peak_at.row) * usize::from(area.columns);
         let taxel = usize::from(area.base) + row + usize::from(contact.peak_at.column);
-        Some(json!({ "taxel": taxel, "text": unit.told(contact.peak) }))
+        Some(json!({ "taxel": taxel, "text": unit.text_of(contact.peak) }))
     });
     json!({
-        "palette": palette::told(),
+        "palette": palette::for_page(),
         "panels": panels.collect::<Vec<_>>(),
-        "absent": seen.worn.as_ref().map(|worn| &worn.garment.absent),
+        "absent": seen.description.as_ref().map(|description| &description.garment.absent),
         "image": seen.top.image,
         "top": top,
         "peaks": peaks.collect::<Vec<_>>(),
         "unit": unit.unit(),
         "per_count": unit.value(1.0),
-        "body": seen.wearer.as_ref().and_then(Wearer::body),
-        "figure": seen.wearer.as_ref().and_then(Wearer::figure),
-        "poses": seen.wearer.as_ref().and_then(Wearer::poses),
+        "body": seen.shown_robot.as_ref().and_then(ShownRobot::body),
+        "figure": seen.shown_robot.as_ref().and_then(ShownRobot::figure),
+        "poses": seen.shown_robot.as_ref().and_then(ShownRobot::poses),
         "pressing": seen.top.pressing,
         "folding": seen.top.folding,
     })

@@ -8,7 +8,7 @@ pub fn colour(value: f64, top: u16) -> String {
     hex(palette::pressure(value.round().clamp(0.0, 65535.0) as u16, top))
 }
 
-/// Line colours that colour-blind readers can tell apart: those of Okabe and Ito that no intention has.
+/// Line colours that colour-blind readers can distinguish: those of Okabe and Ito that no intention has.
 const LINES: [&str; 5] = ["#0072b2", "#cc79a7", "#56b4e9", "#999999", "#8c8c00"];
 
 /// Colour of a line, and its dashes: an intention has its own everywhere, the other colours repeat, dashed.

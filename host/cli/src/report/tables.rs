@@ -41,8 +41,8 @@ fn row(seen: &Seen, SeenContact { placed, shape }: &SeenContact, html: &mut Stri
         escaped(panel),
         contact.onset.0 as f64 / 1e6,
         f64::from(contact.duration_ms) / 1000.0,
-        seen.scale().told(contact.total),
-        seen.scale().told(contact.peak),
+        seen.scale().text_of(contact.total),
+        seen.scale().text_of(contact.peak),
         contact.peak_at.row,
         contact.peak_at.column,
         contact.area,
@@ -87,11 +87,11 @@ pub fn health(seen: &Seen) -> String {
     if !seen.skipped.is_none() {
         let _ = writeln!(html, "<p>Of the recording: {}.</p>", seen.skipped);
     }
-    if seen.ill.is_empty() {
+    if seen.faulty.is_empty() {
         return html + "<p>No faulty taxels.</p>\n";
     }
-    let layout = seen.worn.as_ref().map(|worn| &worn.layout);
-    let ill = seen.ill.iter().map(|(taxel, health)| {
+    let layout = seen.description.as_ref().map(|description| &description.layout);
+    let faulty = seen.faulty.iter().map(|(taxel, health)| {
         let place = layout.and_then(|layout| Some((layout, layout.place(usize::from(*taxel))?)));
         let place = place.map_or(format!("taxel {taxel}"), |(layout, place)| {
             let panel = layout.areas().get(usize::from(place.panel)).map_or("", |area| area.name.as_str());
@@ -99,5 +99,5 @@ pub fn health(seen: &Seen) -> String {
         });
         escaped(&format!("{place}: {health}"))
     });
-    format!("{html}<p>Faulty taxels: {}.</p>\n", ill.collect::<Vec<_>>().join("; "))
+    format!("{html}<p>Faulty taxels: {}.</p>\n", faulty.collect::<Vec<_>>().join("; "))
 }

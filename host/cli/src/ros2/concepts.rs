@@ -68,7 +68,10 @@ impl Concepts {
 
 /// Names of the concepts that the host may feed.
 fn fed(client: &Client) -> Vec<Name> {
-    let map = client.worn().and_then(|worn| worn.scene.intent.as_ref()).map(|intent| &intent.map);
+    let map = client
+        .description()
+        .and_then(|description| description.scene.intent.as_ref())
+        .map(|intent| &intent.map);
     let inputs = map.iter().flat_map(|map| map.inputs.iter());
     let by_host = inputs.filter(|input| matches!(input.source, Source::Host(_)));
     by_host.filter_map(|input| client.concepts().get(usize::from(input.concept)).cloned()).collect()

@@ -10,25 +10,25 @@ use taxel::ros2::{pressing, topic_part};
 use taxel_core::garment::Garment;
 use taxel_core::wire::{PressingReport, RegionsReport};
 
-/// The links that wear the garment.
+/// The links that carry the garment.
 #[derive(Debug)]
 pub struct Links {
     body: Option<ReadBody>,
     /// Counts per newton, if known.
     pub per_newton: Option<f32>,
     /// The body on this garment.
-    worn: Option<(Garment, Arc<Surface>)>,
+    placed: Option<(Garment, Arc<Surface>)>,
 }
 
 impl Links {
     /// Those of a body, if there is one.
     pub fn new(body: Option<ReadBody>) -> Links {
-        Links { body, per_newton: None, worn: None }
+        Links { body, per_newton: None, placed: None }
     }
 
     /// The places of the taxels; none without a body, or before the board's garment is known.
     pub fn surface(&self) -> Option<&Arc<Surface>> {
-        self.worn.as_ref().map(|(_, surface)| surface)
+        self.placed.as_ref().map(|(_, surface)| surface)
     }
 
     /// Forces of links: in newtons if a calibration is known.
@@ -36,11 +36,11 @@ impl Links {
         if self.per_newton.is_some() { LINK_WRENCH } else { LINK_COUNTS }
     }
 
-    /// Places the body on the garment that the board wears, and offers the topics of its links, if it is
+    /// Places the body on the garment of the board, and offers the topics of its links, if it is
     /// another garment than before.
     pub fn offer(&mut self, node: &mut RosNode, client: &Client) -> Result<()> {
-        let (Some(body), Some(board)) = (&self.body, client.worn()) else { return Ok(()) };
-        if self.worn.as_ref().is_some_and(|(garment, _)| *garment == board.garment) {
+        let (Some(body), Some(board)) = (&self.body, client.description()) else { return Ok(()) };
+        if self.placed.as_ref().is_some_and(|(garment, _)| *garment == board.garment) {
             return Ok(());
         }
         let surface = Arc::new(body.surface(&board.garment, &board.layout)?);
@@ -56,7 +56,7 @@ impl Links {
         for link in surface.links() {
             node.offer(&topic, &topic_part(link))?;
         }
-        self.worn = Some((board.garment.clone(), surface));
+        self.placed = Some((board.garment.clone(), surface));
         Ok(())
     }
 
@@ -69,7 +69,7 @@ impl Links {
         us: u64,
     ) -> Result<()> {
         // The board may have a body that nobody has named here.
-        if self.worn.is_none() {
+        if self.placed.is_none() {
             return Ok(());
         }
         node.publish(&REGIONS, "", pressing::regions(us, client, report))

@@ -17,10 +17,11 @@
 //! | `concepts.rs` | concepts on their way to the board |
 //! | `services.rs` | services, and the board's answers to them |
 //! | `show.rs` | [`RosShow`]: hands the stream to all of them |
-//! | `told.rs` | what others tell a robot of several boards, on its way to its mind |
+//! | `host_input.rs` | what others send a robot of several boards, on its way to its mind |
 //! | `robot.rs` | [`RobotNode`]: the node of a robot of several boards |
 
 mod concepts;
+mod host_input;
 mod inbox;
 mod links;
 mod names;
@@ -32,7 +33,6 @@ mod raw;
 mod robot;
 mod services;
 mod show;
-mod told;
 
 pub use names::RosPlace;
 pub use node::{DOMAINS, RosNode};

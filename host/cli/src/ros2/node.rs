@@ -52,7 +52,7 @@ impl RosNode {
         self.place.board.as_deref().unwrap_or_default()
     }
 
-    /// Whole name of a topic, one of a panel, link, concept or told name if `part` names it.
+    /// Whole name of a topic, one of a panel, link, concept or host input if `part` names it.
     pub fn name(&self, topic: &RosTopic, part: &str) -> String {
         let parts = ["PANEL", "LINK", "CONCEPT", "NAME"];
         let name = parts.iter().fold(topic.name.to_string(), |name, of| name.replace(of, part));

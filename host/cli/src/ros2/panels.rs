@@ -32,7 +32,7 @@ impl Panels {
         Panels { per_newton: None, areas: Vec::new(), surface: None, due_us: 0 }
     }
 
-    /// Offers the topics of a board's panels, and tells the frames of the panels, if they have changed. With
+    /// Offers the topics of a board's panels, and reports the frames of the panels, if they have changed. With
     /// a surface, points lie on links.
     pub fn offer(
         &mut self,

@@ -45,21 +45,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_parameter_cannot_be_is_told() {
-        let told = |name: &str, value| check(name, &value, "sim:pat");
-        assert_eq!(told(IMAGE_HZ, ParameterValue::Double(30.0)), Ok(()));
+    fn what_a_parameter_cannot_be_is_reported() {
+        let checked = |name: &str, value| check(name, &value, "sim:pat");
+        assert_eq!(checked(IMAGE_HZ, ParameterValue::Double(30.0)), Ok(()));
         assert_eq!(
-            told(IMAGE_HZ, ParameterValue::Double(f64::NAN)),
+            checked(IMAGE_HZ, ParameterValue::Double(f64::NAN)),
             Err("image_hz must be 0 to 1000".into())
         );
         assert_eq!(
-            told(TARE_FRAMES, ParameterValue::Integer(0)),
+            checked(TARE_FRAMES, ParameterValue::Integer(0)),
             Err("tare_frames must be 1 to 4096".into())
         );
-        assert_eq!(told(SOURCE, ParameterValue::String("sim:pat".into())), Ok(()));
+        assert_eq!(checked(SOURCE, ParameterValue::String("sim:pat".into())), Ok(()));
         assert!(
-            told(SOURCE, ParameterValue::String("usb".into())).unwrap_err().contains("start another node")
+            checked(SOURCE, ParameterValue::String("usb".into())).unwrap_err().contains("start another node")
         );
-        assert_eq!(told(IMAGE_HZ, ParameterValue::NotSet), Err("image_hz cannot be removed".into()));
+        assert_eq!(checked(IMAGE_HZ, ParameterValue::NotSet), Err("image_hz cannot be removed".into()));
     }
 }

@@ -11,7 +11,7 @@ use taxel::client::Client;
 use taxel::ros2::messages;
 use taxel::ros2::topics::{JOINT_STATES, POSTURE};
 use taxel::session::{JointTime, Posing};
-use taxel::tell::words;
+use taxel::text::words;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::{Name, name};
 use taxel_core::wire::Request;
@@ -31,7 +31,7 @@ pub struct Postures {
     asked: Option<JointState>,
     sent: Instant,
     /// When joint states were last complained of.
-    told: Option<Instant>,
+    reported: Option<Instant>,
     /// A robot's posture takes what comes.
     is_posing: bool,
 }
@@ -45,7 +45,7 @@ impl Postures {
             newest: None,
             asked: None,
             sent: Instant::now(),
-            told: None,
+            reported: None,
             is_posing: false,
         })
     }
@@ -59,7 +59,7 @@ impl Postures {
     }
 
     /// Hands over the positions of a robot's joints that have come, at the times that their stamps are by
-    /// `time`. What is wrong with them is another program's mistake: it is told every five seconds.
+    /// `time`. What is wrong with them is another program's mistake: it is reported every five seconds.
     pub fn pose(
         &mut self,
         node: &RosNode,
@@ -71,7 +71,7 @@ impl Postures {
         let mut wrong = None;
         self.read(|state| {
             let named = state.name.iter().zip(&state.position);
-            // Others than this robot's may be told, too.
+            // Others than this robot's may be sent, too.
             let own: Vec<(String, f64)> = named
                 .filter(|(joint, _)| posing.robot().joint(joint).is_ok())
                 .map(|(joint, position)| (joint.clone(), *position))
@@ -81,8 +81,10 @@ impl Postures {
                 wrong = Some(words::sentence(&error));
             }
         });
-        if let Some(wrong) = wrong.filter(|_| self.told.is_none_or(|told| told.elapsed() > COMPLAINT)) {
-            self.told = Some(Instant::now());
+        if let Some(wrong) =
+            wrong.filter(|_| self.reported.is_none_or(|reported| reported.elapsed() > COMPLAINT))
+        {
+            self.reported = Some(Instant::now());
             node.log(LogLevel::Warn, &format!("joint_states: {wrong}"));
         }
     }
@@ -93,7 +95,7 @@ impl Postures {
             self.read(|_| ());
         }
         let waits = if self.asked.is_some() { ANSWER } else { PAUSE };
-        let joints = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+        let joints = client.description().map_or(&[][..], |description| description.scene.joints.as_slice());
         if self.sent.elapsed() < waits || joints.is_empty() {
             return Ok(());
         }
@@ -106,18 +108,18 @@ impl Postures {
         Ok(())
     }
 
-    /// Tells the posture that the board has accepted.
+    /// Reports the posture that the board has accepted.
     pub fn answered(&mut self, node: &mut RosNode, client: &Client, is_done: bool) -> Result<()> {
         let Some(state) = self.asked.take().filter(|_| is_done) else { return Ok(()) };
-        let joints = client.worn().map_or(&[][..], |worn| worn.scene.joints.as_slice());
+        let joints = client.description().map_or(&[][..], |description| description.scene.joints.as_slice());
         let posture = posture(joints, &state);
-        let told = posture.joints.iter().filter_map(|angle| {
+        let reported = posture.joints.iter().filter_map(|angle| {
             Some((
                 joints.get(usize::from(angle.joint))?.as_str(),
                 f64::from(angle.centidegrees).to_radians() / 100.0,
             ))
         });
-        let (names, positions): (Vec<&str>, Vec<f64>) = told.unzip();
+        let (names, positions): (Vec<&str>, Vec<f64>) = reported.unzip();
         node.publish(&POSTURE, "", messages::joints(state.header.stamp, &names, &positions))
     }
 }

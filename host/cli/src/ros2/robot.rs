@@ -1,7 +1,7 @@
 //! The node of a robot: what touches on all of its boards mean, and which of them are not there.
 
+use super::host_input::HostInputTopics;
 use super::node::RosNode;
-use super::told::RobotTold;
 use anyhow::Result;
 use ros2_client::log::LogLevel;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use taxel::mind::{BoardSense, RobotMeaning, RobotMeaningLine, RobotMind, robot_i
 use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent, RobotStream};
 use taxel::ros2::messages::{self, DiagnosticState};
 use taxel::ros2::topics::{DIAGNOSTICS, ROBOT_INTENT};
-use taxel::tell::words;
+use taxel::text::words;
 
 /// Time between two diagnostics of a board that is not there.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -19,10 +19,10 @@ pub struct RobotNode<'a> {
     node: RosNode,
     robot: &'a ReadRobot,
     mind: RobotMind,
-    taken: RobotTold,
+    taken: HostInputTopics,
     /// Why a board is not there; none if it is.
     gone: Vec<Option<String>>,
-    told: Instant,
+    sent: Instant,
 }
 
 impl<'a> RobotNode<'a> {
@@ -31,12 +31,12 @@ impl<'a> RobotNode<'a> {
         node.offer(&DIAGNOSTICS, "")?;
         node.offer(&ROBOT_INTENT, "")?;
         let mind = RobotMind::new(robot)?;
-        let taken = RobotTold::open(&mut node, robot, &mind)?;
+        let taken = HostInputTopics::open(&mut node, robot, &mind)?;
         let gone = vec![None; robot.boards.len()];
-        Ok(RobotNode { node, robot, mind, taken, gone, told: Instant::now() })
+        Ok(RobotNode { node, robot, mind, taken, gone, sent: Instant::now() })
     }
 
-    /// The mind of the robot, to be told what others know; what it says then is for [`RobotNode::mean`].
+    /// The mind of the robot, to be given what others know; what it says then is for [`RobotNode::mean`].
     pub fn mind(&mut self) -> &mut RobotMind {
         &mut self.mind
     }
@@ -73,7 +73,7 @@ impl<'a> RobotNode<'a> {
         }
     }
 
-    /// Tells mind and boards what has come, and the mind that time passes, if no board says anything. Publishes
+    /// Sends mind and boards what has come, and the mind that time passes, if no board says anything. Publishes
     /// what touches mean then if that is news, and the diagnostics of boards that are not there, if they are due.
     pub fn turn(&mut self, session: &RobotStream<BoardSense>, is_quiet: bool) -> Result<()> {
         let now_us = session.now_us();
@@ -82,14 +82,14 @@ impl<'a> RobotNode<'a> {
             news = self.mind.pass(now_us).cloned().or(news);
         }
         news.map_or(Ok(()), |meaning| self.mean(&meaning))?;
-        if self.told.elapsed() < PERIOD {
+        if self.sent.elapsed() < PERIOD {
             return Ok(());
         }
-        self.told = Instant::now();
+        self.sent = Instant::now();
         for (board, why) in self.robot.boards.iter().zip(&self.gone) {
             if let Some(why) = why {
-                let told = messages::diagnostics(&board.name, now_us, "", DiagnosticState::Lost(why));
-                self.node.publish(&DIAGNOSTICS, "", told)?;
+                let sent = messages::diagnostics(&board.name, now_us, "", DiagnosticState::Lost(why));
+                self.node.publish(&DIAGNOSTICS, "", sent)?;
             }
         }
         Ok(())

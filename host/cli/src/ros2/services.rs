@@ -14,7 +14,7 @@ use taxel::ros2::parameters::TARE_FRAMES;
 use taxel::ros2::topics::{SAVE, SET_SCENE, TARE};
 use taxel::session::setting;
 use taxel::source::SceneFile;
-use taxel::tell::words;
+use taxel::text::words;
 use taxel_core::wire::Request;
 
 /// Longest wait for an answer: the longest tare takes that long on a slow garment.
@@ -65,7 +65,7 @@ pub struct Services {
     read: Receiver<(RmwRequestId, Result<SceneFile, Error>)>,
     /// Name of a source whose board does not listen: a recording.
     deaf: Option<String>,
-    /// The board has another scene than its last `Hello` told.
+    /// The board has another scene than its last `Hello` reported.
     is_new: bool,
 }
 
@@ -88,7 +88,7 @@ impl Services {
     /// Takes calls that have come, and sends to the board what they ask.
     pub fn turn(&mut self, node: &RosNode, client: &mut Client) -> Result<()> {
         if std::mem::take(&mut self.is_new) {
-            // Answered by a `Hello`, which tells the scene's joints and concepts.
+            // Answered by a `Hello`, which reports the scene's joints and concepts.
             client.start(0)?;
         }
         for (id, _) in Vec::from_iter(calls(&self.tare)) {
@@ -109,7 +109,7 @@ impl Services {
             }
         }
         while let Ok((id, scene)) = self.read.try_recv() {
-            // Whoever asked may have been told that it takes too long.
+            // Whoever asked may have heard that it takes too long.
             if self.waiting.iter().any(|waiting| waiting.id == id) {
                 self.asked(id, scene.and_then(|scene| setting::set_scene(client, &scene)));
             }

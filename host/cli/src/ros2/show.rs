@@ -25,7 +25,7 @@ use taxel_core::wire::Request;
 
 /// Time between two diagnostics of a lost board.
 const PERIOD: Duration = Duration::from_secs(1);
-/// Number of the request that tells the board poses.
+/// Number of the request that sends the board poses.
 const SET_POSES: u8 = Request::SetPoses(&[]).number();
 
 /// Publishes a board's stream, and passes on what comes for the board.
@@ -42,7 +42,7 @@ pub struct RosShow {
     concepts: Concepts,
     /// What it takes from others; none before the board's source is open.
     taken: Option<Taken>,
-    /// Why the board is lost, and when that was told last.
+    /// Why the board is lost, and when that was reported last.
     lost: Option<(String, Instant)>,
 }
 
@@ -53,8 +53,8 @@ struct Taken {
 }
 
 impl RosShow {
-    /// Of the board of this node. With `is_clock`, stamps are the board's time, which is told on `/clock`. With a body,
-    /// what presses on its links is told.
+    /// Of the board of this node. With `is_clock`, stamps are the board's time, which is reported on `/clock`. With a
+    /// body, what presses on its links is reported.
     pub fn new(node: RosNode, is_clock: bool, body: Option<ReadBody>) -> RosShow {
         RosShow {
             stamps: Stamps::start(),
@@ -113,10 +113,10 @@ impl RosShow {
             Event::Intent(report) => node.publish(&INTENT, "", own::intent(us, client, report)),
             Event::Health(health) => {
                 node.publish(&HEALTH, "", own::health(us, client, health))?;
-                let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
-                let state = DiagnosticState::Reports(health, client.ill().len());
-                let told = messages::diagnostics(node.board(), us, firmware, state);
-                node.publish(&DIAGNOSTICS, "", told)
+                let firmware = client.description().map_or("", |description| description.firmware.as_str());
+                let state = DiagnosticState::Reports(health, client.faulty().len());
+                let reported = messages::diagnostics(node.board(), us, firmware, state);
+                node.publish(&DIAGNOSTICS, "", reported)
             }
             Event::Lost { why, .. } => {
                 self.panels.still(node, us)?;
@@ -147,9 +147,9 @@ impl RosShow {
     fn stale(&mut self, client: &Client) -> Result<()> {
         let stamp = self.stamps.now(client);
         let us = self.us(stamp);
-        let Some((why, told)) = &mut self.lost else { return Ok(()) };
-        *told = Instant::now();
-        let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
+        let Some((why, reported)) = &mut self.lost else { return Ok(()) };
+        *reported = Instant::now();
+        let firmware = client.description().map_or("", |description| description.firmware.as_str());
         let message = messages::diagnostics(self.node.board(), us, firmware, DiagnosticState::Lost(why));
         self.node.publish(&DIAGNOSTICS, "", message)
     }
@@ -177,7 +177,7 @@ impl RosShow {
 
     /// Passes on what has come for the board.
     fn turn(&mut self, client: &mut Client) -> Result<()> {
-        if self.lost.as_ref().is_some_and(|(_, told)| told.elapsed() >= PERIOD) {
+        if self.lost.as_ref().is_some_and(|(_, reported)| reported.elapsed() >= PERIOD) {
             self.stale(client)?;
         }
         if let Some(taken) = &mut self.taken {

@@ -10,7 +10,7 @@ use taxel::client::Client;
 use taxel_core::format::Micros;
 use taxel_core::intent::Leading;
 
-/// Time for which a touch that has ended is still told, us of the board: the pause between two pats.
+/// Time for which a touch that has ended is still reported, us of the board: the pause between two pats.
 const LASTS: u64 = 800_000;
 
 /// The sentence, and whether its touch has just ended.
@@ -32,13 +32,13 @@ impl Head {
         let lasts = |at: Micros| time.0.wrapping_sub(at.0) <= LASTS;
         self.is_over = !touches && self.touched.is_some_and(lasts);
         let felt = Felt::of(client, counts_per_newton);
-        if let Some(told) = self.felt.as_mut().filter(|_| self.is_over) {
-            told.what.clone_from(&told.peak);
+        if let Some(reported) = self.felt.as_mut().filter(|_| self.is_over) {
+            reported.what.clone_from(&reported.peak);
         }
         match &mut self.felt {
             Some(_) if self.is_over && client.leading() == Leading::None => {}
-            Some(told) if self.is_over => told.meaning = felt.meaning,
-            told => *told = Some(felt),
+            Some(reported) if self.is_over => reported.meaning = felt.meaning,
+            reported => *reported = Some(felt),
         }
     }
 
@@ -64,7 +64,7 @@ impl Head {
         }
         let now = if self.is_over { "just now" } else { "now" };
         let newtons = if basis == Basis::Counts { "" } else { " newtons" };
-        if client.worn().is_some() {
+        if client.description().is_some() {
             put(x, &format!("   {now}, {}{newtons}", basis.as_str()), Style::new());
         }
     }
@@ -79,7 +79,7 @@ mod tests {
     use taxel::session::Observer;
     use taxel::source::{SourceOptions, SourceSpec, open};
 
-    /// Greatest force of the first touch, and the force that is told once it has ended, N.
+    /// Greatest force of the first touch, and the force that is reported once it has ended, N.
     #[derive(Default)]
     struct FirstTouch {
         counts_per_newton: Option<f32>,
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_touch_that_has_ended_is_told_with_its_greatest_force() {
+    fn a_touch_that_has_ended_is_reported_with_its_greatest_force() {
         let spec: SourceSpec = "sim:pat".parse().unwrap();
         let source = open(&spec, &SourceOptions::default()).unwrap();
         let counts_per_newton = source.counts_per_newton;

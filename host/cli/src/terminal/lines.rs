@@ -17,7 +17,7 @@ pub struct Lines<W> {
 }
 
 impl<W: Write> Lines<W> {
-    /// Output for a source, which is told once it is open.
+    /// Output for a source, which is reported once it is open.
     pub fn new(out: W) -> Lines<W> {
         Lines { label: String::new(), narrator: Narrator::new(None), out, summed: None }
     }
@@ -59,7 +59,7 @@ impl<W: Write> Observer for Lines<W> {
         if let Event::Frame { frame, time, .. } = event {
             return self.summary(client, *frame, *time);
         }
-        for line in self.narrator.tell(client, event) {
+        for line in self.narrator.narrate(client, event) {
             writeln!(self.out, "{line}")?;
         }
         if *event == Event::Hello {

@@ -164,7 +164,7 @@ impl DrawnPanel<'_> {
 
     /// True if a pixel belongs to a contact.
     fn inside(&self, zoom: Zoom, x: Option<u16>, y: Option<u16>) -> bool {
-        let low = self.client.worn().map_or(1, |worn| worn.scene.contact.low.max(1));
+        let low = self.client.description().map_or(1, |description| description.scene.contact.low.max(1));
         let (Some(x), Some(y)) = (x, y) else { return false };
         let on_map = x < zoom.pixels(self.area.columns) && y < zoom.pixels(self.area.rows);
         on_map && self.value(zoom, x, y).is_some_and(|value| value >= low)

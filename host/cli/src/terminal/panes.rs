@@ -88,7 +88,7 @@ pub fn concepts(client: &Client, space: Rect, buffer: &mut Buffer) {
 
 /// Indices of the concepts of each group that has some.
 fn groups(client: &Client) -> Vec<(Role, Vec<usize>)> {
-    let intent = client.worn().and_then(|worn| worn.scene.intent.as_ref());
+    let intent = client.description().and_then(|description| description.scene.intent.as_ref());
     let roles = intent.map_or_else(Vec::new, |intent| layers::of_config(&intent.map));
     let of = |role: Role| (0..roles.len()).filter(|at| roles[*at].1 == role).collect::<Vec<_>>();
     GROUPS.iter().map(|(role, _)| (*role, of(*role))).filter(|(_, group)| !group.is_empty()).collect()
@@ -132,9 +132,9 @@ mod tests {
             let row = |y: u16| -> String { (0..40).map(|x| buffer[(x, y)].symbol()).collect() };
             if report.leading != Leading::None {
                 let at = client.concepts().iter().position(|name| name.as_str() == report.leading.as_str());
-                let told = at.map_or(0.0, |at| report.concepts[at].to_f64());
+                let reported = at.map_or(0.0, |at| report.concepts[at].to_f64());
                 let bar = (1..12).map(row).find(|row| row.starts_with(report.leading.as_str()));
-                self.0.push([bar.unwrap().trim().to_string(), format!("{told:.2}")]);
+                self.0.push([bar.unwrap().trim().to_string(), format!("{reported:.2}")]);
             }
             Ok(())
         }
@@ -145,7 +145,11 @@ mod tests {
         let (spec, mut bars) = ("sim:pat".parse::<taxel::source::SourceSpec>().unwrap(), Bars::default());
         let source = open(&spec, &SourceOptions::default()).unwrap();
         watch(&WatchOptions::of(spec), source, &mut bars).unwrap();
-        assert!(bars.0.iter().any(|[_, told]| told == "0.00"), "announced a moment longer: {:?}", bars.0);
+        assert!(
+            bars.0.iter().any(|[_, reported]| reported == "0.00"),
+            "announced a moment longer: {:?}",
+            bars.0
+        );
         assert!(bars.0.iter().all(|[bar, _]| !bar.ends_with("0.00")), "{:?}", bars.0);
     }
 }

@@ -84,7 +84,7 @@ impl Observer for Screen {
                 _ => {}
             }
         }
-        if client.worn().is_some() && self.asked.elapsed() > Duration::from_secs(1) {
+        if client.description().is_some() && self.asked.elapsed() > Duration::from_secs(1) {
             self.token = self.token.wrapping_add(1);
             client.request(&Request::Sync { token: self.token })?;
             self.asked = Instant::now();

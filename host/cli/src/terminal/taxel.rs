@@ -81,7 +81,7 @@ impl<W: Write> Observer for TaxelLines<W> {
 
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         self.out.flush()?;
-        if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
+        if client.description().is_some() && !std::mem::replace(&mut self.asked, true) {
             client.request_codes()?;
         }
         Ok(())

@@ -80,8 +80,8 @@ impl View {
                 self.rate.add(*time);
                 self.head.take(client, *time, self.narrator.counts_per_newton);
                 self.curve.add(client, *time);
-                if let (Some((_, image)), Some(worn)) = (client.image(), client.worn()) {
-                    self.scale.follow(image, worn.scene.contact.low);
+                if let (Some((_, image)), Some(description)) = (client.image(), client.description()) {
+                    self.scale.follow(image, description.scene.contact.low);
                 }
             }
             Event::Lost { why, .. } => {
@@ -91,7 +91,7 @@ impl View {
             Event::Back { .. } | Event::Other { .. } => self.lost = None,
             _ => {}
         }
-        for line in self.narrator.tell(client, event) {
+        for line in self.narrator.narrate(client, event) {
             self.note(line);
         }
     }
@@ -193,12 +193,12 @@ impl View {
         }
         let width = usize::from(space.width);
         let bold = Style::new().add_modifier(Modifier::BOLD);
-        let what = client.worn().map_or("waiting for a Hello".into(), |worn| {
-            let taxels = worn.layout.taxels();
-            let simulated = if worn.is_simulated() { "SIMULATED  " } else { "" };
+        let what = client.description().map_or("waiting for a Hello".into(), |description| {
+            let taxels = description.layout.taxels();
+            let simulated = if description.is_simulated() { "SIMULATED  " } else { "" };
             format!(
                 "{simulated}garment {} ({taxels} taxels)  scene {}  {}",
-                worn.garment.name, worn.scene.name, worn.firmware
+                description.garment.name, description.scene.name, description.firmware
             )
         });
         buffer.set_stringn(space.x, space.y, format!("taxel  {}  {what}", self.label), width, bold);

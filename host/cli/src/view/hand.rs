@@ -1,7 +1,7 @@
 //! What pages press on the garment of a simulated board.
 
 use super::lines::{HandLine, ScriptLine, ToolLine};
-use super::message::{FINGERS, FingerWish, HandOrder};
+use super::message::{FINGERS, FingerRequest, HandOrder};
 use anyhow::Result;
 use taxel::files::scripts;
 use taxel::sim::{self, TOOLS};
@@ -11,23 +11,23 @@ use taxel::source::{FingerPress, Hand};
 #[derive(Debug, Clone)]
 pub struct PageHand {
     hand: Hand,
-    /// What pages were told last.
-    told: Option<(Option<String>, usize)>,
+    /// What pages were sent last.
+    sent: Option<(Option<String>, usize)>,
 }
 
 impl PageHand {
     /// The hand of a board.
     pub fn new(hand: Hand) -> PageHand {
-        PageHand { hand, told: None }
+        PageHand { hand, sent: None }
     }
 
-    /// What pages are to be told; none if nothing has changed.
+    /// What pages are to be sent; none if nothing has changed.
     pub fn news(&mut self) -> Option<HandLine> {
         let now = (self.hand.playing(), self.hand.touches());
-        if self.told.as_ref() == Some(&now) {
+        if self.sent.as_ref() == Some(&now) {
             return None;
         }
-        self.told = Some(now.clone());
+        self.sent = Some(now.clone());
         let tool = |tool: sim::Tool| ToolLine {
             name: tool.name,
             size_mm: tool.size_mm,
@@ -45,9 +45,9 @@ impl PageHand {
     }
 
     /// Presses with a finger of a page, or moves it. An unknown tool or panel presses nothing.
-    pub fn press(&self, page: u64, wish: FingerWish) {
-        let Some(tool) = TOOLS.into_iter().find(|tool| tool.name == wish.tool) else { return };
-        let FingerWish { finger, angle_deg, panel, at, force_n, .. } = wish;
+    pub fn press(&self, page: u64, request: FingerRequest) {
+        let Some(tool) = TOOLS.into_iter().find(|tool| tool.name == request.tool) else { return };
+        let FingerRequest { finger, angle_deg, panel, at, force_n, .. } = request;
         let finger = number(page, finger);
         self.hand.press(FingerPress { finger, tool, angle_deg, panel: panel.into(), at, force_n });
     }

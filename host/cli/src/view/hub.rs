@@ -4,13 +4,13 @@ use super::hand::PageHand;
 use super::kept_log::KeptLog;
 use super::lines::NoneLine;
 use super::mailbox::Mailbox;
-use super::message::{self, PageWish};
+use super::message::{self, PageRequest};
 use super::order::Order;
 use super::recent::Recent;
 use super::said::Said;
 use super::shot::{Shot, text};
 use super::tape::{self, Tape};
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use anyhow::{Context, Result};
 use serde::Serialize;
 use std::collections::{BTreeMap, VecDeque};
@@ -37,7 +37,7 @@ const ORDERS: usize = 64;
 pub struct PageHub {
     shared: Mutex<PageShared>,
     recent: Mutex<Recent>,
-    wearer: Mutex<Option<Wearer>>,
+    shown_robot: Mutex<Option<ShownRobot>>,
     orders: shared::Shared<VecDeque<Order>>,
     /// One reference per recording being sent, plus the hub's own.
     transfers: Arc<()>,
@@ -80,49 +80,51 @@ impl PageHub {
         self.recent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The robot that wears the garment; none if pages do not show it.
-    pub fn wearer(&self) -> MutexGuard<'_, Option<Wearer>> {
-        self.wearer.lock().unwrap_or_else(PoisonError::into_inner)
+    /// The robot that carries the garment; none if pages do not show it.
+    pub fn shown_robot(&self) -> MutexGuard<'_, Option<ShownRobot>> {
+        self.shown_robot.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Shows the garment on this robot.
-    pub fn wear(&self, wearer: Wearer) {
-        *self.wearer() = Some(wearer);
+    pub fn show_robot(&self, robot: ShownRobot) {
+        *self.shown_robot() = Some(robot);
     }
 
-    /// The robot wears the garment of the last `Hello`. The error says why it does not fit, and pages show none.
-    pub fn worn(&self, client: &Client) -> Result<()> {
-        let mut wearer = self.wearer();
-        let (Some(wearer), Some(worn)) = (&mut *wearer, client.worn()) else { return Ok(()) };
-        if wearer.wears(worn) {
+    /// The robot carries the garment of the last `Hello`. The error says why it does not fit, and pages show none.
+    pub fn dress(&self, client: &Client) -> Result<()> {
+        let mut shown_robot = self.shown_robot();
+        let (Some(shown_robot), Some(description)) = (&mut *shown_robot, client.description()) else {
+            return Ok(());
+        };
+        if shown_robot.has(description) {
             return Ok(());
         }
-        let fits = wearer.wear(worn);
-        match wearer.body() {
+        let fits = shown_robot.put_on(description);
+        match shown_robot.body() {
             Some(body) => self.state("body", &body),
             None => self.forget("body"),
         }
-        wearer.poses().iter().for_each(|poses| self.state("poses", poses));
-        wearer.figure().iter().for_each(|figure| self.state("figure", figure));
-        wearer.lacks().into_iter().for_each(|why| self.say(&Said::note(why)));
+        shown_robot.poses().iter().for_each(|poses| self.state("poses", poses));
+        shown_robot.figure().iter().for_each(|figure| self.state("figure", figure));
+        shown_robot.lacks().into_iter().for_each(|why| self.say(&Said::note(why)));
         fits
     }
 
-    /// Joints of the robot have come to these positions, rad or m: see [`Wearer::pose`].
+    /// Joints of the robot have come to these positions, rad or m: see [`ShownRobot::pose`].
     pub fn joints(&self, positions: &[(String, f64)]) -> Result<()> {
-        let mut wearer = self.wearer();
-        let Some(wearer) = &mut *wearer else { return Ok(()) };
-        let Some(posture) = wearer.moved(positions) else { return Ok(()) };
-        if wearer.pose(posture)? {
-            wearer.body().iter().for_each(|body| self.state("body", body));
+        let mut shown_robot = self.shown_robot();
+        let Some(shown_robot) = &mut *shown_robot else { return Ok(()) };
+        let Some(posture) = shown_robot.moved(positions) else { return Ok(()) };
+        if shown_robot.pose(posture)? {
+            shown_robot.body().iter().for_each(|body| self.state("body", body));
         }
-        wearer.poses().iter().for_each(|poses| self.state("poses", poses));
+        shown_robot.poses().iter().for_each(|poses| self.state("poses", poses));
         Ok(())
     }
 
     /// Handles a report of the board about what presses on the robot.
     pub fn heard(&self, report: &PressingReport) {
-        self.wearer().iter_mut().for_each(|wearer| wearer.take(report));
+        self.shown_robot().iter_mut().for_each(|shown_robot| shown_robot.take(report));
     }
 
     /// Adds a page with the current state; none if there are too many pages.
@@ -153,8 +155,8 @@ impl PageHub {
         self.lock().hand = Some(hand);
     }
 
-    /// Tells pages how the hand is, if that has changed.
-    pub fn tell_hand(&self) {
+    /// Sends pages how the hand is, if that has changed.
+    pub fn announce_hand(&self) {
         let news = self.lock().hand.as_mut().and_then(PageHand::news);
         news.iter().for_each(|line| self.state("hand", line));
     }
@@ -172,11 +174,11 @@ impl PageHub {
 
     /// Sends a message to all pages, and to later ones until the next message of its kind.
     pub fn state(&self, kind: &'static str, line: &impl Serialize) {
-        self.tell(kind, text(line));
+        self.announce(kind, text(line));
     }
 
     /// The same, of a message that is encoded already.
-    pub fn tell(&self, kind: &'static str, line: Arc<str>) {
+    pub fn announce(&self, kind: &'static str, line: Arc<str>) {
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.state(kind, line.clone()));
         shared.known.insert(kind, line);
@@ -213,9 +215,11 @@ impl PageHub {
 
     /// Shows the garment and the scene of the last `Hello`.
     pub fn greet(&self, client: &Client, label: &str, counts_per_newton: Option<f32>) {
-        let worn = client.worn();
-        let circuit = worn.and_then(|worn| Circuit::build(&worn.garment, &worn.layout, Pins::ANY).ok());
-        let intent = worn.and_then(|worn| worn.scene.intent.as_ref());
+        let description = client.description();
+        let circuit = description.and_then(|description| {
+            Circuit::build(&description.garment, &description.layout, Pins::ANY).ok()
+        });
+        let intent = description.and_then(|description| description.scene.intent.as_ref());
         {
             let mut shared = self.lock();
             shared.circuit = circuit.map(Box::new);
@@ -247,39 +251,39 @@ impl PageHub {
     }
 
     /// Handles a page's request, or queues it for the board's thread.
-    pub fn wish(&self, page: &Mailbox, wish: PageWish) {
+    pub fn request(&self, page: &Mailbox, request: PageRequest) {
         let mut shared = self.lock();
-        match wish {
-            PageWish::Hover(taxel) => {
+        match request {
+            PageRequest::Hover(taxel) => {
                 page.hover(taxel);
                 if let Some(taxel) = taxel {
                     let line = message::taxel(taxel, shared.circuit.as_deref(), None);
                     page.state("taxel", text(&line));
                 }
             }
-            PageWish::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
-            PageWish::Tare(_) => {}
-            PageWish::Why { of, concepts } => {
+            PageRequest::Tare(frames) if shared.tares.len() < TARES => shared.tares.push_back(frames),
+            PageRequest::Tare(_) => {}
+            PageRequest::Why { of, concepts } => {
                 let map = shared.map.clone();
                 drop(shared);
                 let why = map.and_then(|map| message::why(&map, of.as_deref(), &concepts));
                 page.state("why", why.map_or_else(|| text(&NoneLine { of: "why" }), |why| text(&why)));
             }
-            PageWish::Press(finger) => {
+            PageRequest::Press(finger) => {
                 shared.hand.iter().for_each(|hand| hand.press(page.number(), finger.clone()))
             }
-            PageWish::Release(finger) => {
+            PageRequest::Release(finger) => {
                 shared.hand.iter().for_each(|hand| hand.release(page.number(), finger))
             }
-            PageWish::Hand(order) => shared.hand.iter().for_each(|hand| hand.order(order)),
-            PageWish::Script(name) => {
+            PageRequest::Hand(order) => shared.hand.iter().for_each(|hand| hand.order(order)),
+            PageRequest::Script(name) => {
                 let hand = shared.hand.clone();
                 drop(shared);
                 if let Some(Err(error)) = hand.map(|hand| hand.play(&name)) {
                     self.say(&Said::note(format!("{name} is not played: {error:#}")));
                 }
             }
-            PageWish::Player(order) => self.order(order),
+            PageRequest::Player(order) => self.order(order),
         }
     }
 
@@ -370,7 +374,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn a_page_that_comes_late_is_told_what_is_known() {
+    fn a_page_that_comes_late_is_sent_what_is_known() {
         let hub = PageHub::default();
         hub.state("link", &json!(1));
         hub.state("link", &json!(2));
@@ -388,19 +392,19 @@ mod tests {
     }
 
     #[test]
-    fn a_code_is_told_to_who_looks_at_it() {
+    fn a_code_is_sent_to_who_looks_at_it() {
         let hub = PageHub::default();
         let (one, other) = (hub.join().unwrap(), hub.join().unwrap());
-        hub.wish(&one, PageWish::Hover(Some(1)));
-        hub.wish(&other, PageWish::Hover(Some(9)));
+        hub.request(&one, PageRequest::Hover(Some(1)));
+        hub.request(&other, PageRequest::Hover(Some(9)));
         assert!(hub.is_looked_at());
         hub.codes(7, &[5, 6]);
-        let told = |page: &Mailbox| {
+        let reported = |page: &Mailbox| {
             let Parcel::Line(line) = page.next() else { panic!("no line") };
             serde_json::from_str::<serde_json::Value>(&line).unwrap()["code"].clone()
         };
-        assert_eq!((told(&one), told(&other)), (json!(6), json!(null)));
-        (0..9).for_each(|_| hub.wish(&one, PageWish::Tare(16)));
+        assert_eq!((reported(&one), reported(&other)), (json!(6), json!(null)));
+        (0..9).for_each(|_| hub.request(&one, PageRequest::Tare(16)));
         assert_eq!(std::iter::from_fn(|| hub.tare()).count(), TARES);
     }
 }

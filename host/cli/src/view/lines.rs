@@ -2,7 +2,7 @@
 //! docs of the fields are the descriptions in `page/messages.d.ts`.
 
 use super::line_kind::LineKind;
-use crate::palette::PaletteTold;
+use crate::palette::PagePalette;
 use crate::watch::{Basis, Felt};
 use serde::Serialize;
 use taxel::fcm::layers::Role;
@@ -22,7 +22,7 @@ pub struct PageHello<'a> {
     /// The source.
     pub label: &'a str,
     /// Colours and scale.
-    pub palette: PaletteTold,
+    pub palette: PagePalette,
     /// Counts per newton on a taxel; null if unknown.
     pub counts_per_newton: Option<f64>,
     /// Basis of forces: `simulated`, `calibrated`, `nominal` or `counts`.
@@ -142,7 +142,7 @@ pub struct PinsLine {
     /// Number of faults.
     pub faults: usize,
     /// A sentence for each, or one if there are none.
-    pub told: Vec<String>,
+    pub table: Vec<String>,
 }
 
 /// The taxel under the pointer.
@@ -377,8 +377,8 @@ mod tests {
     fn messages_keep_their_bytes() {
         let glow = GlowLine { time_us: 5, seeks: 2, taxels: vec![(7, 90)] };
         assert_eq!(text(&glow), r#"{"type":"glow","time_us":5,"seeks":2,"taxels":[[7,90]]}"#);
-        let pins = PinsLine { faults: 0, told: vec!["none".into()] };
-        assert_eq!(text(&pins), r#"{"type":"pins","faults":0,"told":["none"]}"#);
+        let pins = PinsLine { faults: 0, table: vec!["none".into()] };
+        assert_eq!(text(&pins), r#"{"type":"pins","faults":0,"table":["none"]}"#);
         let block = Some(3);
         let taxel =
             TaxelLine { taxel: 7, frame: None, code: None, block, wired_row: None, wired_column: block };
@@ -402,11 +402,11 @@ mod tests {
             playing: true,
             seeks: 3,
         };
-        let told = concat!(
+        let reported = concat!(
             r#"{"type":"player","at":0.5,"duration":10.0,"range":[0.0,10.0],"speed":1.0,"#,
             r#""loop":false,"playing":true,"seeks":3}"#
         );
-        assert_eq!(text(&player), told);
+        assert_eq!(text(&player), reported);
         let overview = OverviewLine {
             duration_us: 9,
             known_us: 8,
@@ -416,15 +416,15 @@ mod tests {
             said: vec![(4, LineKind::Gap, "lost")],
             unlisted: 0,
         };
-        let told = concat!(
+        let reported = concat!(
             r#"{"type":"overview","duration_us":9,"known_us":8,"width_us":7,"totals":[1,2],"#,
             r#""intentions":[[3,"threat"]],"said":[[4,"gap","lost"]],"unlisted":0}"#
         );
-        assert_eq!(text(&overview), told);
+        assert_eq!(text(&overview), reported);
     }
 
     #[test]
-    fn the_link_is_told_with_all_its_counts() {
+    fn the_link_is_reported_with_all_its_counts() {
         let link = LinkLine {
             rate: 195.5,
             frames: 1,
@@ -435,11 +435,11 @@ mod tests {
             latency_ms: None,
             pages: 6,
         };
-        let told = concat!(
+        let reported = concat!(
             r#"{"type":"link","rate":195.5,"frames":1,"lost":2,"thinned":3,"refused":4,"#,
             r#""restarts":5,"latency_ms":null,"pages":6}"#
         );
-        assert_eq!(text(&link), told);
+        assert_eq!(text(&link), reported);
     }
 }
 

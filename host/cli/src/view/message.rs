@@ -13,8 +13,8 @@
 //! | 2 n | the greatest pressure of each since the last image sent |
 //!
 //! A page sends `{"hover": taxel}` (or null), `{"tare": frames}`, and `{"why": {"of": concept, "concepts":
-//! activations}}`, which is answered by `why`. If its board is simulated, it sends `{"press": ..}` ([`FingerWish`]),
-//! `{"release": finger}`, `{"script": name}` and `{"hand": "again"}` or `"clear"`, and is told `hand`. If it shows a
+//! activations}}`, which is answered by `why`. If its board is simulated, it sends `{"press": ..}` ([`FingerRequest`]),
+//! `{"release": finger}`, `{"script": name}` and `{"hand": "again"}` or `"clear"`, and is sent `hand`. If it shows a
 //! recording, it sends
 //! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range":
 //! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
@@ -60,24 +60,26 @@ pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64
     bytes
 }
 
-/// `hello`; none before the board has told its garment.
+/// `hello`; none before the board has sent its garment.
 pub fn hello<'a>(
     client: &'a Client,
     label: &'a str,
     counts_per_newton: Option<f32>,
 ) -> Option<PageHello<'a>> {
-    let (Some(JsonLine::Hello(line)), Some(worn)) = (json::line(client, &Event::Hello), client.worn()) else {
+    let (Some(JsonLine::Hello(line)), Some(description)) =
+        (json::line(client, &Event::Hello), client.description())
+    else {
         return None;
     };
     Some(PageHello {
         line,
         label,
-        palette: palette::told(),
+        palette: palette::for_page(),
         counts_per_newton: counts_per_newton.map(f64::from),
         basis: Basis::of(client, counts_per_newton),
-        low: worn.scene.contact.low,
-        absent: &worn.garment.absent,
-        map: worn.scene.intent.as_ref().map(|intent| map(&intent.map)),
+        low: description.scene.contact.low,
+        absent: &description.garment.absent,
+        map: description.scene.intent.as_ref().map(|intent| map(&intent.map)),
     })
 }
 
@@ -151,8 +153,10 @@ pub fn glow(glow: &[u16], time: Micros, seeks: u32) -> GlowLine {
 
 /// `pins`
 pub fn pins(client: &Client, findings: &Findings) -> PinsLine {
-    let table = client.worn().map_or(String::new(), |worn| pins::table(&worn.garment, Some(findings)));
-    PinsLine { faults: findings.faults.len(), told: table.lines().map(String::from).collect() }
+    let text = client
+        .description()
+        .map_or(String::new(), |description| pins::table(&description.garment, Some(findings)));
+    PinsLine { faults: findings.faults.len(), table: text.lines().map(String::from).collect() }
 }
 
 /// `taxel`
@@ -190,7 +194,7 @@ pub const FINGERS: u8 = 10;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-pub enum PageWish {
+pub enum PageRequest {
     /// The taxel under the pointer.
     Hover(Option<u16>),
     /// A tare over this many frames.
@@ -203,7 +207,7 @@ pub enum PageWish {
         concepts: Vec<f64>,
     },
     /// A finger presses the garment of a simulated board, or moves on it.
-    Press(FingerWish),
+    Press(FingerRequest),
     /// A finger lifts, 0 to 9.
     Release(u8),
     /// A script of touches is played once.
@@ -218,7 +222,7 @@ pub enum PageWish {
 /// What a finger does.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct FingerWish {
+pub struct FingerRequest {
     /// Number of the finger, 0 to 9.
     pub finger: u8,
     /// Name of the tool.
@@ -246,17 +250,17 @@ pub enum HandOrder {
 }
 
 /// Parses a message of a page; none if it is unknown.
-pub fn wish(text: &str) -> Option<PageWish> {
-    let wish: PageWish = serde_json::from_str(text).ok()?;
-    let known = match &wish {
-        PageWish::Hover(_) => true,
-        PageWish::Tare(frames) => (1..=4096).contains(frames),
-        PageWish::Press(FingerWish { finger, .. }) | PageWish::Release(finger) => *finger < FINGERS,
-        PageWish::Script(_) | PageWish::Hand(_) => true,
-        PageWish::Why { concepts, .. } => concepts.iter().all(|value| (-1.0..=1.0).contains(value)),
-        PageWish::Player(order) => order.is_sound(),
+pub fn request(text: &str) -> Option<PageRequest> {
+    let request: PageRequest = serde_json::from_str(text).ok()?;
+    let known = match &request {
+        PageRequest::Hover(_) => true,
+        PageRequest::Tare(frames) => (1..=4096).contains(frames),
+        PageRequest::Press(FingerRequest { finger, .. }) | PageRequest::Release(finger) => *finger < FINGERS,
+        PageRequest::Script(_) | PageRequest::Hand(_) => true,
+        PageRequest::Why { concepts, .. } => concepts.iter().all(|value| (-1.0..=1.0).contains(value)),
+        PageRequest::Player(order) => order.is_sound(),
     };
-    known.then_some(wish)
+    known.then_some(request)
 }
 
 #[cfg(test)]
@@ -266,17 +270,20 @@ mod tests {
     use taxel::fcm::{self, decimal::Decimal};
 
     #[test]
-    fn only_what_is_known_is_a_wish() {
-        assert_eq!(wish(r#"{"hover": 7}"#), Some(PageWish::Hover(Some(7))));
-        assert_eq!(wish(r#"{"hover": null}"#), Some(PageWish::Hover(None)));
-        assert_eq!(wish(r#"{"tare": 32}"#), Some(PageWish::Tare(32)));
-        assert_eq!(wish(r#"{"seek": 2.5}"#), Some(PageWish::Player(Order::Seek(2.5))));
-        assert_eq!(wish(r#"{"range": null}"#), Some(PageWish::Player(Order::Range(None))));
-        assert_eq!(wish(r#"{"range": [1, 2]}"#), Some(PageWish::Player(Order::Range(Some([1.0, 2.0])))));
-        assert_eq!(wish(r#"{"step": -1}"#), Some(PageWish::Player(Order::Step(-1))));
+    fn only_what_is_known_is_a_request() {
+        assert_eq!(request(r#"{"hover": 7}"#), Some(PageRequest::Hover(Some(7))));
+        assert_eq!(request(r#"{"hover": null}"#), Some(PageRequest::Hover(None)));
+        assert_eq!(request(r#"{"tare": 32}"#), Some(PageRequest::Tare(32)));
+        assert_eq!(request(r#"{"seek": 2.5}"#), Some(PageRequest::Player(Order::Seek(2.5))));
+        assert_eq!(request(r#"{"range": null}"#), Some(PageRequest::Player(Order::Range(None))));
+        assert_eq!(
+            request(r#"{"range": [1, 2]}"#),
+            Some(PageRequest::Player(Order::Range(Some([1.0, 2.0]))))
+        );
+        assert_eq!(request(r#"{"step": -1}"#), Some(PageRequest::Player(Order::Step(-1))));
         let of = Some("kindness".into());
-        let why = PageWish::Why { of, concepts: vec![0.5, -1.0] };
-        assert_eq!(wish(r#"{"why": {"of": "kindness", "concepts": [0.5, -1]}}"#), Some(why));
+        let why = PageRequest::Why { of, concepts: vec![0.5, -1.0] };
+        assert_eq!(request(r#"{"why": {"of": "kindness", "concepts": [0.5, -1]}}"#), Some(why));
         for nonsense in [
             r#"{"why": {"of": null, "concepts": [2]}}"#,
             r#"{"why": {"of": 7, "concepts": []}}"#,
@@ -292,18 +299,18 @@ mod tests {
             r#"{"step": -2147483648}"#,
             r#"{"play": 1}"#,
         ] {
-            assert_eq!(wish(nonsense), None, "{nonsense}");
+            assert_eq!(request(nonsense), None, "{nonsense}");
         }
         let press = r#"{"press": {"finger": 0, "tool": "palm", "panel": 1, "at": [7.5, 11], "force_n": 8}}"#;
-        let Some(PageWish::Press(finger)) = wish(press) else { panic!("{press}") };
+        let Some(PageRequest::Press(finger)) = request(press) else { panic!("{press}") };
         assert_eq!((finger.tool.as_str(), finger.at, finger.angle_deg), ("palm", [7.5, 11.0], 0.0));
-        assert_eq!(wish(&press.replace("0,", "10,")), None);
-        assert_eq!(wish(r#"{"release": 9}"#), Some(PageWish::Release(9)));
-        assert_eq!(wish(r#"{"release": 10}"#), None);
-        assert_eq!(wish(r#"{"hand": "again"}"#), Some(PageWish::Hand(HandOrder::Again)));
-        assert_eq!(wish(r#"{"script": "pat"}"#), Some(PageWish::Script("pat".into())));
+        assert_eq!(request(&press.replace("0,", "10,")), None);
+        assert_eq!(request(r#"{"release": 9}"#), Some(PageRequest::Release(9)));
+        assert_eq!(request(r#"{"release": 10}"#), None);
+        assert_eq!(request(r#"{"hand": "again"}"#), Some(PageRequest::Hand(HandOrder::Again)));
+        assert_eq!(request(r#"{"script": "pat"}"#), Some(PageRequest::Script("pat".into())));
         for nonsense in ["", "{}", "[]", r#"{"hover": -1}"#, r#"{"hover": 1e9}"#, r#"{"tare": 0}"#, "7"] {
-            assert_eq!(wish(nonsense), None, "{nonsense}");
+            assert_eq!(request(nonsense), None, "{nonsense}");
         }
     }
 

@@ -74,9 +74,9 @@ pub fn hear(stream: impl Read, rest: Vec<u8>, hub: &PageHub, mailbox: &Mailbox) 
     // Any error ends it: the page is closed, or does not speak WebSocket.
     while let Ok(said) = socket.read() {
         if let Message::Text(text) = said
-            && let Some(wish) = message::wish(&text)
+            && let Some(request) = message::request(&text)
         {
-            hub.wish(mailbox, wish);
+            hub.request(mailbox, request);
         }
     }
 }

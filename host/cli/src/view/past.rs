@@ -34,8 +34,8 @@ impl<'a> Past<'a> {
         let Some(line) = message::frame(&self.client, event, self.hub.counts_per_newton()) else {
             return false;
         };
-        let wearer = self.hub.wearer();
-        let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(&self.client, *time));
+        let shown_robot = self.hub.shown_robot();
+        let pressing = shown_robot.as_ref().and_then(|shown_robot| shown_robot.pressing(&self.client, *time));
         self.mailbox.shot(&Shot {
             line: text(&PageFrame { past: Some(true), pressing, ..line }),
             image: image.into(),

@@ -19,7 +19,7 @@ pub struct RawCodes {
 impl RawCodes {
     /// Starts or stops raw codes as needed.
     pub fn tend(&mut self, client: &mut Client, looked_at: bool, now: Instant) -> taxel::Result<()> {
-        if client.worn().is_none() {
+        if client.description().is_none() {
             return Ok(());
         }
         if looked_at {

@@ -1,4 +1,4 @@
-//! Tells the pages of a robot's boards how all boards are, and what touches mean to the robot.
+//! Sends the pages of a robot's boards how all boards are, and what touches mean to the robot.
 
 use super::hub::PageHub;
 use super::hubs::PageHubs;
@@ -8,13 +8,13 @@ use super::shot::text;
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use taxel::mind::{BoardSense, ROBOT_INTENT, RobotMeaningLine, RobotMind, ToldLine};
+use taxel::mind::{BoardSense, HostInputLine, ROBOT_INTENT, RobotMeaningLine, RobotMind};
 use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent};
-use taxel::tell::words;
+use taxel::text::words;
 
 /// Shortest time between two messages of a kind.
 const PERIOD: Duration = Duration::from_millis(100);
-/// Longest time between two messages about the boards: a page is told that the program is there, also while its
+/// Longest time between two messages about the boards: a page is shown that the program is there, also while its
 /// board is not.
 const ALIVE: Duration = Duration::from_secs(1);
 
@@ -23,12 +23,12 @@ pub struct RobotPages<'a> {
     robot: &'a ReadRobot,
     hubs: Vec<Arc<PageHub>>,
     boards: Vec<RobotBoardLine<'a>>,
-    /// The boards were told otherwise, and when.
+    /// True if the boards are not as they were sent last; and when that was.
     is_new: bool,
-    told_boards: Instant,
-    /// What touches mean as it was told last, without its time.
+    sent_boards: Instant,
+    /// What touches mean as it was reported last, without its time.
     meant: Option<RobotMeaningLine>,
-    told: Instant,
+    sent: Instant,
 }
 
 impl<'a> RobotPages<'a> {
@@ -50,11 +50,11 @@ impl<'a> RobotPages<'a> {
             hubs: (0..count).map(|_| Arc::new(PageHub::among(count))).collect(),
             boards: boards.collect(),
             is_new: false,
-            told_boards: Instant::now(),
+            sent_boards: Instant::now(),
             meant: None,
-            told: Instant::now(),
+            sent: Instant::now(),
         };
-        pages.tell_boards();
+        pages.announce_boards();
         pages
     }
 
@@ -103,8 +103,8 @@ impl<'a> RobotPages<'a> {
         self.is_new |= *board != before;
     }
 
-    /// The mind was told this: pages show the robot in its posture.
-    pub fn told(&self, line: &ToldLine) {
+    /// The mind was given this: pages show the robot in its posture.
+    pub fn take_input(&self, line: &HostInputLine) {
         let positions: Vec<_> = line.joints().map(|(joint, at)| (joint.to_string(), at)).collect();
         if positions.is_empty() {
             return;
@@ -118,19 +118,19 @@ impl<'a> RobotPages<'a> {
 
     /// Sends what is new to the pages; `mind` is the robot's, if boards are at one time.
     pub fn turn(&mut self, mind: Option<&RobotMind>) {
-        if self.told.elapsed() < PERIOD {
+        if self.sent.elapsed() < PERIOD {
             return;
         }
-        self.told = Instant::now();
-        if self.is_new || self.told_boards.elapsed() >= ALIVE {
-            self.tell_boards();
+        self.sent = Instant::now();
+        if self.is_new || self.sent_boards.elapsed() >= ALIVE {
+            self.announce_boards();
         }
         if let Some(mind) = mind {
-            self.tell_mind(mind);
+            self.announce_mind(mind);
         }
     }
 
-    fn tell_mind(&mut self, mind: &RobotMind) {
+    fn announce_mind(&mut self, mind: &RobotMind) {
         let Some(meaning) = mind.meaning() else { return };
         let line = RobotMeaningLine::of(mind, meaning);
         // That time has passed is no news.
@@ -139,17 +139,17 @@ impl<'a> RobotPages<'a> {
             return;
         }
         self.meant = meant;
-        self.tell(ROBOT_INTENT, &RobotIntentLine { text: line.text(), line });
+        self.announce(ROBOT_INTENT, &RobotIntentLine { text: line.text(), line });
     }
 
     /// Sends a message to all pages: it is encoded once, however many boards there are.
-    fn tell(&self, kind: &'static str, line: &impl Serialize) {
+    fn announce(&self, kind: &'static str, line: &impl Serialize) {
         let line = text(line);
-        self.hubs.iter().for_each(|hub| hub.tell(kind, line.clone()));
+        self.hubs.iter().for_each(|hub| hub.announce(kind, line.clone()));
     }
 
-    fn tell_boards(&mut self) {
-        (self.is_new, self.told_boards) = (false, Instant::now());
+    fn announce_boards(&mut self) {
+        (self.is_new, self.sent_boards) = (false, Instant::now());
         for (hub, board) in self.hubs.iter().zip(&mut self.boards) {
             board.counts_per_newton = hub.counts_per_newton();
         }

@@ -44,7 +44,7 @@ impl EventLines {
     }
 
     /// Lines for an event, and for messages lost before it.
-    pub fn tell(&mut self, client: &Client, event: &Event) -> Vec<Said> {
+    pub fn narrate(&mut self, client: &Client, event: &Event) -> Vec<Said> {
         let lost = client.counts().lost.saturating_sub(self.lost);
         self.lost = client.counts().lost;
         let mut said: Vec<Said> = (lost > 0).then(|| gap(lost, time_of(client, event))).into_iter().collect();
@@ -56,7 +56,7 @@ impl EventLines {
     pub fn lines(&mut self, client: &Client, event: &Event) -> Vec<Said> {
         let time_us = time_of(client, event);
         let kinds = kinds(event);
-        let lines = self.narrator.tell(client, event).into_iter().enumerate();
+        let lines = self.narrator.narrate(client, event).into_iter().enumerate();
         let said = |(index, line): (usize, String)| {
             let stamp = time_us.map(|time| format!("{} ", seconds(Micros(time))));
             let text = stamp.as_deref().and_then(|stamp| line.strip_prefix(stamp));
@@ -80,11 +80,14 @@ pub fn gap(lost: u64, time_us: Option<u64>) -> Said {
 fn kinds(event: &Event) -> Vec<LineKind> {
     match event {
         Event::Symbols(list) => {
-            let told = list.events.iter().filter(|symbol| symbol.phase != Phase::Held);
-            told.map(
-                |symbol| if symbol.phase == Phase::Released { LineKind::Release } else { LineKind::Onset },
-            )
-            .collect()
+            let reported = list.events.iter().filter(|symbol| symbol.phase != Phase::Held);
+            reported
+                .map(
+                    |symbol| {
+                        if symbol.phase == Phase::Released { LineKind::Release } else { LineKind::Onset }
+                    },
+                )
+                .collect()
         }
         Event::Intent(_) => vec![LineKind::Intention],
         Event::Reaction(_) => vec![LineKind::Reaction],

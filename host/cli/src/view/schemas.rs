@@ -4,7 +4,7 @@ use super::lines::{
     EndLine, GlowLine, HandLine, ImageHead, LinkLine, LogLine, NoneLine, OverviewLine, PageHello, PinsLine,
     PlayerLine, RobotIntentLine, RobotLine, SayLine, TaxelLine, WhyLine,
 };
-use super::message::PageWish;
+use super::message::PageRequest;
 use crate::folding::FoldingLine;
 use crate::on_robot::{BodyLine, FigureLine, PosesLine};
 use serde_json::Value;
@@ -38,6 +38,6 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("OverviewLine", of::<OverviewLine<'static>>()),
         ("RobotLine", of::<RobotLine<'static>>()),
         ("RobotIntentLine", of::<RobotIntentLine>()),
-        ("PageWish", of::<PageWish>()),
+        ("PageRequest", of::<PageRequest>()),
     ]
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use std::sync::Arc;
 use taxel::client::clock::SteadyTime;
-use taxel::client::{Client, Event, Stamp, Worn, time_of};
+use taxel::client::{BoardDescription, Client, Event, Stamp, time_of};
 use taxel::record::{BoardPart, Origin, RecordingFile};
 use taxel::recording::Store;
 use taxel_core::format::Micros;
@@ -32,7 +32,7 @@ pub struct Copy<S: Store> {
     part: BoardPart,
     client: Client,
     origin: Origin,
-    worn: Option<Worn>,
+    description: Option<BoardDescription>,
     chunk_us: u64,
 }
 
@@ -41,7 +41,7 @@ impl<S: Store> Copy<S> {
     pub fn begin(store: S, origin: Origin) -> Result<Copy<S>> {
         let mut file = RecordingFile::create(store, None)?;
         let part = file.board(None, None)?;
-        Ok(Copy { file, part, client: Client::new(), origin, worn: None, chunk_us: 0 })
+        Ok(Copy { file, part, client: Client::new(), origin, description: None, chunk_us: 0 })
     }
 
     /// Adds a frame of the wire.
@@ -55,10 +55,10 @@ impl<S: Store> Copy<S> {
     /// Writes the client's latest event.
     fn keep(&mut self, stamp: Stamp, event: &Event) -> Result<()> {
         self.client.take_requests();
-        if *event == Event::Hello && self.client.worn() != self.worn.as_ref() {
-            self.worn = self.client.worn().cloned();
-            if let Some(worn) = &self.worn {
-                self.file.attach(&mut self.part, worn, self.client.line(), &self.origin, stamp)?;
+        if *event == Event::Hello && self.client.description() != self.description.as_ref() {
+            self.description = self.client.description().cloned();
+            if let Some(description) = &self.description {
+                self.file.attach(&mut self.part, description, self.client.line(), &self.origin, stamp)?;
             }
         }
         if stamp.board_us.abs_diff(self.chunk_us) >= CHUNK_US {

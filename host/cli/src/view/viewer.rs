@@ -39,7 +39,7 @@ pub struct Viewer {
     lines: EventLines,
     rate: Rate,
     raw: RawCodes,
-    told: Instant,
+    sent: Instant,
     /// It asks the board what only pages want to know: round trips, raw codes.
     is_curious: bool,
     asked: Instant,
@@ -63,7 +63,7 @@ impl Viewer {
             lines: EventLines::new(None),
             rate: Rate::default(),
             raw: RawCodes::default(),
-            told: now,
+            sent: now,
             is_curious: true,
             asked: now,
             token: 0,
@@ -103,7 +103,7 @@ impl Viewer {
             }
             _ => {}
         }
-        for said in self.lines.tell(client, event) {
+        for said in self.lines.narrate(client, event) {
             self.hub.say(&said);
         }
         Ok(())
@@ -116,8 +116,8 @@ impl Viewer {
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
         let Some(line) = message::frame(client, event, self.counts_per_newton) else { return };
-        let wearer = self.hub.wearer();
-        let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, time));
+        let shown_robot = self.hub.shown_robot();
+        let pressing = shown_robot.as_ref().and_then(|shown_robot| shown_robot.pressing(client, time));
         let line = text(&PageFrame { pressing, ..line });
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         self.hub.shot(&Shot { line, image: image.into(), time_us: time.0, total });
@@ -137,10 +137,10 @@ impl Viewer {
 
     fn hello(&mut self, client: &Client) -> Result<()> {
         self.hub.greet(client, &self.label, self.counts_per_newton);
-        if let (Some(folding), Some(worn)) = (&mut self.folding, client.worn()) {
-            folding.wear(worn)?;
+        if let (Some(folding), Some(description)) = (&mut self.folding, client.description()) {
+            folding.use_garment(description)?;
         }
-        self.hub.worn(client)
+        self.hub.dress(client)
     }
 
     fn link(&mut self, client: &Client) {
@@ -192,7 +192,10 @@ impl Observer for Viewer {
 
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         let now = Instant::now();
-        if self.is_curious && client.worn().is_some() && now.saturating_duration_since(self.asked) > ROUND {
+        if self.is_curious
+            && client.description().is_some()
+            && now.saturating_duration_since(self.asked) > ROUND
+        {
             self.token = self.token.wrapping_add(1);
             client.request(&Request::Sync { token: self.token })?;
             self.asked = now;
@@ -204,9 +207,9 @@ impl Observer for Viewer {
         if self.is_curious {
             self.raw.tend(client, self.hub.is_looked_at(), now)?;
         }
-        if now.saturating_duration_since(self.told) >= LINK {
-            self.told = now;
-            self.hub.tell_hand();
+        if now.saturating_duration_since(self.sent) >= LINK {
+            self.sent = now;
+            self.hub.announce_hand();
             self.link(client);
         }
         Ok(())

@@ -27,7 +27,7 @@ pub struct BoardArgs {
     /// Wait for the board if it cannot be opened yet, instead of ending with an error
     #[arg(long, help_heading = CONNECT)]
     pub wait: bool,
-    /// Robot that wears the garment: a URDF file or `reference`. Positions of its joints become poses of the
+    /// Robot that carries the garment: a URDF file or `reference`. Positions of its joints become poses of the
     /// body's links, for contacts in the robot's base
     #[arg(long, value_name = "URDF", requires = "body", help_heading = SET)]
     pub robot: Option<String>,
@@ -49,7 +49,7 @@ pub struct BoardArgs {
     #[arg(long, value_name = "N", help_heading = CONNECT)]
     pub seed: Option<u64>,
     /// Ask the boards of a robot's file while they are followed, by lines: `tare [BOARD] [N]`, `scene [BOARD] FILE`,
-    /// `self-test [BOARD]`, `told NAME VALUE [AGE_MS]`; - is the standard input
+    /// `self-test [BOARD]`, `host_input NAME VALUE [AGE_MS]`; - is the standard input
     #[arg(long, value_name = "FILE", help_heading = SET)]
     pub requests: Option<PathBuf>,
 }
@@ -131,7 +131,7 @@ impl BoardArgs {
         }
     }
 
-    /// Reads the robot that wears the garment, if one is named.
+    /// Reads the robot that carries the garment, if one is named.
     pub fn posing(&self) -> Result<Option<Posing>> {
         let Some((robot, body)) = self.robot.as_ref().zip(self.config.body.as_ref()) else { return Ok(None) };
         let motion = self.motion.unwrap_or_default();

@@ -1,7 +1,7 @@
 //! The first thing that one reads: what is felt now, in one sentence, and on what its newtons rest.
 
 use serde::Serialize;
-use taxel::client::{Client, Worn};
+use taxel::client::{BoardDescription, Client};
 use taxel_core::body::Placed;
 use taxel_core::intent::Leading;
 
@@ -11,7 +11,7 @@ use taxel_core::intent::Leading;
 pub struct Felt {
     /// The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`.
     pub what: String,
-    /// The same with the greatest force of the strongest touch so far: told once it has ended.
+    /// The same with the greatest force of the strongest touch so far: reported once it has ended.
     pub peak: String,
     /// The announced intention, or why none is; empty while nothing touches.
     pub meaning: &'static str,
@@ -31,10 +31,10 @@ impl Felt {
             others => format!(", and {others} more"),
         };
         let (noun, place) = (noun(client, strongest), client.region_name(strongest.region));
-        let told = |total| format!("{noun} on the {place}, {}{others}", round(total, counts_per_newton));
+        let reported = |total| format!("{noun} on the {place}, {}{others}", round(total, counts_per_newton));
         let total = strongest.contact.total;
-        let peak = told(client.greatest_force(strongest.contact.id).unwrap_or(total));
-        Felt { what: told(total), peak, meaning: meaning(client, strongest) }
+        let peak = reported(client.greatest_force(strongest.contact.id).unwrap_or(total));
+        Felt { what: reported(total), peak, meaning: meaning(client, strongest) }
     }
 
     /// The sentence.
@@ -90,10 +90,12 @@ pub enum Basis {
 impl Basis {
     /// The basis of a board's forces.
     pub fn of(client: &Client, counts_per_newton: Option<f32>) -> Basis {
-        let worn = client.worn();
+        let description = client.description();
         match counts_per_newton {
-            _ if worn.is_some_and(Worn::is_simulated) => Basis::Simulated,
-            _ if worn.is_some_and(|worn| !worn.calibration.is_empty()) => Basis::Calibrated,
+            _ if description.is_some_and(BoardDescription::is_simulated) => Basis::Simulated,
+            _ if description.is_some_and(|description| !description.calibration.is_empty()) => {
+                Basis::Calibrated
+            }
             Some(_) => Basis::Nominal,
             None => Basis::Counts,
         }
@@ -134,7 +136,7 @@ mod tests {
         }
     }
 
-    fn told(script: &str, newtons: bool) -> Vec<String> {
+    fn reported(script: &str, newtons: bool) -> Vec<String> {
         let spec: SourceSpec = script.parse().unwrap();
         let source = open(&spec, &SourceOptions::default()).unwrap();
         let mut ear = Ear(source.counts_per_newton.filter(|_| newtons), Vec::new());
@@ -143,17 +145,17 @@ mod tests {
     }
 
     #[test]
-    fn a_pat_is_told_with_place_force_and_meaning() {
-        let told = told("sim:pat", true);
-        assert_eq!(told[0], "nothing touches");
-        assert!(told.contains(&"a touch on the back, 8 N: kindness".into()), "{told:#?}");
-        assert!(told.iter().any(|text| text.ends_with(": no meaning yet")), "{told:#?}");
+    fn a_pat_is_reported_with_place_force_and_meaning() {
+        let reported = reported("sim:pat", true);
+        assert_eq!(reported[0], "nothing touches");
+        assert!(reported.contains(&"a touch on the back, 8 N: kindness".into()), "{reported:#?}");
+        assert!(reported.iter().any(|text| text.ends_with(": no meaning yet")), "{reported:#?}");
     }
 
     #[test]
     fn the_strongest_of_several_comes_first_and_counts_have_their_name() {
-        let told = told("sim:five", false);
-        let several = told.iter().find(|text| text.contains(", and 4 more")).unwrap();
+        let reported = reported("sim:five", false);
+        let several = reported.iter().find(|text| text.contains(", and 4 more")).unwrap();
         assert!(several.contains(" counts, and 4 more"), "{several}");
     }
 }

@@ -84,7 +84,7 @@ pub fn watch(args: &WatchOptions, source: Source, observer: &mut dyn Observer) -
                 (true, false) => Required::of(client),
                 (true, true) => Required::with_tare(client),
             };
-            // A board without raw codes tells the pressure of the taxel all the same.
+            // A board without raw codes reports the pressure of the taxel all the same.
             if codes {
                 client.request_codes()?;
             }

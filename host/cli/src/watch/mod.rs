@@ -20,5 +20,5 @@ pub use felt::{Basis, Felt};
 pub use follow::{Remarks, WatchOptions, run_limit, watch};
 pub use overwrite::Overwrite;
 pub use place::TaxelPlace;
-pub use requests::{RequestLines, Told};
+pub use requests::{HostInput, RequestLines};
 pub use robot::{RobotObserver, watch_robot};

@@ -2,8 +2,8 @@
 
 use super::shape::is_sure;
 use std::collections::BTreeMap;
-use taxel::client::{Client, Event, Worn, request_name};
-use taxel::tell::starts;
+use taxel::client::{BoardDescription, Client, Event, request_name};
+use taxel::text::starts;
 use taxel_core::body::Placed;
 use taxel_core::contact::{Hardness, Phase};
 use taxel_core::format::Micros;
@@ -19,7 +19,7 @@ const TARE: u8 = Request::Tare { frames: 0 }.number();
 /// Turns events into sentences.
 #[derive(Debug, Clone)]
 pub struct Narrator {
-    /// Counts per newton, if known: forces are then told in newtons.
+    /// Counts per newton, if known: forces are then reported in newtons.
     pub counts_per_newton: Option<f32>,
     leading: Leading,
     /// Garbage was reported, and no other event has come since.
@@ -31,14 +31,14 @@ pub struct Narrator {
 }
 
 impl Narrator {
-    /// A narrator; with counts per newton, forces are told in newtons.
+    /// A narrator; with counts per newton, forces are reported in newtons.
     pub fn new(counts_per_newton: Option<f32>) -> Narrator {
         let (regions, shapes) = (Vec::new(), BTreeMap::new());
         Narrator { counts_per_newton, leading: Leading::None, garbage: false, regions, shapes }
     }
 
     /// Returns the lines for an event, if it deserves any.
-    pub fn tell(&mut self, client: &Client, event: &Event) -> Vec<String> {
+    pub fn narrate(&mut self, client: &Client, event: &Event) -> Vec<String> {
         let garbage = matches!(event, Event::Refused(_));
         if std::mem::replace(&mut self.garbage, garbage) && garbage {
             return Vec::new();
@@ -104,7 +104,7 @@ fn sentences(client: &Client, event: &Event) -> Vec<String> {
     match event {
         Event::Hello => {
             let remark = client.boot().as_ref().and_then(starts::remark);
-            client.worn().map(hello).into_iter().chain(remark).collect()
+            client.description().map(hello).into_iter().chain(remark).collect()
         }
         Event::Unusable(why) => vec![format!("refused: {why}")],
         Event::Shapes { names, prototypes } if *prototypes > 0 => {
@@ -168,12 +168,12 @@ fn direction(way: BodyDirection) -> &'static str {
     }
 }
 
-fn hello(worn: &Worn) -> String {
-    let (taxels, panels) = (worn.layout.taxels(), worn.layout.areas().len());
-    let simulated = if worn.is_simulated() { "simulated board, " } else { "" };
+fn hello(description: &BoardDescription) -> String {
+    let (taxels, panels) = (description.layout.taxels(), description.layout.areas().len());
+    let simulated = if description.is_simulated() { "simulated board, " } else { "" };
     format!(
         "hello: {simulated}{}, garment {} ({taxels} taxels, {panels} panels), scene {}",
-        worn.firmware, worn.garment.name, worn.scene.name
+        description.firmware, description.garment.name, description.scene.name
     )
 }
 
@@ -230,7 +230,7 @@ mod tests {
     use taxel_core::symbol::{Span, Strength, Words};
 
     #[test]
-    fn what_fills_a_taxel_is_told_as_at_least_so_much() {
+    fn what_fills_a_taxel_is_reported_as_at_least_so_much() {
         let line = |extent| {
             let (strength, span) = (Strength::Hard, Span::Long);
             let words = Words { strength, extent, span, moving: false, class: Class(0) };
@@ -243,12 +243,12 @@ mod tests {
         ends(Extent::Point, "point, 900 ms, at most 4.8 N");
     }
 
-    /// A narrator, and what it has told.
+    /// A narrator, and what it has reported.
     struct Heard(Narrator, String);
 
     impl Observer for Heard {
         fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
-            self.0.tell(client, event).iter().for_each(|line| self.1 += &format!("{line}\n"));
+            self.0.narrate(client, event).iter().for_each(|line| self.1 += &format!("{line}\n"));
             Ok(())
         }
     }
@@ -265,12 +265,12 @@ mod tests {
     }
 
     #[test]
-    fn a_shape_is_told_only_where_the_recogniser_is_sure() {
+    fn a_shape_is_reported_only_where_the_recogniser_is_sure() {
         // The built-in base takes a palm, a ball and a box for rectangles, and is never in doubt.
         for script in ["sim:pat", "sim:ball", "sim:box"] {
-            let told = lines(script, None);
-            assert!(told.contains(" ends: "), "{told}");
-            assert!(!Base::BUILT_IN.names.iter().any(|name| told.contains(name)), "{told}");
+            let reported = lines(script, None);
+            assert!(reported.contains(" ends: "), "{reported}");
+            assert!(!Base::BUILT_IN.names.iter().any(|name| reported.contains(name)), "{reported}");
         }
         let taught = lines("sim:box", Some("drawn"));
         assert!(taught.contains(", rectangle, "), "{taught}");

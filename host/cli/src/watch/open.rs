@@ -9,7 +9,7 @@ use taxel::error::{ErrorKind, SourceError};
 use taxel::files::calibrate::Calibration;
 use taxel::robot::BoardConfig;
 use taxel::source::{Source, SourceOptions, SourceSpec};
-use taxel::tell::words;
+use taxel::text::words;
 
 /// Time between two attempts to open a board that is waited for.
 const TRY: Duration = Duration::from_secs(1);
@@ -20,7 +20,7 @@ impl BoardArgs {
     /// Opens the source, and reads the calibration if there is one; the source then uses its counts per newton.
     pub fn open(&self, options: SourceOptions) -> Result<(Source, Option<Calibration>)> {
         let options = SourceOptions { seed: self.seed, ..options };
-        let (board, mut told) = (self.read()?, false);
+        let (board, mut reported) = (self.read()?, false);
         loop {
             let error = match board.open_any(&options) {
                 Ok(source) => return Ok((source, board.calibration)),
@@ -29,7 +29,7 @@ impl BoardArgs {
             if !self.wait || fault::status(&error) != BOARD {
                 return Err(error);
             }
-            if !std::mem::replace(&mut told, true) {
+            if !std::mem::replace(&mut reported, true) {
                 eprintln!("{}; waiting for it (Ctrl-C ends)", words::sentence(error.as_ref()));
             }
             stop::check()?;
@@ -37,9 +37,9 @@ impl BoardArgs {
         }
     }
 
-    /// Opens the source for a command that only shows it: of several boards the first, told with the others, unless
+    /// Opens the source for a command that only shows it: of several boards the first, reported with the others, unless
     /// options configure the board.
-    /// With `or_simulated`, a simulated board is played, and told as that, if no source was named and no board is
+    /// With `or_simulated`, a simulated board is played, and reported as that, if no source was named and no board is
     /// plugged in; a board that is there and cannot be used is an error.
     pub fn open_to_show(
         &self,

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, Worn, cleaned, scene_bytes};
+use taxel::client::{BoardDescription, Client, Event, cleaned, scene_bytes};
 use taxel::session::{Poll, Returns, Session};
 use taxel::source::{self, Source, SourceOptions, SourceSpec};
 use taxel_core::garment::Garment;
@@ -62,9 +62,9 @@ impl RawBoard {
             borrowed: false,
             leaving: false,
         };
-        board.until("Hello", |client, _| client.worn().is_some())?;
-        if let Some(worn) = board.session.client().worn() {
-            (board.scene, board.garment) = (worn.scene.clone(), worn.garment.clone());
+        board.until("Hello", |client, _| client.description().is_some())?;
+        if let Some(description) = board.session.client().description() {
+            (board.scene, board.garment) = (description.scene.clone(), description.garment.clone());
         }
         board.borrowed = true;
         board.use_for(&raw_scene())?;
@@ -83,17 +83,19 @@ impl RawBoard {
     }
 
     /// Sends a garment. Error if the board refuses it.
-    pub fn wear(&mut self, garment: &Garment) -> Result<()> {
+    pub fn use_garment(&mut self, garment: &Garment) -> Result<()> {
         let bytes = postcard::to_allocvec(garment).context("the garment cannot be written")?;
         self.ask(&Request::SetGarment(&bytes))?;
-        let mut told = garment.clone();
-        cleaned::garment(&mut told);
-        self.until("the new garment", |client, _| client.worn().is_some_and(|worn| worn.garment == told))
+        let mut cleaned_garment = garment.clone();
+        cleaned::garment(&mut cleaned_garment);
+        self.until("the new garment", |client, _| {
+            client.description().is_some_and(|description| description.garment == cleaned_garment)
+        })
     }
 
     /// Sends a garment, and restores the board's own scene.
     pub fn leave(&mut self, garment: &Garment) -> Result<()> {
-        self.wear(garment)?;
+        self.use_garment(garment)?;
         self.give_back()
     }
 
@@ -106,13 +108,13 @@ impl RawBoard {
     }
 
     /// The board's last `Hello`.
-    pub fn worn(&self) -> Option<&Worn> {
-        self.session.client().worn()
+    pub fn description(&self) -> Option<&BoardDescription> {
+        self.session.client().description()
     }
 
     /// Faulty taxels, by the latest report.
-    pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
-        self.session.client().ill()
+    pub fn faulty(&self) -> &BTreeMap<u16, TaxelHealth> {
+        self.session.client().faulty()
     }
 
     /// Latest temperature of its converter, degrees Celsius; none if it has no thermometer.
@@ -194,9 +196,9 @@ impl Drop for RawBoard {
         self.leaving = true;
         if self.borrowed && !self.session.is_gone() {
             let garment = self.garment.clone();
-            let worn = self.worn().is_some_and(|worn| worn.garment == garment);
+            let is_used = self.description().is_some_and(|description| description.garment == garment);
             // An error has been reported already.
-            let _ = if worn { self.give_back() } else { self.leave(&garment) };
+            let _ = if is_used { self.give_back() } else { self.leave(&garment) };
         }
     }
 }

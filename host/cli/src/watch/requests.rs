@@ -6,10 +6,10 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use taxel::files::input;
-use taxel::mind::{RobotMeaning, RobotMind, ToldLine};
+use taxel::mind::{HostInputLine, RobotMeaning, RobotMind};
 use taxel::robot::{BoardOrder, RobotStream};
 use taxel::source::SceneFile;
-use taxel::tell::words;
+use taxel::text::words;
 
 /// Frames of a tare for which no number is given: those of `taxel view`.
 const TARE: u16 = 32;
@@ -60,22 +60,22 @@ impl RequestLines {
         Ok(RequestLines { name, lines, count: 0 })
     }
 
-    /// Asks what the lines say that have come since, and tells the mind of the robot what they tell. What
-    /// cannot be asked is told, and the rest goes on. Returns what the mind was told.
+    /// Asks what the lines say that have come since, and gives the mind of the robot their host input. What
+    /// cannot be asked is reported, and the rest goes on. Returns what the mind was given.
     pub fn ask<T: Send + 'static>(
         &mut self,
         session: &RobotStream<T>,
         mut mind: Option<&mut RobotMind>,
-    ) -> Vec<Told> {
+    ) -> Vec<HostInput> {
         let mut all = Vec::new();
         while let Ok(line) = self.lines.try_recv() {
             self.count += 1;
-            let asked = line.map_err(anyhow::Error::from).and_then(|line| match told(line.trim())? {
-                Some(told) => tell(told, session, mind.as_deref_mut()).map(Some),
+            let asked = line.map_err(anyhow::Error::from).and_then(|line| match host_input(line.trim())? {
+                Some(input) => give(input, session, mind.as_deref_mut()).map(Some),
                 None => ask(line.trim(), session).map(|()| None),
             });
             match asked {
-                Ok(told) => all.extend(told),
+                Ok(input) => all.extend(input),
                 Err(error) => {
                     eprintln!("{}, line {}: {}", self.name, self.count, words::sentence(error.as_ref()));
                 }
@@ -85,43 +85,49 @@ impl RequestLines {
     }
 }
 
-/// What a mind was told.
-pub struct Told {
-    /// Host time at which it was told, us.
+/// What a mind was given.
+pub struct HostInput {
+    /// Host time at which it was sent, us.
     pub host_us: u64,
     /// What.
-    pub line: ToldLine,
+    pub line: HostInputLine,
     /// What touches mean then, if that is news.
     pub news: Option<RobotMeaning>,
 }
 
-/// What a line tells: `told NAME VALUE [AGE_MS]`, or the same as JSON; none if it asks something.
-fn told(line: &str) -> Result<Option<ToldLine>> {
+/// The host input of a line: `host_input NAME VALUE [AGE_MS]`, or the same as JSON; none if it asks something.
+fn host_input(line: &str) -> Result<Option<HostInputLine>> {
     if line.starts_with('{') {
-        return Ok(Some(ToldLine::parse(line)?));
+        return Ok(Some(HostInputLine::parse(line)?));
     }
     let parts: Vec<&str> = line.split_whitespace().collect();
-    let [name, value, age @ ..] = parts.strip_prefix(&["told"]).unwrap_or_default() else { return Ok(None) };
-    let value = value.parse().with_context(|| format!("told {name}: \"{value}\""))?;
+    let [name, value, age @ ..] = parts.strip_prefix(&["host_input"]).unwrap_or_default() else {
+        return Ok(None);
+    };
+    let value = value.parse().with_context(|| format!("host_input {name}: \"{value}\""))?;
     let age_ms = match age {
         [] => 0,
-        [age] => age.parse().with_context(|| format!("told {name}: age \"{age}\""))?,
-        _ => bail!("\"{line}\": must be told NAME VALUE [AGE_MS]"),
+        [age] => age.parse().with_context(|| format!("host_input {name}: age \"{age}\""))?,
+        _ => bail!("\"{line}\": must be host_input NAME VALUE [AGE_MS]"),
     };
-    Ok(Some(ToldLine { told: [(name.to_string(), value)].into(), age_ms, ..ToldLine::default() }))
+    Ok(Some(HostInputLine {
+        host_input: [(name.to_string(), value)].into(),
+        age_ms,
+        ..HostInputLine::default()
+    }))
 }
 
-/// Tells the mind, and the boards the robot's posture.
-fn tell<T: Send + 'static>(
-    line: ToldLine,
+/// Gives the mind its input, and the boards the robot's posture.
+fn give<T: Send + 'static>(
+    line: HostInputLine,
     session: &RobotStream<T>,
     mind: Option<&mut RobotMind>,
-) -> Result<Told> {
+) -> Result<HostInput> {
     let host_us = session.now_us();
-    let mind = mind.context("nobody hears what is told: the boards are not at one time, see --realtime")?;
-    let news = mind.tell(&line, host_us)?.cloned();
+    let mind = mind.context("nobody takes host input: the boards are not at one time, see --realtime")?;
+    let news = mind.take_input(&line, host_us)?.cloned();
     session.take_joints(line.from_us(host_us), line.joints());
-    Ok(Told { host_us, line, news })
+    Ok(HostInput { host_us, line, news })
 }
 
 /// Asks what a line says: `tare [BOARD] [N]`, `scene [BOARD] FILE`, `self-test [BOARD]`.
@@ -146,7 +152,7 @@ fn ask<T: Send + 'static>(line: &str, session: &RobotStream<T>) -> Result<()> {
         ("self-test", []) => (None, BoardOrder::SelfTest),
         ("self-test", [board]) => (Some(*board), BoardOrder::SelfTest),
         _ => bail!(
-            "\"{line}\": must be tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD] or told NAME VALUE [AGE_MS]"
+            "\"{line}\": must be tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD] or host_input NAME VALUE [AGE_MS]"
         ),
     };
     if let BoardOrder::Tare(frames) = &order {

@@ -1,6 +1,6 @@
 //! Watching a robot: the loop that hands what its boards say to a command.
 
-use super::{RequestLines, Told, stop};
+use super::{HostInput, RequestLines, stop};
 use anyhow::{Context, Error, Result};
 use std::time::Duration;
 use taxel::mind::RobotMind;
@@ -24,9 +24,13 @@ pub trait RobotObserver<T> {
         session.wait(LOOK)
     }
 
-    /// Hears what the map was told since, and an event; none: time passes.
-    fn event(&mut self, session: &RobotStream<T>, told: &[Told], event: Option<&RobotEvent<T>>)
-    -> Result<()>;
+    /// Hears what the map was reported since, and an event; none: time passes.
+    fn event(
+        &mut self,
+        session: &RobotStream<T>,
+        inputs: &[HostInput],
+        event: Option<&RobotEvent<T>>,
+    ) -> Result<()>;
 
     /// True once it needs no more.
     fn is_done(&self) -> bool {
@@ -44,9 +48,9 @@ pub fn watch_robot<T: Send + 'static>(
 ) -> Result<()> {
     let mut ended = Ok(());
     while !session.is_over() && !observer.is_done() && !stop::asked() {
-        let told = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, observer.mind()));
+        let inputs = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, observer.mind()));
         let event = observer.wait(&mut session);
-        observer.event(&session, &told, event.as_ref())?;
+        observer.event(&session, &inputs, event.as_ref())?;
         if let Some(event) = event {
             ended = ended.and(failed(&robot.boards[event.board].name, event.what));
         }

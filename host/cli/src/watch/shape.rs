@@ -1,11 +1,11 @@
-//! Shapes of contacts in words, told only where the recogniser is sure.
+//! Shapes of contacts in words, reported only where the recogniser is sure.
 
 use taxel::client::Client;
 use taxel_core::body::Placed;
 use taxel_core::format::Q15;
 use taxel_core::shape::Class;
 
-/// Confidence from which a shape is told: below, another is about as likely.
+/// Confidence from which a shape is reported: below, another is about as likely.
 const SURE: Q15 = Q15(24_576);
 
 /// Name of a contact's shape; `touch` unless the recogniser is sure of it.

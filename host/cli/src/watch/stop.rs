@@ -9,12 +9,12 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 /// From now on [`asked`] and [`check`] report Ctrl-C; a second one ends the program at once.
 pub fn catch() -> Result<()> {
     static CAUGHT: OnceLock<Result<(), ctrlc::Error>> = OnceLock::new();
-    let told = || {
+    let noted = || {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
     };
-    let caught = CAUGHT.get_or_init(|| ctrlc::set_handler(told)).as_ref();
+    let caught = CAUGHT.get_or_init(|| ctrlc::set_handler(noted)).as_ref();
     caught.copied().map_err(|error| anyhow!("Ctrl-C cannot be caught: {error}"))
 }
 

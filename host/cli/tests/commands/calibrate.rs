@@ -87,15 +87,15 @@ fn felt(calibration: &Calibration, sensor: &Sensor, seed: u64) -> (Vec<[f64; 2]>
     client.request(&Request::SetScene(&scene)).unwrap();
     calibration.requests().for_each(|request| client.request(&request).unwrap());
     client.start(64).unwrap();
-    let (mut found, mut told, mut buffer) = (Vec::new(), String::new(), [0; 4096]);
+    let (mut found, mut reported, mut buffer) = (Vec::new(), String::new(), [0; 4096]);
     loop {
         source.port.write(&client.take_requests()).unwrap();
-        let Some(count) = source.port.read(&mut buffer).unwrap() else { return (means(&found), told) };
+        let Some(count) = source.port.read(&mut buffer).unwrap() else { return (means(&found), reported) };
         for byte in &buffer[..count] {
             match client.push(*byte) {
                 Some(Event::Answer { refusal: Some(why), .. }) => panic!("{why}"),
-                Some(Event::HealthMap { .. }) => assert!(client.ill().is_empty(), "{:?}", client.ill()),
-                Some(Event::Hello) => told = client.worn().unwrap().calibration.clone(),
+                Some(Event::HealthMap { .. }) => assert!(client.faulty().is_empty(), "{:?}", client.faulty()),
+                Some(Event::Hello) => reported = client.description().unwrap().calibration.clone(),
                 Some(Event::Frame { time, image: ImageNews::Whole, .. }) => {
                     let Some(force) = standing(&forces, time.0 as f64 / 1e6) else { continue };
                     let image = client.image().unwrap().1;
@@ -156,8 +156,8 @@ fn forces_of_half_to_twenty_newtons_are_within_three_percent() {
                 .iter()
                 .all(|of| of.error < 0.06 && of.going.is_some() != (of.newtons == 100.0))
         );
-        let (frames, told) = felt(&calibration, &SENSOR, seed);
-        assert!(calibration.is_in_force(&told), "{told}");
+        let (frames, reported) = felt(&calibration, &SENSOR, seed);
+        assert!(calibration.is_in_force(&reported), "{reported}");
         let (rms, count) = error(&frames, 0.5..=20.0);
         println!(
             "seed {seed}: {:.2} % rms of {count} forces ({:.2} % below 2 N, {:.2} % above); the fit says {:.2} %",
@@ -256,7 +256,7 @@ fn the_reasons_to_calibrate_again_are_named() {
     let calibration = calibrated(&SENSOR, 302).unwrap();
     let rest: Vec<f64> = calibration.rest.iter().map(|code| f64::from(*code)).collect();
     let well = Seen {
-        told: calibration.certificate().to_string(),
+        reported: calibration.certificate().to_string(),
         rest,
         today: calibration.date.clone(),
         days: 180,
@@ -265,15 +265,15 @@ fn the_reasons_to_calibrate_again_are_named() {
     };
     assert_eq!(judge(&calibration, &well), []);
     let why = |seen: Seen| judge(&calibration, &seen);
-    assert_eq!(why(Seen { told: String::new(), ..well.clone() }), [Reason::None]);
-    let told = String::from("id 00000000, 2026-11-21, 1.00 %");
-    assert_eq!(why(Seen { told: told.clone(), ..well.clone() }), [Reason::Another(told)]);
+    assert_eq!(why(Seen { reported: String::new(), ..well.clone() }), [Reason::None]);
+    let reported = String::from("id 00000000, 2026-11-21, 1.00 %");
+    assert_eq!(why(Seen { reported: reported.clone(), ..well.clone() }), [Reason::Another(reported)]);
     let moved = well.rest.iter().map(|code| code + 100.0).collect();
     assert!(
         matches!(why(Seen { rest: moved, ..well.clone() })[..], [Reason::Rest(counts, _)] if counts == 100.0)
     );
     assert_eq!(why(Seen { rest: vec![], ..well.clone() }), [Reason::Garment(0, 64)]);
-    assert_eq!(why(Seen { ill: BTreeSet::from([1, 2]), ..well.clone() }), [Reason::Ill(2)]);
+    assert_eq!(why(Seen { faulty: BTreeSet::from([1, 2]), ..well.clone() }), [Reason::Faulty(2)]);
     assert_eq!(why(Seen { press: Some((20.0, 17.0)), ..well.clone() }), [Reason::Press(20.0, 17.0)]);
     // The simulated board has no thermometer: nothing is reported unless both temperatures are known.
     assert_eq!(calibration.celsius, None);

@@ -126,9 +126,9 @@ fn health(garment: &str, wiring: &str, corners: &[(f64, f64)], passive: Option<b
     let source = format!("sim:{}", file.display()).parse().unwrap();
     // A single block is scanned in a sixteenth of the time, as often as the link allows.
     let frames = if garment == "block-4x16" { 1_500 } else { 200 };
-    let told = look(&HealthArgs { source, frames, tare: None, self_test: false, passive, json: true });
+    let reported = look(&HealthArgs { source, frames, tare: None, self_test: false, passive, json: true });
     std::fs::remove_file(&file).unwrap();
-    told.unwrap()
+    reported.unwrap()
 }
 
 const CORNERS: [(f64, f64); 4] = [(0.0, 3.0), (0.0, 11.0), (3.0, 3.0), (3.0, 11.0)];
@@ -142,28 +142,28 @@ fn the_fourth_corner_of_a_passive_block_is_named_by_the_command() {
     for (garment, wiring, passive) in
         [("block-4x16", "passive = true", None), ("mat-64x32", unfiltered.as_str(), Some(true))]
     {
-        let told = health(garment, wiring, &CORNERS[..3], passive);
-        let ghosts = told.json["ghosts"].as_array().unwrap();
+        let reported = health(garment, wiring, &CORNERS[..3], passive);
+        let ghosts = reported.json["ghosts"].as_array().unwrap();
         // Its peak alternates between taxels, all of the fourth corner.
         let is_there = |ghost: &serde_json::Value| {
             let column = ghost["column"].as_u64().unwrap();
             ghost["panel"] == "mat" && ghost["row"] == 3 && (10..=12).contains(&column)
         };
-        assert!(!ghosts.is_empty() && ghosts.iter().all(is_there), "{garment}: {}", told.text);
+        assert!(!ghosts.is_empty() && ghosts.iter().all(is_there), "{garment}: {}", reported.text);
         let times: u64 = ghosts.iter().map(|ghost| ghost["times"].as_u64().unwrap()).sum();
         assert!(times >= 100, "{garment}: {times} times");
-        assert!(told.text.contains("ghost?   mat, row 3, column 1"), "{}", told.text);
+        assert!(reported.text.contains("ghost?   mat, row 3, column 1"), "{}", reported.text);
     }
 }
 
 #[test]
 fn nothing_that_is_pressed_is_called_a_ghost() {
     // With amplifiers, or a diode at each taxel, three corners create no fourth.
-    let told = health("mat-64x32", UNFILTERED, &CORNERS[..3], Some(true));
-    assert_eq!(told.json["ghosts"], serde_json::json!([]), "{}", told.text);
-    let told = health("mat-64x32", UNFILTERED, &CORNERS[..3], None);
-    assert!(told.json["ghosts"].is_null());
+    let reported = health("mat-64x32", UNFILTERED, &CORNERS[..3], Some(true));
+    assert_eq!(reported.json["ghosts"], serde_json::json!([]), "{}", reported.text);
+    let reported = health("mat-64x32", UNFILTERED, &CORNERS[..3], None);
+    assert!(reported.json["ghosts"].is_null());
     // Two create none on a passive matrix.
-    let told = health("block-4x16", "passive = true", &CORNERS[..2], None);
-    assert_eq!(told.json["ghosts"], serde_json::json!([]), "{}", told.text);
+    let reported = health("block-4x16", "passive = true", &CORNERS[..2], None);
+    assert_eq!(reported.json["ghosts"], serde_json::json!([]), "{}", reported.text);
 }

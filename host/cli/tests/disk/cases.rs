@@ -146,7 +146,7 @@ pub const CASES: &[Case] = &[
     case("body show", "body show reference -o body.svg", &[ends("body.svg", "</svg>\n")]),
     case("body places", "body places reference --robot reference -o places.csv", &[file("places.csv")]),
     case("body drape", "body drape board.obj --panel chest --at 0,0,0 -o chest.txt", &[file("chest.txt")]),
-    case("body fit", "body fit reference --touches known.csv -o worn.toml", &[file("worn.toml")]),
+    case("body fit", "body fit reference --touches known.csv -o fitted.toml", &[file("fitted.toml")]),
     case("setup", "setup --simulate 7 -o out.toml", &[file("out.toml")]),
     case("calibrate settle", "calibrate settle --source sim:weights.toml -o out.toml", &[table("out.toml")]),
     case("fcm combine", "fcm combine tactile tactile -o map.toml", &[file("map.toml")]),

@@ -42,7 +42,7 @@ impl Judge<'_> {
                 require(false, &|| format!("{}: {why}", output.name));
             }
         }
-        if let Err(why) = self.told(fault, done) {
+        if let Err(why) = self.reported(fault, done) {
             require(false, &|| why.clone());
         }
         if fault.kills()
@@ -124,7 +124,7 @@ impl Judge<'_> {
     }
 
     /// Checks for one sentence that names a file, in plain words.
-    fn told(&self, fault: Fault, done: &Done) -> Result<(), String> {
+    fn reported(&self, fault: Fault, done: &Done) -> Result<(), String> {
         if let Some(word) = FOREIGN.iter().find(|word| done.said.contains(*word)) {
             return Err(format!("says {word:?}"));
         }
@@ -138,7 +138,7 @@ impl Judge<'_> {
             return Err("an interrupted call ends the program".into());
         }
         let errors: Vec<&str> = done.said.lines().filter(|line| line.starts_with("error: ")).collect();
-        let [error] = errors[..] else { return Err(format!("{} errors are told", errors.len())) };
+        let [error] = errors[..] else { return Err(format!("{} errors are reported", errors.len())) };
         let names_one = self.case.outputs.iter().any(|output| error.contains(output.name));
         if done.status.code() != Some(1) && fault != Fault::Link {
             return Err(format!("{}", done.status));
@@ -171,17 +171,17 @@ fn keys(bytes: &[u8]) -> Option<Vec<String>> {
 
 /// Number of readable messages of a recording after a repair; error if some of it is damaged.
 fn messages(path: &Path, must_be_whole: bool) -> Result<u64, String> {
-    let told = |error: taxel::Error| format!("{error:#}");
-    let found = scan(path).map_err(told)?;
+    let reported = |error: taxel::Error| format!("{error:#}");
+    let found = scan(path).map_err(reported)?;
     let (chunks, bytes) = found.damaged();
     if chunks > 0 || bytes > 0 || must_be_whole && !found.whole {
         return Err(format!("{chunks} chunks, {bytes} bytes damaged, whole: {}", found.whole));
     }
     let mut repaired = Vec::new();
-    repair(path, &found, &mut repaired).map_err(told)?;
+    repair(path, &found, &mut repaired).map_err(reported)?;
     let beside = path.with_extension("whole");
     fs::write(&beside, repaired).unwrap();
-    let found = scan(&beside).map_err(told);
+    let found = scan(&beside).map_err(reported);
     fs::remove_file(beside).unwrap();
     Ok(found?.contents.counts().values().sum())
 }

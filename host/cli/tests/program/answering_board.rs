@@ -1,4 +1,4 @@
-//! A board that has been on for an hour, answers all requests and sends no image. On a USB it tells the last
+//! A board that has been on for an hour, answers all requests and sends no image. On a USB it reports the last
 //! start of a frame after each round trip.
 
 use std::io::{Read, Write};

@@ -22,7 +22,8 @@ fn a_body_is_checked_and_every_taxel_placed() {
     );
     // What a command reads it never overwrites: not a list that the body names, either.
     let list = file("list.txt", "0 0 0.1 0 0 1\n".repeat(2048).as_bytes());
-    let worn = file("list.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {list:?}\n").as_bytes());
+    let fitted =
+        file("list.toml", format!("[[patches]]\npanel = \"mat\"\non.taxels = {list:?}\n").as_bytes());
     let holed = "0 0 0 0 0 0\n".to_string() + &"0 0 0.1 0 0 1\n".repeat(2047);
     let holed = file("holed.txt", holed.as_bytes());
     let holed =
@@ -32,13 +33,15 @@ fn a_body_is_checked_and_every_taxel_placed() {
         table.starts_with("mat  on base  2047 taxels, without a place: taxel 0, neighbours at"),
         "{table}"
     );
-    let over = run(&["body", "places", &worn, "--garment", "mat-64x32", "-o", &list, "--force"]);
+    let over = run(&["body", "places", &fitted, "--garment", "mat-64x32", "-o", &list, "--force"]);
     assert!(!over.status.success() && std::fs::read(&list).unwrap().len() == 14 * 2048);
-    let told = answer(&["live", "--source", "sim:pat", "--body", "reference", "--frames", "120", "--json"]);
-    let pressing = told.lines().filter(|line| line.starts_with("{\"type\":\"pressing\"")).collect::<Vec<_>>();
+    let printed =
+        answer(&["live", "--source", "sim:pat", "--body", "reference", "--frames", "120", "--json"]);
+    let pressing =
+        printed.lines().filter(|line| line.starts_with("{\"type\":\"pressing\"")).collect::<Vec<_>>();
     assert!(pressing.len() > 10 && pressing[0].contains("\"link\":\"torso\""), "{pressing:?}");
     let other = run(&["body", "check", "reference", "--garment", "mat-64x32"]);
-    let told = String::from_utf8(other.stderr).unwrap();
+    let printed = String::from_utf8(other.stderr).unwrap();
     let what = "reference, line 6, `patches[0].panel`: must be a panel of the garment: mat";
     // Regions are listed, and marked in the picture.
     let text = include_str!("../../../taxel/bodies/reference.toml").to_string()
@@ -55,7 +58,7 @@ fn a_body_is_checked_and_every_taxel_placed() {
     assert!(picture.contains(">heart &amp; lung</text>"));
     // They face the front and, a little to its left, the left.
     assert_eq!(picture.matches(" stroke=\"#000\"").count(), 4);
-    assert!(!other.status.success() && told.contains(what), "{told}");
+    assert!(!other.status.success() && printed.contains(what), "{printed}");
 }
 
 #[test]
@@ -99,21 +102,21 @@ fn a_body_is_put_on_a_robot_in_a_posture() {
         (&["--robot", "reference", "--frame", "head"], 2, "reference: there is no link \"head\""),
         (&["--robot", "none"], 2, "there is no robot \"none\""),
     ] {
-        let (code, told) = said(args);
-        assert!(code == status && told.contains(what), "{code}: {told}");
+        let (code, printed) = said(args);
+        assert!(code == status && printed.contains(what), "{code}: {printed}");
     }
     // A robot that is read is never overwritten.
     let trunk = b"<robot><link name=\"trunk\"/></robot>";
     let urdf = file("robot.urdf", trunk);
     let over = run(&["body", "places", "reference", "--robot", &urdf, "-o", &urdf, "--force"]);
     assert!(!over.status.success() && std::fs::read(&urdf).unwrap() == trunk);
-    let (code, told) = said(&["--robot", &urdf]);
+    let (code, printed) = said(&["--robot", &urdf]);
     let what = format!("reference, line 6, `patches[0].panel`: {urdf}: there is no link \"torso\"");
-    assert!(code == 1 && told.contains(&what), "{told}");
+    assert!(code == 1 && printed.contains(&what), "{printed}");
 }
 
 #[test]
-fn a_panel_is_draped_over_a_mesh_and_worn() {
+fn a_panel_is_draped_over_a_mesh_and_put_on() {
     // A board of 30 cm by 50 cm, in millimetres, as the front of a robot.
     let mesh = file("board.obj", b"v 50 -150 0\nv 50 150 0\nv 50 150 500\nv 50 -150 500\nf 1 2 3 4\n");
     let over =
@@ -138,7 +141,7 @@ fn a_panel_is_draped_over_a_mesh_and_worn() {
     );
     let unknown = said(&["body", "drape", &mesh, "--panel", "chst", "--at", "0,0,0", "-o", "-"]);
     assert!(unknown.contains("there is no panel \"chst\": did you mean \"chest\"?"), "{unknown}");
-    let named = "<robot>\n<link name=\"torso\">\n<visual><origin xyz=\"0.01 0 0\"/><geometry><mesh filename=\"package://worn/board.obj\" \
+    let named = "<robot>\n<link name=\"torso\">\n<visual><origin xyz=\"0.01 0 0\"/><geometry><mesh filename=\"package://meshes/board.obj\" \
          scale=\"0.001 0.001 0.001\"/></geometry></visual>\n</link>\n</robot>\n";
     let urdf = file("board.urdf", named.as_bytes());
     let folder = Path::new(&mesh).parent().unwrap().to_str().unwrap();
@@ -156,7 +159,7 @@ fn a_panel_is_draped_over_a_mesh_and_worn() {
         "-o",
         "-",
     ];
-    let package = ["--package", &format!("worn={folder}")];
+    let package = ["--package", &format!("meshes={folder}")];
     let listed = answer(&[&on[..], &package].concat());
     // As over the mesh itself, 1 cm farther to the front.
     let first = |list: &str| list.lines().nth(1).unwrap().to_string();
@@ -164,7 +167,7 @@ fn a_panel_is_draped_over_a_mesh_and_worn() {
     assert_eq!(first(&listed), first(&list).replace("0.050000", "0.060000"));
     let lost = said(&on);
     let what =
-        format!("{urdf}, line 3, link \"torso\": mesh package://worn/board.obj: no folder above the file");
+        format!("{urdf}, line 3, link \"torso\": mesh package://meshes/board.obj: no folder above the file");
     assert!(lost.contains(&what), "{lost}");
     for (args, what) in [
         (&["body", "drape", "--robot", &urdf, "--panel", "chest", "--at", "0,0,0", "-o", "-"][..], "--link"),
@@ -182,8 +185,8 @@ fn a_panel_is_draped_over_a_mesh_and_worn() {
         ),
     ] {
         let done = run(args);
-        let told = String::from_utf8(done.stderr).unwrap();
-        assert!(done.status.code() == Some(2) && told.contains(what), "{told}");
+        let printed = String::from_utf8(done.stderr).unwrap();
+        assert!(done.status.code() == Some(2) && printed.contains(what), "{printed}");
     }
     // Neither the robot nor its mesh is ever written.
     for input in [&urdf, &mesh] {

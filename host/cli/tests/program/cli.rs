@@ -50,7 +50,7 @@ fn bad_arrays_are_refused_by_name() {
 }
 
 #[test]
-fn what_speaks_against_recorded_frames_is_told() {
+fn what_speaks_against_recorded_frames_is_reported() {
     let frames = |value: &dyn Fn(usize, usize) -> u16| -> Vec<u16> {
         (0..20 * 64).map(|i| value(i / 64, i % 64)).collect()
     };

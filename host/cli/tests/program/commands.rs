@@ -45,21 +45,21 @@ fn settings_are_stored_or_it_is_said_why_not() {
 }
 
 #[test]
-fn health_names_what_is_ill_and_where() {
+fn health_names_what_is_faulty_and_where() {
     let taxels = "stuck = [{ taxel = 77, code = 300 }]\nnoisy = [{ taxel = 1700, counts = 60 }]";
-    let ill = scene("ill.toml", &format!("duration_s = 2\n[faults]\n{taxels}"));
-    let args = ["health", "--source", &ill, "--tare", "16", "--self-test", "--json"];
+    let faulty = scene("faulty.toml", &format!("duration_s = 2\n[faults]\n{taxels}"));
+    let args = ["health", "--source", &faulty, "--tare", "16", "--self-test", "--json"];
     let done = run(&args);
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
-    let told: Value = serde_json::from_slice(&done.stdout).unwrap();
-    assert_eq!(told["self_test"], json!({ "lines": 9, "inputs": 4, "faults": [] }));
-    assert_eq!([&told["simulated"], &told["ghosts"]], [&json!(true), &Value::Null]);
+    let printed: Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!(printed["self_test"], json!({ "lines": 9, "inputs": 4, "faults": [] }));
+    assert_eq!([&printed["simulated"], &printed["ghosts"]], [&json!(true), &Value::Null]);
     let place = |taxel: u16, health: &str, panel: &str, row: u16, column: u16, block: u8| {
         json!({ "taxel": taxel, "health": health, "panel": panel, "row": row, "column": column, "block": block,
             "wired_row": row % 4, "wired_column": column })
     };
     let expected = [place(77, "stuck", "chest", 4, 13, 1), place(1700, "noisy", "right arm", 10, 4, 26)];
-    assert_eq!(told["taxels"], json!(expected));
+    assert_eq!(printed["taxels"], json!(expected));
     let table = run(&args[..args.len() - 1]);
     let lines: Vec<&str> = text(&table.stdout).lines().collect();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! A board that is lost, and another one that answers in its place: what is told, shown and recorded.
+//! A board that is lost, and another one that answers in its place: what is reported, shown and recorded.
 
 mod table;
 
@@ -59,7 +59,7 @@ fn free(name: &str) -> PathBuf {
 fn is_refused(done: &Output, address: &str) {
     let error = String::from_utf8_lossy(&done.stderr);
     let why = format!(
-        "error: tcp:{address} answers with another board: it wears the garment block-4x16, not reference"
+        "error: tcp:{address} answers with another board: it has the garment block-4x16, not reference"
     );
     assert_eq!(done.status.code(), Some(3), "{error}");
     assert!(error.lines().any(|line| line == why), "{error}");

@@ -81,7 +81,7 @@ fn the_contacts_are_a_table_of_their_own() {
 }
 
 #[test]
-fn images_are_bright_and_their_scale_is_told() {
+fn images_are_bright_and_their_scale_is_reported() {
     let (_, bright) = exported("bright", false, "png", &[]);
     let legend: serde_json::Value =
         serde_json::from_slice(&fs::read(bright.join("scale.json")).unwrap()).unwrap();

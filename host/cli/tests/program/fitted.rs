@@ -68,29 +68,32 @@ fn a_garment_is_fitted_by_marks_that_a_simulation_touches() {
     }
     let (marks, script) = (file("marks.txt", &marks), file("marks.toml", &script));
     let source = format!("sim:{script}");
-    let worn = folder().join("worn.toml").to_str().unwrap().to_string();
+    let fitted = folder().join("fitted.toml").to_str().unwrap().to_string();
     let done =
-        run(&["body", "fit", "reference", "--marks", &marks, "--source", &source, "-o", &worn, "--force"]);
+        run(&["body", "fit", "reference", "--marks", &marks, "--source", &source, "-o", &fitted, "--force"]);
     let (words, table) = (said(&done), String::from_utf8_lossy(&done.stdout).into_owned());
     assert!(done.status.success(), "{words}");
     assert!(words.starts_with("Touch mark 1 of 8: torso, "), "{words}");
     assert!(words.contains("That was chest, on torso; the mark is on left_upper_arm. Once more:"), "{words}");
     assert!(table.contains("chest: ") && table.contains("  worst: touch "), "{table}");
-    let text = std::fs::read_to_string(&worn).unwrap();
+    let text = std::fs::read_to_string(&fitted).unwrap();
     assert!(text.contains("# The reference garment on a robot of a child's size"));
     let body: toml::Table = text.parse().unwrap();
     let patches = body["patches"].as_array().unwrap();
-    let of = |patch: usize, key: &str| patches[patch]["worn"][key].as_float().unwrap();
+    let of = |patch: usize, key: &str| patches[patch]["offset"][key].as_float().unwrap();
     for (key, exact, within) in [("right", -0.012, 1e-3), ("down", -0.02, 1e-3), ("turn", 0.0, 0.6)] {
         assert!((of(0, key) - exact).abs() < within, "{key}: {text}");
         assert!((of(2, key) - exact * 0.0).abs() < within, "{key}: {text}");
     }
-    assert!(patches[1].get("worn").is_none() && patches[3].get("worn").is_none());
-    // So worn, the chest lies on the back's edge.
-    let told = said(&run(&["body", "check", &worn]));
-    assert!(told.contains("worn.toml, line 11, `patches[1].panel`: back lies on the panel chest"), "{told}");
+    assert!(patches[1].get("offset").is_none() && patches[3].get("offset").is_none());
+    // So placed, the chest lies on the back's edge.
+    let printed = said(&run(&["body", "check", &fitted]));
+    assert!(
+        printed.contains("fitted.toml, line 11, `patches[1].panel`: back lies on the panel chest"),
+        "{printed}"
+    );
     // Never over what it reads, and not over another file unasked.
-    for (output, force) in [(&marks, true), (&script, true), (&worn, false)] {
+    for (output, force) in [(&marks, true), (&script, true), (&fitted, false)] {
         let before = std::fs::read(output).unwrap();
         let mut args = vec!["body", "fit", "reference", "--marks", &marks, "--source", &source, "-o", output];
         args.extend(force.then_some("--force"));
@@ -114,7 +117,7 @@ fn a_garment_is_fitted_by_touches_of_a_file() {
     assert_eq!((&fit["panels"][0]["panel"], &fit["few"][0]["touches"]), (&"chest".into(), &1.into()));
     assert!(fit["panels"][0]["rms"].as_f64().unwrap() < 1e-5, "{fit}");
     let text = String::from_utf8(done.stdout).unwrap();
-    assert!(text.contains("worn = { right = 0.0, down = 0.0, turn = 0.0 }"), "{text}");
+    assert!(text.contains("offset = { right = 0.0, down = 0.0, turn = 0.0 }"), "{text}");
     let why = |args: &[&str]| {
         let done = run(&[&["body", "fit", "reference", "-o", "-"][..], args].concat());
         (done.status.code().unwrap(), said(&done))
@@ -142,8 +145,8 @@ fn a_garment_is_fitted_by_touches_of_a_file() {
         (&[], 2, "--touches"),
         (&["--touches", &few, "--source", "sim:pat"], 2, "--source"),
     ] {
-        let (code, told) = why(args);
-        assert!(code == status && told.contains(what), "{args:?} {code}: {told}");
+        let (code, printed) = why(args);
+        assert!(code == status && printed.contains(what), "{args:?} {code}: {printed}");
     }
     // A list lies beside the body that names it.
     let row = "0 0 0.1 0 0 1\n".repeat(2048);
@@ -151,6 +154,9 @@ fn a_garment_is_fitted_by_touches_of_a_file() {
     let listed = file("listed.toml", "[[patches]]\npanel = \"mat\"\non.taxels = \"list.txt\"\n");
     let done =
         run(&["body", "fit", &listed, "--garment", "mat-64x32", "--touches", &few, "-o", "elsewhere.toml"]);
-    let told = said(&done);
-    assert!(done.status.code() == Some(2) && told.contains("elsewhere.toml: must lie beside "), "{told}");
+    let printed = said(&done);
+    assert!(
+        done.status.code() == Some(2) && printed.contains("elsewhere.toml: must lie beside "),
+        "{printed}"
+    );
 }

@@ -20,8 +20,8 @@ fn run(args: &[&str]) -> Output {
 /// The lines of a type that `taxel live --json` prints.
 fn lines(args: &[&str], kind: &str) -> Vec<Value> {
     let live = [&["live", "--source", "sim:elbow", "--for", "2.6s", "--json"], args].concat();
-    let told = String::from_utf8(run(&live).stdout).unwrap();
-    let lines = told.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let printed = String::from_utf8(run(&live).stdout).unwrap();
+    let lines = printed.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     lines.filter(|line| line["type"] == kind).collect()
 }
 
@@ -50,7 +50,7 @@ fn a_bent_elbow_means_nothing_once_it_is_learned() {
     assert_eq!((touched(&with), meant(&with)), (0, 0), "from beginning to end");
     let folds = lines(&["--folds", TABLE.to_str().unwrap()], "folds");
     // The first one is of the tare.
-    assert!(folds.len() > 20 && folds[1..].iter().all(|told| told["followed"] == true), "{folds:?}");
+    assert!(folds.len() > 20 && folds[1..].iter().all(|printed| printed["followed"] == true), "{folds:?}");
 }
 
 #[test]

@@ -44,8 +44,8 @@ fn line(socket: &mut WebSocket<TcpStream>) -> Value {
 
 fn subscribe(socket: &mut WebSocket<TcpStream>, hub: &FoxgloveHub, id: u32, topic: &str) {
     let channel = channel(topic).unwrap();
-    let wish = json!({ "op": "subscribe", "subscriptions": [{ "id": id, "channelId": channel }] });
-    socket.send(Message::text(wish.to_string())).unwrap();
+    let request = json!({ "op": "subscribe", "subscriptions": [{ "id": id, "channelId": channel }] });
+    socket.send(Message::text(request.to_string())).unwrap();
     while !hub.wants(channel) {
         std::thread::yield_now();
     }
@@ -95,8 +95,8 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     );
 
     let mut slow = connected(port, "foxglove.websocket.v1").unwrap();
-    let wish = json!({ "op": "subscribe", "subscriptions": [{ "id": 1, "channelId": images["id"] }] });
-    slow.send(Message::text(wish.to_string())).unwrap();
+    let request = json!({ "op": "subscribe", "subscriptions": [{ "id": 1, "channelId": images["id"] }] });
+    slow.send(Message::text(request.to_string())).unwrap();
     while !hub.wants(images["id"].as_u64().unwrap() as u32) {
         std::thread::yield_now();
     }
@@ -104,23 +104,23 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     one.send(Message::Ping(Bytes::from_static(b"still there?"))).unwrap();
     let seen = play(hub.clone());
 
-    let (mut told, mut answered) = (Vec::new(), false);
-    while told.len() < seen.len() {
+    let (mut received, mut answered) = (Vec::new(), false);
+    while received.len() < seen.len() {
         match one.read().unwrap() {
             Message::Binary(bytes) => {
                 assert_eq!((bytes[0], &bytes[1..5]), (1, &77u32.to_le_bytes()[..]));
                 let value: Value = serde_json::from_slice(&bytes[13..]).unwrap();
                 let host = value["host_time_us"].as_u64().unwrap();
                 assert_eq!(u64::from_le_bytes(bytes[5..13].try_into().unwrap()), host * 1000);
-                told.push(value);
+                received.push(value);
             }
             Message::Pong(bytes) => answered |= bytes == b"still there?"[..],
             other => panic!("{other:?}"),
         }
     }
-    assert!(told == seen, "{:?} is not {:?}", told.first(), seen.first());
+    assert!(received == seen, "{:?} is not {:?}", received.first(), seen.first());
     assert!(answered);
-    let backs = told.iter().flat_map(|said| said["contacts"].as_array().unwrap());
+    let backs = received.iter().flat_map(|said| said["contacts"].as_array().unwrap());
     assert!(backs.filter(|contact| contact["panel_name"] == "back").count() > 10);
 
     // Behind the server's own words, an image of 64 x 32 taxels.
@@ -132,7 +132,7 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     subscribe(&mut late, &hub, 5, "hello");
     let known = late.read().unwrap().into_data();
     let hello: Value = serde_json::from_slice(&known[13..]).unwrap();
-    assert_eq!(hello["garment"], "reference", "who comes late is told what is known");
+    assert_eq!(hello["garment"], "reference", "who comes late is sent what is known");
 }
 
 #[test]
@@ -183,6 +183,6 @@ fn clients_that_say_nothing_shut_nobody_out_and_subscriptions_are_bounded() {
     let stamp = Stamp { board_us: 1, host_us: 1, uncertainty_us: None };
     Publisher::new(hub).event(&Client::new(), &said, stamp).unwrap();
     one.get_ref().set_read_timeout(Some(Duration::from_secs(1))).unwrap();
-    let told = std::iter::from_fn(|| one.read().ok()).filter(Message::is_binary).count();
-    assert!((1..=64).contains(&told), "{told}");
+    let received = std::iter::from_fn(|| one.read().ok()).filter(Message::is_binary).count();
+    assert!((1..=64).contains(&received), "{received}");
 }

@@ -46,6 +46,6 @@ fn a_run_of_limited_time_ends_without_images() {
         }
     });
     let info = run(&folder, &["info", "r.mcap", "--json"]);
-    let told: Value = serde_json::from_slice(&info.stdout).unwrap();
-    assert!(told["seconds"].as_f64().is_some_and(|seconds| seconds < 60.0), "{told}");
+    let printed: Value = serde_json::from_slice(&info.stdout).unwrap();
+    assert!(printed["seconds"].as_f64().is_some_and(|seconds| seconds < 60.0), "{printed}");
 }

@@ -89,17 +89,17 @@ fn what_is_no_file_is_refused_by_every_command() {
                 _ => std::os::unix::fs::symlink("/dev/null", path).unwrap(),
             }
         }
-        // One place tells what is no file.
+        // One place says what is no file.
         let commands = if what == "a FIFO" { &READERS[..] } else { &READERS[..1] };
         for command in commands {
             // `timeout` ends with 124.
             let mut program = Command::new("timeout");
             program.arg(WAITS.to_string()).arg(env!("CARGO_BIN_EXE_taxel")).args(*command);
             let done = program.current_dir(&folder.0).stdin(Stdio::null()).output().unwrap();
-            let told = String::from_utf8(done.stderr).unwrap();
+            let printed = String::from_utf8(done.stderr).unwrap();
             assert_ne!(done.status.code(), Some(124), "{command:?} waits");
-            let error = told.lines().find(|line| line.starts_with("error: ")).unwrap_or_default();
-            assert!(error.contains(&format!("it is {what}")), "{command:?}: {told}");
+            let error = printed.lines().find(|line| line.starts_with("error: ")).unwrap_or_default();
+            assert!(error.contains(&format!("it is {what}")), "{command:?}: {printed}");
         }
     }
 }

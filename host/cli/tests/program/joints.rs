@@ -83,10 +83,10 @@ fn a_recording_holds_joints_poses_and_what_presses() {
     std::fs::write(states, joints.iter().map(|joint| format!("{joint}\n")).collect::<String>()).unwrap();
     let more = ["--joint-states", states, "--realtime", "--for", "2s", "--json"];
     let done = run(&[&["live"][..], &ROBOT, &more].concat(), "");
-    let told = String::from_utf8(done.stdout).unwrap();
+    let printed = String::from_utf8(done.stdout).unwrap();
     assert!(
         done.status.success()
-            && told.lines().filter(|line| line.contains("\"pose_error_m\":0.")).count() > 20
+            && printed.lines().filter(|line| line.contains("\"pose_error_m\":0.")).count() > 20
     );
     // No output replaces the file of the joints.
     let over =
@@ -101,9 +101,9 @@ fn joints_come_on_the_standard_input() {
         ["\"time_us\": 300000, ", "\"time_us\": 400000, ", "\"time_us\": 500000, ", "\"time_us\": 600000, "];
     let input: String = times.iter().map(|time| line(time, 0.0)).collect();
     let done = run(&[&["live"][..], &ROBOT, &more].concat(), &input);
-    let told = String::from_utf8(done.stdout).unwrap();
+    let printed = String::from_utf8(done.stdout).unwrap();
     let posed =
-        told.lines().filter(|line| line.contains("\"request\":\"set-poses\",\"refusal\":null")).count();
+        printed.lines().filter(|line| line.contains("\"request\":\"set-poses\",\"refusal\":null")).count();
     assert!(done.status.success() && (2..100).contains(&posed), "{posed}");
 }
 

@@ -291,8 +291,8 @@ fn the_picture_shows_maps_contacts_and_intention() {
     ] {
         assert!(wide.contains(part), "{part} in\n{wide}");
     }
-    // The scale has the colours that the page is told.
-    let ramp = palette::told().ramp;
+    // The scale has the colours that the page is sent.
+    let ramp = palette::for_page().ramp;
     for [r, g, b] in ramp.iter().step_by(17).copied() {
         assert!(pictures[0].content.iter().any(|cell| cell.bg == Color::Rgb(r, g, b)), "{r} {g} {b}");
     }
@@ -369,25 +369,27 @@ fn a_garment_or_scene_file_is_checked_before_it_is_sent() {
 }
 
 #[test]
-fn gestures_are_told_where_they_are_asked_for() {
+fn gestures_are_reported_where_they_are_asked_for() {
     let mut asked = args("sim:pat", Some(300));
     asked.board.config.gestures = Some(GestureModel::Gestures);
     let lines = parsed(&json(&asked));
-    let told: Vec<&Value> = of_type(&lines, "gesture").collect();
-    assert!(!told.is_empty());
-    for line in &told {
+    let printed: Vec<&Value> = of_type(&lines, "gesture").collect();
+    assert!(!printed.is_empty());
+    for line in &printed {
         assert_eq!((line["touch"].as_u64(), line["panel"].as_str()), (Some(1), Some("back")));
         assert!(line["lead"].as_f64().unwrap() >= 0.0 && line["observed_ms"].as_u64().unwrap() > 0);
     }
-    let ended = told.iter().filter(|line| line["ended"] == true).count();
+    let ended = printed.iter().filter(|line| line["ended"] == true).count();
     assert!(ended <= 1, "a touch ends once");
     assert!(of_type(&parsed(&json(&args("sim:pat", Some(300)))), "gesture").next().is_none());
     let mut intent = asked.clone();
     intent.board.config.gestures = Some(GestureModel::Intent);
     let classes = ["kindness", "threat", "attack"];
     let lines = parsed(&json(&intent));
-    let told: Vec<&Value> = of_type(&lines, "gesture").collect();
-    assert!(!told.is_empty() && told.iter().all(|line| classes.contains(&line["name"].as_str().unwrap())));
+    let printed: Vec<&Value> = of_type(&lines, "gesture").collect();
+    assert!(
+        !printed.is_empty() && printed.iter().all(|line| classes.contains(&line["name"].as_str().unwrap()))
+    );
     let mut certain = asked.clone();
     certain.board.config.gesture_certainty = Some(0.7);
     let lines = parsed(&json(&certain));
@@ -428,7 +430,7 @@ impl Observer for Teacher {
         {
             let (bounds, (_, image)) = (&placed.contact.bounds, client.image().unwrap());
             let area = &client.layout().unwrap().areas()[usize::from(bounds.panel)];
-            let low = client.worn().unwrap().scene.contact.low;
+            let low = client.description().unwrap().scene.contact.low;
             let mut patch = Vec::new();
             for row in bounds.top..=bounds.bottom {
                 let start = usize::from(area.base + row * area.columns);
@@ -446,7 +448,7 @@ impl Observer for Teacher {
     }
 
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
-        if client.worn().is_some() && !std::mem::replace(&mut self.taught, true) {
+        if client.description().is_some() && !std::mem::replace(&mut self.taught, true) {
             set_shapes(client, &self.base)?;
         }
         Ok(())

@@ -19,8 +19,8 @@ weight = 0.5
 "#;
 
 #[test]
-fn a_wrong_map_is_told_by_line_and_key() {
-    for (from, to, told) in [
+fn a_wrong_map_is_reported_by_line_and_key() {
+    for (from, to, printed) in [
         (
             "weight = 0.5",
             "weight = 2",
@@ -54,7 +54,7 @@ fn a_wrong_map_is_told_by_line_and_key() {
         let map = file("wrong.toml", text.as_bytes());
         let output = run(&["fcm", "check", &map]);
         let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(1) && error.contains(told), "{told}\n{error}");
+        assert!(output.status.code() == Some(1) && error.contains(printed), "{printed}\n{error}");
         assert!(error.starts_with(&format!("error: {map}, line ")) && error.lines().count() == 1, "{error}");
     }
 }
@@ -68,7 +68,7 @@ fn a_name_that_is_no_map_is_wrong_use() {
 }
 
 #[test]
-fn experts_are_told_apart_by_their_files() {
+fn experts_are_distinguished_by_their_files() {
     let (anna, ben) =
         (file("anna.toml", MAP.as_bytes()), file("ben.toml", MAP.replace("0.5", "-0.25").as_bytes()));
     let ours = file("ours.toml", b"");

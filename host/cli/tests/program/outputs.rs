@@ -126,7 +126,7 @@ const WRITERS: [&[&str]; 10] = [
 ];
 
 #[test]
-fn no_command_replaces_a_file_that_it_was_not_told_to_replace() {
+fn no_command_replaces_a_file_that_it_was_not_asked_to_replace() {
     let folder = Folder::new("replaced");
     for command in WRITERS {
         let words = if command.contains(&"png") { "is a file: name a folder" } else { "--force" };
@@ -193,9 +193,9 @@ fn an_export_that_fails_names_its_recording_once() {
     fs::write(folder.0.join("torn.mcap"), &folder.bytes("in.mcap")[..40]).unwrap();
     for to in ["csv", "npz", "png"] {
         let done = folder.run(&["export", "torn.mcap", "--to", to, "-o", "out"]);
-        let told = String::from_utf8(done.stderr).unwrap();
-        assert!(!done.status.success() && told.contains("torn.mcap holds no image"), "{told}");
-        assert_eq!(told.matches("torn.mcap").count(), 1, "{told}");
+        let printed = String::from_utf8(done.stderr).unwrap();
+        assert!(!done.status.success() && printed.contains("torn.mcap holds no image"), "{printed}");
+        assert_eq!(printed.matches("torn.mcap").count(), 1, "{printed}");
     }
 }
 
@@ -271,10 +271,10 @@ fn a_standard_output_on_a_full_disk_is_named() {
     ];
     for command in commands {
         let done = on_full_disk(&folder, command, false);
-        let told = String::from_utf8(done.stderr).unwrap();
-        assert_eq!(done.status.code(), Some(1), "{command:?}: {told}");
+        let printed = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(1), "{command:?}: {printed}");
         let error = "error: the standard output cannot be written: no space left on device\n";
-        assert!(told.ends_with(error), "{command:?}: {told}");
+        assert!(printed.ends_with(error), "{command:?}: {printed}");
     }
 }
 
@@ -287,5 +287,5 @@ fn a_log_on_a_full_disk_ends_no_recording() {
     assert!(done.status.success(), "{}", done.status);
     assert!(taxel::recording::scan(&folder.0.join("new.mcap")).unwrap().whole);
     let done = on_full_disk(&folder, &["info", "no-such.mcap"], true);
-    assert_eq!(done.status.code(), Some(1), "the error cannot be told, its status can");
+    assert_eq!(done.status.code(), Some(1), "the error cannot be reported, its status can");
 }

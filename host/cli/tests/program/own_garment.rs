@@ -42,11 +42,11 @@ fn any_script_is_played_on_a_garment_of_ones_own() {
     let garment = mine("mine-simulated.toml", "block-4x16", &changes);
     let asked = ["live", "--source", "sim:pat", "--garment", &garment, "--json", "--for", "0.5s"];
     let output = run(&asked);
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{told}");
-    assert_eq!(told.matches("sim:pat: the garment mine has no panel back").count(), 1, "{told}");
-    assert!(told.contains("what touches there touches mat."), "{told}");
-    assert!(told.contains("the reaction over-pressure drives no pin: GP18"), "{told}");
+    let printed = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{printed}");
+    assert_eq!(printed.matches("sim:pat: the garment mine has no panel back").count(), 1, "{printed}");
+    assert!(printed.contains("what touches there touches mat."), "{printed}");
+    assert!(printed.contains("the reaction over-pressure drives no pin: GP18"), "{printed}");
     let lines: Vec<Value> = String::from_utf8(output.stdout)
         .unwrap()
         .lines()
@@ -59,7 +59,7 @@ fn any_script_is_played_on_a_garment_of_ones_own() {
 }
 
 #[test]
-fn a_garment_that_cannot_be_is_told_by_file_line_and_key_before_it_is_simulated() {
+fn a_garment_that_cannot_be_is_reported_by_file_line_and_key_before_it_is_simulated() {
     let fine = mine("fine.toml", "block-4x16", &[("[10000, 10000]", "[10, 10]")]);
     let line = std::fs::read_to_string(&fine)
         .unwrap()
@@ -77,7 +77,7 @@ fn a_garment_that_cannot_be_is_told_by_file_line_and_key_before_it_is_simulated(
 }
 
 #[test]
-fn a_script_that_is_not_known_is_told_with_the_one_that_was_meant() {
+fn a_script_that_is_not_known_is_reported_with_the_one_that_was_meant() {
     let why = refused(2, &["live", "--source", "sim:pta"]);
     assert!(
         why.contains("there is no script of touches \"pta\": did you mean \"pat\"? Known are pat, "),

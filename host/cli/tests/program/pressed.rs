@@ -76,7 +76,7 @@ fn unchunked(head: &[u8], mut body: &[u8]) -> Vec<u8> {
     }
 }
 
-/// A page, with the last image's head and the last `hand` that it was told.
+/// A page, with the last image's head and the last `hand` that it was sent.
 struct Page {
     socket: WebSocket<TcpStream>,
     image: Value,
@@ -84,8 +84,8 @@ struct Page {
 }
 
 impl Page {
-    fn ask(&mut self, wish: &Value) {
-        self.socket.send(Message::Text(wish.to_string().into())).unwrap();
+    fn ask(&mut self, request: &Value) {
+        self.socket.send(Message::Text(request.to_string().into())).unwrap();
     }
 
     fn press(&mut self, finger: u8, tool: &str, panel: u8, at: [f64; 2], force_n: f64) {
@@ -97,7 +97,7 @@ impl Page {
         self.image["frame"]["contacts"].as_array().unwrap()
     }
 
-    /// Reads what it is told for a while.
+    /// Reads what it is sent for a while.
     fn read(&mut self, ms: u64) {
         let began = Instant::now();
         while began.elapsed() < Duration::from_millis(ms) {
@@ -158,9 +158,9 @@ fn what_a_page_presses_is_felt_and_its_file_plays_the_same_to_the_last_bit() {
     let mut page = view.page();
     page.read(700);
     let tools = ["fingertip", "pen", "palm", "forearm", "ball", "strap"];
-    let told: Vec<_> =
+    let printed: Vec<_> =
         page.hand["tools"].as_array().unwrap().iter().map(|tool| tool["name"].clone()).collect();
-    assert_eq!(told, tools);
+    assert_eq!(printed, tools);
     assert!(page.hand["scripts"].as_array().unwrap().len() > 9 && page.hand["touches"] == 0, "{}", page.hand);
     assert_eq!(page.hand["playing"], Value::Null, "an idle garment is played by nobody");
     let mut rng = Rng::with_seed(7);

@@ -55,16 +55,16 @@ fn damaged(path: &Path, name: &str, chunk: usize) -> (PathBuf, u64) {
 #[test]
 fn a_large_recording_is_summed_up_without_reading_it() {
     let path = recorded("large.mcap", 20, true);
-    let (told, read) = (info(&path, &[]), info(&path, &["--check"]));
-    assert!(told["bytes"].as_u64() > Some(8 << 20), "{told}");
-    assert_eq!((&told["checked"], &read["checked"]), (&false.into(), &true.into()));
+    let (printed, read) = (info(&path, &[]), info(&path, &["--check"]));
+    assert!(printed["bytes"].as_u64() > Some(8 << 20), "{printed}");
+    assert_eq!((&printed["checked"], &read["checked"]), (&false.into(), &true.into()));
     for key in
         ["whole", "frames", "lost", "thinned", "undecoded", "refused", "restarts", "seconds", "channels"]
     {
-        assert_eq!(told[key], read[key], "{key}");
-        assert!(!told[key].is_null(), "{key}");
+        assert_eq!(printed[key], read[key], "{key}");
+        assert!(!printed[key].is_null(), "{key}");
     }
-    assert_eq!((&told["damaged_chunks"], &read["damaged_chunks"]), (&Value::Null, &0.into()));
+    assert_eq!((&printed["damaged_chunks"], &read["damaged_chunks"]), (&Value::Null, &0.into()));
     // Without the data, only the summary can have been read.
     let (first, last) = {
         let places = chunk_indexes(&path).unwrap();
@@ -75,7 +75,7 @@ fn a_large_recording_is_summed_up_without_reading_it() {
     bytes[first..last].fill(0xAA);
     let hollow = file("hollow.mcap");
     fs::write(&hollow, bytes).unwrap();
-    assert_eq!(info(&hollow, &[])["frames"], told["frames"]);
+    assert_eq!(info(&hollow, &[])["frames"], printed["frames"]);
     let checked = info(&hollow, &["--check"]);
     assert_eq!((&checked["whole"], checked["damaged_chunks"].as_u64() > Some(15)), (&false.into(), true));
 }
@@ -107,7 +107,7 @@ fn a_frame_of_five_contacts_takes_at_most_1400_bytes() {
 }
 
 #[test]
-fn what_is_damaged_is_passed_over_and_told() {
+fn what_is_damaged_is_passed_over_and_reported() {
     let whole = recorded("whole.mcap", 6, false);
     let (path, bytes) = damaged(&whole, "damaged.mcap", 2);
     let (before, after) = (info(&whole, &[]), info(&path, &[]));
@@ -122,9 +122,9 @@ fn what_is_damaged_is_passed_over_and_told() {
     let gone = frames(&before) - frames(&after);
     let expected = seconds * 195.3;
     assert!((gone as f64 - expected).abs() < 12.0 && after["lost"].as_u64() >= Some(gone), "{after}");
-    let told = format!("skipped 1 damaged chunk, {bytes} bytes, {seconds:.2} s");
+    let printed = format!("skipped 1 damaged chunk, {bytes} bytes, {seconds:.2} s");
     let table = taxel(&["info", text(&path)]);
-    assert!(String::from_utf8_lossy(&table.stdout).contains(&told), "{table:?}");
+    assert!(String::from_utf8_lossy(&table.stdout).contains(&printed), "{table:?}");
     assert!(!String::from_utf8_lossy(&table.stdout).contains("without its end"));
     let (npz, page) = (file("damaged.npz"), file("damaged.html"));
     for args in [
@@ -134,9 +134,9 @@ fn what_is_damaged_is_passed_over_and_told() {
     ] {
         let done = taxel(args);
         assert!(done.status.success(), "{args:?}: {}", String::from_utf8_lossy(&done.stderr));
-        assert!(String::from_utf8_lossy(&done.stderr).contains(&told), "{args:?}: {done:?}");
+        assert!(String::from_utf8_lossy(&done.stderr).contains(&printed), "{args:?}: {done:?}");
     }
-    assert!(fs::read_to_string(page).unwrap().contains(&told));
+    assert!(fs::read_to_string(page).unwrap().contains(&printed));
     let arrays = taxel::files::arrays::read(&npz, Some("chest")).unwrap();
     // Images behind the damage cannot be decoded until the next key frame.
     assert!(arrays.count as u64 <= frames(&after) && arrays.count as u64 + 220 > frames(&after));

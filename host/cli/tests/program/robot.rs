@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use taxel::mind::{ROBOT_INTENT, ROBOT_INTENT_SCHEMA, ROBOT_TOLD, ROBOT_TOLD_SCHEMA};
+use taxel::mind::{HOST_INPUT, HOST_INPUT_SCHEMA, ROBOT_INTENT, ROBOT_INTENT_SCHEMA};
 use taxel::recording::Messages;
 
 fn run(folder: &Path, args: &[&str]) -> Output {
@@ -83,9 +83,9 @@ torso  sim:five   reference   2048    body reference  -      -            -
 hand   sim:press  block-4x16  64      left_hand       -      -            32
 ";
     assert_eq!(text(&done.stdout), table, "{}", text(&done.stderr));
-    let told = run(&good, &["config", "check", "robot.toml", "--json"]);
-    let told: Value = serde_json::from_slice(&told.stdout).unwrap();
-    assert_eq!(told["boards"][1]["panels"], json!(["mat"]));
+    let printed = run(&good, &["config", "check", "robot.toml", "--json"]);
+    let printed: Value = serde_json::from_slice(&printed.stdout).unwrap();
+    assert_eq!(printed["boards"][1]["panels"], json!(["mat"]));
     let bad = folder("bad", &two().replace("block-4x16", "block-4x61"));
     let done = run(&bad, &["config", "check", "robot.toml"]);
     assert_eq!(done.status.code(), Some(2), "{}", text(&done.stderr));
@@ -174,8 +174,8 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
     recorded(&folder);
     let counted = |board: &str| {
         let info = run(&folder, &["info", "touch.mcap", "--json"]);
-        let told: Value = serde_json::from_slice(&info.stdout).unwrap();
-        told["boards"][board]["frames"].as_u64().unwrap() as usize
+        let printed: Value = serde_json::from_slice(&info.stdout).unwrap();
+        printed["boards"][board]["frames"].as_u64().unwrap() as usize
     };
     for (board, taxels) in [("torso", 2048), ("hand", 64)] {
         let part = format!("touch.mcap#{board}");
@@ -189,7 +189,7 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
         let source = format!("replay:{part}");
         assert_eq!(replayed.stdout, run(&folder, &["live", "--source", &source, "--json"]).stdout, "{board}");
     }
-    // Who names none is told how.
+    // Who names none is shown how.
     for args in [
         &["export", "touch.mcap", "--to", "csv", "-o", "-"][..],
         &["report", "touch.mcap", "-o", "-"],
@@ -216,16 +216,16 @@ fn a_board_of_a_recording_is_read_by_all_commands() {
 }
 
 #[test]
-fn record_and_doctor_tell_of_all_boards() {
+fn record_and_doctor_report_all_boards() {
     let folder = folder("record", &two());
     let summary = recorded(&folder);
     assert!(summary.contains("\ntorso  1.0 s, 19") && summary.contains("\nhand   1.0 s, "), "{summary}");
     let info = run(&folder, &["info", "touch.mcap", "--json"]);
-    let told: Value = serde_json::from_slice(&info.stdout).unwrap();
-    assert_eq!(told["whole"], true);
+    let printed: Value = serde_json::from_slice(&info.stdout).unwrap();
+    assert_eq!(printed["whole"], true);
     let table = text(&run(&folder, &["info", "touch.mcap"]).stdout).to_string();
     for board in ["torso", "hand"] {
-        let counts = &told["boards"][board];
+        let counts = &printed["boards"][board];
         assert_eq!((&counts["lost"], &counts["restarts"]), (&json!("0"), &json!("0")), "{counts}");
         let frames = counts["frames"].as_u64().unwrap();
         assert!(frames > 190 && table.contains(&format!("\n  {board}: {frames} frames (")), "{table}");
@@ -238,12 +238,12 @@ fn record_and_doctor_tell_of_all_boards() {
     assert!(!over.status.success() && std::fs::read_to_string(folder.join("robot.toml")).unwrap() == two());
     let doctor = run(&folder, &["doctor", "robot.toml", "--for", "1s", "--json"]);
     assert!(doctor.status.success(), "{}", text(&doctor.stderr));
-    let told: Value = serde_json::from_slice(&doctor.stdout).unwrap();
-    let boards = told["boards"].as_array().unwrap();
+    let printed: Value = serde_json::from_slice(&doctor.stdout).unwrap();
+    let boards = printed["boards"].as_array().unwrap();
     assert_eq!((boards[0]["board"].as_str(), boards[1]["board"].as_str()), (Some("torso"), Some("hand")));
     let tested =
         |board: &Value| board["findings"].as_array().unwrap().iter().any(|it| it["of"] == "self-test");
-    assert!(boards.iter().all(tested), "{told}");
+    assert!(boards.iter().all(tested), "{printed}");
     let gone = two().replace("sim:press", "tcp:127.0.0.1:1");
     std::fs::write(folder.join("gone.toml"), gone).unwrap();
     let doctor = run(&folder, &["doctor", "gone.toml", "--for", "1s"]);
@@ -319,7 +319,7 @@ fn boards_that_are_pulled_come_back_in_another_order_and_never_under_another_nam
     let address = &sockets[0].address;
     assert_eq!(
         why,
-        format!("tcp:{address} answers with another board: it wears the garment block-4x16, not reference")
+        format!("tcp:{address} answers with another board: it has the garment block-4x16, not reference")
     );
     sockets[1].plug(Some("block-4x16"));
     until("back", &["b"]);
@@ -364,7 +364,7 @@ fn boards_are_asked_by_lines_while_they_are_followed() {
         "lines.txt, line 6: there is no board \"hnad\": did you mean \"hand\"? Known are hand, gone, foot",
         "lines.txt, line 7: board foot: tare over \"many\"",
         "lines.txt, line 8: a tare takes 1 to 4096 frames, not 5000",
-        "lines.txt, line 9: \"dance\": must be tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD] or told NAME VALUE \
+        "lines.txt, line 9: \"dance\": must be tare [BOARD] [N], scene [BOARD] FILE, self-test [BOARD] or host_input NAME VALUE \
          [AGE_MS]",
         "lines.txt, line 10: board gone: ",
     ] {
@@ -400,29 +400,29 @@ fn of_robot(file: &Path, name: &str) -> Vec<(u64, Value)> {
 }
 
 #[test]
-fn record_has_what_touches_mean_and_what_was_told() {
+fn record_has_what_touches_mean_and_the_host_input() {
     let folder = embraced("recorded-mind");
-    std::fs::write(folder.join("told.txt"), "told vision 0.5 40\ntold visoin 1\n").unwrap();
-    let args = ["record", "robot.toml", "-o", "touch.mcap", "--force", "--requests", "told.txt"];
+    std::fs::write(folder.join("input.txt"), "host_input vision 0.5 40\nhost_input visoin 1\n").unwrap();
+    let args = ["record", "robot.toml", "-o", "touch.mcap", "--force", "--requests", "input.txt"];
     let done = run(&folder, &[&args[..], &["--realtime"]].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert!(text(&done.stderr).contains("did you mean \"vision\"?"), "{}", text(&done.stderr));
     let file = folder.join("touch.mcap");
-    let told = of_robot(&file, ROBOT_TOLD);
-    let [(told_us, told)] = &told[..] else { panic!("one line is right: {told:?}") };
-    assert_eq!((&told["told"], &told["age_ms"]), (&json!({ "vision": 0.5 }), &json!(40)));
-    assert_eq!(told["host_time_us"], *told_us);
+    let printed = of_robot(&file, HOST_INPUT);
+    let [(sent_us, printed)] = &printed[..] else { panic!("one line is right: {printed:?}") };
+    assert_eq!((&printed["host_input"], &printed["age_ms"]), (&json!({ "vision": 0.5 }), &json!(40)));
+    assert_eq!(printed["host_time_us"], *sent_us);
     let meant = of_robot(&file, ROBOT_INTENT);
-    let schemas = [ROBOT_TOLD_SCHEMA, ROBOT_INTENT_SCHEMA].map(|text| serde_json::from_str(text).unwrap());
-    assert_eq!(wrong(told, &schemas[0]), None);
+    let schemas = [HOST_INPUT_SCHEMA, ROBOT_INTENT_SCHEMA].map(|text| serde_json::from_str(text).unwrap());
+    assert_eq!(wrong(printed, &schemas[0]), None);
     assert!(meant.iter().all(|(_, line)| wrong(line, &schemas[1]).is_none()), "{meant:?}");
-    // As `live`, it tells what is news alone.
+    // As `live`, it says what is news alone.
     let news = |(_, line): &(u64, Value)| (line["leading"].clone(), line["holding"].clone());
     assert!(meant.windows(2).all(|two| news(&two[0]) != news(&two[1])), "{meant:?}");
     let holds = |line: &Value, what: &str| line["holding"].as_array().unwrap().contains(&json!(what));
     assert!(meant.iter().any(|(_, line)| line["leading"] == "kindness" && holds(line, "hug")), "{meant:?}");
     assert_eq!(meant.last().unwrap().1["leading"], "none");
-    assert!(meant.iter().all(|(us, line)| line["host_time_us"] == *us && us >= told_us), "{meant:?}");
+    assert!(meant.iter().all(|(us, line)| line["host_time_us"] == *us && us >= sent_us), "{meant:?}");
     let hug = &meant.iter().find(|(_, line)| holds(line, "hug")).unwrap().1;
     assert_eq!(hug["touches"].as_array().unwrap().len(), 2, "{hug}");
     // The boards are as without it.
@@ -435,7 +435,7 @@ fn record_has_what_touches_mean_and_what_was_told() {
     // At times of their own, boards have no mind.
     let done = run(&folder, &args);
     assert!(
-        text(&done.stderr).contains("told.txt, line 1: nobody hears what is told"),
+        text(&done.stderr).contains("input.txt, line 1: nobody takes host input"),
         "{}",
         text(&done.stderr)
     );
@@ -443,17 +443,17 @@ fn record_has_what_touches_mean_and_what_was_told() {
 }
 
 #[test]
-fn what_follows_from_what_is_told_is_printed() {
+fn what_follows_from_host_input_is_printed() {
     let map = "version = 1\nname = \"trust\"\nrule = \"kosko\"\ntransfer = \"positive\"\nlambda = 3.5\n\
                [[concept]]\nname = \"voice\"\n[[concept]]\nname = \"kindness\"\n\
-               [[input]]\nconcept = \"voice\"\nrobot = { told = \"voice\" }\nrise = [0, 32768]\n\
+               [[input]]\nconcept = \"voice\"\nrobot = { host_input = \"voice\" }\nrise = [0, 32768]\n\
                [[edge]]\nfrom = \"voice\"\nto = \"kindness\"\nweight = 1.0\nnote = \"who speaks kindly is kind\"\n";
     let robot = "name = \"one\"\nmaps = [\"trust.toml\"]\n[[boards]]\nname = \"hand\"\nsource = \"sim:idle\"\n\
                  garment = \"block-4x16\"\n";
-    let folder = folder("told", robot);
+    let folder = folder("input", robot);
     std::fs::write(folder.join("trust.toml"), map).unwrap();
-    std::fs::write(folder.join("told.txt"), "told voice 1\n").unwrap();
-    let args = ["live", "robot.toml", "--realtime", "--for", "1s", "--requests", "told.txt"];
+    std::fs::write(folder.join("input.txt"), "host_input voice 1\n").unwrap();
+    let args = ["live", "robot.toml", "--realtime", "--for", "1s", "--requests", "input.txt"];
     let done = run(&folder, &args);
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert_eq!(text(&done.stdout).matches("robot kindness").count(), 1, "{}", text(&done.stdout));
@@ -462,10 +462,10 @@ fn what_follows_from_what_is_told_is_printed() {
 #[test]
 fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     let folder = embraced("embraced");
-    let told = "told vision 0.5 40\n{\"told\": {\"voice\": 0.25}}\n{\"positions\": {\"waist\": 0.0}}\ntold visoin 1\n\
-                told voice 3\ntold plan 1 2 3\n{\"positions\": {\"knee\": 1}}\n";
-    std::fs::write(folder.join("told.txt"), told).unwrap();
-    let args = ["live", "robot.toml", "--realtime", "--requests", "told.txt"];
+    let input = "host_input vision 0.5 40\n{\"host_input\": {\"voice\": 0.25}}\n{\"positions\": {\"waist\": 0.0}}\nhost_input visoin 1\n\
+                host_input voice 3\nhost_input plan 1 2 3\n{\"positions\": {\"knee\": 1}}\n";
+    std::fs::write(folder.join("input.txt"), input).unwrap();
+    let args = ["live", "robot.toml", "--realtime", "--requests", "input.txt"];
     let done = run(&folder, &[&args[..], &["--json"]].concat());
     assert!(done.status.success(), "{}", text(&done.stderr));
     let lines = text(&done.stdout).lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
@@ -481,10 +481,10 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     let defaults = hug["defaults"].as_array().unwrap();
     assert!(defaults.contains(&json!("plan")) && defaults.contains(&json!("hand")), "{hug}");
     for why in [
-        "told.txt, line 4: there is no name of what is told \"visoin\": did you mean \"vision\"?",
-        "told.txt, line 5: voice is 3, and must be -1 to 1",
-        "told.txt, line 6: \"told plan 1 2 3\": must be told NAME VALUE [AGE_MS]",
-        "told.txt, line 7: reference: there is no joint \"knee\"",
+        "input.txt, line 4: there is no name of a host input \"visoin\": did you mean \"vision\"?",
+        "input.txt, line 5: voice is 3, and must be -1 to 1",
+        "input.txt, line 6: \"host_input plan 1 2 3\": must be host_input NAME VALUE [AGE_MS]",
+        "input.txt, line 7: reference: there is no joint \"knee\"",
     ] {
         assert!(text(&done.stderr).contains(why), "{why}\n{}", text(&done.stderr));
     }
@@ -498,7 +498,7 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
         "  chest: load of chest ",
         "    board front: contact 1 on chest (torso): ",
         "    board rear: contact 1 on back (torso): ",
-        "  voice: told as voice 0, the default: nothing is known",
+        "  voice: host input voice 0, the default: nothing is known",
     ] {
         assert!(why.contains(part), "{part} in {why}");
     }
@@ -508,6 +508,7 @@ fn live_says_what_a_touch_of_two_boards_means_and_why_explains_it() {
     std::fs::write(folder.join("front.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
     std::fs::write(folder.join("rear.toml"), "duration_s = 0.3\ngarment = \"reference\"\n").unwrap();
     let none = run(&folder, &["fcm", "why", "--source", "robot.toml"]);
-    let told = "error: robot.toml: no intention was announced; --at TIME explains the state at that time\n";
-    assert_eq!((none.status.code(), text(&none.stderr)), (Some(1), told));
+    let printed =
+        "error: robot.toml: no intention was announced; --at TIME explains the state at that time\n";
+    assert_eq!((none.status.code(), text(&none.stderr)), (Some(1), printed));
 }

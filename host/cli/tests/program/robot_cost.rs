@@ -1,7 +1,7 @@
 //! What a frame of a board costs by the number of boards: `taxel record` and `taxel live --json` of
 //! streams that were made before. Nothing is lost, whatever their number.
 //!
-//! The time of the processor is that of the program's whole run; it is told where the system has `/proc`, and of
+//! The time of the processor is that of the program's whole run; it is reported where the system has `/proc`, and of
 //! use only if nothing else runs in this process. A campaign judges it (`cargo xtask campaign --only boards`).
 
 use super::robot::folder;
@@ -19,7 +19,7 @@ const TWO: &str = include_str!("../../../../tests/bench/src/boards/two.toml");
 
 /// What a run has taken.
 struct Taken {
-    /// Time of the processor, s; none if the system does not tell it.
+    /// Time of the processor, s; none if the system does not report it.
     cpu_s: Option<f64>,
     /// Most memory, MB.
     memory_mb: Option<f64>,
@@ -79,13 +79,17 @@ fn robot_cost_by_number_of_boards() {
         let live = run(&folder, &["live", "robot.toml", "--json"]);
         let overview = Overview::of(&folder.join("out.mcap")).unwrap();
         let count = |at: usize, topic: &str| overview.messages(&format!("/taxel/b{at}/{topic}"));
-        let told = [count(0, "frames"), count(0, "contacts"), count(0, "wire")];
-        assert_eq!(*alone.get_or_insert(told), told);
+        let printed = [count(0, "frames"), count(0, "contacts"), count(0, "wire")];
+        assert_eq!(*alone.get_or_insert(printed), printed);
         for at in 0..number {
-            assert_eq!([count(at, "frames"), count(at, "contacts"), count(at, "wire")], told, "board {at}");
+            assert_eq!(
+                [count(at, "frames"), count(at, "contacts"), count(at, "wire")],
+                printed,
+                "board {at}"
+            );
         }
-        assert!(told[0] > 50 && told[1] > 50, "{told:?}");
-        let frames = told[0] * number as u64;
+        assert!(printed[0] > 50 && printed[1] > 50, "{printed:?}");
+        let frames = printed[0] * number as u64;
         let cost =
             |taken: &Taken| taken.cpu_s.map_or("-".into(), |s| format!("{:.1}", s * 1e6 / frames as f64));
         let memory = |taken: &Taken| taken.memory_mb.map_or("-".into(), |mb| format!("{mb:.0}"));

@@ -128,12 +128,12 @@ fn options_are_those_of_every_board() {
     };
     let options =
         ["--garment", "reference", "--body", "reference", "--gestures", "intent", "--shapes", "drawn"];
-    let told = live(&folder("options", &robot("")), &options);
+    let printed = live(&folder("options", &robot("")), &options);
     let keyed = live(&folder("keys", &robot(keys)), &[]);
-    assert!(told.keys().eq(keyed.keys()), "{told:?} {keyed:?}");
+    assert!(printed.keys().eq(keyed.keys()), "{printed:?} {keyed:?}");
     for board in ["left", "right"] {
         for kind in ["pressing", "gesture", "shapes"] {
-            assert!(told.contains_key(&format!("\"{board}\" \"{kind}\"")), "{board}: {told:?}");
+            assert!(printed.contains_key(&format!("\"{board}\" \"{kind}\"")), "{board}: {printed:?}");
         }
     }
 }

@@ -34,7 +34,7 @@ impl Viewed {
         Viewed::run(&folder(name, robot), &["view", "robot.toml"], "robot two")
     }
 
-    /// Runs the program in a folder; its first line tells what it shows.
+    /// Runs the program in a folder; its first line says what it shows.
     pub fn run(folder: &Path, args: &[&str], what: &str) -> Viewed {
         let mut program = Command::new(taxel())
             .current_dir(folder)
@@ -92,7 +92,7 @@ pub fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value)
 }
 
 #[test]
-fn each_board_has_its_page_and_each_page_tells_of_all_boards() {
+fn each_board_has_its_page_and_each_page_reports_all_boards() {
     let hand = Socket::new("block-4x16");
     let viewed = Viewed::start("view", &robot(&hand));
     let [mut first, mut torso, mut other] =
@@ -125,7 +125,7 @@ fn each_board_has_its_page_and_each_page_tells_of_all_boards() {
     );
     assert!(lost["boards"][1]["why"].is_string() && lost["boards"][1]["contacts"] == 0, "{lost}");
     line(&mut torso, "robot_intent", |line| touched(line) == [0].into());
-    // A board that is another one is never live, and the hand's page goes on to tell of the torso.
+    // A board that is another one is never live, and the hand's page goes on to report the torso.
     hand.plug(Some("mat-64x32"));
     line(&mut other, "robot", |line| state(line, 1, "other") && line["board"] == "hand");
     hand.plug(Some("block-4x16"));
@@ -178,7 +178,7 @@ pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
     let own = topics.filter(|topic| below.iter().any(|below| topic.starts_with(below)));
     let mut all: Vec<_> = own
         .map(|topic| {
-            let (mut messages, mut told) = (Messages::of_topic(path, &topic).unwrap(), Vec::new());
+            let (mut messages, mut printed) = (Messages::of_topic(path, &topic).unwrap(), Vec::new());
             while let Some(message) = messages.next_message().unwrap() {
                 let bytes = match serde_json::from_slice::<Value>(message.data) {
                     Ok(mut line) => {
@@ -191,9 +191,9 @@ pub fn held(path: &Path, below: &[&str]) -> Vec<(String, Vec<Vec<u8>>)> {
                     }
                     Err(_) => message.data.to_vec(),
                 };
-                told.push(bytes);
+                printed.push(bytes);
             }
-            (topic, told)
+            (topic, printed)
         })
         .collect();
     all.sort();

@@ -69,7 +69,7 @@ fn the_schema_of_scenes_takes_what_ships_and_nothing_wrong() {
         "\"moving\"",
         "\"fault\"",
         "\"blind\"",
-        "\"ill\"",
+        "\"faulty\"",
         "\"silent\"",
         "\"watching\"",
         "{\"reflex\":\"two\"}",

@@ -55,7 +55,7 @@ fn wrong_use_is_2() {
 }
 
 #[test]
-fn mistakes_are_told_in_plain_words() {
+fn mistakes_are_reported_in_plain_words() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
     let binary = folder.join("status-binary.toml");
     std::fs::write(&binary, [0xff, 0xfe, 0x80]).unwrap();

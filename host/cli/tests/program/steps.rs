@@ -18,23 +18,23 @@ fn file(name: &str, text: &str) -> String {
 }
 
 #[test]
-fn verbose_tells_source_board_and_files() {
+fn verbose_names_source_board_and_files() {
     let scene = file("steps.toml", "duration_s = 1\ngarment = \"block-4x16\"\n");
     let source = format!("sim:{scene}");
     let args = ["live", "--source", &source, "--frames", "3", "--json"];
     let quiet = taxel(&args);
     assert_eq!(errors(&quiet), "");
     let verbose = taxel(&[&["-v"], &args[..]].concat());
-    let told = errors(&verbose);
+    let printed = errors(&verbose);
     for step in [
         format!("taxel: reads {scene}\n"),
         format!("taxel: source {source} is open\n"),
         "garment block-4x16, scene".into(),
         "the board has done start\n".into(),
     ] {
-        assert!(told.contains(&step), "{step}\n{told}");
+        assert!(printed.contains(&step), "{step}\n{printed}");
     }
-    assert_eq!(quiet.stdout, verbose.stdout, "the steps are told beside the answer");
+    assert_eq!(quiet.stdout, verbose.stdout, "the steps are reported beside the answer");
 }
 
 #[test]
@@ -43,8 +43,8 @@ fn a_recorded_scene_is_played_once_and_said_to_be_over() {
     let (source, output) = (format!("sim:{scene}"), file("once.mcap", ""));
     std::fs::remove_file(&output).unwrap();
     let args = ["record", "--source", &source, "-o", &output, "--force"];
-    let told = errors(&taxel(&args));
-    assert!(told.contains(&format!("{source} is over: a simulated scene is played once")), "{told}");
+    let printed = errors(&taxel(&args));
+    assert!(printed.contains(&format!("{source} is over: a simulated scene is played once")), "{printed}");
     let longer = errors(&taxel(&[&args[..], &["--for", "1s"]].concat()));
     assert!(longer.contains(".mcap: 1.0 s") && !longer.contains("is over"), "{longer}");
     for command in ["record", "live", "report"] {
@@ -67,11 +67,11 @@ fn shapes_are_learnt_from_every_touch_of_a_script() {
         errors(&taxel(&["shapes", "learn", "mug", "--source", &format!("sim:{scene}"), "-o", &base]))
     };
     for duration_s in [3.5, 3.1, 2.8] {
-        let told = touches(duration_s);
+        let printed = touches(duration_s);
         assert!(
-            told.contains("3 of 5: held for") && told.contains("3 prototypes of mug from 3 touches"),
-            "{told}"
+            printed.contains("3 of 5: held for") && printed.contains("3 prototypes of mug from 3 touches"),
+            "{printed}"
         );
-        assert!(told.contains("touches.toml ended after 3 of 5 touches\n"), "{told}");
+        assert!(printed.contains("touches.toml ended after 3 of 5 touches\n"), "{printed}");
     }
 }

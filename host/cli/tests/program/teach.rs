@@ -99,8 +99,8 @@ fn shapes_are_taught_by_touch_and_known_from_then_on() {
     for (name, _) in things {
         assert_eq!(answers(&folder, &format!("other-{name}")), vec![name; 5]);
     }
-    let (told, _) = done(&folder, &["shapes", "install", "mine.json", "--source", "sim:box.toml"]);
-    assert_eq!(told, "sim:box.toml knows 3 classes by 15 prototypes, until it restarts.\n");
+    let (printed, _) = done(&folder, &["shapes", "install", "mine.json", "--source", "sim:box.toml"]);
+    assert_eq!(printed, "sim:box.toml knows 3 classes by 15 prototypes, until it restarts.\n");
     let (card, _) = done(&folder, &["shapes", "card", "mine.json"]);
     assert!(
         card.contains("5 touches of sim:strap.toml") && card.contains("each prototype left out in turn"),

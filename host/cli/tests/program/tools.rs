@@ -126,33 +126,33 @@ fn serve(listener: &TcpListener) -> [Vec<Vec<u8>>; 2] {
     let mut socket = listener.accept().unwrap().0;
     socket.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
     let mut receiver = Receiver::<LONGEST_REQUEST>::new();
-    let (mut told, mut buffer) = ([Vec::new(), Vec::new()], [0; 4096]);
+    let (mut received, mut buffer) = ([Vec::new(), Vec::new()], [0; 4096]);
     loop {
         match socket.read(&mut buffer) {
-            Ok(0) => return told,
+            Ok(0) => return received,
             Ok(count) => {
                 board.port.write(&buffer[..count]).unwrap();
                 for byte in &buffer[..count] {
                     match receiver.push(*byte).map(|bytes| decode::<Request>(bytes.unwrap()).unwrap()) {
-                        Some(Request::SetGarment(bytes)) => told[0].push(bytes.to_vec()),
-                        Some(Request::SetScene(bytes)) => told[1].push(bytes.to_vec()),
+                        Some(Request::SetGarment(bytes)) => received[0].push(bytes.to_vec()),
+                        Some(Request::SetScene(bytes)) => received[1].push(bytes.to_vec()),
                         _ => {}
                     }
                 }
             }
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
-            Err(_) => return told,
+            Err(_) => return received,
         }
         let count = board.port.read(&mut buffer).unwrap().unwrap();
         if socket.write_all(&buffer[..count]).is_err() {
-            return told;
+            return received;
         }
     }
 }
 
 #[test]
 #[cfg(unix)]
-fn after_ctrl_c_the_board_wears_what_it_wore() {
+fn after_ctrl_c_the_board_has_its_garment_again() {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let source = format!("tcp:{}", listener.local_addr().unwrap());
     let board = std::thread::spawn(move || serve(&listener));
@@ -194,10 +194,10 @@ fn each_example_runs() {
         ("virtual_board", &[], "150000 us: 1 contacts\n"),
         ("map", &["press=0.8", "time=-0.9"], "press -> kindness\n"),
     ];
-    for (name, words, told) in rows {
+    for (name, words, received) in rows {
         let output = Command::new(example(name)).args(words).output().unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
-        assert!(output.status.success() && text.contains(told), "{name}: {text}");
+        assert!(output.status.success() && text.contains(received), "{name}: {text}");
     }
 }
 

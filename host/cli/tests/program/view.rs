@@ -11,7 +11,7 @@ use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
-use taxel_cli::on_robot::Wearer;
+use taxel_cli::on_robot::ShownRobot;
 use taxel_cli::view::{PageHub, Said, Shot, Viewer, serve};
 use taxel_cli::watch::{WatchOptions, watch};
 use tungstenite::client::IntoClientRequest;
@@ -43,21 +43,21 @@ fn page(port: u16) -> WebSocket<TcpStream> {
 }
 
 /// A message to a page: a line, or an image with its head.
-enum Told {
+enum PageMessage {
     Line(Value),
     Image { head: Value, image: Vec<u16>, highest: Vec<u16> },
 }
 
-fn next(page: &mut WebSocket<TcpStream>) -> Told {
+fn next(page: &mut WebSocket<TcpStream>) -> PageMessage {
     match page.read().unwrap() {
-        Message::Text(text) => Told::Line(serde_json::from_str(&text).unwrap()),
+        Message::Text(text) => PageMessage::Line(serde_json::from_str(&text).unwrap()),
         Message::Binary(bytes) => {
             let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
             let (head, values) = bytes[4..].split_at(length);
             let values: Vec<u16> = values.chunks(2).map(|b| u16::from_le_bytes([b[0], b[1]])).collect();
             let (image, highest) = values.split_at(values.len() / 2);
             let head = serde_json::from_slice(head).unwrap();
-            Told::Image { head, image: image.into(), highest: highest.into() }
+            PageMessage::Image { head, image: image.into(), highest: highest.into() }
         }
         other => panic!("{other:?}"),
     }
@@ -66,7 +66,7 @@ fn next(page: &mut WebSocket<TcpStream>) -> Told {
 /// Reads until a line of this type meets the condition.
 fn line(page: &mut WebSocket<TcpStream>, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
     loop {
-        if let Told::Line(line) = next(page)
+        if let PageMessage::Line(line) = next(page)
             && line["type"] == kind
             && wanted(&line)
         {
@@ -143,7 +143,7 @@ fn files_are_served_to_this_machine_alone_and_nothing_else_is() {
 }
 
 #[test]
-fn a_page_is_told_the_garment_and_the_very_images_of_the_board() {
+fn a_page_is_sent_the_garment_and_the_very_images_of_the_board() {
     let (hub, port) = served();
     let mut page = page(port);
     let run = watched(&hub, "sim:pat", 200, true);
@@ -156,9 +156,9 @@ fn a_page_is_told_the_garment_and_the_very_images_of_the_board() {
     let mut replaced = 0;
     let end = loop {
         match next(&mut page) {
-            Told::Line(line) if line["type"] == "end" => break line,
-            Told::Line(_) => {}
-            Told::Image { head, image, highest } => {
+            PageMessage::Line(line) if line["type"] == "end" => break line,
+            PageMessage::Line(_) => {}
+            PageMessage::Image { head, image, highest } => {
                 let frame = head["frame"]["frame"].as_u64().unwrap();
                 assert!(frame > last, "{frame} after {last}");
                 assert_eq!(Some(&image), expected.get(&frame), "frame {frame}");
@@ -200,7 +200,7 @@ fn the_last_half_minute_reads_as_a_recording() {
     frames.retain(|frame, _| *frame <= 400);
     assert_eq!(frames, images("sim:stroke", 400));
     assert_eq!((client.counts().lost, client.counts().refused()), (0, 0));
-    assert!(client.worn().is_some());
+    assert!(client.description().is_some());
 }
 
 #[test]
@@ -210,13 +210,13 @@ fn the_board_sends_raw_codes_while_a_pointer_is_on_a_taxel() {
     let run = watched(&hub, "sim:idle", 400, true);
     line(&mut page, "hello", |_| true);
     page.send(Message::Text(r#"{"hover": 629}"#.into())).unwrap();
-    let told = line(&mut page, "taxel", |line| !line["code"].is_null());
+    let shown = line(&mut page, "taxel", |line| !line["code"].is_null());
     // Row 7, column 5 of the back: in its second block of four rows.
     assert_eq!(
-        (&told["taxel"], &told["wired_row"], &told["wired_column"]),
+        (&shown["taxel"], &shown["wired_row"], &shown["wired_column"]),
         (&629.into(), &3.into(), &5.into())
     );
-    assert!((1..1000).contains(&told["code"].as_u64().unwrap()), "{told}");
+    assert!((1..1000).contains(&shown["code"].as_u64().unwrap()), "{shown}");
     // Nonsense is ignored, as is a taxel that does not exist.
     for nonsense in ["{", "{\"hover\": 65535}", "{\"tare\": 0}", "[]"] {
         page.send(Message::Text(nonsense.into())).unwrap();
@@ -263,7 +263,7 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
     let reader = thread::spawn(move || {
         let mut last = 0;
         while last < 1500 {
-            if let Told::Image { head, .. } = next(&mut alive) {
+            if let PageMessage::Image { head, .. } = next(&mut alive) {
                 last = head["frame"].as_u64().unwrap();
             }
         }
@@ -278,7 +278,7 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
     // Messages in transit arrive, then the newest.
     let (mut numbers, mut missed) = (Vec::new(), 0);
     while numbers.last() != Some(&1500) {
-        if let Told::Image { head, .. } = next(&mut dead) {
+        if let PageMessage::Image { head, .. } = next(&mut dead) {
             numbers.push(head["frame"].as_u64().unwrap());
             missed = head["missed"].as_u64().unwrap();
         }
@@ -293,7 +293,7 @@ fn a_page_that_does_not_read_is_waited_for_by_nobody() {
 #[test]
 fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
     let (hub, port) = served();
-    hub.wear(Wearer::read("reference", Some("reference"), "left_elbow=90deg").unwrap());
+    hub.show_robot(ShownRobot::read("reference", Some("reference"), "left_elbow=90deg").unwrap());
     let mut page = page(port);
     let run = watched(&hub, "sim:five", 200, true);
     let body = line(&mut page, "body", |_| true);
@@ -316,7 +316,7 @@ fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
     assert!((number(&turn[3]) - std::f64::consts::FRAC_1_SQRT_2).abs() < 1e-9, "{turn}");
     // The board has no body: what presses is computed.
     let pressing = loop {
-        if let Told::Image { head, .. } = next(&mut page)
+        if let PageMessage::Image { head, .. } = next(&mut page)
             && head["frame"]["contacts"].as_array().is_some_and(|contacts| contacts.len() == 5)
         {
             assert_eq!(head["frame"]["pressing"]["frame"], head["frame"]["frame"]);
@@ -336,8 +336,9 @@ fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
     let count = |key: &str| shape[key].as_array().unwrap().len();
     assert!(count("points") > 40 && count("triangles") > 80, "{shape}");
     line(&mut late, "poses", |_| true);
-    let Told::Image { head, .. } =
-        std::iter::repeat_with(|| next(&mut late)).find(|told| matches!(told, Told::Image { .. })).unwrap()
+    let PageMessage::Image { head, .. } = std::iter::repeat_with(|| next(&mut late))
+        .find(|shown| matches!(shown, PageMessage::Image { .. }))
+        .unwrap()
     else {
         panic!("no image")
     };
@@ -345,7 +346,7 @@ fn pages_see_the_garment_on_the_robot_and_what_presses_there() {
 }
 
 #[test]
-fn cloth_that_slides_is_told_again() {
+fn cloth_that_slides_is_reported_again() {
     let folder = std::env::temp_dir().join(format!("taxel-slides-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("slides.toml");
@@ -353,8 +354,8 @@ fn cloth_that_slides_is_told_again() {
                 on.cone = { at = [0, 0, -0.16], axis = [0, 0, -1], radius = 0.04, angle = 1.5, facing = [0, 1, 0] }\n";
     std::fs::write(&file, text).unwrap();
     let (hub, port) = served();
-    let wearer = Wearer::read(file.to_str().unwrap(), Some("reference"), "").unwrap();
-    hub.wear(wearer);
+    let shown_robot = ShownRobot::read(file.to_str().unwrap(), Some("reference"), "").unwrap();
+    hub.show_robot(shown_robot);
     let mut page = page(port);
     let run = watched(&hub, "sim:idle", 20, false);
     // Row 15, column 8 of the left arm; the chest has no place.
@@ -373,7 +374,7 @@ fn cloth_that_slides_is_told_again() {
 #[test]
 fn a_body_that_does_not_fit_the_garment_is_named() {
     let (hub, _) = served();
-    hub.wear(Wearer::read("reference", None, "").unwrap());
+    hub.show_robot(ShownRobot::read("reference", None, "").unwrap());
     let args = WatchOptions::of("sim:idle".parse().unwrap());
     let options =
         SourceOptions { garment: Some("mat-64x32".into()), frames: Some(9), ..SourceOptions::default() };

@@ -43,7 +43,7 @@ def read_mcap(path):
     with open(path, "rb") as file:
         reader = make_reader(file, validate_crcs=True)
         summary = reader.get_summary()
-        # In the order of the file: the board's messages are not in the order of the times of which they tell.
+        # In the order of the file: the board's messages are not in the order of the times that they report.
         for schema, channel, message in reader.iter_messages(log_time_order=False):
             counts[channel.topic] = counts.get(channel.topic, 0) + 1
             if channel.topic == "/taxel/wire":
@@ -58,8 +58,8 @@ def read_mcap(path):
                 take_image(panels, shapes, image.data)
         attachments = {found.name: len(found.data) for found in reader.iter_attachments()}
         metadata = {found.name: found.metadata for found in reader.iter_metadata()}
-    told = {summary.channels[id].topic: n for id, n in summary.statistics.channel_message_counts.items()}
-    assert told == counts, (told, counts)
+    printed = {summary.channels[id].topic: n for id, n in summary.statistics.channel_message_counts.items()}
+    assert printed == counts, (printed, counts)
     return {"counts": counts, "wire": wire, "panels": panels, "attachments": attachments, "metadata": metadata}
 
 

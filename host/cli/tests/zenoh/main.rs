@@ -84,7 +84,7 @@ fn a_board_is_followed_by_another_program_and_offered_once() {
 }
 
 #[test]
-fn a_lost_board_is_told_to_its_viewers_and_another_one_ends_the_offer() {
+fn a_lost_board_is_reported_to_its_viewers_and_another_one_ends_the_offer() {
     let (folder, socket) = (network("lost"), Socket::new("block-4x16"));
     let source = format!("tcp:{}", socket.address);
     let args = ["serve", "--source", &source, "--name", "arm/left", "--zenoh", "router.json5"];
@@ -109,7 +109,7 @@ fn a_lost_board_is_told_to_its_viewers_and_another_one_ends_the_offer() {
     socket.plug(Some("mat-64x32"));
     let status = serving.0.wait().unwrap();
     let errors = std::fs::read_to_string(folder.join("errors.txt")).unwrap();
-    let why = "answers with another board: it wears the garment mat-64x32, not block-4x16";
+    let why = "answers with another board: it has the garment mat-64x32, not block-4x16";
     assert_eq!((status.code(), errors.contains(&format!("{source} is gone: "))), (Some(3), true), "{errors}");
     assert!(errors.contains(&format!("error: {source} {why}")), "{errors}");
 }

@@ -19,7 +19,7 @@ from .wrap import Wrapped
 @RobotConfig.register_subclass("taxel")
 @dataclass(kw_only=True)
 class TaxelRobotConfig(RobotConfig):  # type: ignore[misc,unused-ignore]
-    """A robot, and the garment that it wears."""
+    """A robot, and its garment."""
 
     #: The robot.
     robot: RobotConfig

@@ -59,7 +59,7 @@ def observation(seen: Seen) -> dict[str, Any]:
 
 def dataset_features(rows: int, taxels: int, links: int = 0, *, simulated: bool) -> dict[str, dict[str, Any]]:
     """The features of a window and of the forces on so many links, to be added to those of a data set. Whether the
-    touch is ``simulated``, as ``Touch.simulated`` knows, is told with the images."""
+    touch is ``simulated``, as ``Touch.simulated`` knows, is reported with the images."""
     on_links = {"dtype": "float32", "shape": (links, len(PARTS)), "names": ["link", "part"]}
     return ({LINKS: on_links} if links else {}) | {
         VALUES: {

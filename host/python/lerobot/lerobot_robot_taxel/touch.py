@@ -58,7 +58,7 @@ class Touch:
         self._news = threading.Condition()
         self._frame: taxel.Frame | None = None
         self._panels: dict[str, tuple[int, int]] = {}
-        #: True of a simulated garment, once it has told its panels.
+        #: True of a simulated garment, once it has sent its panels.
         self.simulated = False
         self._felt = dict.fromkeys(INTENTIONS, 0.0)
         self._error: BaseException | None = None
@@ -156,7 +156,7 @@ class Touch:
         end.cancel()
         stream.close()
         if not self._panels:
-            raise taxel.BoardError(f"the board did not tell its garment within {PATIENCE:.0f} s")
+            raise taxel.BoardError(f"the board did not report its garment within {PATIENCE:.0f} s")
 
     @property
     def waiting(self) -> int:

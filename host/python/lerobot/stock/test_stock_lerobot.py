@@ -173,7 +173,7 @@ def test_every_scan_is_in_the_data_set_once(recorded: tuple[Path, list[dict]]) -
 
 
 def index_of(row: dict) -> int:
-    """Number of the camera's image: the arm tells it as its position."""
+    """Number of the camera's image: the arm reports it as its position."""
     return int(row["observation.state"][0])
 
 

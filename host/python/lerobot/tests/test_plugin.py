@@ -84,7 +84,7 @@ def test_a_robot_has_touch() -> None:
 
 def test_every_image_of_the_board_is_in_a_window() -> None:
     with taxel.open("sim:pat", frames=250) as stream:
-        told = [event for event in stream if isinstance(event, taxel.Frame)]
+        reported = [event for event in stream if isinstance(event, taxel.Frame)]
     touch = Touch(lambda: taxel.open("sim:pat", frames=250))
     with touch:
         time.sleep(1)
@@ -93,8 +93,8 @@ def test_every_image_of_the_board_is_in_a_window() -> None:
             window = touch.observe().window
             parts = (window.frames, window.time_us, window.values)
             rows += zip(*(part[: window.images] for part in parts), strict=True)
-    assert [row[:2] for row in rows] == [(event.frame, event.time_us) for event in told]
-    for (*_, values), event in zip(rows, told, strict=True):
+    assert [row[:2] for row in rows] == [(event.frame, event.time_us) for event in reported]
+    for (*_, values), event in zip(rows, reported, strict=True):
         assert event.image is not None and np.array_equal(values, event.image)
 
 
@@ -106,8 +106,8 @@ def test_a_recording_has_the_observations_of_its_images(tmp_path: Path) -> None:
     seen = list(observations(recording, fps=30))
     assert 58 <= len(seen) <= 60
     images = [event for event in recording.frames() if event.image is not None]
-    told = [number for one in seen for number in one.window.frames[: one.window.images].tolist()]
-    assert told == [event.frame for event in images[: len(told)]] and len(images) - len(told) <= ROWS
+    reported = [number for one in seen for number in one.window.frames[: one.window.images].tolist()]
+    assert reported == [event.frame for event in images[: len(reported)]] and len(images) - len(reported) <= ROWS
     assert max(one.felt["kindness"] for one in seen) > 0.5
     assert set(schema.dataset_frame(seen[0])) == set(schema.dataset_features(ROWS, 2048, simulated=True))
 
@@ -170,10 +170,10 @@ def recorded(file: Path, *words: str) -> bytes:
 def test_another_board_is_no_touch(tmp_path: Path) -> None:
     wires = [recorded(tmp_path / "press.mcap"), recorded(tmp_path / "other.mcap", "--garment", "block-4x16")]
     server = socket.create_server(("127.0.0.1", 0))
-    cut, told = threading.Event(), threading.Event()
+    cut, reported = threading.Event(), threading.Event()
 
     def boards() -> None:
-        for wire, until in zip(wires, (cut, told), strict=True):
+        for wire, until in zip(wires, (cut, reported), strict=True):
             link, _ = server.accept()
             with link:
                 link.sendall(wire)
@@ -193,10 +193,10 @@ def test_another_board_is_no_touch(tmp_path: Path) -> None:
                 assert seen.window.values.shape[1] == 2048
             except taxel.BoardError as error:
                 why = str(error)
-        assert why.endswith("it wears the garment block-4x16, not reference")
+        assert why.endswith("it has the garment block-4x16, not reference")
         with pytest.raises(taxel.BoardError, match="another board"):
             touch.observe()
-        told.set()
+        reported.set()
 
 
 def test_a_lost_board_is_no_touch(tmp_path: Path) -> None:
@@ -253,8 +253,8 @@ def test_the_environment() -> None:
     check_env(TouchEnv(), skip_render_check=True)
     env = TouchEnv(render_mode="ansi")
     assert env.render() is None
-    _, told = env.reset(seed=1, options={"scene": "lash"})
-    assert told == {"scene": "lash"}
+    _, reported = env.reset(seed=1, options={"scene": "lash"})
+    assert reported == {"scene": "lash"}
     steps, right, meant, over = 0, 0.0, set(), False
     while not over:
         _, reward, over, _, info = env.step(np.int64(MEANINGS.index("attack")))

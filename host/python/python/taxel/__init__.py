@@ -72,14 +72,14 @@ class Board(_taxel.Board, Requests):
     def set_joints(
         self, positions: Mapping[str, float], host_ns: int | None = None, *, time_us: int | None = None
     ) -> None:
-        """Tells positions of the robot's joints, rad or m, by name.
+        """Sends positions of the robot's joints, rad or m, by name.
 
         They were read at ``host_ns``, the host's time (nanoseconds since 1970, as of ``time.time_ns()``), or at
         ``time_us``, the board's; without either, now. They may come late and joint by joint. The board gets poses of
-        the links that wear the garment as long as they come. Before the board has told its time they are passed over.
+        the links that carry the garment as long as they come. Before the board has sent its time they are passed over.
         """
-        told = {joint: float(position) for joint, position in positions.items()}
-        super()._set_joints(told, host_ns, time_us)
+        by_name = {joint: float(position) for joint, position in positions.items()}
+        super()._set_joints(by_name, host_ns, time_us)
 
     def __enter__(self) -> Board:
         return self
@@ -94,12 +94,12 @@ class Robot(_taxel.Robot):
     """An open robot: an iterator over the events of all its boards, to be used with ``with``.
 
     Each event has the name of its ``board``. ``tare``, ``set_scene`` and ``self_test`` are for all boards, or for the
-    one of this name; a board that is lost gets them once it is back. ``tell`` and ``set_joints`` tell the robot's map
-    what others know, and how the robot moves.
+    one of this name; a board that is lost gets them once it is back. ``set_input`` and ``set_joints`` send the
+    robot's map what others know, and how the robot moves.
 
     Opened with ``keep``, it has what its boards have said lately, by the name of the board: ``frames`` the newest image
     until a time, ``contacts`` the contacts at a time, interpolated between two scans. ``host_ns`` is the time that all
-    boards share, as in events; without it, it is the newest that all boards have told of. They know what has been read.
+    boards share, as in events; without it, it is the newest that all boards have reported. They know what has been read.
     A board that is lost, or has said nothing until then, has None.
 
     >>> import taxel
@@ -227,13 +227,13 @@ def open(
     - ``forms``: contacts per frame whose form is computed, 1 to 254 or ``all``; by default 1
     - ``feed``: values of concepts, -1 to 1
     - ``shapes``: a base of shapes, by its file or the name of a shipped one
-    - ``body``: where the taxels lie on the robot, a preset or a TOML file: the board tells in ``Pressing`` events
+    - ``body``: where the taxels lie on the robot, a preset or a TOML file: the board reports in ``Pressing`` events
       what presses on each link, ``pressing`` times per second, by default with each frame
     - ``folds``: what the garment's folds press, a file of ``taxel body learn``
 
-    Who wears it, and how it is read:
+    Who carries it, and how it is read:
 
-    - ``robot``: that wears the body, ``reference`` or a URDF file: ``Board.set_joints`` tells its joints, and contacts
+    - ``robot``: that carries the body, ``reference`` or a URDF file: ``Board.set_joints`` sends its joints, and contacts
       of ``Pressing`` events have a place in its base
     - ``motion``: what bounds the joints' motion, for ``pose_error_m``: ``angular`` (rad/s2), ``linear`` (m/s2),
       ``angular_velocity`` (rad/s), ``angular_error`` (rad), ``linear_error`` (m)

@@ -230,7 +230,7 @@ class Pressing(Event):
     )
     pose_error_m = Field[float | None](
         "The most by which a place in the frame of the poses is off, m, because joints are not known exactly and move "
-        "on: by what the host that tells the poses knows of the joints. Null if it does not say it."
+        "on: by what the host that sends the poses knows of the joints. Null if it does not say it."
     )
     contacts = Field[list[PlacedContact]](each(PlacedContact), "The contacts that have a place.")
     links = Field[list[Wrench]](each(Wrench), "The links that something presses on.")
@@ -365,7 +365,7 @@ class Temperature(Event):
 
 
 @final
-class IllTaxel(Part):
+class FaultyTaxel(Part):
     """A faulty taxel."""
 
     taxel = Field[int]("Number of the taxel.")
@@ -378,7 +378,7 @@ class HealthMap(Event):
 
     time_us = Field[int]("The board's time, us.")
     whole = Field[bool]("True if the list is complete; else more follows.")
-    ill = Field[list[IllTaxel]](each(IllTaxel), "The faulty taxels, ascending.")
+    faulty = Field[list[FaultyTaxel]](each(FaultyTaxel), "The faulty taxels, ascending.")
 
 
 @final
@@ -584,6 +584,7 @@ __all__ = [
     "Boot",
     "Budget",
     "Contacts",
+    "FaultyTaxel",
     "FoldDoubt",
     "Folds",
     "Frame",
@@ -592,7 +593,6 @@ __all__ = [
     "HealthMap",
     "Hello",
     "HelloPanel",
-    "IllTaxel",
     "Intent",
     "Log",
     "Lost",

@@ -61,19 +61,19 @@ class Recording:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
-        told = _taxel.overview(self.path)
+        found = _taxel.overview(self.path)
         #: Messages by topic.
-        self.topics: dict[str, int] = {topic: one["count"] for topic, one in told["topics"].items()}
+        self.topics: dict[str, int] = {topic: one["count"] for topic, one in found["topics"].items()}
         #: The host's time of the first message, nanoseconds since 1970.
-        self.start_ns: int = told["start_ns"]
+        self.start_ns: int = found["start_ns"]
         #: The host's time of the last message.
-        self.end_ns: int = told["end_ns"]
+        self.end_ns: int = found["end_ns"]
         #: Names of the attachments.
-        self.attachments: list[str] = told["attachments"]
+        self.attachments: list[str] = found["attachments"]
         #: Versions, host, board, source.
-        self.metadata: dict[str, dict[str, str]] = told["metadata"]
+        self.metadata: dict[str, dict[str, str]] = found["metadata"]
         #: False for a file without its end: ``taxel info --repair`` gives it one.
-        self.is_whole: bool = told["is_whole"]
+        self.is_whole: bool = found["is_whole"]
 
     @property
     def duration_s(self) -> float:
@@ -115,8 +115,8 @@ class Recording:
         self, topic: str | None = None, *, start: float | None = None, end: float | None = None
     ) -> Iterator[Message]:
         """Messages of a topic, or of all, as they were written."""
-        told = _taxel.RecordedMessages(self.path, topic, *self._range(start, end))
-        return (Message(*one) for one in told)
+        found = _taxel.RecordedMessages(self.path, topic, *self._range(start, end))
+        return (Message(*one) for one in found)
 
     def attachment(self, name: str) -> bytes | None:
         """An attachment; None if there is none of this name."""

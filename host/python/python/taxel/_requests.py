@@ -35,7 +35,7 @@ class Requests:
         self._ask("set_concept", name=name, value=value, default=default, **ages)
 
     def set_posture(self, degrees: Mapping[str, float]) -> None:
-        """Tells the angles of joints, by their names in the scene, so that folds are no touches."""
+        """Sends the angles of joints, by their names in the scene, so that folds are no touches."""
         self._ask("set_posture", degrees=dict(degrees))
 
     def set_scene(self, path_or_text: str | os.PathLike[str]) -> None:
@@ -53,13 +53,13 @@ class Requests:
     def set_body(self, name_or_path: str | os.PathLike[str], garment: str = "reference") -> None:
         """Stores on the board where its taxels lie on the robot: a body's name, or a TOML file.
 
-        Before the board's ``Hello`` has been read, ``garment`` names the garment that it wears. The flash of a
+        Before the board's ``Hello`` has been read, ``garment`` names its garment. The flash of a
         board takes twelve tables, then one in five minutes.
         """
         self._ask("set_body", body=os.fspath(name_or_path), garment=garment)
 
     def set_poses(self, poses: Mapping[str, tuple[Sequence[float], Sequence[float]]]) -> None:
-        """Tells where links of the board's body are, for contacts in the robot's frame.
+        """Sends where links of the board's body are, for contacts in the robot's frame.
 
         By link: its origin (m), and its rotation as a quaternion (x, y, z, w).
         """

@@ -131,17 +131,17 @@ class Robot:
         """Takes the mean of the next frames as the baseline: of this board, or of all."""
     def frames(self, host_ns: int | None = None) -> dict[str, _events.Frame | None]:
         """The newest image of each board, a ``Frame`` or None, until this time of the host, ns; by default until
-        all boards have told theirs.
+        all boards have sent theirs.
         """
     def contacts(self, host_ns: int | None = None) -> dict[str, Moment | None]:
         """The contacts of each board, a ``Moment`` or None, at this time of the host, ns; by default the newest
-        that all boards have told of.
+        that all boards have reported.
         """
     def _set_scene(self, path_or_text: str, *, board: str | None = None) -> None: ...
-    def tell(self, name: str, value: float, *, age_ms: int = 0) -> None:
-        """Tells the robot's map what others know: a value of -1 to 1 by its name, of this age."""
+    def set_input(self, name: str, value: float, *, age_ms: int = 0) -> None:
+        """Sends the robot's map what others know: a value of -1 to 1 by its name, of this age."""
     def set_joints(self, positions: dict[str, float], *, age_ms: int = 0) -> None:
-        """Tells positions of the robot's joints, rad or m, of this age."""
+        """Sends positions of the robot's joints, rad or m, of this age."""
     def why(self, of: str | None = None) -> dict[str, Any]:
         """Why the robot's map has its activations now: of a concept, else of the intention that leads.
 
@@ -209,10 +209,10 @@ class VirtualRobot:
         """Takes one scan of a board: the codes of all its taxels, ``uint16`` by their numbers, and the time in
         microseconds, which never goes back. Returns what touches mean then, if that is news.
         """
-    def tell(self, name: str, value: float, time_us: int, *, age_ms: int = 0) -> None:
-        """Tells the robot's map what others know at a time: a value of -1 to 1 by its name, of this age."""
+    def set_input(self, name: str, value: float, time_us: int, *, age_ms: int = 0) -> None:
+        """Sends the robot's map what others know at a time: a value of -1 to 1 by its name, of this age."""
     def set_joints(self, positions: dict[str, float], time_us: int, *, age_ms: int = 0) -> None:
-        """Tells positions of the robot's joints, rad or m, at a time, of this age."""
+        """Sends positions of the robot's joints, rad or m, at a time, of this age."""
     def _touches(self) -> list[dict[str, Any]]: ...
     def why(self, of: str | None = None) -> dict[str, Any]:
         """Why the robot's map has its activations now: of a concept, else of the intention that leads.
@@ -290,6 +290,6 @@ def learn_folds(
     shift_mm: float,
     shift_deg: float,
 ) -> tuple[bytes, list[dict[str, Any]]]:
-    """The table of folds for a board, and what is told of each."""
+    """The table of folds for a board, and what is reported of each."""
 def run_program(words: Sequence[str]) -> int:
     """Runs the command line behind the program's name, and returns its exit status."""

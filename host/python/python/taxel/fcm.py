@@ -54,8 +54,8 @@ def build(
     """
     named = [{"name": one} if isinstance(one, str) else dict(one) for one in concepts]
     drawn = [{"from": cause, "to": effect, "weight": weight} for cause, effect, weight in edges]
-    told = {"name": name, **settings, "concept": named, "edge": drawn, "input": [dict(one) for one in inputs]}
-    return Map._from_dict(told)
+    whole = {"name": name, **settings, "concept": named, "edge": drawn, "input": [dict(one) for one in inputs]}
+    return Map._from_dict(whole)
 
 
 def save(a_map: Map, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:

@@ -80,7 +80,7 @@ def learn(
         if felt.dtype != np.uint16:
             raise TypeError(f"pressures are uint16, not {felt.dtype}")
         read.append((list(sweep.degrees), np.ascontiguousarray(angles), felt))
-    table, told = _taxel.learn_folds(
+    table, about = _taxel.learn_folds(
         os.fspath(garment), read, [list(joints) for joints in folds], step_deg, shift_mm, shift_deg
     )
-    return Learned(table, told)
+    return Learned(table, about)

@@ -36,7 +36,7 @@ enum Sheet<'a> {
 }
 
 impl<'a> Chart<'a> {
-    /// The chart of a patch on a surface that was built of it with nothing worn otherwise. None if the
+    /// The chart of a patch on a surface that was built of it with no offsets. None if the
     /// measured points have no plane that touches them.
     pub fn of(patch: &'a Patch, still: &'a Surface, layout: &'a Layout, panel: u8) -> Option<Chart<'a>> {
         let area = layout.areas().get(usize::from(panel))?;

@@ -29,19 +29,19 @@ pub struct Patch {
     /// Angle by which the panel is turned about its middle, clockwise as seen from outside, degrees.
     #[serde(default)]
     pub turn: f64,
-    /// How the panel is worn otherwise than `on` and `turn` say.
+    /// How the panel sits otherwise than `on` and `turn` say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub worn: Option<WornShift>,
+    pub offset: Option<PatchOffset>,
     /// How the cloth moves over the skin with joints of the robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub slides: Vec<Slide>,
 }
 
-/// How a panel is worn beside its place: turned about its middle, then shifted over the surface. The lists
+/// How a panel sits beside its place: turned about its middle, then shifted over the surface. The lists
 /// and grids of measured points move as one rigid piece, in the plane that touches them at their middle.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct WornShift {
+pub struct PatchOffset {
     /// Shift to the right, as seen from outside, m.
     #[serde(default)]
     pub right: f64,
@@ -53,7 +53,7 @@ pub struct WornShift {
     pub turn: f64,
 }
 
-impl WornShift {
+impl PatchOffset {
     /// The turn in radians, counted from right to down.
     pub(super) fn radians(&self) -> f64 {
         self.turn.to_radians()

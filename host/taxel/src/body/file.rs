@@ -9,7 +9,7 @@ use super::robot::Robot;
 use super::surface::Surface;
 use crate::error::{Context, Error, Result, SettingError, UsageError};
 use crate::files::input;
-use crate::tell::{toml_key, words};
+use crate::text::{toml_key, words};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use taxel_core::garment::{Garment, Layout};
@@ -46,8 +46,8 @@ impl ReadBody {
     /// [`ReadBody::surface`] on a robot: refuses links and joints that it does not have, by file, line and
     /// key.
     pub fn on_robot(&self, garment: &Garment, layout: &Layout, robot: Arc<Robot>) -> Result<RobotSurface> {
-        let worn = RobotSurface::build_with(&self.body, garment, layout, robot, &self.listed);
-        worn.map_err(|error| self.error(error))
+        let on_robot = RobotSurface::build_with(&self.body, garment, layout, robot, &self.listed);
+        on_robot.map_err(|error| self.error(error))
     }
 
     /// Checks that no two panels lie on each other on a surface of this body. The error names file, line and
@@ -60,14 +60,14 @@ impl ReadBody {
         Err(self.error(SettingError::Key { key, text }))
     }
 
-    /// Finds how the panels are worn, from touches whose place on the robot is known, with its joints at 0.
+    /// Finds how the panels sit, from touches whose place on the robot is known, with its joints at 0.
     /// Errors name the panel, the link or the touch, or file, line and key.
     pub fn fit(&self, garment: &Garment, layout: &Layout, touches: &[KnownTouch]) -> Result<BodyFit> {
         fit(&self.body, garment, layout, &self.listed, touches).map_err(|error| self.error(error))
     }
 
-    /// The text of the file with `worn` of these panels; comments stay.
-    pub fn worn(&self, panels: &[PatchFit]) -> Result<String> {
+    /// The text of the file with `offset` of these panels; comments stay.
+    pub fn with_offsets(&self, panels: &[PatchFit]) -> Result<String> {
         Ok(written(&self.name, &self.text, panels)?)
     }
 

@@ -37,12 +37,12 @@
 //! let garment = Garment::reference();
 //! let layout = Layout::build(&garment, 2048, 4095)?;
 //! let robot = Arc::new(robot::read("reference")?);
-//! let worn = body::read("reference")?.on_robot(&garment, &layout, robot.clone())?;
+//! let on_robot = body::read("reference")?.on_robot(&garment, &layout, robot.clone())?;
 //!
 //! let mut joints = JointHistory::new(robot.clone(), Motion { angular: 10.0, ..Motion::default() })?;
 //! let base = 0;
 //! // Elbows do not move the reference garment.
-//! joints.need(&worn.moving(base));
+//! joints.need(&on_robot.moving(base));
 //! // Two readings, 20 ms apart; times are the board's, in microseconds.
 //! for (time_us, angle) in [(0, 0.0), (20_000, 0.02)] {
 //!     let arms = ["left", "right"].map(|side| ["pitch", "roll", "yaw"].map(|way| format!("{side}_shoulder_{way}")));
@@ -53,11 +53,11 @@
 //! let aligned = joints.aligned(Micros(13_000), Micros(45_000)).unwrap();
 //! let live = joints.live(Micros(25_000)).unwrap();
 //! assert!((aligned.posture[1] - 0.013).abs() < 1e-9 && (live.posture[1] - 0.025).abs() < 1e-9);
-//! assert!(worn.displacement(&aligned, base) < worn.displacement(&live, base) && live.age.as_millis() == 5);
+//! assert!(on_robot.displacement(&aligned, base) < on_robot.displacement(&live, base) && live.age.as_millis() == 5);
 //!
 //! // 2 N on each taxel of the chest, in the frame of the base.
 //! let newtons: Vec<f64> = (0..2048).map(|taxel| if taxel < 512 { 2.0 } else { 0.0 }).collect();
-//! let seen = worn.seen_from(&aligned.posture, base)?;
+//! let seen = on_robot.seen_from(&aligned.posture, base)?;
 //! let on_torso = &wrenches(&seen, &newtons)[0];
 //! assert!(on_torso.force.x < -500.0 && on_torso.pressed == 1024.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -85,7 +85,7 @@ mod table;
 mod taxel_place;
 mod wrench;
 
-pub use config::{Body, BodyRegion, Patch, Slide, WornShift};
+pub use config::{Body, BodyRegion, Patch, PatchOffset, Slide};
 pub use file::{ReadBody, read};
 pub use form::{Cone, Cylinder, Form, Grid, Plane};
 pub use listed::{Listed, listed};

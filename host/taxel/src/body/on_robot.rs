@@ -175,12 +175,12 @@ impl RobotSurface {
     }
 
     /// The most, in metres, by which any taxel is elsewhere in a frame, at the time of an estimate, than a
-    /// board says whose links were told in the posture `told`. A board's table has the cloth as it lies with
+    /// board says whose links were sent in the posture `sent`. A board's table has the cloth as it lies with
     /// the joints at 0: the way that it slides counts, too.
-    pub fn told_displacement(&self, told: &[f64], estimate: &Estimate, frame: usize) -> f64 {
+    pub fn sent_displacement(&self, sent: &[f64], estimate: &Estimate, frame: usize) -> f64 {
         let errors: Vec<f64> = (0..estimate.posture.len())
             .map(|free| {
-                let off = told.get(free).map_or(f64::INFINITY, |told| (told - estimate.posture[free]).abs());
+                let off = sent.get(free).map_or(f64::INFINITY, |sent| (sent - estimate.posture[free]).abs());
                 let turns = self.robot.free().get(free).and_then(|joint| self.robot.joints().get(*joint));
                 let is_continuous = turns.is_some_and(|joint| joint.kind == JointKind::Continuous);
                 // Whole turns are none.
@@ -189,7 +189,7 @@ impl RobotSurface {
             })
             .collect();
         let slid: f64 = self.slides.iter().map(|slide| slide.way(&estimate.posture).length()).sum();
-        let told = Estimate { posture: told.to_vec(), errors, age: estimate.age };
-        self.displacement(&told, frame) + slid
+        let sent = Estimate { posture: sent.to_vec(), errors, age: estimate.age };
+        self.displacement(&sent, frame) + slid
     }
 }

@@ -4,7 +4,7 @@ use super::config::Body;
 use super::solid::Held;
 use super::taxel_place::TaxelPlace;
 use crate::error::SettingError;
-use crate::tell::words;
+use crate::text::words;
 
 /// Resolves the regions of a body: writes to each place the region that holds it, the first of several.
 /// `is_checked` refuses regions without a taxel and taxels of two regions. Errors name the region by index

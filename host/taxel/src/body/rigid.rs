@@ -1,6 +1,6 @@
 //! Measured points that move as one rigid piece.
 
-use super::config::WornShift;
+use super::config::PatchOffset;
 use super::form::Axes;
 use super::taxel_place::TaxelPlace;
 use glam::{DQuat, DVec2, DVec3};
@@ -42,11 +42,11 @@ impl Rigid {
     }
 
     /// A taxel, turned about the middle and shifted in the plane.
-    pub fn moved(&self, place: &TaxelPlace, worn: &WornShift) -> TaxelPlace {
+    pub fn moved(&self, place: &TaxelPlace, offset: &PatchOffset) -> TaxelPlace {
         let Axes { right, down, out } = self.axes;
         // Clockwise as seen from outside is against the sense about the normal.
-        let turn = DQuat::from_axis_angle(out, -worn.radians());
-        let shift = right * worn.right + down * worn.down;
+        let turn = DQuat::from_axis_angle(out, -offset.radians());
+        let shift = right * offset.right + down * offset.down;
         let at = self.middle + turn * (place.at - self.middle) + shift;
         TaxelPlace { at, normal: turn * place.normal, ..*place }
     }

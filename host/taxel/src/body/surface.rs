@@ -1,6 +1,6 @@
 //! The place of every taxel.
 
-use super::config::{Body, Patch, WornShift};
+use super::config::{Body, Patch, PatchOffset};
 use super::form::{Form, Laid, PanelSpot, Spot};
 use super::listed::Listed;
 use super::pose::Pose;
@@ -75,10 +75,10 @@ impl Surface {
             if !patch.slides.is_empty() && matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) {
                 return Err(wrong("slides", "must be left out: the points say where the panel lies"));
             }
-            let worn = patch.worn.unwrap_or_default();
-            for (key, number) in [("right", worn.right), ("down", worn.down), ("turn", worn.turn)] {
+            let offset = patch.offset.unwrap_or_default();
+            for (key, number) in [("right", offset.right), ("down", offset.down), ("turn", offset.turn)] {
                 if !number.is_finite() {
-                    return Err(wrong(&format!("worn.{key}"), "must be a number"));
+                    return Err(wrong(&format!("offset.{key}"), "must be a number"));
                 }
             }
             let shift = shifts.get(index).copied().unwrap_or_default();
@@ -92,10 +92,10 @@ impl Surface {
                     surface.take(layout, (panel as u8, area), rows, link, &wrong)?;
                 }
             }
-            if matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) && worn != WornShift::default() {
+            if matches!(patch.on, Form::Grid(_) | Form::Taxels(_)) && offset != PatchOffset::default() {
                 let what = "needs taxels on one side of the robot: these have no plane that touches them";
-                let rigid = Rigid::of(&surface.panel(area)).ok_or_else(|| wrong("worn", what))?;
-                surface.shift(area, &rigid, &worn);
+                let rigid = Rigid::of(&surface.panel(area)).ok_or_else(|| wrong("offset", what))?;
+                surface.shift(area, &rigid, &offset);
             }
         }
         // Cloth that slides may leave a region.
@@ -125,12 +125,12 @@ impl Surface {
         }
         let last = DVec2::new(f64::from(area.columns - 1), f64::from(area.rows - 1));
         let turn = DVec2::from_angle(patch.turn.to_radians());
-        let worn = patch.worn.unwrap_or_default();
-        let (worn_turn, shift) = (DVec2::from_angle(worn.radians()), worn.shift() + shift);
+        let offset = patch.offset.unwrap_or_default();
+        let (offset_turn, shift) = (DVec2::from_angle(offset.radians()), offset.shift() + shift);
         for (row, column) in every(area) {
             let at = DVec2::new(f64::from(column), f64::from(row));
             let from_middle = turn.rotate((at - last / 2.0) * pitch);
-            let moved = worn_turn.rotate(from_middle) + shift;
+            let moved = offset_turn.rotate(from_middle) + shift;
             let share = at / last.max(DVec2::ONE);
             let Some(taxel) = layout.taxel(Place { panel, row, column }) else { continue };
             let spot = laid.spot(&PanelSpot { from_middle, moved, share });
@@ -178,11 +178,11 @@ impl Surface {
     }
 
     /// Moves a panel as one rigid piece.
-    fn shift(&mut self, area: &Area, rigid: &Rigid, worn: &WornShift) {
+    fn shift(&mut self, area: &Area, rigid: &Rigid, offset: &PatchOffset) {
         let first = usize::from(area.base);
         let count = usize::from(area.rows) * usize::from(area.columns);
         for place in self.places.iter_mut().skip(first).take(count).flatten() {
-            *place = rigid.moved(place, worn);
+            *place = rigid.moved(place, offset);
         }
     }
 

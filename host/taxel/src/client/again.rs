@@ -1,7 +1,7 @@
 //! Restores the settings of a restarted board: one request after the other, each sent once the last is
 //! answered.
 
-use super::wanted::Wish;
+use super::wanted::WantedSetting;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 use taxel_core::wire::Request;
@@ -37,7 +37,7 @@ pub enum Restored {
 #[derive(Debug, Default, Clone)]
 pub(super) struct Again {
     /// Requests still to be sent.
-    left: VecDeque<Wish>,
+    left: VecDeque<WantedSetting>,
     waits: Option<Waiting>,
     done: Vec<u8>,
     untared: Option<String>,
@@ -46,15 +46,15 @@ pub(super) struct Again {
 
 #[derive(Debug, Clone)]
 struct Waiting {
-    wish: Wish,
+    setting: WantedSetting,
     since: Instant,
     tries: u8,
 }
 
 impl Again {
     /// Starts with these requests; drops a restore in progress.
-    pub fn begin(&mut self, wishes: VecDeque<Wish>) {
-        *self = Again { left: wishes, ..Again::default() };
+    pub fn begin(&mut self, settings: VecDeque<WantedSetting>) {
+        *self = Again { left: settings, ..Again::default() };
         self.end_if_over();
     }
 
@@ -66,22 +66,22 @@ impl Again {
     /// Returns the frame to send now, if any.
     pub fn due(&mut self) -> Option<Vec<u8>> {
         if let Some(waiting) = &mut self.waits {
-            let patience = if waiting.wish.number == TARE { TARE_PATIENCE } else { PATIENCE };
+            let patience = if waiting.setting.number == TARE { TARE_PATIENCE } else { PATIENCE };
             if waiting.since.elapsed() < patience {
                 return None;
             }
             if waiting.tries < TRIES {
                 waiting.tries += 1;
                 waiting.since = Instant::now();
-                return Some(waiting.wish.frame.clone());
+                return Some(waiting.setting.frame.clone());
             }
-            let number = waiting.wish.number;
+            let number = waiting.setting.number;
             self.end(Restored::Silent(number));
             return None;
         }
-        let wish = self.left.pop_front()?;
-        let frame = wish.frame.clone();
-        self.waits = Some(Waiting { wish, since: Instant::now(), tries: 1 });
+        let setting = self.left.pop_front()?;
+        let frame = setting.frame.clone();
+        self.waits = Some(Waiting { setting, since: Instant::now(), tries: 1 });
         Some(frame)
     }
 
@@ -93,7 +93,7 @@ impl Again {
             waiting.since = waiting.since.checked_sub(TARE_PATIENCE).unwrap_or(waiting.since);
             return;
         }
-        if number != waiting.wish.number {
+        if number != waiting.setting.number {
             return;
         }
         match refusal {
@@ -126,14 +126,14 @@ impl Again {
 mod tests {
     use super::*;
 
-    fn wish(number: u8) -> Wish {
-        Wish { number, frame: vec![number, 0] }
+    fn setting(number: u8) -> WantedSetting {
+        WantedSetting { number, frame: vec![number, 0] }
     }
 
     #[test]
     fn each_is_answered_before_the_next_and_a_refusal_ends_it() {
         let mut again = Again::default();
-        again.begin([wish(0), wish(1), wish(3)].into());
+        again.begin([setting(0), setting(1), setting(3)].into());
         for number in [0, 1] {
             assert_eq!((again.due(), again.due()), (Some(vec![number, 0]), None));
             again.answered(9, Some("of another request"));
@@ -147,7 +147,7 @@ mod tests {
         again.answered(3, None);
         let done = |set: &[u8]| Some(Restored::Done { set: set.into(), untared: None });
         assert_eq!((again.ended(), again.ended()), (done(&[0, 1, 3]), None));
-        again.begin([wish(1), wish(3)].into());
+        again.begin([setting(1), setting(3)].into());
         again.due();
         again.answered(1, Some("too many"));
         assert_eq!(again.ended(), Some(Restored::Refused(1, "too many".into())));
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn a_tare_that_is_refused_ends_nothing() {
         let mut again = Again::default();
-        again.begin([wish(0), wish(TARE), wish(4)].into());
+        again.begin([setting(0), setting(TARE), setting(4)].into());
         for (number, refusal) in [(0, None), (TARE, Some("touched")), (4, None)] {
             assert!(again.due().is_some());
             again.answered(number, refusal);
@@ -170,7 +170,7 @@ mod tests {
     #[test]
     fn who_never_answers_is_asked_three_times() {
         let mut again = Again::default();
-        again.begin([wish(1)].into());
+        again.begin([setting(1)].into());
         for _ in 0..TRIES {
             assert!(again.due().is_some() && again.due().is_none());
             again.answered(UNREADABLE, None);

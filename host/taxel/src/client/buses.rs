@@ -25,7 +25,7 @@ const NUMBERS: i64 = 2_048;
 const MOST: usize = 64;
 /// Starts kept of a board: those of 16 s.
 const KEPT: usize = 16;
-/// Least time between two starts that tell a board's rate, us: notices are off by 20 us.
+/// Least time between two starts that show a board's rate, us: notices are off by 20 us.
 const RATE_US: f64 = 2e6;
 /// Most by which a rate may differ from the bus's while it is not known: two crystals.
 const RATE_LIMIT: f64 = 600e-6;

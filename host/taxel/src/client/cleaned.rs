@@ -1,6 +1,6 @@
 //! Removes control characters from a board's names, which are shown in many places.
 
-use crate::tell::words::printable;
+use crate::text::words::printable;
 use taxel_core::garment::Garment;
 use taxel_core::react::Cause;
 use taxel_core::scene::Scene;

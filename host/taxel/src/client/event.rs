@@ -133,7 +133,7 @@ pub enum Event {
     },
     /// A remark of the host about the link.
     Note {
-        /// The board's time, as it was told last.
+        /// The board's time, as it was reported last.
         time: Micros,
         /// Severity.
         level: Level,

@@ -1,6 +1,6 @@
 //! Which board is which.
 
-use super::{Worn, cleaned};
+use super::{BoardDescription, cleaned};
 use taxel_core::garment::Garment;
 
 /// Most garments that are remembered of a board.
@@ -11,7 +11,7 @@ const GARMENTS: usize = 32;
 /// - What is stated, a serial number on USB or a garment, must agree.
 /// - The id of its chip, which it says on every link, or else the serial number of its link on USB decides alone, where
 ///   it had one before and has one now: the board may have been dressed otherwise meanwhile.
-/// - Else the name of its firmware must be the same, without its version, and its garment one that it has worn since it
+/// - Else the name of its firmware must be the same, without its version, and its garment one that it has had since it
 ///   was met, or was sent: the one that it had first, to which it returns if it restarts; that of `--garment`; any that
 ///   another program has dressed it with under our eyes. A garment that nobody has seen on it is another board's.
 ///
@@ -25,7 +25,7 @@ pub struct Identity {
     garment: Option<Garment>,
     /// Name of the firmware; none before the board was met.
     firmware: Option<String>,
-    /// Garments that it has worn, or was sent.
+    /// Garments that it has had, or was sent.
     garments: Vec<Garment>,
 }
 
@@ -47,30 +47,30 @@ impl Identity {
     }
 
     /// How a board differs, on a link with this serial number on USB; none if it is the one.
-    pub fn differs(&self, usb_serial: Option<&str>, worn: &Worn) -> Option<String> {
-        let chips = self.chip.as_deref().zip(chip(worn));
+    pub fn differs(&self, usb_serial: Option<&str>, description: &BoardDescription) -> Option<String> {
+        let chips = self.chip.as_deref().zip(chip(description));
         let serials = chips.or(self.usb_serial.as_deref().zip(usb_serial));
         if let Some((known, found)) = serials.filter(|(known, found)| known != found) {
             return Some(format!("its serial number is {found}, not {known}"));
         }
         if let Some(stated) = &self.garment {
-            return (*stated != worn.garment).then(|| other_garment(stated, &worn.garment));
+            return (*stated != description.garment).then(|| other_garment(stated, &description.garment));
         }
         let known = self.firmware.as_deref().filter(|_| serials.is_none())?;
-        let found = firmware(worn);
+        let found = firmware(description);
         if known != found {
             return Some(format!("its firmware is {found}, not {known}"));
         }
-        let last = self.garments.last().filter(|_| !self.garments.contains(&worn.garment))?;
-        Some(other_garment(last, &worn.garment))
+        let last = self.garments.last().filter(|_| !self.garments.contains(&description.garment))?;
+        Some(other_garment(last, &description.garment))
     }
 
     /// Learns from a `Hello` of the board.
-    pub(super) fn learn(&mut self, usb_serial: Option<&str>, worn: &Worn) {
+    pub(super) fn learn(&mut self, usb_serial: Option<&str>, description: &BoardDescription) {
         self.usb_serial = self.usb_serial.take().or_else(|| usb_serial.map(String::from));
-        self.chip = self.chip.take().or_else(|| chip(worn).map(String::from));
-        self.firmware.get_or_insert_with(|| firmware(worn).into());
-        self.learn_garment(&worn.garment);
+        self.chip = self.chip.take().or_else(|| chip(description).map(String::from));
+        self.firmware.get_or_insert_with(|| firmware(description).into());
+        self.learn_garment(&description.garment);
     }
 
     /// Learns that the board is sent this garment.
@@ -87,17 +87,17 @@ impl Identity {
     }
 }
 
-fn chip(worn: &Worn) -> Option<&str> {
-    Some(worn.chip.as_str()).filter(|chip| !chip.is_empty())
+fn chip(description: &BoardDescription) -> Option<&str> {
+    Some(description.chip.as_str()).filter(|chip| !chip.is_empty())
 }
 
-fn firmware(worn: &Worn) -> &str {
-    worn.firmware.split(' ').next().unwrap_or_default()
+fn firmware(description: &BoardDescription) -> &str {
+    description.firmware.split(' ').next().unwrap_or_default()
 }
 
 fn other_garment(known: &Garment, found: &Garment) -> String {
     match known.name == found.name {
         true => format!("its garment {} differs from the one known by this name", found.name),
-        false => format!("it wears the garment {}, not {}", found.name, known.name),
+        false => format!("it has the garment {}, not {}", found.name, known.name),
     }
 }

@@ -1,6 +1,6 @@
 //! State of a board, as the client knows it.
 
-use super::{Client, Counts, Worn};
+use super::{BoardDescription, Client, Counts};
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
@@ -36,13 +36,13 @@ impl Client {
     }
 
     /// Garment, scene and firmware; none before the first `Hello`.
-    pub fn worn(&self) -> Option<&Worn> {
-        self.worn.as_ref()
+    pub fn description(&self) -> Option<&BoardDescription> {
+        self.description.as_ref()
     }
 
     /// The garment's geometry; none before the first `Hello`.
     pub fn layout(&self) -> Option<&taxel_core::garment::Layout> {
-        self.worn.as_ref().map(|worn| &worn.layout)
+        self.description.as_ref().map(|description| &description.layout)
     }
 
     /// Last conditioned image by taxel number, with its frame number; none before the first key frame.
@@ -79,7 +79,7 @@ impl Client {
     /// Age of a contact's form in frames, 255 for at least that; none unless the scene's stream has them.
     pub fn form_age(&self, contact: u32) -> Option<u8> {
         let age = self.form_ages.iter().find(|(id, _)| *id == contact).map_or(0, |(_, age)| *age);
-        self.worn.as_ref()?.scene.stream.form_ages.then_some(age)
+        self.description.as_ref()?.scene.stream.form_ages.then_some(age)
     }
 
     /// Name of a region of the robot's surface, by its number; empty if it is not known.
@@ -99,7 +99,7 @@ impl Client {
 
     /// Names of the concepts of the scene's map.
     pub fn concepts(&self) -> &[Name] {
-        self.worn.as_ref().map_or(&[], Worn::concepts)
+        self.description.as_ref().map_or(&[], BoardDescription::concepts)
     }
 
     /// The announced intention.
@@ -128,8 +128,8 @@ impl Client {
     }
 
     /// Faulty taxels by number, by the latest report.
-    pub fn ill(&self) -> &BTreeMap<u16, TaxelHealth> {
-        &self.ill
+    pub fn faulty(&self) -> &BTreeMap<u16, TaxelHealth> {
+        &self.faulty
     }
 
     /// Last self-test of lines and inputs; none before the first.
@@ -139,7 +139,7 @@ impl Client {
 
     /// Cause of the board's start; none if not reported.
     pub fn boot(&self) -> Option<Boot> {
-        self.worn.as_ref()?.boot
+        self.description.as_ref()?.boot
     }
 
     /// True if the board recognises shapes that it was taught, not those of its built-in base.

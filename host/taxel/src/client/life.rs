@@ -26,8 +26,8 @@ pub(super) struct Life {
     pub is_known: bool,
     /// How the board that answers differs from the one that is waited for.
     pub refused: Option<String>,
-    /// What was told of it.
-    pub told_other: Option<String>,
+    /// What was reported of it.
+    pub reported_other: Option<String>,
     /// The board has probably kept running when the link was last lost.
     pub lived_on: bool,
     /// Number of `Hello`s since any other message.
@@ -39,8 +39,8 @@ pub(super) struct Life {
 impl Life {
     /// True if a clock that shows this time has run on since it was last received.
     pub fn goes_on(&self, clock: Micros) -> bool {
-        self.clock.is_some_and(|(then, told)| {
-            let passed = u64::try_from(told.elapsed().as_micros()).unwrap_or(u64::MAX);
+        self.clock.is_some_and(|(then, since)| {
+            let passed = u64::try_from(since.elapsed().as_micros()).unwrap_or(u64::MAX);
             let expected = then.0.saturating_add(passed);
             clock >= then && clock.0.abs_diff(expected) <= SLACK_US.saturating_add(passed / 100)
         })

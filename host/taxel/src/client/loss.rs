@@ -1,4 +1,4 @@
-//! Ends of what was present when the board was lost or restarted, told by the host.
+//! Ends of what was present when the board was lost or restarted, reported by the host.
 
 use super::Client;
 use super::event::Event;
@@ -15,8 +15,8 @@ impl Client {
         self.say(Event::Lost { why, since_us });
     }
 
-    /// Ends what the board has told to be present: it has forgotten it, or can no longer say that it ends. Events say
-    /// so, at the time and with the number of the scan that were told last.
+    /// Ends what the board has reported to be present: it has forgotten it, or can no longer say that it ends. Events
+    /// say so, at the time and with the number of the scan that were reported last.
     pub(super) fn end_all(&mut self) {
         let (frame, time) = (self.contacts_of, self.board_time().unwrap_or(Micros(0)));
         let ids = self.contacts.iter().map(|placed| placed.contact.id).collect();

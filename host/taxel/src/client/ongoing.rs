@@ -12,7 +12,7 @@ use taxel_core::wire::{LISTED, PressingReport, ReactionReport, RegionsReport, Sy
 /// What goes on, besides contacts and intention.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Ongoing {
-    /// Words of the contacts that are present, as they were told last.
+    /// Words of the contacts that are present, as they were reported last.
     symbols: Vec<Symbol>,
     /// Regions of the robot's surface, if any of them is not free.
     regions: Option<RegionsReport>,

@@ -108,15 +108,20 @@ impl Client {
             let (frame, sets) = match held {
                 HeldRequest::Frame(frame, None) => (frame.clone(), None),
                 HeldRequest::Frame(_, Some(sets))
-                    if !takes_more || self.worn.is_none() && sets.is_garment() =>
+                    if !takes_more || self.description.is_none() && sets.is_garment() =>
                 {
                     break;
                 }
                 HeldRequest::Frame(frame, Some(sets)) => (frame.clone(), Some(sets.clone())),
                 HeldRequest::Change(change) => {
-                    let told =
-                        || self.worn.as_ref().map(|worn| &worn.scene).or(self.expected.as_ref()).cloned();
-                    let Some(mut scene) = self.life.wanted.asked_scene().or_else(told) else { break };
+                    let reported = || {
+                        self.description
+                            .as_ref()
+                            .map(|description| &description.scene)
+                            .or(self.expected.as_ref())
+                            .cloned()
+                    };
+                    let Some(mut scene) = self.life.wanted.asked_scene().or_else(reported) else { break };
                     if !takes_more {
                         break;
                     }
@@ -182,7 +187,7 @@ impl Client {
         self.release();
         let again = if self.is_met() { self.life.again.due() } else { None };
         self.requests.extend(again.into_iter().flatten());
-        let sync = if self.worn.is_some() && self.streaming { self.syncs.next() } else { None };
+        let sync = if self.description.is_some() && self.streaming { self.syncs.next() } else { None };
         if let Some(sync) = sync {
             // A request of a few bytes always fits.
             let _ = self.request(&sync);

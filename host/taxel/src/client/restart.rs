@@ -1,7 +1,7 @@
 //! Detects that a board has restarted, and requests its settings again.
 
 use super::again::Restored;
-use super::{Client, Event, Identity, Worn};
+use super::{BoardDescription, Client, Event, Identity};
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Request, encode, frame_bound};
@@ -77,8 +77,8 @@ impl Client {
     pub fn set_again(&mut self) {
         (self.life.reopened, self.life.lived_on) = (false, false);
         if self.streaming {
-            let wishes = self.life.wanted.all();
-            self.life.again.begin(wishes);
+            let settings = self.life.wanted.all();
+            self.life.again.begin(settings);
         }
     }
 
@@ -105,11 +105,11 @@ impl Client {
         let why = format!("{} answers with another board: {how}", self.link.0);
         if self.is_only {
             self.life.reopened = true;
-            // Told once, not with each `Hello`.
-            if self.life.told_other.as_ref() != Some(&why) {
+            // Reported once, not with each `Hello`.
+            if self.life.reported_other.as_ref() != Some(&why) {
                 self.say(Event::Other { why: why.clone() });
             }
-            (self.life.refused, self.life.told_other) = (Some(why.clone()), Some(why));
+            (self.life.refused, self.life.reported_other) = (Some(why.clone()), Some(why));
             return;
         }
         self.forget();
@@ -125,7 +125,7 @@ impl Client {
     }
 
     /// Handles a `Hello`, before it replaces the last one. Returns false if the board is refused.
-    pub(super) fn greeted(&mut self, now: &Worn) -> bool {
+    pub(super) fn greeted(&mut self, now: &BoardDescription) -> bool {
         let is_due = !self.life.is_known || self.identity.states_garment();
         if let Some(how) = self.identity.differs(self.link.1.as_deref(), now).filter(|_| is_due) {
             self.replaced(&how);
@@ -135,27 +135,27 @@ impl Client {
         }
         self.recognised(now);
         self.identity.learn(self.link.1.as_deref(), now);
-        (self.life.is_known, self.life.told_other) = (true, None);
+        (self.life.is_known, self.life.reported_other) = (true, None);
         true
     }
 
     /// Handles the `Hello` of the board that is followed: decides what it is to be set again.
-    fn recognised(&mut self, now: &Worn) {
+    fn recognised(&mut self, now: &BoardDescription) {
         self.life.met = true;
         self.life.hellos = self.life.hellos.saturating_add(1);
         let goes_on = self.life.goes_on(now.clock) && !self.life.stepped_back;
         let is_same = self.life.wanted.agrees(now)
             && self
-                .worn
+                .description
                 .as_ref()
                 .is_some_and(|before| before.garment == now.garment && before.calibration == now.calibration);
         if self.life.reopened {
             if goes_on && is_same {
                 self.life.reopened = false;
                 self.life.lived_on = true;
-                let wishes = self.life.wanted.unproven();
-                self.life.again.begin(wishes);
-            } else if self.worn.is_none() {
+                let settings = self.life.wanted.unproven();
+                self.life.again.begin(settings);
+            } else if self.description.is_none() {
                 // It was lost before it had said what it is: it need not have restarted.
                 self.set_again();
                 self.life.lived_on = goes_on;
@@ -165,7 +165,7 @@ impl Client {
         } else if self.life.started && !self.is_restoring() && self.life.hellos >= LONELY {
             self.begun_anew();
         }
-        self.told_time(now.clock);
+        self.note_time(now.clock);
     }
 
     /// Handles any message except `Hello`.
@@ -174,7 +174,7 @@ impl Client {
     }
 
     /// Handles the current board time.
-    pub(super) fn told_time(&mut self, clock: Micros) {
+    pub(super) fn note_time(&mut self, clock: Micros) {
         self.life.clock = Some((clock, Instant::now()));
     }
 

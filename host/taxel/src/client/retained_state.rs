@@ -1,7 +1,7 @@
 //! What a board has said that is still valid, as frames of the wire: a file that continues another begins with them,
 //! and a client that starts in the middle of a recording gets them first.
 
-use super::{Worn, leads};
+use super::{BoardDescription, leads};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use taxel_core::format::Name;
@@ -65,7 +65,8 @@ impl RetainedState {
     fn key(&mut self, report: &Report<'_>) -> Option<(u32, u16)> {
         let number = match report {
             Report::Hello(hello) => {
-                self.concepts = Worn::read(hello).map_or(Vec::new(), |worn| worn.concepts().to_vec());
+                self.concepts = BoardDescription::read(hello)
+                    .map_or(Vec::new(), |description| description.concepts().to_vec());
                 Report::HELLO
             }
             Report::Contacts(_) => Report::CONTACTS,
@@ -82,9 +83,9 @@ impl RetainedState {
             Report::Health(_) => Report::HEALTH,
             Report::Budget(_) => Report::BUDGET,
             Report::HealthMap(map) => {
-                let told = map.first..map.end;
+                let reported = map.first..map.end;
                 self.parts
-                    .retain(|(number, first), _| *number != Report::HEALTH_MAP || !told.contains(first));
+                    .retain(|(number, first), _| *number != Report::HEALTH_MAP || !reported.contains(first));
                 return Some((Report::HEALTH_MAP, map.first));
             }
             Report::Temperature(_) => Report::TEMPERATURE,

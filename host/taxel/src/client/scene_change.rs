@@ -8,7 +8,7 @@ use taxel_core::scene::Scene;
 pub struct SceneChange {
     /// Recognition of gestures; none in it: off.
     pub gestures: Option<Option<GestureConfig>>,
-    /// Number of held contacts that have their form measured in a frame, 0 for all, and whether its age is told.
+    /// Number of held contacts that have their form measured in a frame, 0 for all, and whether its age is reported.
     pub forms: Option<(u8, bool)>,
     /// Reports per second of what presses on the robot.
     pub pressing_hz: Option<u16>,

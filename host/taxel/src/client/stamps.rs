@@ -11,7 +11,7 @@ pub const NS: u64 = 1000;
 /// Times of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stamp {
-    /// The board's time, us; 0 before it has told any.
+    /// The board's time, us; 0 before it has reported any.
     pub board_us: u64,
     /// The host's time of the same moment, us since 1970.
     pub host_us: u64,
@@ -51,7 +51,7 @@ pub struct Stamps {
     time: SteadyTime,
     /// A board time, and the host's time when it was first received.
     heard: Option<(u64, u64)>,
-    /// The board's time of the last event; none before it has told any.
+    /// The board's time of the last event; none before it has reported any.
     last: Option<u64>,
 }
 
@@ -74,7 +74,7 @@ impl Stamps {
         self.now(client)
     }
 
-    /// True once the board has told a time.
+    /// True once the board has reported a time.
     pub fn is_known(&self) -> bool {
         self.last.is_some()
     }
@@ -123,7 +123,7 @@ impl Stamps {
 /// Board time of an event, us; none if it has none.
 pub fn time_of(client: &Client, event: &Event) -> Option<u64> {
     let time = match event {
-        Event::Hello => client.worn()?.clock,
+        Event::Hello => client.description()?.clock,
         Event::Frame { time, .. }
         | Event::Contacts { time, .. }
         | Event::HealthMap { time, .. }
@@ -161,16 +161,16 @@ mod tests {
     use taxel_core::wire::SyncReport;
 
     #[test]
-    fn what_is_said_before_the_board_has_told_its_time_is_not_from_its_start() {
+    fn what_is_said_before_the_board_has_sent_its_time_is_not_from_its_start() {
         let (mut stamps, client) = (Stamps::start(), Client::new());
         let asked = stamps.now(&client);
         let answered = stamps.of(&client, &Event::Answer { request: 0, refusal: None });
         assert!(!stamps.is_known());
         // The board has been on for an hour.
         let hour = Micros(3_600_000_000);
-        let told = stamps.of(&client, &Event::Sync(SyncReport { token: 1, received: hour, sent: hour }));
+        let reported = stamps.of(&client, &Event::Sync(SyncReport { token: 1, received: hour, sent: hour }));
         assert!(stamps.is_known());
-        assert_eq!([asked, answered, told].map(|stamp| stamp.board_us), [0, 0, hour.0]);
-        assert!(told.host_us - asked.host_us < 60_000_000, "{asked:?} {told:?}");
+        assert_eq!([asked, answered, reported].map(|stamp| stamp.board_us), [0, 0, hour.0]);
+        assert!(reported.host_us - asked.host_us < 60_000_000, "{asked:?} {reported:?}");
     }
 }

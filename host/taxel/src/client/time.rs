@@ -11,11 +11,11 @@ impl Client {
     /// [`Client::take_requests`], whose bytes must then be sent at once, and after each read, before the
     /// bytes are pushed. The client then requests a streaming board's time, ten times in the first second,
     /// then once per second.
-    pub fn tell_time(&mut self, host_us: u64) {
+    pub fn set_time(&mut self, host_us: u64) {
         self.syncs.now = Some(host_us);
     }
 
-    /// The board may share a USB host controller with others, whose clients are told the same `buses`: then
+    /// The board may share a USB host controller with others, whose clients are sent the same `buses`: then
     /// all of them are on one time, within microseconds.
     pub fn share(&mut self, buses: Buses) {
         self.syncs.bus = Some(BusSeat::new(buses));

@@ -1,6 +1,6 @@
 //! Remembers settings that last until the board restarts, so that they can be restored.
 
-use super::{Worn, cleaned};
+use super::{BoardDescription, cleaned};
 use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
 use taxel_core::condition::Certificate;
@@ -58,7 +58,7 @@ pub(super) struct Sets(Key, Setting);
 
 /// A request to be repeated.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Wish {
+pub(super) struct WantedSetting {
     /// Request number.
     pub number: u8,
     /// The request as a frame of the wire.
@@ -96,14 +96,15 @@ impl Wanted {
     }
 
     /// True if a board with this `Hello` may still have its settings.
-    pub fn agrees(&self, worn: &Worn) -> bool {
+    pub fn agrees(&self, description: &BoardDescription) -> bool {
         let body = |key| self.done.get(&key).map(|setting| setting.body.as_slice());
         let garment = body(Key::Garment).and_then(garment);
         let scene = body(Key::Scene).and_then(|bytes| decode::<Scene>(bytes).ok()).map(|mut scene| {
             cleaned::scene(&mut scene);
             scene
         });
-        garment.is_none_or(|garment| garment == worn.garment) && scene.is_none_or(|scene| scene == worn.scene)
+        garment.is_none_or(|garment| garment == description.garment)
+            && scene.is_none_or(|scene| scene == description.scene)
     }
 
     /// The scene requested last, unless the board has answered that.
@@ -154,19 +155,19 @@ impl Wanted {
     }
 
     /// Requests that restore everything, in order; unanswered ones are included.
-    pub fn all(&mut self) -> VecDeque<Wish> {
+    pub fn all(&mut self) -> VecDeque<WantedSetting> {
         self.settle();
         let start = encoded(&Request::Start).map(|frame| (Key::Start, frame));
-        let start = start.map(|(key, frame)| (key, Wish { number: Request::Start.number(), frame }));
-        let mut all: BTreeMap<Key, Wish> =
-            self.done.iter().map(|(key, setting)| (key.clone(), setting.wish())).collect();
+        let start = start.map(|(key, frame)| (key, WantedSetting { number: Request::Start.number(), frame }));
+        let mut all: BTreeMap<Key, WantedSetting> =
+            self.done.iter().map(|(key, setting)| (key.clone(), setting.setting())).collect();
         all.extend(start);
         all.into_values().collect()
     }
 
     /// Requests for a board that has probably kept its settings: unanswered ones, and those that its `Hello`
     /// does not prove, but no tare.
-    pub fn unproven(&mut self) -> VecDeque<Wish> {
+    pub fn unproven(&mut self) -> VecDeque<WantedSetting> {
         let open: Vec<u8> = self.asked.iter().map(|(_, setting, _)| setting.number).collect();
         let proven = [
             Request::SetGarment(&[]).number(),
@@ -176,7 +177,7 @@ impl Wanted {
             Request::SetCalibration(UNNAMED).number(),
         ];
         let mut all = self.all();
-        all.retain(|wish| open.contains(&wish.number) || !proven.contains(&wish.number));
+        all.retain(|setting| open.contains(&setting.number) || !proven.contains(&setting.number));
         all
     }
 
@@ -220,7 +221,7 @@ impl Sets {
         self.0 == Key::Garment
     }
 
-    /// The garment that it sets, as a `Hello` tells it; none if it sets something else.
+    /// The garment that it sets, as a `Hello` reports it; none if it sets something else.
     pub fn garment(&self) -> Option<Garment> {
         garment(&self.1.body).filter(|_| self.is_garment())
     }
@@ -232,17 +233,17 @@ impl Sets {
 }
 
 impl Setting {
-    fn wish(&self) -> Wish {
-        let older = self.feed.as_ref().and_then(|(feed, told)| {
-            let passed = u32::try_from(told.elapsed().as_millis()).unwrap_or(u32::MAX);
+    fn setting(&self) -> WantedSetting {
+        let older = self.feed.as_ref().and_then(|(feed, reported)| {
+            let passed = u32::try_from(reported.elapsed().as_millis()).unwrap_or(u32::MAX);
             let age_ms = feed.age_ms.saturating_add(passed);
             encoded(&Request::Feed(Feed { age_ms, ..feed.clone() }))
         });
-        Wish { number: self.number, frame: older.unwrap_or_else(|| self.frame.clone()) }
+        WantedSetting { number: self.number, frame: older.unwrap_or_else(|| self.frame.clone()) }
     }
 }
 
-/// Decodes a garment, as a `Hello` tells it.
+/// Decodes a garment, as a `Hello` reports it.
 fn garment(bytes: &[u8]) -> Option<Garment> {
     let mut garment = decode(bytes).ok()?;
     cleaned::garment(&mut garment);
@@ -267,7 +268,7 @@ mod tests {
     }
 
     fn numbers(wanted: &mut Wanted) -> Vec<u8> {
-        wanted.all().iter().map(|wish| wish.number).collect()
+        wanted.all().iter().map(|setting| setting.number).collect()
     }
 
     #[test]
@@ -279,9 +280,11 @@ mod tests {
         std::thread::sleep(Duration::from_millis(20));
         let mut frame = wanted.all().pop_front().unwrap().frame;
         frame.pop();
-        let Request::Feed(told) = decode::<Request<'_>>(open(&mut frame).unwrap()).unwrap() else { panic!() };
-        assert!((90..5000).contains(&told.age_ms), "{}", told.age_ms);
-        assert_eq!(Feed { age_ms: 70, ..told }, feed);
+        let Request::Feed(reported) = decode::<Request<'_>>(open(&mut frame).unwrap()).unwrap() else {
+            panic!()
+        };
+        assert!((90..5000).contains(&reported.age_ms), "{}", reported.age_ms);
+        assert_eq!(Feed { age_ms: 70, ..reported }, feed);
     }
 
     #[test]
@@ -315,7 +318,7 @@ mod tests {
         // Unanswered requests count as sent.
         ask(&mut wanted, &Request::SetScene(&[7]));
         let unproven =
-            |wanted: &mut Wanted| wanted.unproven().iter().map(|wish| wish.number).collect::<Vec<_>>();
+            |wanted: &mut Wanted| wanted.unproven().iter().map(|setting| setting.number).collect::<Vec<_>>();
         assert_eq!(unproven(&mut wanted), [6, start, 4]);
         assert_eq!(unproven(&mut wanted), [start, 4]);
     }

@@ -3,7 +3,7 @@
 //! Every function that can fail returns [`Error`]: a chain of sentences for people, and at its root one
 //! [`ErrorKind`] for programs.
 //!
-//! | enum | concern | a program tells apart |
+//! | enum | concern | a program distinguishes |
 //! |---|---|---|
 //! | [`FileError`] | reading and writing files | missing, unreadable, exists already, no place for an output |
 //! | [`ArrayError`] | arrays of frames | not an array, damaged, unfit, too large |
@@ -21,7 +21,7 @@
 //! not change the kind. Where only a person can use what has happened, a variant holds the sentence.
 //!
 //! `{error}` prints the outermost sentence, `{error:#}` all of them, joined by `: `;
-//! [`tell::words::sentence`](crate::tell::words::sentence) does so in plain words, for users.
+//! [`text::words::sentence`](crate::text::words::sentence) does so in plain words, for users.
 //!
 //! ```
 //! use taxel::error::{ErrorKind, FileError};

@@ -39,7 +39,7 @@ pub enum SettingError {
     /// A table of folds does not fit the garment.
     #[error("{0}")]
     Folds(String),
-    /// How a panel is worn cannot be found from its touches.
+    /// How a panel sits cannot be found from its touches.
     #[error("{0}")]
     Placing(String),
     /// Settings of gestures are invalid.

@@ -6,7 +6,7 @@ use super::steps::{decimal, steps};
 use super::weight::Weight;
 use super::wrong::wrong;
 use crate::error::{Error, MapFileError, Result};
-use crate::tell::words::Step::{self, At, Key};
+use crate::text::words::Step::{self, At, Key};
 use taxel_core::format::{Name, name};
 use taxel_core::intent::{Edge, MapConfig, Threshold};
 

@@ -7,7 +7,7 @@ use taxel_core::intent::{Leading, MapConfig};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// Measured or told: nothing causes it.
+    /// Measured or reported: nothing causes it.
     Felt,
     /// Meaning of what is felt: an intention, or a cause of one.
     Meaning,

@@ -6,7 +6,7 @@ use super::wrong;
 use crate::error::{Context, FileError, MapFileError, Result, UsageError};
 use crate::files::input;
 use crate::files::output::Output;
-use crate::tell::words;
+use crate::text::words;
 use std::borrow::Cow;
 use std::path::Path;
 

@@ -8,7 +8,7 @@ use super::steps::steps;
 use super::weight::Weight;
 use super::wrong::wrong;
 use crate::error::{MapFileError, Result};
-use crate::tell::words::Step::{self, At, Key};
+use crate::text::words::Step::{self, At, Key};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use taxel_core::intent::{Rule, Transfer};

@@ -8,13 +8,13 @@
 //! | `{ cover = ["chest"] }` | mm2 | area that they cover |
 //! | `{ lasts = ["chest"] }` | ms | time since this part is touched without a gap |
 //! | `{ apart = [["chest"], ["back"]] }` | ms | time by which the touch of the first part began before that of the second; 0 unless both are touched |
-//! | `{ motion = ["arm"] }` | mm/s | speed of the fastest link of this part, by the joints that are told |
+//! | `{ motion = ["arm"] }` | mm/s | speed of the fastest link of this part, by the joints that are sent |
 //! | `"own"` | 2^-15 | share of the force that the robot's own motion has caused, on the board that announces something, the least of several; else on all boards |
 //! | `{ hardness = ["arm"] }` | counts/mm | force over depth of what this part has moved into |
 //! | `{ point = ["arm"] }` | percent | share of its force on a single taxel, at the greatest force |
 //! | `{ slide = ["arm"] }` | mm/s | greatest speed of it along the surface |
 //! | `{ stir = ["arm"] }` | percent | greatest change of its force while the part was still |
-//! | `{ told = "voice" }` | 2^-15 | what somebody told by this name |
+//! | `{ host_input = "voice" }` | 2^-15 | what somebody sent by this name |
 //!
 //! A part is named by words: a contact lies on it if one of them is a word of its region or of its link. No
 //! word stands for the whole robot.
@@ -27,7 +27,7 @@ pub type PartWords = Vec<String>;
 
 /// Source of an input of a map of a robot; see the [module](self).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RobotSource {
     /// Activation of an intention on the boards that announce it, 2^-15.
     Intent(Leading),
@@ -51,8 +51,8 @@ pub enum RobotSource {
     Slide(PartWords),
     /// Greatest change of its force while the part was still, percent.
     Stir(PartWords),
-    /// What somebody told by a name, 2^-15.
-    Told(String),
+    /// What somebody sent by a name, 2^-15.
+    HostInput(String),
 }
 
 /// What an input of a map of a robot hears, and what counts instead.

@@ -12,7 +12,7 @@ use super::map::MapFile;
 use super::touches::{Labelled, NONE, Touches};
 use super::weight::Weight;
 use crate::error::Result;
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 
 /// Required lead.
 const MARGIN: f64 = 0.2;

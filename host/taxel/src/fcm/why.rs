@@ -5,7 +5,7 @@ use super::decimal::Decimal;
 use super::engine::Q15_CONCEPTS;
 use super::map::MapFile;
 use super::paths::{Shares, shares};
-use super::told::Told;
+use super::reported::ReportedIntent;
 use crate::error::{MapFileError, Result, UsageError};
 use serde_json::{Value, json};
 use taxel_core::format::Q15;
@@ -31,11 +31,12 @@ pub fn explain(file: &MapFile, inputs: &[(String, Decimal)], of: Option<&str>) -
 }
 
 /// Explains a board's report, from its final state instead of a new inference.
-pub fn explain_told(told: &Told, of: Option<&str>) -> Result<Explained> {
-    let leading = Some(told.report.leading).filter(|leading| *leading != Leading::None);
-    let explained = explain_state(&told.map, &told.report.concepts, of.or(leading.map(Leading::as_str)))?;
+pub fn explain_reported(reported: &ReportedIntent, of: Option<&str>) -> Result<Explained> {
+    let leading = Some(reported.report.leading).filter(|leading| *leading != Leading::None);
+    let explained =
+        explain_state(&reported.map, &reported.report.concepts, of.or(leading.map(Leading::as_str)))?;
     let Inference { state, .. } = explained.run;
-    let run = Inference { state, steps: told.report.steps, outcome: told.report.outcome };
+    let run = Inference { state, steps: reported.report.steps, outcome: reported.report.outcome };
     Ok(Explained { run, ..explained })
 }
 

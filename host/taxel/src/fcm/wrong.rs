@@ -1,8 +1,8 @@
 //! Errors about a map, with their place in its file.
 
 use crate::error::{Error, ErrorKind, MapFileError};
-use crate::tell::toml_key::line_in;
-use crate::tell::words::Step;
+use crate::text::toml_key::line_in;
+use crate::text::words::Step;
 use std::fmt::Display;
 
 /// Error about the value at the end of these steps from the top of the file.

@@ -4,7 +4,7 @@ mod key;
 
 use super::input;
 use crate::error::{Context, Error, Result, SettingError, UsageError};
-use crate::tell::{toml_key, words};
+use crate::text::{toml_key, words};
 use std::fmt::Display;
 use std::path::Path;
 use taxel_core::garment::{Garment, GarmentError};
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn a_garment_that_is_not_known_is_told_with_the_nearest() {
+    fn a_garment_that_is_not_known_is_reported_with_the_nearest() {
         let why = read("refrence").unwrap_err().to_string();
         assert!(
             why.starts_with("there is no garment \"refrence\": did you mean \"reference\"? Known are"),

@@ -1,7 +1,7 @@
 //! Files that are read. A device need not end, and a FIFO waits for whoever writes into it: both are refused.
 
 use crate::error::FileError;
-use crate::tell::verbose;
+use crate::text::verbose;
 use std::fs::{File, FileType, metadata};
 use std::io::Read;
 use std::path::Path;

@@ -4,7 +4,7 @@
 use super::{garments, input};
 use crate::error::{Context, Result, SettingError, UsageError};
 use crate::sim::{self, FULL_SCALE, Pressure, Script};
-use crate::tell::words;
+use crate::text::words;
 use std::path::{Path, absolute};
 use taxel_core::garment::{Garment, Layout};
 use toml::{Table, Value};
@@ -126,14 +126,14 @@ mod tests {
     #[test]
     fn paths_in_a_script_are_relative_to_its_folder() {
         let folder = std::env::temp_dir().join(format!("taxel-scripts-{}", std::process::id()));
-        std::fs::create_dir_all(folder.join("worn")).unwrap();
+        std::fs::create_dir_all(folder.join("own")).unwrap();
         let mine = Garment { name: taxel_core::format::name("mine"), ..Garment::block() };
-        std::fs::write(folder.join("worn/mine.toml"), garments::text(&mine, "").unwrap()).unwrap();
+        std::fs::write(folder.join("own/mine.toml"), garments::text(&mine, "").unwrap()).unwrap();
         let path = folder.join("touch.toml");
-        std::fs::write(&path, "duration_s = 1\ngarment = \"worn/mine.toml\"\n").unwrap();
+        std::fs::write(&path, "duration_s = 1\ngarment = \"own/mine.toml\"\n").unwrap();
         let script = load(path.to_str().unwrap()).unwrap();
         assert_eq!(garment(&script).unwrap(), mine);
-        let absolute = Script { garment: folder.join("worn/mine.toml").display().to_string(), ..script };
+        let absolute = Script { garment: folder.join("own/mine.toml").display().to_string(), ..script };
         assert_eq!(garment(&absolute).unwrap(), mine);
         std::fs::remove_dir_all(folder).unwrap();
         assert_eq!(garment(&load("pat").unwrap()).unwrap(), Garment::reference());

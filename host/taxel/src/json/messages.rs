@@ -6,8 +6,8 @@
 
 use super::contact::ContactLine;
 use super::lines::{
-    AnswerLine, BackLine, ContactsLine, DoubtLine, FoldsLine, FrameLine, GestureLine, HealthMapLine,
-    HelloLine, HelloPanel, IllTaxel, IntentLine, JsonLine, LogLine, LostLine, OtherLine, PinFaultLine,
+    AnswerLine, BackLine, ContactsLine, DoubtLine, FaultyTaxel, FoldsLine, FrameLine, GestureLine,
+    HealthMapLine, HelloLine, HelloPanel, IntentLine, JsonLine, LogLine, LostLine, OtherLine, PinFaultLine,
     RawLine, ReactionLine, ReflexLine, RefusedLine, RegionLine, RegionsLine, SelfTestLine, ShapesLine,
     StartLine, StartOfFrameLine, SurfaceRegionLine, SymbolLine, SymbolsLine, SyncLine, TemperatureLine,
     UnusableLine, WordsLine,
@@ -84,9 +84,10 @@ fn of_board<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             celsius: measured.celsius.to_f64(),
         }),
         Event::HealthMap { time, whole } => {
-            let ill = client.ill().iter();
-            let ill = ill.map(|(taxel, health)| IllTaxel { taxel: *taxel, health: health.to_string() });
-            JsonLine::HealthMap(HealthMapLine { time_us: time.0, whole: *whole, ill: ill.collect() })
+            let faulty = client.faulty().iter();
+            let faulty =
+                faulty.map(|(taxel, health)| FaultyTaxel { taxel: *taxel, health: health.to_string() });
+            JsonLine::HealthMap(HealthMapLine { time_us: time.0, whole: *whole, faulty: faulty.collect() })
         }
         Event::SelfTest(report) => JsonLine::SelfTest(self_test(report)),
         Event::Log { time, level, text } | Event::Note { time, level, text } => {
@@ -114,9 +115,9 @@ fn of_board<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
 }
 
 fn hello(client: &Client) -> Option<HelloLine<'_>> {
-    let worn = client.worn()?;
-    let regions = worn.layout.regions();
-    let panels = worn.layout.areas().iter().map(|area| HelloPanel {
+    let description = client.description()?;
+    let regions = description.layout.regions();
+    let panels = description.layout.areas().iter().map(|area| HelloPanel {
         name: area.name.as_str(),
         link: area.link.as_str(),
         region: regions.get(usize::from(area.region)).map_or("", Name::as_str),
@@ -125,15 +126,19 @@ fn hello(client: &Client) -> Option<HelloLine<'_>> {
         pitch_um: area.pitch_um,
     });
     Some(HelloLine {
-        time_us: worn.clock.0,
-        firmware: &worn.firmware,
-        chip: &worn.chip,
-        simulated: worn.is_simulated(),
-        garment: worn.garment.name.as_str(),
-        scene: worn.scene.name.as_str(),
-        calibration: &worn.calibration,
-        boot: worn.boot.map(|boot| StartLine { cause: boot.cause, resets: boot.resets, aside: boot.aside }),
-        taxels: worn.layout.taxels(),
+        time_us: description.clock.0,
+        firmware: &description.firmware,
+        chip: &description.chip,
+        simulated: description.is_simulated(),
+        garment: description.garment.name.as_str(),
+        scene: description.scene.name.as_str(),
+        calibration: &description.calibration,
+        boot: description.boot.map(|boot| StartLine {
+            cause: boot.cause,
+            resets: boot.resets,
+            aside: boot.aside,
+        }),
+        taxels: description.layout.taxels(),
         regions: regions.iter().map(Name::as_str).collect(),
         panels: panels.collect(),
     })

@@ -101,7 +101,7 @@ fn meaning(garment: &Garment, found: &PinFault) -> String {
             None => "the multiplexers are always enabled, or never".into(),
         },
         Fault::Bridged(other) => format!(
-            "the two cannot be told apart; whatever distinguishes it from GPIO {other} ({}) is misread",
+            "the two cannot be distinguished; whatever distinguishes it from GPIO {other} ({}) is misread",
             place(garment, other)
         ),
         Fault::Open => "nothing is connected to it: its codes are not pressure".into(),

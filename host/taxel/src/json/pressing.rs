@@ -44,7 +44,7 @@ pub fn computed<'a>(
     surface: &'a Surface,
 ) -> Option<PressingLine<'a>> {
     let (frame, image) = client.image().filter(|(_, image)| image.len() == surface.places().len())?;
-    let low = client.worn().map_or(1, |worn| worn.scene.contact.low);
+    let low = client.description().map_or(1, |description| description.scene.contact.low);
     let counts = |force: DVec3| force.to_array().map(|part| part.round() as i32);
     let name = |link: usize| surface.links().get(link).map_or("", String::as_str);
     let contact = |Placed { contact, .. }: &Placed| {

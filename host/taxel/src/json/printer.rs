@@ -85,11 +85,12 @@ impl<W: Write> Observer for MessagePrinter<W> {
 
 /// Forces on each panel and of each contact, N; none if the board uses another calibration.
 fn forces(client: &Client, calibration: &Calibration) -> Option<[Vec<Option<f64>>; 2]> {
-    let (worn, (_, image)) = (client.worn()?, client.image()?);
-    let meter =
-        Forces::new(calibration, &worn.layout).ok().filter(|_| calibration.is_in_force(&worn.calibration))?;
-    let contact = |placed: &Placed| meter.contact(&worn.layout, image, &placed.contact.bounds);
-    Some([meter.panels(&worn.layout, image), client.contacts().iter().map(contact).collect()])
+    let (description, (_, image)) = (client.description()?, client.image()?);
+    let meter = Forces::new(calibration, &description.layout)
+        .ok()
+        .filter(|_| calibration.is_in_force(&description.calibration))?;
+    let contact = |placed: &Placed| meter.contact(&description.layout, image, &placed.contact.bounds);
+    Some([meter.panels(&description.layout, image), client.contacts().iter().map(contact).collect()])
 }
 
 /// Pressures of the image by panel and row.

@@ -3,7 +3,7 @@
 /// Number of frames at the start of a recording that a transient may spoil.
 const FIRST: usize = 3;
 
-/// Least number of frames by which a transient can be told from a touch.
+/// Least number of frames by which a transient can be distinguished from a touch.
 const FEWEST: usize = 8;
 
 /// Factor by which the total of a transient exceeds that of any later frame.
@@ -67,18 +67,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_start_up_is_told_and_a_touch_at_the_beginning_is_not() {
-        let told = |totals: &[u16]| {
+    fn a_start_up_is_reported_and_a_touch_at_the_beginning_is_not() {
+        let reported = |totals: &[u16]| {
             let frames: Vec<Vec<u16>> = totals.iter().map(|total| vec![*total, 1]).collect();
             start_ups([("a".to_string(), frames.iter().map(Vec::as_slice))].into_iter())
         };
-        let spoilt = told(&[6, 2200, 70, 71, 72, 73, 70, 71]).unwrap();
+        let spoilt = reported(&[6, 2200, 70, 71, 72, 73, 70, 71]).unwrap();
         assert!(
             spoilt.starts_with("a: frame 1 has 29 times the total of any frame after the third"),
             "{spoilt}"
         );
-        assert_eq!(told(&[80, 90, 85, 71, 40, 12, 12, 12]), None);
-        assert_eq!(told(&[6, 2200, 70, 71, 72, 73, 70]), None, "too short to tell");
+        assert_eq!(reported(&[80, 90, 85, 71, 40, 12, 12, 12]), None);
+        assert_eq!(reported(&[6, 2200, 70, 71, 72, 73, 70]), None, "too short to say");
         let two = [vec![vec![9u16]; 8], [vec![vec![900]], vec![vec![9]; 7]].concat()];
         let named = two.iter().enumerate().map(|(n, r)| (n.to_string(), r.iter().map(Vec::as_slice)));
         assert!(start_ups(named).unwrap().starts_with("1 of 2 recordings, 1: frame 0 has 100 times"));

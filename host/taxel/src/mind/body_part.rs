@@ -49,7 +49,7 @@ pub fn parts_of(inputs: &[RobotInput]) -> Vec<PartWords> {
             | RobotSource::Slide(part)
             | RobotSource::Stir(part) => &[part],
             RobotSource::Apart(first, second) => &[first, second],
-            RobotSource::Intent(_) | RobotSource::Own | RobotSource::Told(_) => &[],
+            RobotSource::Intent(_) | RobotSource::Own | RobotSource::HostInput(_) => &[],
         };
         for part in named {
             if !parts.contains(part) {

@@ -30,9 +30,9 @@ pub struct FeltContact {
     pub at_mm: [f64; 2],
 }
 
-/// What a board wears, as far as the mind needs it.
+/// The garment of a board, as far as the mind needs it.
 #[derive(Debug, Clone)]
-pub struct WornMind {
+pub struct BoardPlacement {
     /// All places of the body that its garment covers.
     pub places: Vec<Arc<BodyPlace>>,
     /// The map of its scene; none if it has none.
@@ -43,7 +43,7 @@ pub struct WornMind {
 #[derive(Debug, Clone)]
 pub enum BoardSense {
     /// It begins, or has another garment or scene.
-    Begins(WornMind),
+    Begins(BoardPlacement),
     /// Its contacts.
     Contacts(Vec<FeltContact>),
     /// Its intention.
@@ -82,23 +82,23 @@ impl MindReader {
         }
     }
 
-    fn begin(&mut self, client: &Client) -> Option<WornMind> {
-        let worn = client.worn()?;
-        self.places = BoardPlaces::of(&self.board, worn);
-        let map = worn.scene.intent.as_ref().map(|intent| Arc::new(MapFile::from_config(&intent.map)));
-        Some(WornMind { places: self.places.all(), map })
+    fn begin(&mut self, client: &Client) -> Option<BoardPlacement> {
+        let description = client.description()?;
+        self.places = BoardPlaces::of(&self.board, description);
+        let map = description.scene.intent.as_ref().map(|intent| Arc::new(MapFile::from_config(&intent.map)));
+        Some(BoardPlacement { places: self.places.all(), map })
     }
 
     fn felt(&self, client: &Client, contact: &BoardContact) -> Option<FeltContact> {
-        let worn = client.worn()?;
-        let pitch_um = worn.layout.areas().get(usize::from(contact.panel))?.pitch_um;
+        let description = client.description()?;
+        let pitch_um = description.layout.areas().get(usize::from(contact.panel))?.pitch_um;
         // A pitch that is not known is taken as 10 mm.
         let [x_mm, y_mm] = pitch_um.map(|um| if um == 0 { 10.0 } else { f64::from(um) * 1e-3 });
         let scaled = |counts: u32| match contact.newtons_per_count {
             Some(newtons) => (newtons * f64::from(counts) * 1e3).round() as u32,
             None => counts,
         };
-        let (place, spot) = self.places.at(worn, contact.panel, contact.centroid)?;
+        let (place, spot) = self.places.at(description, contact.panel, contact.centroid)?;
         Some(FeltContact {
             contact: contact.id,
             place,

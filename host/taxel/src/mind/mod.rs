@@ -8,7 +8,7 @@
 //! | `speeds.rs` | [`LinkSpeeds`]: how fast the robot's own links move |
 //! | `mover.rs` | [`Mover`]: whose motion has caused a touch |
 //! | `probe.rs` | [`Probe`]: what a limb feels of what it moves into |
-//! | `told.rs` | [`ToldLine`]: what others know |
+//! | `host_input.rs` | [`HostInputLine`]: what others know |
 //! | `sensed_board.rs` | [`SensedTouch`]: what one board has said, and whose motion has caused it |
 //! | `senses.rs` | [`Senses`]: the newest of all of these, each with its age |
 //! | `robot_mind.rs` | [`RobotMind`]: the map of the robot over its senses |
@@ -24,6 +24,7 @@
 
 mod body_part;
 mod felt;
+mod host_input;
 mod intent_ros2;
 mod line;
 mod mover;
@@ -35,10 +36,12 @@ mod robot_mind;
 mod sensed_board;
 mod senses;
 mod speeds;
-mod told;
 mod virtual_robot;
 
-pub use felt::{BoardSense, FeltContact, MindReader, WornMind};
+pub use felt::{BoardPlacement, BoardSense, FeltContact, MindReader};
+#[cfg(feature = "schema")]
+pub use host_input::host_input_schema;
+pub use host_input::{HOST_INPUT, HOST_INPUT_SCHEMA, HostInputLine, HostInputMessage};
 pub use intent_ros2::robot_intent_message;
 #[cfg(feature = "schema")]
 pub use line::robot_intent_schema;
@@ -52,7 +55,4 @@ pub use robot_mind::{RobotMeaning, RobotMind};
 pub use sensed_board::SensedTouch;
 pub use senses::{SenseCause, SensedValue, Senses};
 pub use speeds::{LinkSpeeds, LinksAt};
-#[cfg(feature = "schema")]
-pub use told::robot_told_schema;
-pub use told::{ROBOT_TOLD, ROBOT_TOLD_SCHEMA, RobotToldLine, ToldLine};
 pub use virtual_robot::VirtualRobot;

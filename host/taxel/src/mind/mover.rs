@@ -1,7 +1,7 @@
 //! Whose motion has caused a touch: the robot's own, or that of what touches it.
 //!
 //! Before its onset, the touched surface moves along its normal if the robot bumps into something, and does
-//! not if it is touched. The velocity follows from the joints that are told. If both move, the robot's motion
+//! not if it is touched. The velocity follows from the joints that are sent. If both move, the robot's motion
 //! shows and the other's does not: such a touch is taken for the robot's own from its speed on.
 
 use super::speeds::{LinkSpeeds, LinksAt};
@@ -17,8 +17,8 @@ const STILL_M_S: f64 = 0.008;
 /// is another.
 const INTO: f64 = 0.3;
 const ALONG: f64 = 0.25;
-/// Time before the onset within which the greatest speed counts, us: a bump stops the link, and a board tells
-/// of a contact some frames later.
+/// Time before the onset within which the greatest speed counts, us: a bump stops the link, and a board reports
+/// a contact some frames later.
 const BEFORE_US: u64 = 80_000;
 /// Time over which a speed is taken, us.
 const OVER_US: u64 = 20_000;
@@ -39,7 +39,7 @@ pub enum Mover {
     Own,
     /// That of what touches it.
     Other,
-    /// It moved too slowly to tell, or nothing is known of its motion or of the surface.
+    /// It moved too slowly to be sure, or nothing is known of its motion or of the surface.
     Unsure,
 }
 

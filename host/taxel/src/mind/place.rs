@@ -2,7 +2,7 @@
 
 use super::mover::SurfaceSpot;
 use crate::body::Surface;
-use crate::client::Worn;
+use crate::client::BoardDescription;
 use crate::robot::RobotBoard;
 use std::sync::Arc;
 
@@ -35,9 +35,9 @@ pub struct BoardPlaces {
 }
 
 impl BoardPlaces {
-    /// Of a board that wears this; with a surface if the body of its file fits the garment.
-    pub fn of(board: &RobotBoard, worn: &Worn) -> BoardPlaces {
-        let layout = &worn.layout;
+    /// Of a board with this garment; with a surface if the body of its file fits the garment.
+    pub fn of(board: &RobotBoard, description: &BoardDescription) -> BoardPlaces {
+        let layout = &description.layout;
         let place = |area: &taxel_core::garment::Area| {
             let region = layout.regions().get(usize::from(area.region));
             let link = board.link.clone().unwrap_or_else(|| area.link.to_string());
@@ -45,7 +45,7 @@ impl BoardPlaces {
         };
         let panels = layout.areas().iter().map(place).collect();
         let body = board.body.as_deref().and_then(|body| crate::body::read(body).ok());
-        let surface = body.and_then(|body| body.surface(&worn.garment, layout).ok());
+        let surface = body.and_then(|body| body.surface(&description.garment, layout).ok());
         let mut places = BoardPlaces { panels, surface: None, spots: Vec::new() };
         for (taxel, spot) in surface.iter().flat_map(|surface| surface.places().iter().enumerate()) {
             let (Some(spot), Some(surface), Some(at)) = (spot, &surface, layout.place(taxel)) else {
@@ -66,11 +66,11 @@ impl BoardPlaces {
     /// Place of a point of a panel, `(x, y)` in taxels, and the point of the surface if the board has a body.
     pub fn at(
         &self,
-        worn: &Worn,
+        description: &BoardDescription,
         panel: u8,
         [x, y]: [f64; 2],
     ) -> Option<(Arc<BodyPlace>, Option<SurfaceSpot>)> {
-        let spot = self.surface.as_ref().and_then(|surface| surface.at(&worn.layout, panel, x, y));
+        let spot = self.surface.as_ref().and_then(|surface| surface.at(&description.layout, panel, x, y));
         let on_surface = spot.and_then(|spot| {
             let mut spots = self.spots.iter();
             spots.find(|(link, region, _)| (*link, *region) == (spot.link, spot.region))

@@ -100,7 +100,7 @@ impl ProbeCourse {
         }
         if let Some(depth_mm) = depth_mm {
             self.deepest_mm = self.deepest_mm.max(depth_mm);
-            // Before the onset was told, it was a little deeper already: that much a soft thing seems harder.
+            // Before the onset was reported, it was a little deeper already: that much a soft thing seems harder.
             if self.deepest_mm >= DEEP_MM || self.most >= PRESSED {
                 let hardness = f64::from(self.most) / self.deepest_mm.max(DEEP_MM);
                 self.probe.hardness = Some(hardness.round() as u32);

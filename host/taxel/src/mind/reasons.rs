@@ -3,9 +3,9 @@
 use super::robot_mind::{RobotMeaning, RobotMind};
 use super::senses::SenseCause;
 use crate::error::Result;
+use crate::fcm::reported::ReportedIntent;
 use crate::fcm::robot_source::RobotSource;
-use crate::fcm::told::Told;
-use crate::fcm::why::{self, Explained, explain_told};
+use crate::fcm::why::{self, Explained, explain_reported};
 use crate::robot::ReadRobot;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -15,13 +15,13 @@ use taxel_core::wire::IntentReport;
 /// Why a concept of a robot's map has its activation.
 pub struct RobotReasons {
     /// The map's report, and the map.
-    pub told: Told,
+    pub reported: ReportedIntent,
     /// The explanation of the concept.
     pub explained: Explained,
     /// Each input: its concept, source, value, age (none: the default), and what it consists of.
     pub inputs: Vec<ReasonInput>,
     /// Of each board that announces what counts: its name, its report and the explanation of that.
-    pub boards: Vec<(String, Told, Explained)>,
+    pub boards: Vec<(String, ReportedIntent, Explained)>,
 }
 
 /// What an input of the map heard.
@@ -45,8 +45,8 @@ impl RobotReasons {
         let RobotMeaning { host_us, leading, outcome, steps, activations, heard, .. } = mind.meaning_now();
         let concepts = activations.into_iter().collect();
         let report = IntentReport { frame: 0, time: Micros(host_us), leading, outcome, steps, concepts };
-        let told = Told { map: mind.map().clone(), report, seconds };
-        let explained = explain_told(&told, of)?;
+        let reported = ReportedIntent { map: mind.map().clone(), report, seconds };
+        let explained = explain_reported(&reported, of)?;
         let mut inputs = Vec::new();
         let mut spoken = BTreeSet::new();
         for (input, heard) in mind.inputs().iter().zip(&heard) {
@@ -57,22 +57,22 @@ impl RobotReasons {
             let (concept, source) = (input.concept.clone(), input.source.clone());
             inputs.push(ReasonInput { concept, source, value: heard.value, age_ms: heard.age_ms, causes });
         }
-        let board = |number: usize| -> Option<Result<(String, Told, Explained)>> {
+        let board = |number: usize| -> Option<Result<(String, ReportedIntent, Explained)>> {
             let report = mind.senses().report(number)?.clone();
-            let map = mind.senses().worn(number)?.map.as_deref()?.clone();
-            let told = Told { map, report, seconds };
+            let map = mind.senses().placement(number)?.map.as_deref()?.clone();
+            let reported = ReportedIntent { map, report, seconds };
             let name = robot.boards.get(number)?.name.clone();
-            Some(explain_told(&told, None).map(|explained| (name, told, explained)))
+            Some(explain_reported(&reported, None).map(|explained| (name, reported, explained)))
         };
         let boards = spoken.into_iter().filter_map(board).collect::<Result<_>>()?;
-        Ok(RobotReasons { told, explained, inputs, boards })
+        Ok(RobotReasons { reported, explained, inputs, boards })
     }
 
     /// Readable form; `most` paths of each map.
     pub fn text(&self, robot: &ReadRobot, most: usize) -> String {
-        let leading = self.told.report.leading.as_str();
-        let mut text = format!("after {:.3} s: {leading} leads\n", self.told.seconds);
-        text += &why::text(&self.told.map, &self.explained, None, most);
+        let leading = self.reported.report.leading.as_str();
+        let mut text = format!("after {:.3} s: {leading} leads\n", self.reported.seconds);
+        text += &why::text(&self.reported.map, &self.explained, None, most);
         text += "what it heard\n";
         for input in &self.inputs {
             let age =
@@ -82,9 +82,9 @@ impl RobotReasons {
                 text += &format!("    {}\n", self.cause(robot, cause));
             }
         }
-        for (name, told, explained) in &self.boards {
+        for (name, reported, explained) in &self.boards {
             text += &format!("board {name}\n");
-            let why = told.text() + &why::text(&told.map, explained, None, most);
+            let why = reported.text() + &why::text(&reported.map, explained, None, most);
             text.extend(why.lines().map(|line| format!("  {line}\n")));
         }
         text
@@ -120,15 +120,15 @@ impl RobotReasons {
                 "causes": input.causes.iter().map(cause).collect::<Value>(),
             })
         });
-        let boards = self.boards.iter().map(|(name, told, explained)| {
+        let boards = self.boards.iter().map(|(name, reported, explained)| {
             let mut value = why::report(explained, None);
             value["board"] = name.as_str().into();
-            value["leading"] = told.report.leading.as_str().into();
+            value["leading"] = reported.report.leading.as_str().into();
             value
         });
         let mut value = why::report(&self.explained, None);
-        value["leading"] = self.told.report.leading.as_str().into();
-        value["seconds"] = self.told.seconds.into();
+        value["leading"] = self.reported.report.leading.as_str().into();
+        value["seconds"] = self.reported.seconds.into();
         value["heard"] = heard.collect();
         value["boards"] = boards.collect();
         value
@@ -150,6 +150,6 @@ fn said(source: &RobotSource) -> String {
         RobotSource::Slide(of) => format!("sliding of what {} moved into", part(of)),
         RobotSource::Stir(of) => format!("stirring of what {} moved into", part(of)),
         RobotSource::Own => "share by the robot's own motion".into(),
-        RobotSource::Told(name) => format!("told as {name}"),
+        RobotSource::HostInput(name) => format!("host input {name}"),
     }
 }

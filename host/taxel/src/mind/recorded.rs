@@ -1,9 +1,9 @@
-//! The mind of a robot whose boards are recorded: what it means, and what it was told, are in the recording.
+//! The mind of a robot whose boards are recorded: what it means, and what it was sent, are in the recording.
 
 use super::felt::BoardSense;
+use super::host_input::{HOST_INPUT, HOST_INPUT_SCHEMA, HostInputLine, HostInputMessage};
 use super::line::{ROBOT_INTENT, ROBOT_INTENT_SCHEMA, RobotMeaningLine};
 use super::robot_mind::{RobotMeaning, RobotMind};
-use super::told::{ROBOT_TOLD, ROBOT_TOLD_SCHEMA, RobotToldLine, ToldLine};
 use crate::error::Result;
 use crate::record::{Recorder, RobotTopic};
 use crate::robot::RobotEvent;
@@ -13,19 +13,19 @@ use crate::robot::RobotEvent;
 pub struct RecordedMind {
     mind: RobotMind,
     intent: RobotTopic,
-    told: RobotTopic,
+    input: RobotTopic,
 }
 
 impl RecordedMind {
-    /// Adds the topics `/taxel/robot_intent` and `/taxel/robot_told` to a recording. Error as of
+    /// Adds the topics `/taxel/robot_intent` and `/taxel/host_input` to a recording. Error as of
     /// [`Recorder::topic`].
     pub fn begin(mind: RobotMind, recorder: &Recorder) -> Result<RecordedMind> {
         let intent = recorder.topic(ROBOT_INTENT, ROBOT_INTENT_SCHEMA)?;
-        let told = recorder.topic(ROBOT_TOLD, ROBOT_TOLD_SCHEMA)?;
-        Ok(RecordedMind { mind, intent, told })
+        let input = recorder.topic(HOST_INPUT, HOST_INPUT_SCHEMA)?;
+        Ok(RecordedMind { mind, intent, input })
     }
 
-    /// The mind, to be told what others know; what it says then is for [`RecordedMind::told`].
+    /// The mind, to be given what others know; what it says then is for [`RecordedMind::take_input`].
     pub fn mind(&mut self) -> &mut RobotMind {
         &mut self.mind
     }
@@ -43,16 +43,16 @@ impl RecordedMind {
         self.write(recorder, news.as_ref())
     }
 
-    /// Records what was told at a time of the host, us, and what touches meant then if that was news. Error as
+    /// Records what was reported at a time of the host, us, and what touches meant then if that was news. Error as
     /// of [`Recorder::line`].
-    pub fn told(
+    pub fn take_input(
         &self,
         recorder: &Recorder,
-        line: &ToldLine,
+        line: &HostInputLine,
         host_us: u64,
         news: Option<&RobotMeaning>,
     ) -> Result<()> {
-        recorder.line(self.told, host_us, &RobotToldLine::of(line, host_us))?;
+        recorder.line(self.input, host_us, &HostInputMessage::of(line, host_us))?;
         self.write(recorder, news)
     }
 

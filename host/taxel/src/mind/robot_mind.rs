@@ -1,14 +1,14 @@
 //! The mind: the robot's map over what it senses.
 
 use super::felt::BoardSense;
+use super::host_input::{HostInputLine, fraction};
 use super::senses::{SensedValue, Senses};
 use super::speeds::LinkSpeeds;
-use super::told::{ToldLine, fraction};
 use crate::error::{Context, MapFileError, Result, UsageError};
 use crate::fcm::map::MapFile;
 use crate::fcm::robot_source::{RobotInput, RobotSource};
 use crate::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent};
-use crate::tell::words;
+use crate::text::words;
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{CONCEPTS, EDGES, Felt, Intent, IntentConfig, IntentState, Leading, Outcome};
 
@@ -178,20 +178,20 @@ impl RobotMind {
         self.pass(host_us)
     }
 
-    /// Takes what is told at a time of the host, us. Error, and nothing is taken, if the map hears nothing by
+    /// Takes what is reported at a time of the host, us. Error, and nothing is taken, if the map hears nothing by
     /// such a name, the robot has no such joint, or a value is out of its range.
-    pub fn tell(&mut self, line: &ToldLine, host_us: u64) -> Result<Option<&RobotMeaning>> {
+    pub fn take_input(&mut self, line: &HostInputLine, host_us: u64) -> Result<Option<&RobotMeaning>> {
         let from_us = line.from_us(host_us);
-        let mut told = Vec::new();
-        for (name, value) in &line.told {
+        let mut reported = Vec::new();
+        for (name, value) in &line.host_input {
             let known = self.inputs.iter().filter_map(|input| match &input.source {
-                RobotSource::Told(name) => Some(name.as_str()),
+                RobotSource::HostInput(name) => Some(name.as_str()),
                 _ => None,
             });
             if !known.clone().any(|known| known == name) {
-                fail!(UsageError::Unknown, "{}", words::unknown("name of what is told", name, known));
+                fail!(UsageError::Unknown, "{}", words::unknown("name of a host input", name, known));
             }
-            told.push((name, fraction(name, *value)?));
+            reported.push((name, fraction(name, *value)?));
         }
         if !line.positions.is_empty() {
             let Some(speeds) = self.senses.speeds() else {
@@ -199,14 +199,14 @@ impl RobotMind {
             };
             speeds.take(from_us, line.joints())?;
         }
-        told.into_iter().for_each(|(name, value)| self.senses.tell(name, value, from_us));
+        reported.into_iter().for_each(|(name, value)| self.senses.take_input(name, value, from_us));
         Ok(self.pass(host_us))
     }
 
     /// It is this time of the host, us: what is too old no longer counts. Returns what that means if it is
     /// news.
     pub fn pass(&mut self, host_us: u64) -> Option<&RobotMeaning> {
-        // Boards tell of times that are not in order.
+        // Boards report times that are not in order.
         self.now_us = self.now_us.max(host_us);
         self.thought_us = self.now_us;
         let (heard, now) = (self.hear(), Micros(self.now_us));

@@ -1,7 +1,7 @@
 //! What one board has said: its contacts, present and just ended, and what it announces.
 
 use super::body_part::{BodyPart, PartFlags};
-use super::felt::{FeltContact, WornMind};
+use super::felt::{BoardPlacement, FeltContact};
 use super::mover::{Approach, BasePlace, Mover};
 use super::place::BodyPlace;
 use super::probe::ProbeCourse;
@@ -15,18 +15,18 @@ use taxel_core::wire::IntentReport;
 /// Time for which a contact that has ended still counts, and within which its greatest force does, us: a
 /// board announces what a touch meant for 0.6 s, and the arms of a hug open one after the other.
 const HELD_US: u64 = 1_200_000;
-/// Time within which two contacts begin together, us; also that within which joints are told that were read
+/// Time within which two contacts begin together, us; also that within which joints are sent that were read
 /// before an onset.
 pub(super) const TOGETHER_US: u64 = 150_000;
 
 /// A contact that is present, or was until a moment ago.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensedTouch {
-    /// The contact, as it was told last.
+    /// The contact, as it was reported last.
     pub felt: FeltContact,
-    /// Host time at which it was first told, us.
+    /// Host time at which it was first reported, us.
     pub since_us: u64,
-    /// Host time at which it was no longer told, us; none while it is present.
+    /// Host time at which it was no longer reported, us; none while it is present.
     pub ended_us: Option<u64>,
     /// Its greatest load so far.
     pub most: u32,
@@ -40,9 +40,9 @@ pub struct SensedTouch {
     pub course: ProbeCourse,
     /// Parts of the body of which its place is.
     parts: PartFlags,
-    /// Where it was in the base when it was told last, and the host's time of that, us; none if it is not known.
+    /// Where it was in the base when it was reported last, and the host's time of that, us; none if it is not known.
     pub(super) in_base: Option<(BasePlace, u64)>,
-    /// Number of times that joints had been told when it was found whose motion has caused it.
+    /// Number of times that joints had been sent when it was found whose motion has caused it.
     judged: Option<u64>,
 }
 
@@ -65,7 +65,7 @@ impl SensedTouch {
         }
     }
 
-    /// Finds whose motion has caused it, unless nothing was told of the joints since that was found.
+    /// Finds whose motion has caused it, unless nothing was sent of the joints since that was found.
     fn judge(&mut self, speeds: Option<&LinkSpeeds>) {
         let taken = speeds.map(LinkSpeeds::taken);
         if taken.is_some() && taken == self.judged {
@@ -80,7 +80,7 @@ impl SensedTouch {
     }
 }
 
-/// When contacts are told, and what is known of the robot then.
+/// When contacts are reported, and what is known of the robot then.
 pub(super) struct ListedAt<'a> {
     /// The host's time, us.
     pub(super) host_us: u64,
@@ -97,7 +97,7 @@ pub(super) struct ListedAt<'a> {
 pub(super) struct SensedBoard {
     /// Host time of what it said last, us; none while it is not there.
     pub(super) heard_us: Option<u64>,
-    pub(super) worn: Option<WornMind>,
+    pub(super) placement: Option<BoardPlacement>,
     /// Its places, and the parts of the body of which each is.
     places: Vec<(Arc<BodyPlace>, PartFlags)>,
     /// Present contacts, and those that have ended within [`HELD_US`].
@@ -112,17 +112,17 @@ impl SensedBoard {
         timeout_ms.is_none_or(|timeout_ms| age_ms < timeout_ms).then_some(age_ms)
     }
 
-    /// A board that begins, and wears this.
-    pub(super) fn begin(worn: &WornMind, parts: &[PartWords]) -> SensedBoard {
+    /// A board that begins, with this garment.
+    pub(super) fn begin(placement: &BoardPlacement, parts: &[PartWords]) -> SensedBoard {
         let flags = |place: &Arc<BodyPlace>| (place.clone(), place.parts(parts));
-        let places = worn.places.iter().map(flags).collect();
-        SensedBoard { worn: Some(worn.clone()), places, ..SensedBoard::default() }
+        let places = placement.places.iter().map(flags).collect();
+        SensedBoard { placement: Some(placement.clone()), places, ..SensedBoard::default() }
     }
 
     /// The same board, lost: nothing that it said counts.
     pub(super) fn forget(&mut self) {
-        let (worn, places) = (self.worn.take(), std::mem::take(&mut self.places));
-        *self = SensedBoard { worn, places, ..SensedBoard::default() };
+        let (placement, places) = (self.placement.take(), std::mem::take(&mut self.places));
+        *self = SensedBoard { placement, places, ..SensedBoard::default() };
     }
 
     /// True if its garment covers some of this part.
@@ -140,10 +140,10 @@ impl SensedBoard {
         self.contacts.iter().filter(counts).filter(move |touch| touch.is_of(part))
     }
 
-    /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be told
+    /// Takes its present contacts. Whose motion has caused one is found anew while joints may still be sent
     /// that were read before.
-    pub(super) fn list(&mut self, contacts: &[FeltContact], told: &ListedAt<'_>) {
-        let ListedAt { speeds, links, host_us, .. } = *told;
+    pub(super) fn list(&mut self, contacts: &[FeltContact], reported: &ListedAt<'_>) {
+        let ListedAt { speeds, links, host_us, .. } = *reported;
         let is_recent =
             |touch: &SensedTouch| touch.ended_us.is_none_or(|ended| host_us.saturating_sub(ended) < HELD_US);
         self.contacts.retain(is_recent);
@@ -160,7 +160,7 @@ impl SensedBoard {
                 Some(touch) => {
                     let is_new = host_us.saturating_sub(touch.since_us) < TOGETHER_US;
                     if !Arc::ptr_eq(&touch.felt.place, &felt.place) {
-                        touch.parts = flags(&self.places, &felt.place, told.parts);
+                        touch.parts = flags(&self.places, &felt.place, reported.parts);
                     }
                     (touch.felt, touch.ended_us, touch.in_base) = (felt.clone(), None, in_base);
                     touch.most = touch.most.max(felt.load);
@@ -180,7 +180,7 @@ impl SensedBoard {
                         approach: None,
                         mover: Mover::Unsure,
                         course: ProbeCourse::begin(felt, links, host_us),
-                        parts: flags(&self.places, &felt.place, told.parts),
+                        parts: flags(&self.places, &felt.place, reported.parts),
                         in_base,
                         judged: None,
                     };
@@ -204,7 +204,7 @@ impl SensedBoard {
     /// Activation of the intention that it announces; none if it announces another.
     pub(super) fn announces(&self, leading: Leading) -> Option<Q15> {
         let report = self.report.as_ref().filter(|report| report.leading == leading)?;
-        let concepts = &self.worn.as_ref()?.map.as_ref()?.concept;
+        let concepts = &self.placement.as_ref()?.map.as_ref()?.concept;
         let at = concepts.iter().position(|concept| concept.name == leading.as_str())?;
         report.concepts.get(at).copied()
     }

@@ -1,8 +1,8 @@
-//! What a robot senses now: the newest of each board, of its joints and of what others tell, each with its
+//! What a robot senses now: the newest of each board, of its joints and of what others send, each with its
 //! age.
 
 use super::body_part::{BodyPart, parts_of};
-use super::felt::{BoardSense, WornMind};
+use super::felt::{BoardPlacement, BoardSense};
 use super::mover::{Mover, REACH_M};
 use super::place::BodyPlace;
 use super::probe::Probe;
@@ -58,7 +58,7 @@ pub struct Senses {
     boards: Vec<SensedBoard>,
     speeds: Option<LinkSpeeds>,
     /// Values by name, with the host's time from which they are, us.
-    told: BTreeMap<String, (Q15, u64)>,
+    reported: BTreeMap<String, (Q15, u64)>,
     /// Parts of the body that have a number.
     parts: Vec<PartWords>,
 }
@@ -70,7 +70,7 @@ impl Senses {
         Senses {
             boards: vec![SensedBoard::default(); boards],
             speeds,
-            told: BTreeMap::new(),
+            reported: BTreeMap::new(),
             parts: Vec::new(),
         }
     }
@@ -85,7 +85,7 @@ impl Senses {
         let Senses { boards, speeds, parts, .. } = self;
         let Some(sensed) = boards.get_mut(board) else { return };
         match sense {
-            BoardSense::Begins(worn) => *sensed = SensedBoard::begin(worn, parts),
+            BoardSense::Begins(placement) => *sensed = SensedBoard::begin(placement, parts),
             BoardSense::Contacts(contacts) => {
                 let speeds = speeds.as_ref();
                 let has_spot = contacts.iter().any(|felt| felt.spot.is_some());
@@ -120,9 +120,9 @@ impl Senses {
         }
     }
 
-    /// Takes what somebody tells by a name, of a time of the host, us.
-    pub fn tell(&mut self, name: &str, value: Q15, host_us: u64) {
-        self.told.insert(name.into(), (value, host_us));
+    /// Takes what somebody sends by a name, of a time of the host, us.
+    pub fn take_input(&mut self, name: &str, value: Q15, host_us: u64) {
+        self.reported.insert(name.into(), (value, host_us));
     }
 
     /// The robot's own links, if it has a description.
@@ -135,9 +135,9 @@ impl Senses {
         self.boards.get(board)?.report.as_deref()
     }
 
-    /// What a board wears, once it has begun.
-    pub fn worn(&self, board: usize) -> Option<&WornMind> {
-        self.boards.get(board)?.worn.as_ref()
+    /// The garment of a board, once it has begun.
+    pub fn placement(&self, board: usize) -> Option<&BoardPlacement> {
+        self.boards.get(board)?.placement.as_ref()
     }
 
     /// Value of an input at a time of the host, us.
@@ -197,7 +197,7 @@ impl Senses {
             | RobotSource::Point(_)
             | RobotSource::Slide(_)
             | RobotSource::Stir(_) => causes().next().map(|cause| (cause.value.into(), cause.age_ms)),
-            RobotSource::Motion(_) | RobotSource::Told(_) => {
+            RobotSource::Motion(_) | RobotSource::HostInput(_) => {
                 causes().next().map(|cause| (cause.value.into(), cause.age_ms))
             }
         }
@@ -282,12 +282,12 @@ impl Senses {
                 });
                 own.collect()
             }
-            RobotSource::Told(name) => {
-                let told = self.told.get(name).map(|(value, from_us)| {
+            RobotSource::HostInput(name) => {
+                let reported = self.reported.get(name).map(|(value, from_us)| {
                     let age_ms = u32::try_from(now_us.saturating_sub(*from_us) / 1000).unwrap_or(u32::MAX);
                     alone(value.0, age_ms)
                 });
-                told.filter(|told| is_young(&told.age_ms)).into_iter().collect()
+                reported.filter(|reported| is_young(&reported.age_ms)).into_iter().collect()
             }
         }
     }
@@ -295,7 +295,7 @@ impl Senses {
 
 /// Where the robot's own surfaces face each other and both are pressed, the robot touches itself, and one of
 /// them may be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of a board,
-/// which has just told them, and at all others; the links are there then, if that is known.
+/// which has just sent them, and at all others; the links are there then, if that is known.
 fn pair(boards: &mut [SensedBoard], board: usize, links: Option<&LinksAt<'_>>, now_us: u64) {
     let mut own = Vec::new();
     for (number, sensed) in boards.iter().enumerate() {
@@ -319,7 +319,7 @@ fn pair(boards: &mut [SensedBoard], board: usize, links: Option<&LinksAt<'_>>, n
     }
 }
 
-/// True if two touches cannot be near each other, by where they were when they were told last.
+/// True if two touches cannot be near each other, by where they were when they were reported last.
 fn is_far(touch: &SensedTouch, other: &SensedTouch, now_us: u64) -> bool {
     let (Some(((a, _), a_us)), Some(((b, _), b_us))) = (touch.in_base, other.in_base) else { return false };
     let passed_s = (now_us.abs_diff(a_us) + now_us.abs_diff(b_us)) as f64 * 1e-6;

@@ -16,12 +16,12 @@ const SILENT: Duration = Duration::from_millis(300);
 /// Distance from a link's origin at which its turning counts, m: half of a forearm.
 const REACH_M: f64 = 0.1;
 
-/// The joints of a robot as they are told, and the speeds of its links.
+/// The joints of a robot as they are sent, and the speeds of its links.
 #[derive(Debug, Clone)]
 pub struct LinkSpeeds {
     robot: Arc<Robot>,
     history: JointHistory,
-    told: BTreeSet<usize>,
+    reported: BTreeSet<usize>,
     /// Number of times that positions were taken.
     taken: u64,
 }
@@ -42,14 +42,14 @@ impl LinksAt<'_> {
 }
 
 impl LinkSpeeds {
-    /// Nothing is told yet.
+    /// Nothing is sent yet.
     pub fn new(robot: Arc<Robot>) -> Result<LinkSpeeds> {
         let mut history = JointHistory::new(robot.clone(), Motion::default())?;
         history.need(&[]);
-        Ok(LinkSpeeds { robot, history, told: BTreeSet::new(), taken: 0 })
+        Ok(LinkSpeeds { robot, history, reported: BTreeSet::new(), taken: 0 })
     }
 
-    /// Takes positions of joints, rad or m, at a time of the host, us. Joints that were never told rest.
+    /// Takes positions of joints, rad or m, at a time of the host, us. Joints that were never sent rest.
     /// Error, and nothing is taken, if the robot has no such joint or a position is out of its range.
     pub fn take<'a>(
         &mut self,
@@ -60,9 +60,9 @@ impl LinkSpeeds {
         self.taken += 1;
         for (name, _) in positions {
             let joint = self.robot.joint(name)?;
-            self.told.extend(self.robot.free().iter().position(|free| *free == joint));
+            self.reported.extend(self.robot.free().iter().position(|free| *free == joint));
         }
-        self.history.need(&Vec::from_iter(self.told.iter().copied()));
+        self.history.need(&Vec::from_iter(self.reported.iter().copied()));
         Ok(())
     }
 
@@ -73,7 +73,7 @@ impl LinkSpeeds {
 
     /// Where the links are at a time of the host, us; none if nothing is known of the joints at that time.
     pub fn at(&self, host_us: u64) -> Option<LinksAt<'_>> {
-        if self.told.is_empty() {
+        if self.reported.is_empty() {
             return None;
         }
         let estimate = self.history.live(Micros(host_us)).ok()?;
@@ -85,9 +85,9 @@ impl LinkSpeeds {
 
     /// Speed of the fastest of the links that are meant, mm/s, and the age of the joints, ms. The speed of a
     /// link is that of its origin, and of its turning at 0.1 m from there. None before two readings of each
-    /// joint that was told.
+    /// joint that was sent.
     pub fn fastest(&self, host_us: u64, is_meant: impl Fn(&str) -> bool) -> Option<(i32, u32)> {
-        if self.told.is_empty() {
+        if self.reported.is_empty() {
             return None;
         }
         let now = self.history.live(Micros(host_us)).ok()?;

@@ -29,12 +29,12 @@ impl VirtualRobot {
         let mut boards = Vec::new();
         for (number, board) in robot.boards.iter().enumerate() {
             let name = &board.name;
-            let Some(worn) = &board.garment else {
+            let Some(board_garment) = &board.garment else {
                 fail!(UsageError::Argument, "{}: board {name} has no `garment`", robot.file);
             };
             let scene = board.scene.as_ref().map_or_else(Scene::shipped, |file| file.scene.clone());
-            let mut stepped =
-                VirtualBoard::new(worn.garment.clone(), scene).with_context(|| format!("board {name}"))?;
+            let mut stepped = VirtualBoard::new(board_garment.garment.clone(), scene)
+                .with_context(|| format!("board {name}"))?;
             if let Some(frames) = board.tare.filter(|frames| *frames > 0) {
                 stepped.client().request(&Request::Tare { frames })?;
             }
@@ -52,7 +52,7 @@ impl VirtualRobot {
         }
     }
 
-    /// The mind, to be told what others know.
+    /// The mind, to be given what others know.
     pub fn mind(&mut self) -> &mut RobotMind {
         &mut self.mind
     }

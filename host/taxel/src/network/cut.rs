@@ -1,4 +1,4 @@
-//! Cuts a board's bytes into whole frames of the wire, and tells images apart.
+//! Cuts a board's bytes into whole frames of the wire, and distinguishes images.
 
 use super::stamp::PieceKind;
 use taxel_core::wire::Report;

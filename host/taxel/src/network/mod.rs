@@ -4,7 +4,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `place.rs` | [`BoardPlace`]: the name of a board, and its keys |
-//! | `cut.rs` | [`FrameCutter`]: cuts a board's bytes into whole frames, and tells images apart |
+//! | `cut.rs` | [`FrameCutter`]: cuts a board's bytes into whole frames, and distinguishes images |
 //! | `stamp.rs` | [`PieceKind`] and [`PieceStamp`]: how a frame travels, and where it belongs |
 //! | `piece.rs` | [`WirePiece`]: a frame on its way |
 //! | `order.rs` | [`PieceOrder`]: puts contacts and images back into the board's order |

@@ -7,7 +7,7 @@ use crate::error::{Error, Result, SourceError, UsageError};
 use crate::json;
 use crate::network::{self, BoardPlace, FrameCutter, PieceKind, PieceStamp};
 use crate::session::Observer;
-use crate::tell::verbose;
+use crate::text::verbose;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -21,8 +21,8 @@ use zenoh::{Session, Wait};
 
 /// Time in which another program that offers the board makes itself known.
 const RIVALS: Duration = Duration::from_secs(1);
-/// Most of them that are told of.
-const TOLD: usize = 64;
+/// Most of them that are reported.
+const MOST_REPORTED: usize = 64;
 
 /// An offered board: a receiver of its stream.
 pub struct BoardOffer {
@@ -36,7 +36,7 @@ pub struct BoardOffer {
     health_key: Publisher<'static>,
     state: OfferState,
     /// The state as JSON, for whoever asks.
-    told: Arc<Mutex<String>>,
+    reported: Arc<Mutex<String>>,
     asks: Arc<Asks>,
     /// There while the board is.
     token: Option<LivelinessToken>,
@@ -62,10 +62,10 @@ impl Wire {
         let publisher = session.declare_publisher(key).congestion_control(control).priority(priority);
         let publisher = publisher.express(kind == PieceKind::Main).wait()?;
         let is_watched = Arc::new(AtomicBool::new(publisher.matching_status().wait()?.matching()));
-        let told = is_watched.clone();
+        let reported = is_watched.clone();
         let listener = publisher.matching_listener();
         listener
-            .callback(move |status| told.store(status.matching(), Ordering::Relaxed))
+            .callback(move |status| reported.store(status.matching(), Ordering::Relaxed))
             .background()
             .wait()?;
         Ok(Wire { publisher, is_watched })
@@ -95,11 +95,11 @@ impl BoardOffer {
         publisher: u64,
         state: OfferState,
     ) -> zenoh::Result<BoardOffer> {
-        let (asks, told) = (Arc::new(Asks::default()), Arc::new(Mutex::new(line(&state))));
+        let (asks, reported) = (Arc::new(Asks::default()), Arc::new(Mutex::new(line(&state))));
         let taken = asks.clone();
         let queries =
             session.declare_queryable(place.ask(publisher)).callback(move |query| taken.push(query));
-        let (kept, key) = (told.clone(), place.state());
+        let (kept, key) = (reported.clone(), place.state());
         let states = session.declare_queryable(place.state()).callback(move |query| {
             let line = kept.lock().unwrap_or_else(PoisonError::into_inner).clone();
             drop(query.reply(&key, line).wait());
@@ -107,7 +107,7 @@ impl BoardOffer {
         let rivals = session
             .liveliness()
             .declare_subscriber(place.all_alive())
-            .callback(told_of_rivals(place.clone(), publisher));
+            .callback(note_rivals(place.clone(), publisher));
         let plain = |key: String| session.declare_publisher(key).priority(Priority::DataHigh).wait();
         Ok(BoardOffer {
             place: place.clone(),
@@ -119,7 +119,7 @@ impl BoardOffer {
             state_key: plain(place.state())?,
             health_key: plain(place.health())?,
             state,
-            told,
+            reported,
             asks,
             token: None,
             failed: None,
@@ -153,13 +153,13 @@ impl BoardOffer {
 
     /// The board is there: says so, and what it is.
     fn meet(&mut self, client: &Client) -> zenoh::Result<()> {
-        let Some(worn) = client.worn() else { return Ok(()) };
-        self.state.meet(worn);
-        self.tell_state()?;
+        let Some(description) = client.description() else { return Ok(()) };
+        self.state.meet(description);
+        self.send_state()?;
         if self.token.is_none() {
             let token = self.session.liveliness().declare_token(self.place.alive(self.publisher()));
             self.token = Some(token.wait()?);
-            verbose::tell(format_args!("{} is offered as {:016x}", self.place, self.publisher()));
+            verbose::print(format_args!("{} is offered as {:016x}", self.place, self.publisher()));
         }
         Ok(())
     }
@@ -168,13 +168,13 @@ impl BoardOffer {
     fn part(&mut self) -> zenoh::Result<()> {
         self.cutter.reset();
         self.state.live = false;
-        self.tell_state()?;
+        self.send_state()?;
         self.token.take().map_or(Ok(()), |token| token.undeclare().wait())
     }
 
-    fn tell_state(&mut self) -> zenoh::Result<()> {
+    fn send_state(&mut self) -> zenoh::Result<()> {
         let line = line(&self.state);
-        self.told.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&line);
+        self.reported.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&line);
         self.state_key.put(line).wait()
     }
 
@@ -191,8 +191,8 @@ impl Observer for BoardOffer {
         let done = match event {
             Event::Hello | Event::Back { .. } => self.meet(client),
             Event::Lost { .. } | Event::Other { .. } => self.part(),
-            Event::Health(_) => match json::line(client, event).map(|told| line(&told)) {
-                Some(told) => self.health_key.put(told).wait(),
+            Event::Health(_) => match json::line(client, event).map(|reported| line(&reported)) {
+                Some(reported) => self.health_key.put(reported).wait(),
                 None => Ok(()),
             },
             _ => Ok(()),
@@ -212,14 +212,14 @@ impl Observer for BoardOffer {
 }
 
 /// Says who else offers the board, each once.
-fn told_of_rivals(place: BoardPlace, publisher: u64) -> impl Fn(Sample) + Send + Sync {
-    let told = Mutex::new(Vec::new());
+fn note_rivals(place: BoardPlace, publisher: u64) -> impl Fn(Sample) + Send + Sync {
+    let reported = Mutex::new(Vec::new());
     move |sample| {
         let Some(id) = BoardPlace::publisher(sample.key_expr().as_str()) else { return };
-        let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_new = sample.kind() == SampleKind::Put && id != publisher && !told.contains(&id);
-        if is_new && told.len() < TOLD {
-            told.push(id);
+        let mut reported = reported.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_new = sample.kind() == SampleKind::Put && id != publisher && !reported.contains(&id);
+        if is_new && reported.len() < MOST_REPORTED {
+            reported.push(id);
             eprintln!(
                 "{place} is offered by another program, too ({id:016x}): whoever follows it stays with the one that \
                  it has."
@@ -245,8 +245,8 @@ fn refuse_second(session: &Session, place: &BoardPlace) -> Result<()> {
 }
 
 /// JSON in one line.
-fn line(told: &impl Serialize) -> String {
-    serde_json::to_string(told).unwrap_or_default()
+fn line(reported: &impl Serialize) -> String {
+    serde_json::to_string(reported).unwrap_or_default()
 }
 
 fn of_zenoh(why: &zenoh::Error) -> Error {

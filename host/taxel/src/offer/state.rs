@@ -1,6 +1,6 @@
 //! What an offered board is, as JSON for other programs.
 
-use crate::client::Worn;
+use crate::client::BoardDescription;
 use crate::network::BoardPlace;
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ pub struct OfferState {
     pub firmware: String,
     /// True of a simulated board.
     pub simulated: bool,
-    /// Name of the garment that it wears.
+    /// Name of its garment.
     pub garment: String,
     /// Number of taxels of the garment.
     pub taxels: usize,
@@ -48,13 +48,13 @@ impl OfferState {
     }
 
     /// The board is there, and is this.
-    pub fn meet(&mut self, worn: &Worn) {
+    pub fn meet(&mut self, description: &BoardDescription) {
         self.live = true;
-        self.firmware.clone_from(&worn.firmware);
-        self.simulated = worn.is_simulated();
-        self.garment = worn.garment.name.to_string();
-        self.taxels = worn.layout.taxels();
-        self.scene = worn.scene.name.to_string();
-        self.calibration.clone_from(&worn.calibration);
+        self.firmware.clone_from(&description.firmware);
+        self.simulated = description.is_simulated();
+        self.garment = description.garment.name.to_string();
+        self.taxels = description.layout.taxels();
+        self.scene = description.scene.name.to_string();
+        self.calibration.clone_from(&description.calibration);
     }
 }

@@ -66,21 +66,23 @@ impl BoardMessages {
         })
     }
 
-    /// Adds frames of the wire to the board, and as JSON what they tell it of the robot's posture.
+    /// Adds frames of the wire to the board, and as JSON what they say of the robot's posture.
     pub fn requests(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<()> {
         self.add_bytes(RecordTopic::Requests, stamp, bytes)?;
         for frame in bytes.split(|byte| *byte == 0) {
             let mut frame = frame.to_vec();
             match wire::open(&mut frame).and_then(wire::decode::<Request<'_>>) {
                 Ok(Request::Posture(posture)) => {
-                    // Before the board has told its scene, nobody knows which joints these are.
-                    let worn = client.worn();
-                    worn.map_or(Ok(()), |worn| self.posture(&posture, &worn.scene.joints, stamp))?;
+                    // Before the board has sent its scene, nobody knows which joints these are.
+                    let description = client.description();
+                    description.map_or(Ok(()), |description| {
+                        self.posture(&posture, &description.scene.joints, stamp)
+                    })?;
                 }
                 // What cannot be decoded are a program's own bytes, which the board refuses.
                 Ok(Request::SetPoses(poses)) => {
-                    let told = wire::decode::<Poses>(poses).ok();
-                    told.map_or(Ok(()), |poses| self.poses(&poses.links, stamp))?;
+                    let reported = wire::decode::<Poses>(poses).ok();
+                    reported.map_or(Ok(()), |poses| self.poses(&poses.links, stamp))?;
                 }
                 _ => {}
             }
@@ -106,9 +108,9 @@ impl BoardMessages {
 
     /// Adds a posture sent to the board; `names` are the scene's joints.
     fn posture(&mut self, posture: &Posture, names: &[Name], stamp: Stamp) -> Result<()> {
-        let joint = |told: &JointAngle| {
-            let name = names.get(usize::from(told.joint)).map_or("", |name| name.as_str());
-            JointLine { joint: name, degrees: f64::from(told.centidegrees) / 100.0 }
+        let joint = |reported: &JointAngle| {
+            let name = names.get(usize::from(reported.joint)).map_or("", |name| name.as_str());
+            JointLine { joint: name, degrees: f64::from(reported.centidegrees) / 100.0 }
         };
         let joints = posture.joints.iter().map(joint).collect();
         self.add_line("posture", stamp, PostureLine { time_us: stamp.board_us, joints })

@@ -22,7 +22,7 @@ pub struct Counters {
 }
 
 impl Counters {
-    /// Handles an event, and its time if the board has told it.
+    /// Handles an event, and its time if the board has reported it.
     pub fn take(&mut self, client: &Client, event: &Event, stamp: Option<Stamp>) {
         self.frames += u64::from(matches!(event, Event::Frame { .. }));
         self.tally[0] = Tally::of(client.counts());

@@ -5,7 +5,7 @@ use super::provenance::{self, Origin};
 use super::ros2_messages::{Ros2File, Ros2Messages};
 use super::topics::Topics;
 use crate::body::ReadBody;
-use crate::client::{Client, Event, Stamp, Worn};
+use crate::client::{BoardDescription, Client, Event, Stamp};
 use crate::error::Result;
 use crate::recording::{HELLO, Store, Writer, attachment_of};
 
@@ -36,7 +36,7 @@ impl<S: Store> RecordingFile<S> {
     pub fn attach(
         &mut self,
         part: &mut BoardPart,
-        worn: &Worn,
+        description: &BoardDescription,
         hello: &[u8],
         origin: &Origin,
         stamp: Stamp,
@@ -45,7 +45,7 @@ impl<S: Store> RecordingFile<S> {
         if !std::mem::replace(&mut part.says_what, true) {
             self.writer.attach(&attachment_of(name, HELLO), "application/octet-stream", hello, ns)?;
         }
-        provenance::attach(&mut self.writer, worn, origin, ns, name)
+        provenance::attach(&mut self.writer, description, origin, ns, name)
     }
 
     /// Writes the chunks of a board that are filled.

@@ -1,6 +1,6 @@
 //! Origin of a recording: its attachments and metadata.
 
-use crate::client::Worn;
+use crate::client::BoardDescription;
 use crate::error::Result;
 use crate::files::calibrate::Calibration;
 use crate::files::garments;
@@ -28,32 +28,37 @@ pub struct Origin {
 /// scale as metadata: of the file's only board, or of this one of a robot.
 pub fn attach<S: Store>(
     writer: &mut Writer<S>,
-    worn: &Worn,
+    description: &BoardDescription,
     origin: &Origin,
     ns: u64,
     board: Option<&str>,
 ) -> Result<()> {
     let named = |name: &str| attachment_of(board, name);
-    let garment = garments::text(&worn.garment, "the garment of a recording")?;
+    let garment = garments::text(&description.garment, "the garment of a recording")?;
     writer.attach(&named("garment.toml"), "application/toml", garment.as_bytes(), ns)?;
-    writer.attach(&named("scene.json"), "application/json", &serde_json::to_vec_pretty(&worn.scene)?, ns)?;
-    let geometry = serde_json::to_vec(&geometry(&worn.layout))?;
+    writer.attach(
+        &named("scene.json"),
+        "application/json",
+        &serde_json::to_vec_pretty(&description.scene)?,
+        ns,
+    )?;
+    let geometry = serde_json::to_vec(&geometry(&description.layout))?;
     writer.attach(&named("geometry.json"), "application/json", &geometry, ns)?;
     let scale = origin.counts_per_newton.map_or(String::new(), |counts| counts.to_string());
-    let calibration = origin.calibration.as_ref().filter(|made| made.is_in_force(&worn.calibration));
+    let calibration = origin.calibration.as_ref().filter(|made| made.is_in_force(&description.calibration));
     if let Some(made) = calibration {
         writer.attach(&named(CALIBRATION), "application/toml", made.text()?.as_bytes(), ns)?;
     }
     let words = [
         ("program", concat!("taxel ", env!("CARGO_PKG_VERSION")).to_string()),
-        ("firmware", worn.firmware.clone()),
-        ("simulated", worn.is_simulated().to_string()),
+        ("firmware", description.firmware.clone()),
+        ("simulated", description.is_simulated().to_string()),
         ("protocol", PROTOCOL.to_string()),
         ("source", origin.label.clone()),
         ("host", host()),
-        ("garment", worn.garment.name.to_string()),
-        ("scene", worn.scene.name.to_string()),
-        ("calibration", worn.calibration.clone()),
+        ("garment", description.garment.name.to_string()),
+        ("scene", description.scene.name.to_string()),
+        ("calibration", description.calibration.clone()),
         ("counts_per_newton", scale),
     ];
     let words = words.into_iter().chain(calibration.into_iter().flat_map(certified));

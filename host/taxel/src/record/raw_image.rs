@@ -15,8 +15,8 @@ const MESSAGE: u64 = 11;
 
 /// Appends the client's image; nothing without one. A position beside a lower panel is 0, as one without a taxel.
 pub fn append(client: &Client, stamp: Stamp, out: &mut Vec<u8>) {
-    let (Some(worn), Some((_, image))) = (client.worn(), client.image()) else { return };
-    let areas = worn.layout.areas();
+    let (Some(description), Some((_, image))) = (client.description(), client.image()) else { return };
+    let areas = description.layout.areas();
     let width: u32 = areas.iter().map(|area| u32::from(area.columns)).sum();
     let height = areas.iter().map(|area| area.rows).max().unwrap_or(0);
     let step = 2 * width;
@@ -33,7 +33,7 @@ pub fn append(client: &Client, stamp: Stamp, out: &mut Vec<u8>) {
     for row in 0..height {
         areas.iter().for_each(|area| append_row(out, area, row, image));
     }
-    bytes(out, 7, worn.garment.name.as_bytes());
+    bytes(out, 7, description.garment.name.as_bytes());
 }
 
 fn append_row(out: &mut Vec<u8>, area: &Area, row: u16, image: &[u16]) {

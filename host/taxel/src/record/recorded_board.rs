@@ -3,7 +3,7 @@
 use super::counters::Counters;
 use super::file::BoardPart;
 use super::provenance::Origin;
-use crate::client::{RetainedState, Worn};
+use crate::client::{BoardDescription, RetainedState};
 use std::time::Instant;
 
 /// State of a board's part of a recording.
@@ -26,8 +26,8 @@ pub struct RecordedBoard {
     /// Beginning of a file that continues another.
     pub retained: RetainedState,
     /// Garment and scene, as its file describes them.
-    pub worn: Option<Worn>,
-    /// True once it has told its time.
+    pub description: Option<BoardDescription>,
+    /// True once it has sent its time.
     pub is_timed: bool,
     /// Time since the file began at the last key frame, us of the board.
     pub key_us: u64,
@@ -47,7 +47,7 @@ impl RecordedBoard {
             counters: Counters::default(),
             kept: Instant::now(),
             retained: RetainedState::default(),
-            worn: None,
+            description: None,
             is_timed: false,
             key_us: 0,
             chunk_us: 0,

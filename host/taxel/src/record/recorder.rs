@@ -8,7 +8,7 @@ use super::recording::Recording;
 use super::recording_files::RecordingFiles;
 use super::robot_topic::RobotTopic;
 use crate::error::Result;
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use serde::Serialize;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex};

@@ -6,7 +6,7 @@ use super::recording_files::RecordingFiles;
 use crate::client::{Client, Event, RetainedState, Stamp, time_of};
 use crate::error::Result;
 use crate::recording;
-use crate::tell::progress::Progress;
+use crate::text::progress::Progress;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Most board time between two chunks for sources faster than real time, us, so that readers can seek to any
@@ -45,7 +45,7 @@ impl Recording {
             };
             format!("{}: {boards}, {:.2} MB", path.display(), bytes as f64 / 1e6)
         };
-        self.shown().told(board.counters.board_us(), line);
+        self.shown().show(board.counters.board_us(), line);
     }
 
     /// When to continue in another file.
@@ -79,8 +79,8 @@ impl Recording {
         board.counters.take(client, event, board.is_timed.then_some(stamp));
         if *event == Event::Hello {
             files.stay(board);
-            if client.worn() != board.worn.as_ref() {
-                board.worn = client.worn().cloned();
+            if client.description() != board.description.as_ref() {
+                board.description = client.description().cloned();
                 self.attach(board, client.line(), stamp)?;
             }
         }
@@ -95,7 +95,7 @@ impl Recording {
         board.part.event(client, event, stamp, board.origin.counts_per_newton)?;
         if matches!(event, Event::Other { .. }) && files.rotates().is_some() {
             // A file is of one board: the `Hello` of this one follows.
-            (board.retained, board.worn) = (RetainedState::default(), None);
+            (board.retained, board.description) = (RetainedState::default(), None);
             self.go_on(board)?;
         }
         match event {
@@ -152,8 +152,10 @@ impl Recording {
 
     /// Describes the board in its file.
     fn attach(&self, board: &mut RecordedBoard, hello: &[u8], stamp: Stamp) -> Result<()> {
-        let RecordedBoard { worn: Some(worn), origin, part, file, .. } = board else { return Ok(()) };
-        self.files.attach(*file, part, |file, part| file.attach(part, worn, hello, origin, stamp))
+        let RecordedBoard { description: Some(description), origin, part, file, .. } = board else {
+            return Ok(());
+        };
+        self.files.attach(*file, part, |file, part| file.attach(part, description, hello, origin, stamp))
     }
 }
 

@@ -66,7 +66,7 @@ impl<S: Store> Ros2File<S> {
 pub struct Ros2Messages {
     /// Name of the board in the robot; empty if it is alone.
     board: String,
-    /// Panels whose frames have been told.
+    /// Panels whose frames have been reported.
     areas: Vec<Area>,
     /// Where the panels lie on the robot.
     body: Option<ReadBody>,
@@ -99,14 +99,20 @@ impl Ros2Messages {
         }
     }
 
-    /// Frames of the panels, unless told already. Error if the body does not fit the garment.
+    /// Frames of the panels, unless reported already. Error if the body does not fit the garment.
     fn frames(&mut self, client: &Client, stamp: Stamp) -> Result<Option<Sent>> {
-        let Some(worn) = client.worn().filter(|worn| self.areas != worn.layout.areas()) else {
+        let Some(description) =
+            client.description().filter(|description| self.areas != description.layout.areas())
+        else {
             return Ok(None);
         };
-        let surface = self.body.as_ref().map(|body| body.surface(&worn.garment, &worn.layout)).transpose()?;
-        let data = messages::frames(&self.board, stamp.host_us, &worn.layout, surface.as_ref());
-        (self.areas, self.surface) = (worn.layout.areas().to_vec(), surface);
+        let surface = self
+            .body
+            .as_ref()
+            .map(|body| body.surface(&description.garment, &description.layout))
+            .transpose()?;
+        let data = messages::frames(&self.board, stamp.host_us, &description.layout, surface.as_ref());
+        (self.areas, self.surface) = (description.layout.areas().to_vec(), surface);
         let schema = "tf2_msgs/msg/TFMessage";
         Ok(Some(Sent { topic: "/tf_static".into(), schema, text: schemas::FRAMES, data }))
     }
@@ -145,7 +151,7 @@ impl Ros2Messages {
             }
             Event::Pressing(report) => self.pressing(report, stamp, scale),
             Event::Health(health) => {
-                vec![self.diagnostics(client, stamp, DiagnosticState::Reports(health, client.ill().len()))]
+                vec![self.diagnostics(client, stamp, DiagnosticState::Reports(health, client.faulty().len()))]
             }
             Event::Lost { why, .. } => {
                 let still = self.areas.iter().filter_map(|area| {
@@ -169,7 +175,7 @@ impl Ros2Messages {
 
     /// How the board is.
     fn diagnostics(&self, client: &Client, stamp: Stamp, state: DiagnosticState<'_>) -> Sent {
-        let firmware = client.worn().map_or("", |worn| worn.firmware.as_str());
+        let firmware = client.description().map_or("", |description| description.firmware.as_str());
         let data = messages::diagnostics(&self.board, stamp.host_us, firmware, state);
         let schema = "diagnostic_msgs/msg/DiagnosticArray";
         Sent { topic: "/diagnostics".into(), schema, text: schemas::DIAGNOSTICS, data }

@@ -3,7 +3,7 @@
 use super::board_names::{WIRE, attachment_of, boards, of_board};
 use super::overview::Overview;
 use crate::error::{RecordingError, Result, UsageError};
-use crate::tell::words;
+use crate::text::words;
 use std::ffi::OsString;
 use std::fmt;
 use std::path::{Path, PathBuf};

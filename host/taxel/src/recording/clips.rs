@@ -182,7 +182,7 @@ impl Clips {
                 let record = self.records.body(head)?;
                 match parse_record(record.op, record.body) {
                     Ok(Record::Channel(channel)) => _ = self.channels.insert(channel.id, channel),
-                    Ok(Record::Metadata(told)) => _ = self.words.insert(told.name, told.metadata),
+                    Ok(Record::Metadata(stated)) => _ = self.words.insert(stated.name, stated.metadata),
                     _ => {}
                 }
             }

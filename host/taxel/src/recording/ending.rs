@@ -93,8 +93,8 @@ impl Ending {
     pub fn finish(mut self, contents: &Contents) -> Result<Vec<u8>> {
         self.group(op::CHUNK_INDEX);
         if self.is_counted {
-            let told = self.statistics(contents);
-            append(&mut self.piece, op::STATISTICS, &told, &[])?;
+            let stated = self.statistics(contents);
+            append(&mut self.piece, op::STATISTICS, &stated, &[])?;
         }
         self.group(op::STATISTICS);
         for index in &contents.attachments {

@@ -214,8 +214,8 @@ mod tests {
                     assert_eq!(failed, Err("no"));
                 }
                 assert_eq!(writer.length(), length);
-                let (ours, told, sum) = writer.end();
-                assert_eq!((told, sum), (length as u64, crc32fast::hash(body)));
+                let (ours, stated, sum) = writer.end();
+                assert_eq!((stated, sum), (length as u64, crc32fast::hash(body)));
                 assert!(ours == frame(FrameInfo::new().block_size(BlockSize::Max256KB), body), "{length}");
                 let mut out = vec![0; body.len()];
                 assert!(decode(&ours, &mut out) && out == body, "{length}");

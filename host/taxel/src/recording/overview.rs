@@ -34,12 +34,12 @@ impl Overview {
     /// Inspects a file. A file with a summary is not scanned, whatever its length.
     pub fn of(path: &Path) -> Result<Overview> {
         match summary(path)? {
-            Some(summary) if summary.statistics.is_some() => Overview::told(path, summary),
+            Some(summary) if summary.statistics.is_some() => Overview::stated(path, summary),
             _ => Ok(Overview::found(path, &scan(path)?)),
         }
     }
 
-    fn told(path: &Path, summary: Summary) -> Result<Overview> {
+    fn stated(path: &Path, summary: Summary) -> Result<Overview> {
         let Summary { schemas, channels, statistics, attachments, metadata } = summary;
         let schema = |id: &u16| schemas.get(id).cloned().unwrap_or_default();
         let channels = channels.into_values();

@@ -11,7 +11,7 @@ use super::library::library;
 use super::salvage::{Kind, Opened, Piece, Walk, WalkStep};
 use super::scan::Scan;
 use crate::error::Result;
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use binrw::BinWrite;
 use mcap::MAGIC;
 use mcap::records::{Channel, ChunkHeader, Header, SchemaHeader, op};
@@ -24,8 +24,8 @@ pub fn repair(path: &Path, scan: &Scan, out: &mut impl Write) -> Result<u64> {
     let mut walk = Walk::open(path)?;
     let (schemas, channels) = (scan.contents.schemas.clone(), scan.contents.channels.clone());
     let contents = Contents { schemas, channels, ..Contents::default() };
-    let told = Copied::default();
-    let mut rebuilt = Rebuilt { out, length: 0, contents, told, follows_foreign: false };
+    let stated = Copied::default();
+    let mut rebuilt = Rebuilt { out, length: 0, contents, stated, follows_foreign: false };
     rebuilt.begin(scan)?;
     let what = format!("repairing {}", path.display());
     let mut progress = Progress::of(what, Unit::Bytes, Some(walk.length()));
@@ -53,7 +53,7 @@ struct Rebuilt<'a, W> {
     length: u64,
     /// Contents of the new file; all schemas and channels of the old one.
     contents: Contents,
-    told: Copied,
+    stated: Copied,
     /// The previous record is a chunk that cannot be read here (compression or size), or an index of its
     /// messages.
     follows_foreign: bool,
@@ -110,10 +110,10 @@ impl<W: Write> Rebuilt<'_, W> {
 
     /// Copies a chunk, with the schemas and channels of its messages, and its indexes.
     fn chunk(&mut self, header: &ChunkHeader, inside: &Opened, body: &[u8]) -> Result<()> {
-        self.told.schemas.extend(inside.schemas.iter().map(|(header, _)| header.id));
+        self.stated.schemas.extend(inside.schemas.iter().map(|(header, _)| header.id));
         for channel in &inside.channels {
             self.schema(channel.schema_id)?;
-            self.told.channels.insert(channel.id);
+            self.stated.channels.insert(channel.id);
         }
         inside.index.keys().try_for_each(|channel| self.channel(*channel))?;
         let (offset, length) = self.raw(op::CHUNK, body)?;
@@ -125,7 +125,7 @@ impl<W: Write> Rebuilt<'_, W> {
 
     /// Writes a channel unless written already. A lost one gets a name that says so.
     fn channel(&mut self, id: u16) -> Result<()> {
-        if !self.told.channels.insert(id) {
+        if !self.stated.channels.insert(id) {
             return Ok(());
         }
         let lost = || Channel {
@@ -143,7 +143,7 @@ impl<W: Write> Rebuilt<'_, W> {
     /// Writes a schema unless written already. A lost one is empty.
     fn schema(&mut self, id: u16) -> Result<()> {
         // Number 0 is no schema.
-        if id == 0 || !self.told.schemas.insert(id) {
+        if id == 0 || !self.stated.schemas.insert(id) {
             return Ok(());
         }
         let lost = || (SchemaHeader { id, name: format!("lost/{id}"), encoding: String::new() }, Vec::new());

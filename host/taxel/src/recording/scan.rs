@@ -4,7 +4,7 @@ use super::chunk::Index;
 use super::contents::Contents;
 use super::salvage::{Kind, Piece, Unreadable, Walk, WalkStep};
 use crate::error::Result;
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use mcap::records::{Header, Metadata, Statistics};
 use std::path::Path;
 
@@ -57,7 +57,7 @@ pub fn scan(path: &Path) -> Result<Scan> {
     }
     let last = scan.damage.last().filter(|last| !ended && last.offset + last.length == walk.length());
     scan.torn = last.map_or(0, |last| last.length);
-    let is_counted = walk.marks.statistics.as_ref().is_none_or(|told| scan.is_counted_by(told));
+    let is_counted = walk.marks.statistics.as_ref().is_none_or(|stated| scan.is_counted_by(stated));
     // The summary is covered by its own checksum.
     scan.contents.schemas.append(&mut walk.marks.schemas);
     scan.contents.channels.append(&mut walk.marks.channels);
@@ -76,16 +76,16 @@ impl Scan {
 
     /// True if the numbers of records of each kind match the file's statistics; a record with a wrong number
     /// may pass for one of another kind. Records in unreadable chunks are not known.
-    fn is_counted_by(&self, told: &Statistics) -> bool {
+    fn is_counted_by(&self, stated: &Statistics) -> bool {
         let found = &self.contents;
         let messages: u64 = found.counts().values().sum();
         let inside = [found.schemas.len() as u64, found.channels.len() as u64, messages];
         let beside =
             [found.attachments.len(), found.metadata.len(), found.chunks()].map(|count| count as u64);
         let is_read = self.foreign == 0;
-        let told_inside = [told.schema_count.into(), told.channel_count.into(), told.message_count];
-        (!is_read || inside == told_inside)
-            && beside == [told.attachment_count, told.metadata_count, told.chunk_count].map(u64::from)
+        let stated_inside = [stated.schema_count.into(), stated.channel_count.into(), stated.message_count];
+        (!is_read || inside == stated_inside)
+            && beside == [stated.attachment_count, stated.metadata_count, stated.chunk_count].map(u64::from)
     }
 
     fn take(&mut self, piece: Piece) {
@@ -99,8 +99,8 @@ impl Scan {
             Kind::Channel(channel) => _ = contents.channels.entry(channel.id).or_insert(channel),
             Kind::Message(header) => contents.count_loose(header.channel_id, header.log_time),
             Kind::Chunk(header, Some(inside)) => {
-                let told = inside.schemas.into_iter().map(|(header, data)| (header.id, (header, data)));
-                contents.schemas.extend(told);
+                let stated = inside.schemas.into_iter().map(|(header, data)| (header.id, (header, data)));
+                contents.schemas.extend(stated);
                 contents.channels.extend(inside.channels.into_iter().map(|channel| (channel.id, channel)));
                 contents.chunk(&header, &inside.index, offset, length);
             }

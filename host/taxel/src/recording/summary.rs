@@ -47,17 +47,17 @@ impl End {
         if !is_footer || magic != MAGIC {
             return Ok(end);
         }
-        let Ok(Record::Footer(told)) = parse_record(op::FOOTER, fields) else { return Ok(end) };
-        if told.summary_start == 0 {
+        let Ok(Record::Footer(stated)) = parse_record(op::FOOTER, fields) else { return Ok(end) };
+        if stated.summary_start == 0 {
             end.is_sound = true;
-        } else if told.summary_start <= at {
-            let sum = sum(source, told.summary_start, at + (FOOTER - CRC) as u64)?;
-            if told.summary_crc == 0 || told.summary_crc == sum {
-                end.summary = Some(told.summary_start);
-                end.is_sound = each(source, told.summary_start, at, &mut take)?;
+        } else if stated.summary_start <= at {
+            let sum = sum(source, stated.summary_start, at + (FOOTER - CRC) as u64)?;
+            if stated.summary_crc == 0 || stated.summary_crc == sum {
+                end.summary = Some(stated.summary_start);
+                end.is_sound = each(source, stated.summary_start, at, &mut take)?;
             }
         }
-        end.footer = Some(told);
+        end.footer = Some(stated);
         Ok(end)
     }
 }

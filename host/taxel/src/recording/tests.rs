@@ -103,9 +103,9 @@ fn file(name: &str, bytes: &[u8]) -> TestFile {
 fn messages(path: &Path) -> u64 {
     let bytes = std::fs::read(path).unwrap();
     let summary = Summary::read(&bytes).unwrap().expect("a summary");
-    let told = summary.stats.as_ref().unwrap().message_count;
-    assert_eq!(told, read(path).0.len() as u64);
-    assert_eq!(summary.chunk_indexes.len() as u64 * 4, told);
+    let stated = summary.stats.as_ref().unwrap().message_count;
+    assert_eq!(stated, read(path).0.len() as u64);
+    assert_eq!(summary.chunk_indexes.len() as u64 * 4, stated);
     for index in &summary.chunk_indexes {
         assert_eq!(index.message_index_offsets.len(), 2);
         let start = index.chunk_start_offset as usize;
@@ -115,7 +115,7 @@ fn messages(path: &Path) -> u64 {
         }
     }
     assert!(scan(path).unwrap().whole);
-    told
+    stated
 }
 
 /// Repairs a file.

@@ -6,7 +6,7 @@ use super::config::BoardConfig;
 use super::file::ReadRobot;
 use crate::error::{Result, UsageError};
 use crate::source::SourceSpec;
-use crate::tell::words;
+use crate::text::words;
 
 /// Reads a board's configuration. One of a robot's file is asked what the configuration says in place of its own.
 /// Error if the file has several boards and none of them is named.

@@ -50,7 +50,7 @@ pub struct RobotBoard {
     pub folds: Option<PathBuf>,
     /// Reports per second of what presses on each link; none for each frame of a board with a body.
     pub pressing: Option<u16>,
-    /// Link of the robot that wears the whole garment.
+    /// Link of the robot that carries the whole garment.
     pub link: Option<String>,
 }
 
@@ -96,13 +96,13 @@ impl RobotBoard {
             SourceSpec::Usb(number) => number.clone(),
             _ => None,
         };
-        Identity::new(usb_serial, self.garment.as_ref().map(|worn| worn.garment.clone()))
+        Identity::new(usb_serial, self.garment.as_ref().map(|board_garment| board_garment.garment.clone()))
     }
 
     /// Options with which its source is opened.
     pub fn options(&self, options: &SourceOptions) -> SourceOptions {
         SourceOptions {
-            garment: self.garment.as_ref().map(|worn| worn.name.clone()),
+            garment: self.garment.as_ref().map(|board_garment| board_garment.name.clone()),
             body: self.body.clone(),
             folds: self.folds.clone(),
             ..options.clone()
@@ -136,14 +136,16 @@ impl RobotBoard {
 
     /// Queues what comes before the stream.
     fn configure(&self, client: &mut Client, source: &Source) -> Result<()> {
-        if let Some(worn) = self.garment.as_ref().filter(|_| self.is_dressed && !source.wears_asked) {
+        if let Some(board_garment) =
+            self.garment.as_ref().filter(|_| self.is_dressed && !source.has_asked_garment)
+        {
             require!(
                 !source.label.starts_with("sim:"),
                 UsageError::Argument,
                 "garment {}: a simulated board keeps the garment that it started with",
-                worn.name
+                board_garment.name
             );
-            setting::set_garment(client, &worn.name)?;
+            setting::set_garment(client, &board_garment.name)?;
         }
         if let Some(scene) = &self.scene {
             setting::set_scene(client, scene)?;
@@ -156,7 +158,7 @@ impl RobotBoard {
         }
         // Before the tare, during which the board stores nothing.
         if let Some(body) = self.body.as_ref().filter(|_| !source.has_body) {
-            let garment = self.garment.as_ref().map_or("reference", |worn| &worn.name);
+            let garment = self.garment.as_ref().map_or("reference", |board_garment| &board_garment.name);
             setting::set_body(client, body, garment)?;
         }
         if let Some(folds) = self.folds.as_ref().filter(|_| !source.has_folds) {

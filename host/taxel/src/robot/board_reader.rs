@@ -51,7 +51,7 @@ impl ConfigPlace<'_> {
         }
     }
 
-    /// Names a key in the error about the file that it names. Options and keywords are told by that file alone.
+    /// Names a key in the error about the file that it names. Options and keywords are stated by that file alone.
     fn named<T>(&self, board: &str, key: &str, read: Result<T>) -> Result<T> {
         match self {
             ConfigPlace::File { text, index, .. } => read.with_context(|| text.place(*index, board, key)),
@@ -80,7 +80,7 @@ pub(super) struct BoardReader<'a> {
     pub config: &'a BoardConfig,
     /// Where it is.
     pub place: ConfigPlace<'a>,
-    /// The robot that wears it, if it is described.
+    /// The robot that carries it, if it is described.
     pub robot: Option<&'a Arc<Robot>>,
 }
 
@@ -103,9 +103,10 @@ impl BoardReader<'_> {
         {
             return wrong(key, format!("{source} is a recording, whose board does not listen"));
         }
-        let worn = place.named(name, "garment", config.garment.as_deref().map(garment).transpose())?;
+        let board_garment =
+            place.named(name, "garment", config.garment.as_deref().map(garment).transpose())?;
         let scene = config.scene.as_deref().map(scene).transpose();
-        let calibration = config.calibration.as_deref().map(|path| calibration(path, worn.as_ref()));
+        let calibration = config.calibration.as_deref().map(|path| calibration(path, board_garment.as_ref()));
         let shapes = config.shapes.as_deref().map(Base::open).transpose();
         let table = config.folds.as_deref().map_or(Ok(()), |path| folds::read(path).map(drop));
         place.named(name, "folds", table)?;
@@ -113,16 +114,16 @@ impl BoardReader<'_> {
             return wrong("tare", format!("it is {tare}, and must be 0 to {TARE}"));
         }
         if is_file && let Some(body) = &config.body {
-            let Some(worn) = &worn else {
+            let Some(board_garment) = &board_garment else {
                 return wrong("body", "a body is that of a garment: name the board's `garment`, too".into());
             };
-            place.named(name, "body", check_body(body, worn, robot))?;
+            place.named(name, "body", check_body(body, board_garment, robot))?;
         }
         self.check_link()?;
         Ok(RobotBoard {
             name: name.into(),
             source,
-            garment: worn,
+            garment: board_garment,
             is_dressed: !is_file,
             scene: place.named(name, "scene", scene)?,
             calibration: place.named(name, "calibration", calibration.transpose())?,
@@ -205,18 +206,19 @@ fn garment(named: &str) -> Result<BoardGarment> {
 }
 
 /// Reads a calibration, and checks that it is of this garment.
-fn calibration(path: &Path, worn: Option<&BoardGarment>) -> Result<Calibration> {
+fn calibration(path: &Path, board_garment: Option<&BoardGarment>) -> Result<Calibration> {
     let calibration = Calibration::read(path)?;
-    worn.map_or(Ok(()), |worn| Forces::new(&calibration, &worn.layout).map(drop))?;
+    board_garment
+        .map_or(Ok(()), |board_garment| Forces::new(&calibration, &board_garment.layout).map(drop))?;
     Ok(calibration)
 }
 
 /// Error if a body does not fit its garment or its robot.
-fn check_body(named: &str, worn: &BoardGarment, robot: Option<&Arc<Robot>>) -> Result<()> {
+fn check_body(named: &str, board_garment: &BoardGarment, robot: Option<&Arc<Robot>>) -> Result<()> {
     let read = body::read(named)?;
     match robot {
-        Some(robot) => drop(read.on_robot(&worn.garment, &worn.layout, robot.clone())?),
-        None => drop(read.surface(&worn.garment, &worn.layout)?),
+        Some(robot) => drop(read.on_robot(&board_garment.garment, &board_garment.layout, robot.clone())?),
+        None => drop(read.surface(&board_garment.garment, &board_garment.layout)?),
     }
     Ok(())
 }

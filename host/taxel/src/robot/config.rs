@@ -100,7 +100,7 @@ pub struct BoardConfig {
     /// [default: 65535 with a body, else 0]
     #[cfg_attr(feature = "clap", arg(long, value_name = "HZ"))]
     pub pressing: Option<u16>,
-    /// Link of the robot that wears the whole garment, if there is no body.
+    /// Link of the robot that carries the whole garment, if there is no body.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub link: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use super::board::RobotBoard;
 use super::contact::BoardContact;
-use crate::client::{Client, Event, Worn};
+use crate::client::{BoardDescription, Client, Event};
 use crate::files::calibrate::{Calibration, Forces};
 use taxel_core::garment::{Place, Rect};
 
@@ -16,9 +16,9 @@ pub struct ContactReader {
 impl ContactReader {
     /// Of a board of a robot.
     pub fn new(board: &RobotBoard) -> ContactReader {
-        let worn = board.garment.as_ref().zip(board.calibration.clone());
-        let calibration = worn.and_then(|(worn, calibration)| {
-            Forces::new(&calibration, &worn.layout).ok().map(|f| (calibration, f))
+        let description = board.garment.as_ref().zip(board.calibration.clone());
+        let calibration = description.and_then(|(description, calibration)| {
+            Forces::new(&calibration, &description.layout).ok().map(|f| (calibration, f))
         });
         ContactReader { calibration }
     }
@@ -35,10 +35,12 @@ impl ContactReader {
     /// Adds the newtons per count in the last image, if the calibration is in force.
     fn weighed(&self, client: &Client, mut contacts: Vec<BoardContact>) -> Vec<BoardContact> {
         let Some((calibration, forces)) = &self.calibration else { return contacts };
-        let (Some(worn), Some((_, image))) = (client.worn(), client.image()) else { return contacts };
-        if calibration.is_in_force(&worn.calibration) {
+        let (Some(description), Some((_, image))) = (client.description(), client.image()) else {
+            return contacts;
+        };
+        if calibration.is_in_force(&description.calibration) {
             for contact in &mut contacts {
-                contact.newtons_per_count = newtons_per_count(forces, worn, image, &contact.bounds);
+                contact.newtons_per_count = newtons_per_count(forces, description, image, &contact.bounds);
             }
         }
         contacts
@@ -46,12 +48,17 @@ impl ContactReader {
 }
 
 /// Force within the box of a contact and around it by the pressure of its taxels, N per count.
-fn newtons_per_count(forces: &Forces, worn: &Worn, image: &[u16], bounds: &Rect) -> Option<f64> {
-    let newtons = forces.contact(&worn.layout, image, bounds)?;
+fn newtons_per_count(
+    forces: &Forces,
+    description: &BoardDescription,
+    image: &[u16],
+    bounds: &Rect,
+) -> Option<f64> {
+    let newtons = forces.contact(&description.layout, image, bounds)?;
     let places = (bounds.top..=bounds.bottom).flat_map(|row| {
         (bounds.left..=bounds.right).map(move |column| Place { panel: bounds.panel, row, column })
     });
-    let values = places.filter_map(|place| image.get(worn.layout.taxel(place)?).copied());
-    let counts: u32 = values.filter(|value| *value >= worn.scene.contact.low).map(u32::from).sum();
+    let values = places.filter_map(|place| image.get(description.layout.taxel(place)?).copied());
+    let counts: u32 = values.filter(|value| *value >= description.scene.contact.low).map(u32::from).sum();
     (counts > 0).then(|| newtons / f64::from(counts))
 }

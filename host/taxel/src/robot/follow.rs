@@ -9,7 +9,7 @@ use crate::client::{Buses, Client, Event, Identity, Stamp, Stamps, request_name}
 use crate::error::{ErrorKind, RecordingError, Result, SourceError};
 use crate::session::{Observer, PATIENCE, Returns, RunLimit, Session, Turn};
 use crate::source::Source;
-use crate::tell::{verbose, words};
+use crate::text::{verbose, words};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 use taxel_core::wire::Level;
@@ -39,7 +39,7 @@ pub struct BoardPlan {
     /// What it is recognised by; none if any board will do.
     pub identity: Option<Identity>,
     /// It is one of several: nothing of it is passed on before it is recognised, and another board in its place is
-    /// [told](BoardState::Other), not followed.
+    /// [reported](BoardState::Other), not followed.
     pub is_among: bool,
     /// What becomes of it when it is lost.
     pub returns: Returns,
@@ -166,7 +166,7 @@ pub(super) fn follow(
 impl Follower<'_> {
     /// Waits for the board; none if it is no longer to be followed.
     fn open(&mut self, mut open: Opener, waits: bool, identity: Option<&Identity>) -> Result<Option<Source>> {
-        let (mut pause, mut told, mut other) = (TRY[0], false, None);
+        let (mut pause, mut reported, mut other) = (TRY[0], false, None);
         while self.supervisor.goes_on() && !self.observer.is_done() {
             let opened = open().and_then(|source| match identity.filter(|_| self.is_among) {
                 Some(identity) => recognised(source, identity),
@@ -184,7 +184,7 @@ impl Follower<'_> {
             {
                 self.supervisor.state(BoardState::Other { why: other.insert(why.clone()).clone() });
             }
-            if !std::mem::replace(&mut told, true) {
+            if !std::mem::replace(&mut reported, true) {
                 self.supervisor.state(BoardState::Absent { why: words::sentence(&error) });
             }
             if self.supervisor.goes_on() {
@@ -227,7 +227,7 @@ impl Follower<'_> {
         if self.is_among { Ok(()) } else { self.check_met(session) }
     }
 
-    /// Hands positions of joints to whoever tells the board its posture, and to the observers.
+    /// Hands positions of joints to whoever sends the board its posture, and to the observers.
     fn pose(&mut self, session: &mut Session) -> Result<()> {
         let Some((client, posing)) = session.posing() else { return Ok(()) };
         self.observer.pose(client, posing)?;
@@ -240,7 +240,7 @@ impl Follower<'_> {
 
     /// Notes that the board has said nothing yet; error if a run of limited length has waited for it long enough.
     fn look_at_silence(&mut self, session: &mut Session, is_limited: bool) -> Result<()> {
-        if self.is_among || session.client().worn().is_some() || session.is_gone() {
+        if self.is_among || session.client().description().is_some() || session.is_gone() {
             return Ok(());
         }
         let passed = self.begun.elapsed();
@@ -256,7 +256,7 @@ impl Follower<'_> {
         let (label, bytes) = (&session.source().label, session.client().counts().bytes);
         let why = || format!("{label}: no Hello of a taxel board in {bytes} bytes");
         match session.source().listens {
-            _ if self.is_met || session.client().worn().is_some() => Ok(()),
+            _ if self.is_met || session.client().description().is_some() => Ok(()),
             true => Err(SourceError::Silent(why()).into()),
             false => Err(RecordingError::Record(why()).into()),
         }
@@ -331,16 +331,17 @@ impl Follower<'_> {
 fn say(client: &Client, event: &Event) {
     match event {
         Event::Hello => {
-            if let Some(worn) = client.worn() {
-                let (firmware, garment, scene) = (&worn.firmware, &worn.garment.name, &worn.scene.name);
-                verbose::tell(format_args!("board {firmware}: garment {garment}, scene {scene}"));
+            if let Some(description) = client.description() {
+                let (firmware, garment, scene) =
+                    (&description.firmware, &description.garment.name, &description.scene.name);
+                verbose::print(format_args!("board {firmware}: garment {garment}, scene {scene}"));
             }
         }
         Event::Answer { request, refusal: None } => {
-            verbose::tell(format_args!("the board has done {}", request_name(*request)));
+            verbose::print(format_args!("the board has done {}", request_name(*request)));
         }
         Event::Answer { request, refusal: Some(why) } => {
-            verbose::tell(format_args!("the board refuses {}: {why}", request_name(*request)));
+            verbose::print(format_args!("the board refuses {}: {why}", request_name(*request)));
         }
         _ => {}
     }

@@ -3,7 +3,7 @@
 use super::event::BoardState;
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;
-use crate::tell::words;
+use crate::text::words;
 use serde::Serialize;
 
 /// How a board of a robot is.

@@ -53,7 +53,7 @@ impl<T> RobotMoments<T> {
 
     /// The newest time of the host, us, until which all of these boards have said something. Boards that have
     /// said nothing yet do not count; none if none has.
-    pub fn told_by_all(&self, boards: impl IntoIterator<Item = usize>) -> Option<u64> {
+    pub fn reported_by_all(&self, boards: impl IntoIterator<Item = usize>) -> Option<u64> {
         let newest = |board: usize| Some(self.boards.get(board)?.back()?.stamp.host_us);
         boards.into_iter().filter_map(newest).min()
     }
@@ -162,9 +162,9 @@ mod tests {
             [3_999, 4_000, 5_000, 9_000].map(|us| latest(&moments, us)),
             [None, Some(4_000), Some(4_000), Some(6_500)]
         );
-        assert_eq!([moments.told_by_all([0]), moments.told_by_all([0, 1, 2])], [None, Some(6_500)]);
+        assert_eq!([moments.reported_by_all([0]), moments.reported_by_all([0, 1, 2])], [None, Some(6_500)]);
         moments.take(0, stamp(6_000, 5), 0);
-        assert_eq!(moments.told_by_all([0, 1]), Some(6_000));
+        assert_eq!(moments.reported_by_all([0, 1]), Some(6_000));
         moments.forget(0);
         assert!(moments.latest(0, 9_000).is_none() && moments.latest(2, 9_000).is_none());
         // A clock that is learned anew may go back.
@@ -189,8 +189,8 @@ mod tests {
         );
         let at = moments.contacts(0, 3_000).unwrap();
         assert_eq!((at.stamp.host_us, at.stamp.board_us, at.stamp.uncertainty_us), (3_000, 2_000, Some(9)));
-        let told: Vec<_> = at.what.iter().map(|t| (t.id, t.panel, t.total, t.centroid[0])).collect();
-        assert_eq!(told, [(1, 0, 125, 2.5), (2, 0, 30, 7.0), (4, 0, 10, 1.0), (3, 0, 20, 5.0)]);
+        let reported: Vec<_> = at.what.iter().map(|t| (t.id, t.panel, t.total, t.centroid[0])).collect();
+        assert_eq!(reported, [(1, 0, 125, 2.5), (2, 0, 30, 7.0), (4, 0, 10, 1.0), (3, 0, 20, 5.0)]);
         let later = moments.contacts(0, 5_000).unwrap();
         assert_eq!(later.what.iter().find(|t| t.id == 4).unwrap().panel, 1);
         let last = moments.contacts(0, 90_000).unwrap();

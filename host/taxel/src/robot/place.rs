@@ -2,7 +2,7 @@
 
 use super::config::{BoardConfig, RobotConfig};
 use crate::error::SettingError;
-use crate::tell::{toml_key, words};
+use crate::text::{toml_key, words};
 use serde::Deserialize;
 use std::fmt::Display;
 
@@ -38,10 +38,10 @@ impl RobotText<'_> {
     /// Reads the text. Errors name the line, the key, and the board if it is one of a board.
     pub fn parse(&self) -> Result<RobotConfig, SettingError> {
         toml::from_str(self.text).map_err(|error| {
-            let told = words::toml(&error, self.text, self.file);
+            let reported = words::toml(&error, self.text, self.file);
             let board =
                 self.board_with(error.message()).map_or(String::new(), |name| format!(" (board {name})"));
-            SettingError::Malformed(told + &board)
+            SettingError::Malformed(reported + &board)
         })
     }
 

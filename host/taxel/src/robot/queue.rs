@@ -59,8 +59,8 @@ struct QueuedBoard {
     /// Images among them that may be dropped.
     images: usize,
     dropped: u64,
-    /// `dropped` when it was told last.
-    told: u64,
+    /// `dropped` when it was reported last.
+    reported: u64,
     over: bool,
 }
 
@@ -210,8 +210,8 @@ impl<T> WaitingEvents<T> {
     fn take(&mut self) -> Option<RobotEvent<T>> {
         let Waiter { event, .. } = self.events.front()?;
         let (board, stamp) = (event.board, event.stamp);
-        if let Some(told) = self.drops(board, stamp) {
-            return Some(told);
+        if let Some(reported) = self.drops(board, stamp) {
+            return Some(reported);
         }
         let Waiter { event, is_image } = self.events.pop_front()?;
         self.boards[board].waiting -= 1;
@@ -222,10 +222,10 @@ impl<T> WaitingEvents<T> {
     /// The event about images of a board that were dropped since the last one.
     fn drops(&mut self, board: usize, stamp: Stamp) -> Option<RobotEvent<T>> {
         let counts = &mut self.boards[board];
-        if counts.told == counts.dropped {
+        if counts.reported == counts.dropped {
             return None;
         }
-        counts.told = counts.dropped;
+        counts.reported = counts.dropped;
         Some(RobotEvent {
             board,
             stamp,

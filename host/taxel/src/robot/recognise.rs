@@ -38,8 +38,8 @@ pub fn recognised(mut source: Source, identity: &Identity) -> Result<Source> {
                 Some(Event::Unusable(why)) => fail!(SourceError::Foreign, "{}: {why}", source.label),
                 _ => continue,
             }
-            let Some(worn) = client.worn() else { continue };
-            if let Some(how) = identity.differs(source.usb_serial.as_deref(), worn) {
+            let Some(description) = client.description() else { continue };
+            if let Some(how) = identity.differs(source.usb_serial.as_deref(), description) {
                 fail!(SourceError::Other, "{} answers with another board: {how}", source.label);
             }
             return Ok(Source { port: Box::new(Heard::new(source.port, heard)), ..source });

@@ -9,7 +9,7 @@ use crate::client::clock::SteadyTime;
 use crate::client::{Buses, Client};
 use crate::error::{Result, UsageError};
 use crate::session::{JointTime, Observer, Session};
-use crate::tell::words;
+use crate::text::words;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
@@ -188,7 +188,7 @@ impl<T: Send + 'static> RobotStream<T> {
     }
 
     /// Takes positions of the robot's joints, rad or m, at a time of the host, us: every board that has a body
-    /// is told its links' poses, 50 times a second. What a board cannot place in its own time, because it has just
+    /// is sent its links' poses, 50 times a second. What a board cannot place in its own time, because it has just
     /// begun anew, does not count for it; nor do names and positions that its robot does not have, which a
     /// robot's mind refuses with a reason.
     pub fn take_joints<'a>(&self, host_us: u64, positions: impl IntoIterator<Item = (&'a str, f64)>) {

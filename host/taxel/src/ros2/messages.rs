@@ -114,7 +114,7 @@ pub fn wrench(board: &str, host_us: u64, area: &Area, values: &[u16], per_newton
 /// Level of a status that is not renewed.
 const STALE: u8 = 3;
 
-/// State of a board, as its diagnostics tell it.
+/// State of a board, as its diagnostics report it.
 #[derive(Debug, Clone, Copy)]
 pub enum DiagnosticState<'a> {
     /// Its counters, and its number of faulty taxels. A warning if anything was lost or failed.
@@ -139,7 +139,7 @@ pub fn diagnostics(board: &str, host_us: u64, firmware: &str, state: DiagnosticS
                 ("refused", health.refused.into()),
                 ("scan_us", health.scan_us.into()),
                 ("process_us", health.process_us.into()),
-                ("ill_taxels", faulty as u64),
+                ("faulty_taxels", faulty as u64),
             ]);
             (u8::from(bad), if bad { "scans, messages or taxels are missing" } else { "all is well" })
         }
@@ -195,11 +195,11 @@ mod tests {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
         let areas = layout.areas();
         assert_eq!(areas[0].link, areas[1].link, "chest and back are on the torso");
-        let told = frames("", 5, &layout, None);
+        let reported = frames("", 5, &layout, None);
         let mut places = Vec::new();
         for area in areas {
             let own = frame("", area);
-            assert!(names(&told, &own) && names(&told, &area.link), "{own}");
+            assert!(names(&reported, &own) && names(&reported, &area.link), "{own}");
             let values = vec![1; usize::from(area.rows) * usize::from(area.columns)];
             for message in
                 [image("", 5, area, &values), points("", 5, area, &values), wrench("", 5, area, &values, 1.0)]
@@ -207,10 +207,11 @@ mod tests {
                 assert!(names(&message, &own), "{own}");
             }
             // The position follows the name, aligned to 8 bytes from behind the header of 4.
-            let at =
-                told.windows(own.len()).position(|window| window == own.as_bytes()).unwrap() + own.len() + 1;
+            let at = reported.windows(own.len()).position(|window| window == own.as_bytes()).unwrap()
+                + own.len()
+                + 1;
             let at = 4 + (at - 4).next_multiple_of(8);
-            let x = f64::from_le_bytes(told[at..at + 8].try_into().unwrap());
+            let x = f64::from_le_bytes(reported[at..at + 8].try_into().unwrap());
             let width = f64::from(area.columns) * f64::from(area.pitch_um[0]) / 1e6;
             places.push((area.link.clone(), x, x + width));
         }

@@ -189,7 +189,7 @@ pub fn health(us: u64, client: &Client, health: &Health) -> Vec<u8> {
         health.lost,
         health.refused,
     ];
-    let faulty: Vec<u16> = client.ill().keys().copied().collect();
+    let faulty: Vec<u16> = client.faulty().keys().copied().collect();
     let seconds = [health.scan_us, health.process_us].map(|us| f64::from(us) / 1e6);
     counters
         .into_iter()

@@ -69,9 +69,9 @@ fn link_wrench(cdr: Cdr, wrench: &Wrench, scale: f64) -> Cdr {
 
 /// `taxel_msgs/msg/Uncertain` of a contact or of a link.
 fn uncertain<T: PartialEq>(cdr: Cdr, all: &[(T, Uncertainty)], of: &T, scale: f64) -> Cdr {
-    let told = all.iter().find(|(named, _)| named == of);
+    let reported = all.iter().find(|(named, _)| named == of);
     let Uncertainty { saturated, faulty, less, more, off } =
-        told.map_or_else(Default::default, |(_, it)| *it);
+        reported.map_or_else(Default::default, |(_, it)| *it);
     let [less, more] = [less, more].map(|counts| f64::from(counts) / scale);
     cdr.u16(saturated).u16(faulty).f64s([less, more, f64::from(off) / 1e6])
 }

@@ -103,11 +103,11 @@ pub const PUBLISHED: [RosTopic; 18] = [
 pub const JOINT_STATES: RosTopic = topic("joint_states", "sensor_msgs", "JointState", NEWEST);
 /// A concept that the scene's map lets the host feed.
 pub const CONCEPT: RosTopic = topic("~/concepts/CONCEPT", "std_msgs", "Float64", EVERY);
-/// What others tell the robot's map by a name, to the node of the robot.
-pub const TOLD: RosTopic = topic("~/told/NAME", "std_msgs", "Float64", EVERY);
+/// What others send the robot's map by a name, to the node of the robot.
+pub const HOST_INPUT: RosTopic = topic("~/host_input/NAME", "std_msgs", "Float64", EVERY);
 
 /// What the nodes subscribe to.
-pub const TAKEN: [RosTopic; 3] = [JOINT_STATES, CONCEPT, TOLD];
+pub const TAKEN: [RosTopic; 3] = [JOINT_STATES, CONCEPT, HOST_INPUT];
 
 /// A service: its name, and package and name of its type.
 pub type RosService = (&'static str, (&'static str, &'static str));

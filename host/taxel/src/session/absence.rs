@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::source::{Return, Source};
-use crate::tell::verbose;
+use crate::text::verbose;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -48,7 +48,7 @@ impl Absence {
         match opened {
             Ok(source) => Some(source),
             Err(error) => {
-                verbose::tell(format_args!("not back yet: {error:#}"));
+                verbose::print(format_args!("not back yet: {error:#}"));
                 None
             }
         }

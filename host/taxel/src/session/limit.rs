@@ -12,7 +12,7 @@ pub const PATIENCE: Duration = Duration::from_secs(10);
 /// Most that counts as waiting between two looks: whoever looks more rarely was busy or asleep, not waiting.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Where a run ends: after so many images, or so much of the board's time as its images tell it.
+/// Where a run ends: after so many images, or so much of the board's time as its images report it.
 ///
 /// A board that sends none, because its scene asks for none or its scan fails, must not make a run endless: without
 /// an image for [`PATIENCE`], or for the whole time if that is longer, the limit is reached, too, and the session

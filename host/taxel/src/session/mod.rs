@@ -17,7 +17,8 @@
 //! error if the board refuses a setting that it had accepted before.
 //!
 //! Another board that answers in its place is an [`Event::Other`]: the stream goes on with that one, which gets no
-//! setting of the one before, or it is refused ([`Session::recognise`]). See [`Identity`] for how boards are told apart.
+//! setting of the one before, or it is refused ([`Session::recognise`]). See [`Identity`] for how boards are
+//! distinguished.
 //!
 //! | file | holds |
 //! |---|---|
@@ -26,8 +27,8 @@
 //! | `absence.rs` | a lost source, until it is back |
 //! | `setting.rs` | garments, scenes and models of the user, queued as requests |
 //! | `joint_time.rs` | when positions of joints were read |
-//! | `moving.rs` | how the links move that wear a garment |
-//! | `posing.rs` | [`Posing`]: a robot's posture, told to the board |
+//! | `moving.rs` | how the links move that carry a garment |
+//! | `posing.rs` | [`Posing`]: a robot's posture, sent to the board |
 //! | `joint_states.rs` | positions of joints as lines |
 //! | `limit.rs` | [`RunLimit`]: the end of a run that is limited in images or time |
 //! | `observer.rs` | [`Observer`]: who is handed the stream |
@@ -171,7 +172,7 @@ impl Session {
 
     /// Bytes that come within this time of the last ones are read together from now on, as far as the link
     /// [keeps](source::Port::keeps) them: for whoever handles much, and not at once. They are read as they come while
-    /// a round trip is measured, and if a robot's posture is told to the board.
+    /// a round trip is measured, and if a robot's posture is sent to the board.
     pub fn gather(&mut self, time: Duration) {
         self.gather.time = time;
     }
@@ -182,17 +183,17 @@ impl Session {
         self.client.recognise(identity);
     }
 
-    /// Tells the board its robot's posture from now on.
+    /// Sends the board its robot's posture from now on.
     pub fn pose_by(&mut self, posing: Posing) {
         self.posing = Some(posing);
     }
 
-    /// Who tells the board its robot's posture, and the client.
+    /// Who sends the board its robot's posture, and the client.
     pub fn posing(&mut self) -> Option<(&Client, &mut Posing)> {
         self.posing.as_mut().map(|posing| (&self.client, posing))
     }
 
-    /// Takes positions of joints, rad or m, for the board's poses. Error if nobody tells it its posture
+    /// Takes positions of joints, rad or m, for the board's poses. Error if nobody sends it its posture
     /// ([`Session::pose_by`]), or as of [`Posing::take`].
     pub fn take_joints<'a>(
         &mut self,
@@ -282,7 +283,7 @@ impl Session {
         self.check_stranger()?;
         self.restored()?;
         self.ask_again();
-        self.tell_time();
+        self.set_time();
         if let Some(posing) = &mut self.posing {
             posing.turn(&mut self.client)?;
         }
@@ -297,9 +298,9 @@ impl Session {
         }
         match exchanged {
             Ok(true) => {
-                self.tell_time();
-                let told = self.source.port.told();
-                sent(&self.client, &told)?;
+                self.set_time();
+                let reported = self.source.port.own_requests();
+                sent(&self.client, &reported)?;
                 Ok(Turn::Bytes)
             }
             // Recordings and simulations end; a board streams as long as there is a link.
@@ -339,15 +340,15 @@ impl Session {
         self.client.say(Event::Note { time, level, text });
     }
 
-    fn tell_time(&mut self) {
+    fn set_time(&mut self) {
         let host_us = self.time.now_us();
         if self.source.real_time {
-            self.client.tell_time(host_us);
+            self.client.set_time(host_us);
         }
         if let Some(posing) = &mut self.posing {
             // The clock of a simulation is what it said last.
             let board = self.client.board_time_at(host_us).or(self.client.board_time());
-            posing.tell_time(board, host_us);
+            posing.set_time(board, host_us);
         }
     }
 
@@ -368,10 +369,10 @@ impl Session {
         }
         if count > 0 {
             self.heard = now;
-        } else if self.source.real_time && self.client.worn().is_some() && now - self.heard > SILENCE {
+        } else if self.source.real_time && self.client.description().is_some() && now - self.heard > SILENCE {
             fail!(SourceError::Silent, "it has sent nothing for {} s", SILENCE.as_secs());
         }
-        if self.client.worn().is_some() && !self.client.is_met() && now - self.opened > SILENCE {
+        if self.client.description().is_some() && !self.client.is_met() && now - self.opened > SILENCE {
             fail!(SourceError::Silent, "it has sent no Hello for {} s", SILENCE.as_secs());
         }
         Ok(true)
@@ -440,7 +441,7 @@ impl Session {
         }
         // A link that opens without bringing data does not end a gap.
         if self.gap.is_none() {
-            let text = format!("{label} is gone: {}; waiting for it", crate::tell::words::sentence(&why));
+            let text = format!("{label} is gone: {}; waiting for it", crate::text::words::sentence(&why));
             let silent = u64::try_from(self.heard.elapsed().as_micros()).unwrap_or(u64::MAX);
             self.client.lost(text, self.time.now_us().saturating_sub(silent));
         }

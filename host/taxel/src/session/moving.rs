@@ -1,4 +1,4 @@
-//! The links that wear a garment, as they move: for a board that carries them on between two messages.
+//! The links that carry a garment, as they move: for a board that carries them on between two messages.
 
 use crate::body::posture::{Estimate, JointHistory};
 use crate::body::{DVec3, Pose, RobotSurface};
@@ -21,7 +21,7 @@ pub(super) fn moving(
     now: Micros,
 ) -> Option<Vec<(Pose, LinkMotion)>> {
     let poses = |estimate: &Estimate| surface.poses(&surface.robot().poses(&estimate.posture), 0);
-    let off = |estimate: &Estimate| surface.told_displacement(&estimate.posture, estimate, 0);
+    let off = |estimate: &Estimate| surface.sent_displacement(&estimate.posture, estimate, 0);
     let later = |us: u64| history.live(Micros(now.0.saturating_add(us))).ok();
     let (here, next, second) = (poses(estimate)?, later(STEP_US)?, later(2 * STEP_US)?);
     let there = poses(&next)?;

@@ -1,4 +1,4 @@
-//! A robot's posture, told to the board that the robot wears.
+//! A robot's posture, sent to the board that the robot carries.
 
 use super::joint_time::JointTime;
 use super::moving::moving;
@@ -23,7 +23,7 @@ pub const POSES: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 const ANSWER: Duration = Duration::from_millis(500);
 /// Time after a refusal before poses are sent again.
 const REFUSED: Duration = Duration::from_secs(1);
-/// Age of the joints' last positions from which no poses are sent: a board tells how old its poses are.
+/// Age of the joints' last positions from which no poses are sent: a board says how old its poses are.
 const SILENT: Duration = Duration::from_millis(200);
 /// Most by which positions may be stamped before or after now, us.
 const APART_US: u128 = 10_000_000;
@@ -39,18 +39,18 @@ pub struct JointPositions {
     pub positions: Vec<(String, f64)>,
 }
 
-/// Turns positions of a robot's joints into poses of the links that wear the garment, and sends them to the
+/// Turns positions of a robot's joints into poses of the links that carry the garment, and sends them to the
 /// board, with how they move: the board carries them on, and bounds the error.
 ///
 /// Positions come through [`Session::take_joints`](super::Session::take_joints) or [`Posing::take`]. Poses
 /// are those of the [live](JointHistory::live) posture in the frame of the robot's root, the base. While
-/// nobody tells positions, none are sent.
+/// nobody sends positions, none are sent.
 #[derive(Debug)]
 pub struct Posing {
     body: ReadBody,
     robot: Arc<Robot>,
     period_us: u64,
-    worn: Option<WornBody>,
+    placed: Option<PlacedBody>,
     history: JointHistory,
     /// The board's time now, and the host's, us.
     now: (Option<Micros>, u64),
@@ -65,9 +65,9 @@ pub struct Posing {
     restarts: u64,
 }
 
-/// The body on the garment that the board wears.
+/// The body on the garment of the board.
 #[derive(Debug)]
-struct WornBody {
+struct PlacedBody {
     garment: Garment,
     surface: RobotSurface,
 }
@@ -92,7 +92,7 @@ impl Posing {
             history: JointHistory::new(robot.clone(), motion)?,
             robot,
             period_us: (1e6 / hz) as u64,
-            worn: None,
+            placed: None,
             now: (None, 0),
             taken: Vec::new(),
             due_us: 0,
@@ -135,7 +135,7 @@ impl Posing {
         at: JointTime,
         positions: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<()> {
-        // Before the board has told its time, none of its frames needs a posture.
+        // Before the board has sent its time, none of its frames needs a posture.
         let (Some(now), host_us) = self.now else { return Ok(()) };
         let time_us = at.on_board(client, now, host_us);
         let ahead_us = time_us - i128::from(now.0);
@@ -153,21 +153,21 @@ impl Posing {
     }
 
     /// Notes what time it is.
-    pub(super) fn tell_time(&mut self, board: Option<Micros>, host_us: u64) {
+    pub(super) fn set_time(&mut self, board: Option<Micros>, host_us: u64) {
         self.now = (board, host_us);
     }
 
-    /// Sends poses that are due. Error if the body does not fit the garment that the board wears.
+    /// Sends poses that are due. Error if the body does not fit the garment of the board.
     pub(super) fn turn(&mut self, client: &mut Client) -> Result<()> {
         self.taken.clear();
-        self.wear(client)?;
+        self.place(client)?;
         let restarts = client.counts().restarts;
         if std::mem::replace(&mut self.restarts, restarts) != restarts {
             // Its clock begins anew, and it has no poses.
             self.history.forget();
             (self.asked, self.due_us) = (None, 0);
         }
-        let (Some(worn), Some(now)) = (&self.worn, self.now.0) else { return Ok(()) };
+        let (Some(placed), Some(now)) = (&self.placed, self.now.0) else { return Ok(()) };
         let waits = self.asked.is_some_and(|since| since.elapsed() < ANSWER)
             || self.refused.is_some_and(|since| since.elapsed() < REFUSED)
             || client.is_storing_table();
@@ -180,8 +180,8 @@ impl Posing {
         if estimate.age > SILENT {
             return Ok(());
         }
-        let Some(moving) = moving(&worn.surface, &self.history, &estimate, now) else { return Ok(()) };
-        let links = worn.surface.surface().links().iter().map(String::as_str);
+        let Some(moving) = moving(&placed.surface, &self.history, &estimate, now) else { return Ok(()) };
+        let links = placed.surface.surface().links().iter().map(String::as_str);
         setting::move_poses(client, now, links.zip(moving))?;
         // Later than due by less than a period: the next one is not late, too.
         let next_us = self.due_us + self.period_us;
@@ -190,15 +190,15 @@ impl Posing {
         Ok(())
     }
 
-    /// Places the body on the garment that the board wears, if it is another one than before.
-    fn wear(&mut self, client: &Client) -> Result<()> {
-        let Some(board) = client.worn() else { return Ok(()) };
-        if self.worn.as_ref().is_some_and(|worn| worn.garment == board.garment) {
+    /// Places the body on the garment of the board, if it is another one than before.
+    fn place(&mut self, client: &Client) -> Result<()> {
+        let Some(board) = client.description() else { return Ok(()) };
+        if self.placed.as_ref().is_some_and(|placed| placed.garment == board.garment) {
             return Ok(());
         }
         let surface = self.body.on_robot(&board.garment, &board.layout, self.robot.clone())?;
         self.history.need(&surface.moving(0));
-        self.worn = Some(WornBody { garment: board.garment.clone(), surface });
+        self.placed = Some(PlacedBody { garment: board.garment.clone(), surface });
         self.asked = None;
         Ok(())
     }

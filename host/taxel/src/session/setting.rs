@@ -6,7 +6,7 @@ use crate::error::{Context, Result, SettingError, UsageError};
 use crate::files::bases::Base;
 use crate::files::{folds, garments};
 use crate::source::SceneFile;
-use crate::tell::verbose;
+use crate::text::verbose;
 use std::path::Path;
 use taxel_core::board::TableKind;
 use taxel_core::format::Micros;
@@ -25,26 +25,26 @@ pub fn set_garment(client: &mut Client, name_or_path: &str) -> Result<()> {
         .and_then(|layout| Circuit::build(&read.garment, &layout, Pins::ANY))
         .map_err(|error| read.error(&error))?;
     let bytes = postcard::to_allocvec(&read.garment).context("the garment cannot be written")?;
-    verbose::tell(format_args!("sending garment {}, {} bytes", read.garment.name, bytes.len()));
+    verbose::print(format_args!("sending garment {}, {} bytes", read.garment.name, bytes.len()));
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
-/// Queues the requests that store a body on the board: a preset or a TOML file, for the garment that the
-/// board wears or, before its `Hello`, for `garment`.
+/// Queues the requests that store a body on the board: a preset or a TOML file, for the garment of the
+/// board or, before its `Hello`, for `garment`.
 pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
     let read = body::read(body)?;
     let table = |garment: &Garment, layout: &Layout| -> Result<Vec<u8>> {
         Ok(body::table(&read.surface(garment, layout)?, layout)?)
     };
-    let table = match client.worn() {
-        Some(worn) => table(&worn.garment, &worn.layout)?,
+    let table = match client.description() {
+        Some(description) => table(&description.garment, &description.layout)?,
         None => {
             let garment = garments::read(garment)?;
             let layout = Layout::build(&garment.garment, usize::from(u16::MAX), 4095);
             table(&garment.garment, &layout.map_err(|error| garment.error(&error))?)?
         }
     };
-    verbose::tell(format_args!("sending body {body}, {} bytes", table.len()));
+    verbose::print(format_args!("sending body {body}, {} bytes", table.len()));
     send_table(client, TableKind::Surface, &table)
 }
 
@@ -70,7 +70,7 @@ pub fn set_shapes(client: &mut Client, base: &Base) -> Result<()> {
 /// makes them. The board checks it.
 pub fn set_folds(client: &mut Client, file: &Path) -> Result<()> {
     let table = folds::read(file)?;
-    verbose::tell(format_args!("sending folds {}, {} bytes", file.display(), table.len()));
+    verbose::print(format_args!("sending folds {}, {} bytes", file.display(), table.len()));
     send_table(client, TableKind::Folds, &table)
 }
 
@@ -89,7 +89,7 @@ fn send_table(client: &mut Client, kind: TableKind, table: &[u8]) -> Result<()> 
 }
 
 /// Queues poses of the links of the board's body: by name, its origin (m) and its rotation (quaternion x, y,
-/// z, w) in the frame in which contacts are to be told.
+/// z, w) in the frame in which contacts are to be reported.
 pub fn set_poses<'a>(
     client: &mut Client,
     poses: impl IntoIterator<Item = (&'a str, [f64; 3], [f64; 4])>,
@@ -99,7 +99,7 @@ pub fn set_poses<'a>(
 }
 
 /// Queues poses of links of the board's body at the board's time `at`, by name, in the frame in which
-/// contacts are to be told, and how they move: the board carries them on.
+/// contacts are to be reported, and how they move: the board carries them on.
 pub fn move_poses<'a>(
     client: &mut Client,
     at: Micros,
@@ -114,14 +114,14 @@ fn send_poses<'a>(
     at: Option<Micros>,
     poses: impl Iterator<Item = (&'a str, body::Pose, Option<LinkMotion>)>,
 ) -> Result<()> {
-    let mut told = Poses { at, links: heapless::Vec::new() };
+    let mut reported = Poses { at, links: heapless::Vec::new() };
     for (link, pose, motion) in poses {
         let wrong = |why: &str| UsageError::Argument(format!("the pose of {link}: {why}"));
         let called = link.try_into().map_err(|_| wrong("its name is longer than 40 bytes"))?;
         let pose = pose.for_board().map_err(wrong)?;
-        told.links.push((called, pose, motion)).map_err(|_| wrong("a body has at most 8 links"))?;
+        reported.links.push((called, pose, motion)).map_err(|_| wrong("a body has at most 8 links"))?;
     }
-    Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&told)?))?)
+    Ok(client.request(&Request::SetPoses(&postcard::to_allocvec(&reported)?))?)
 }
 
 /// Checks what of a scene does not depend on the board.
@@ -137,7 +137,7 @@ pub fn check_scene(file: &SceneFile) -> Result<()> {
 /// Queues `SetScene` for a scene's file.
 pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
     check_scene(file)?;
-    verbose::tell(format_args!("sending scene {}", file.scene.name));
+    verbose::print(format_args!("sending scene {}", file.scene.name));
     client.use_for(&file.scene).with_context(|| file.name().to_string())
 }
 

@@ -8,8 +8,8 @@ use super::usb::{BAUD, PortKind, back, label, serial_of, usb_of};
 use super::{Source, SourceOptions};
 use crate::client::{Client, Event};
 use crate::error::{Error, Result, SourceError};
-use crate::tell::verbose;
-use crate::tell::words::printable;
+use crate::text::verbose;
+use crate::text::words::printable;
 use serialport::{SerialPortInfo, SerialPortType};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -118,7 +118,7 @@ fn number_of(port: &SerialPortInfo) -> String {
 
 /// All faults as one error; of its kind is the fault that needs the user's action first.
 fn worst(faults: Vec<SourceError>) -> Error {
-    let told = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let reported = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let any = |is: fn(&SourceError) -> bool| faults.iter().any(is);
     let kind = match () {
         () if any(|fault| matches!(fault, SourceError::NotPermitted(_))) => SourceError::NotPermitted,
@@ -126,7 +126,7 @@ fn worst(faults: Vec<SourceError>) -> Error {
         () if any(|fault| matches!(fault, SourceError::Foreign(_))) => SourceError::Foreign,
         () => SourceError::Silent,
     };
-    kind(told).into()
+    kind(reported).into()
 }
 
 /// A board on this port with this label, which changes if it comes back on another port.
@@ -156,7 +156,7 @@ fn returned(lost: &SerialPortInfo, ports: &SerialPorts, baud: u32) -> Result<Sou
 /// still streams to an earlier program.
 fn listen(port: &SerialPortInfo, ports: &SerialPorts) -> Result<Heard, SourceError> {
     let label = label(port);
-    verbose::tell(format_args!("listening for a board on {label}"));
+    verbose::print(format_args!("listening for a board on {label}"));
     let mut link = ports.open(&port.port_name, BAUD)?;
     let (mut client, mut heard, mut stranger) = (Client::new(), Vec::new(), Stranger::default());
     let (mut buffer, begun) = ([0; 1024], Instant::now());

@@ -87,7 +87,7 @@ impl Hand {
 
     /// Presses with a finger, or moves it. The centre is kept on the panel. Returns false, and does nothing, for a
     /// panel that the garment lacks, numbers that are none, a force outside 0 to 200 N, too many fingers, or a
-    /// board that has not taken what it was told before.
+    /// board that has not taken what it was sent before.
     pub fn press(&self, press: FingerPress) -> bool {
         let Some(area) = self.0.layout.areas().get(press.panel) else { return false };
         let numbers = [press.at[0], press.at[1], press.angle_deg];

@@ -38,8 +38,8 @@ impl Port for Heard {
         self.port.write(bytes)
     }
 
-    fn told(&mut self) -> Vec<u8> {
-        self.port.told()
+    fn own_requests(&mut self) -> Vec<u8> {
+        self.port.own_requests()
     }
 
     fn keeps(&self) -> Duration {
@@ -78,7 +78,7 @@ mod tests {
             Ok(bytes.len())
         }
 
-        fn told(&mut self) -> Vec<u8> {
+        fn own_requests(&mut self) -> Vec<u8> {
             vec![4]
         }
 
@@ -101,7 +101,7 @@ mod tests {
         let mut buffer = [0];
         let read = std::iter::repeat_with(|| heard.read(&mut buffer).unwrap().map(|_| buffer[0]));
         assert_eq!(read.take(4).collect::<Vec<_>>(), [1, 2, 3, 3].map(Some));
-        assert_eq!((heard.write(&[5, 6]).unwrap(), heard.told(), heard.keeps()), (2, vec![4], KEEPS));
+        assert_eq!((heard.write(&[5, 6]).unwrap(), heard.own_requests(), heard.keeps()), (2, vec![4], KEEPS));
         assert_eq!(
             (heard.news().as_deref(), heard.remark().as_deref()),
             (Some("two publish it"), Some("the end"))

@@ -36,7 +36,7 @@ pub use usb::{PortKind, listed as ports};
 use crate::error::{Result, UsageError};
 use crate::recording::GapMark;
 use crate::sim::Script;
-use crate::tell::verbose;
+use crate::text::verbose;
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -49,9 +49,9 @@ pub trait Port: Send {
     /// Writes as many bytes as the other end accepts within a short while, which may be 0. Returns their
     /// number.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
-    /// Requests that the board was sent by the source itself, before what was read last: a simulation tells the
+    /// Requests that the board was sent by the source itself, before what was read last: a simulation sends the
     /// joints of its script.
-    fn told(&mut self) -> Vec<u8> {
+    fn own_requests(&mut self) -> Vec<u8> {
         Vec::new()
     }
     /// How long bytes may wait to be read without holding back the board: not at all, unless the link has room for
@@ -63,7 +63,7 @@ pub trait Port: Send {
     fn gap(&mut self) -> Option<GapMark> {
         None
     }
-    /// What has become known of the link, to be told at once.
+    /// What has become known of the link, to be reported at once.
     fn news(&mut self) -> Option<String> {
         None
     }
@@ -116,7 +116,7 @@ pub struct Source {
     /// Counts per newton on a taxel, if known.
     pub counts_per_newton: Option<f32>,
     /// Its board already has the requested garment.
-    pub wears_asked: bool,
+    pub has_asked_garment: bool,
     /// Its board already has the requested body.
     pub has_body: bool,
     /// Scene that the board begins with, if it is known: that of a simulated one.
@@ -144,7 +144,7 @@ impl Source {
             tare: 0,
             real_time: false,
             counts_per_newton: None,
-            wears_asked: false,
+            has_asked_garment: false,
             has_body: false,
             scene: None,
             has_folds: false,
@@ -183,7 +183,7 @@ pub fn simulated(script: Script, options: &SourceOptions) -> Result<Source> {
 /// Opens a source. Errors are one sentence.
 pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
     let source = opened(spec, options)?;
-    verbose::tell(format_args!("source {} is open", source.label));
+    verbose::print(format_args!("source {} is open", source.label));
     Ok(source)
 }
 

@@ -20,7 +20,7 @@ struct Queues {
     queued: u64,
     read: u64,
     /// Requests that did not come from the host, each with the number of bytes queued before it.
-    told: VecDeque<(u64, Vec<u8>)>,
+    own_requests: VecDeque<(u64, Vec<u8>)>,
     /// The host has read for the first time.
     begun: bool,
     host_gone: bool,
@@ -61,12 +61,12 @@ impl super::Port for HostEnd {
         Ok(count)
     }
 
-    fn told(&mut self) -> Vec<u8> {
+    fn own_requests(&mut self) -> Vec<u8> {
         let mut queues = self.0.lock();
         let read = queues.read;
         let mut all = Vec::new();
-        while let Some((_, told)) = queues.told.pop_front_if(|(after, _)| *after < read) {
-            all.extend(told);
+        while let Some((_, request)) = queues.own_requests.pop_front_if(|(after, _)| *after < read) {
+            all.extend(request);
         }
         all
     }
@@ -99,11 +99,11 @@ impl BoardEnd {
 
     /// Notes a request to the board that does not come from the host, which learns of it with what the board
     /// says next.
-    pub fn tell(&self, request: &[u8]) {
+    pub fn note_request(&self, request: &[u8]) {
         let mut queues = self.0.lock();
         if !queues.host_gone {
             let after = queues.queued;
-            queues.told.push_back((after, request.into()));
+            queues.own_requests.push_back((after, request.into()));
         }
     }
 

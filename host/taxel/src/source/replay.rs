@@ -3,7 +3,7 @@
 use super::{Port, Source, SourceOptions};
 use crate::error::{Context, RecordingError, Result};
 use crate::recording::{BoardRecording, GapMark, LinkRecord, WIRE, WireReader};
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use std::fmt;
 use std::io::{self, IsTerminal};
 use std::str::FromStr;

@@ -4,7 +4,7 @@ use crate::error::{Context, Error, Result, SettingError};
 use crate::fcm;
 use crate::files::input;
 use crate::sim::Script;
-use crate::tell::{toml_key, words};
+use crate::text::{toml_key, words};
 use serde_json::Value;
 use std::fmt::Display;
 use std::path::Path;
@@ -162,7 +162,7 @@ mod tests {
 
     /// The key is found while the scene is read once: it was sought by reading the scene without each of its values.
     #[test]
-    fn the_last_of_many_keys_is_told() {
+    fn the_last_of_many_keys_is_reported() {
         let row = |name: &str| format!("{{ region = \"{name}\", percent = 1 }},\n");
         let many: String = (0..4).map(|at| row(&format!("part {at}"))).collect();
         let error =

@@ -1,4 +1,4 @@
-//! The joints of a script, told to the simulated board as a robot's program tells them to a real one.
+//! The joints of a script, sent to the simulated board as a robot's program sends them to a real one.
 
 use super::pipe::BoardEnd;
 use super::touching::Touching;
@@ -25,7 +25,7 @@ pub(super) struct ScriptPosture {
     posture: Vec<u8>,
     /// Time of the script at which the next posture is due, us.
     due_us: u64,
-    /// The host tells postures of its own.
+    /// The host sends postures of its own.
     is_overruled: bool,
 }
 
@@ -98,49 +98,49 @@ impl ScriptPosture {
 
 /// The board's end of the link, on which postures come between the host's requests, and what touches the garment
 /// is looked after.
-pub(super) struct TellingEnd<'a> {
+pub(super) struct PosturesEnd<'a> {
     link: &'a BoardEnd,
-    told: &'a mut ScriptPosture,
+    postures: &'a mut ScriptPosture,
     touching: Touching<'a>,
     clock: SimClock,
 }
 
-impl<'a> TellingEnd<'a> {
+impl<'a> PosturesEnd<'a> {
     pub fn new(
         link: &'a BoardEnd,
-        told: &'a mut ScriptPosture,
+        postures: &'a mut ScriptPosture,
         touching: Touching<'a>,
         clock: SimClock,
     ) -> Self {
-        TellingEnd { link, told, touching, clock }
+        PosturesEnd { link, postures, touching, clock }
     }
 }
 
-impl Link for TellingEnd<'_> {
+impl Link for PosturesEnd<'_> {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize {
         let now_ns = self.clock.now_ns();
         let begin = self.touching.act(now_ns);
         if !begin.is_empty() {
-            self.told.extend(begin);
+            self.postures.extend(begin);
         }
-        if self.told.movements.is_empty() {
+        if self.postures.movements.is_empty() {
             return self.link.try_read(buffer);
         }
-        if self.told.posture.is_empty()
-            && self.told.request.is_empty()
-            && let Some(posture) = self.told.due(now_ns / 1000)
+        if self.postures.posture.is_empty()
+            && self.postures.request.is_empty()
+            && let Some(posture) = self.postures.due(now_ns / 1000)
         {
-            self.link.tell(&posture);
-            self.told.posture = posture;
+            self.link.note_request(&posture);
+            self.postures.posture = posture;
         }
-        let count = self.told.posture.len().min(buffer.len());
+        let count = self.postures.posture.len().min(buffer.len());
         if count > 0 {
-            buffer[..count].copy_from_slice(&self.told.posture[..count]);
-            self.told.posture.drain(..count);
+            buffer[..count].copy_from_slice(&self.postures.posture[..count]);
+            self.postures.posture.drain(..count);
             return count;
         }
         let count = self.link.read_request(buffer);
-        self.told.pass(&buffer[..count]);
+        self.postures.pass(&buffer[..count]);
         count
     }
 
@@ -167,7 +167,7 @@ mod tests {
         bytes.split(|byte| *byte == 0).filter(|it| !it.is_empty()).map(<[u8]>::to_vec).collect()
     }
 
-    fn read(end: &mut TellingEnd<'_>) -> Vec<u8> {
+    fn read(end: &mut PosturesEnd<'_>) -> Vec<u8> {
         let (mut all, mut buffer) = (Vec::new(), [0; 7]);
         loop {
             let count = end.try_read(&mut buffer);
@@ -187,10 +187,10 @@ mod tests {
         let garment = Garment::reference();
         let SimBoard { clock, hand: sim_hand, .. } = SimBoard::new(&garment, &script, 1).unwrap();
         let hand = Hand::new(script.untouched(), Layout::build(&garment, 2048, 4095).unwrap());
-        let mut told = ScriptPosture::new(&Scene::shipped());
-        told.begin(&script.joints);
+        let mut postures = ScriptPosture::new(&Scene::shipped());
+        postures.begin(&script.joints);
         let touching = Touching::new(&hand, sim_hand, &script, Rounds::One);
-        let mut end = TellingEnd::new(&board, &mut told, touching, clock.clone());
+        let mut end = PosturesEnd::new(&board, &mut postures, touching, clock.clone());
         clock.advance_to(750_000);
         let mut wire = [0; 4096];
         let bytes = postcard::to_allocvec(&scene).unwrap();
@@ -218,12 +218,12 @@ mod tests {
         assert!(angle(after).centidegrees > 5500);
         assert!(read(&mut end).is_empty(), "the next one is not due");
         // The host learns of them with what the board says afterwards.
-        assert!(host.told().is_empty());
+        assert!(host.own_requests().is_empty());
         (&board).try_write(&[1, 2, 3]);
         assert_eq!(host.read(&mut wire).unwrap(), Some(3));
-        assert_eq!(requests(&host.told()), [before.clone(), after.clone()]);
-        assert!(host.told().is_empty());
-        // Once the host tells a posture, the script's are none.
+        assert_eq!(requests(&host.own_requests()), [before.clone(), after.clone()]);
+        assert!(host.own_requests().is_empty());
+        // Once the host sends a posture, the script's are none.
         let own = encode(&Request::Posture(Posture::default()), &mut wire).unwrap().to_vec();
         host.write(&own).unwrap();
         clock.advance_to(790_000);

@@ -34,7 +34,7 @@ fn fault(path: &str, baud: u32, error: &serialport::Error) -> SourceError {
         (Io(ErrorKind::NotFound), _) => no_board("there is no such port; `taxel ports` lists the ports"),
         // The system's message about a file that is not a terminal.
         (_, "Not a typewriter" | "Inappropriate ioctl for device") => no_board("it is not a serial port"),
-        (_, told) => no_board(&told.to_lowercase()),
+        (_, stated) => no_board(&stated.to_lowercase()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::hand::Hand;
 use super::pipe::{BoardEnd, pipe};
-use super::script_posture::{ScriptPosture, TellingEnd};
+use super::script_posture::{PosturesEnd, ScriptPosture};
 use super::touching::{Rounds, Touching};
 use super::{Source, SourceOptions, scene_of};
 use crate::body;
@@ -74,10 +74,10 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         (true, true) => Rounds::Later,
     };
     let seed = options.seed.unwrap_or(script.seed);
-    let worn = options.garment.clone().unwrap_or(input::beside(&script.folder, &script.garment));
+    let named = options.garment.clone().unwrap_or(input::beside(&script.folder, &script.garment));
     let layout = Layout::build(&garment, TAXELS, FULL_SCALE).with_context(|| label.clone())?;
     let hand =
-        Hand::new(Script { seed, garment: scripts::lasting_path(&worn)?, ..script.untouched() }, layout);
+        Hand::new(Script { seed, garment: scripts::lasting_path(&named)?, ..script.untouched() }, layout);
     let scene = Some(board_scene.clone());
     let play = Playing {
         seed,
@@ -92,19 +92,19 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         script,
     };
     let (host, board_end) = pipe();
-    let (told, ready) = mpsc::channel();
+    let (ready_sender, ready) = mpsc::channel();
     thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
         let made = play.board().map(Box::new);
         // Built here for the check only; it is built again for each round.
         let made = SimBoard::new(&play.garment, &play.script, play.seed).map_err(Error::from).and(made);
         match made {
             Ok(mut board) => {
-                let _ = told.send(Ok(()));
+                let _ = ready_sender.send(Ok(()));
                 if board_end.begin() {
                     play.all(&mut board, board_end);
                 }
             }
-            Err(error) => drop(told.send(Err(error))),
+            Err(error) => drop(ready_sender.send(Err(error))),
         }
     })?;
     ready
@@ -114,7 +114,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
     Ok(Source {
         tare,
         counts_per_newton: Some(COUNTS_PER_NEWTON),
-        wears_asked: options.garment.is_some(),
+        has_asked_garment: options.garment.is_some(),
         has_body: options.body.is_some(),
         scene,
         has_folds: options.folds.is_some(),
@@ -239,7 +239,7 @@ impl Playing {
             let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
             posture.begin(&script.joints);
             let touching = Touching::new(&self.hand, hand, &self.script, self.rounds);
-            let mut end = TellingEnd::new(&link, &mut posture, touching, clock.clone());
+            let mut end = PosturesEnd::new(&link, &mut posture, touching, clock.clone());
             block_on(run(&mut scan, &mut end, &mut platform, board));
             now = clock.now();
             if !platform.restarts || self.restart(board, &mut flash).is_err() {

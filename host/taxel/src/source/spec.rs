@@ -3,7 +3,7 @@
 use super::replay::Speed;
 use crate::network::BoardPlace;
 use crate::recording::BoardRecording;
-use crate::tell::words;
+use crate::text::words;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;

@@ -89,7 +89,7 @@ fn grouped(number: u64) -> String {
 mod tests {
     use super::*;
 
-    fn told(label: &str, bytes: &[u8]) -> String {
+    fn reported(label: &str, bytes: &[u8]) -> String {
         let mut stranger = Stranger::default();
         bytes.chunks(100).for_each(|piece| stranger.take(piece));
         stranger.describe(label)
@@ -100,15 +100,15 @@ mod tests {
         let row = (0..252).map(|number| format!("{}", number % 7)).collect::<Vec<_>>().join(",");
         let rows = format!("{row}\r\n").repeat(700);
         assert_eq!(
-            told("tcp:x:1", &rows.as_bytes()[20..]),
+            reported("tcp:x:1", &rows.as_bytes()[20..]),
             "tcp:x:1: 353,480 bytes of text lines of 252 numbers: no taxel board"
         );
         let words = "boot ok\n> 1 2\n".repeat(4);
-        assert_eq!(told("usb:a", words.as_bytes()), "usb:a: 56 bytes of text: no taxel board");
+        assert_eq!(reported("usb:a", words.as_bytes()), "usb:a: 56 bytes of text: no taxel board");
         let noise: Vec<u8> =
             (0..2000u32).map(|number| (number.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
         assert_eq!(
-            told("serial:/dev/x@9600", &noise),
+            reported("serial:/dev/x@9600", &noise),
             "serial:/dev/x@9600: 2,000 bytes of unknown form: no taxel board, or another speed"
         );
         assert_eq!(grouped(1_234_567), "1,234,567");

@@ -11,7 +11,7 @@ const QUIET_NS: u64 = 10_000_000_000;
 
 /// Most scripts that play at a time.
 const SCRIPTS: usize = 8;
-/// The board is told of a path that is played again this long before it begins, ns.
+/// The board is sent a path that is played again this long before it begins, ns.
 const AHEAD_NS: u64 = 50_000_000;
 
 /// How a script is played.
@@ -179,7 +179,7 @@ impl<'a> Touching<'a> {
         self.again = all.into();
     }
 
-    /// Tells the board of the paths that are about to begin.
+    /// Sends the board the paths that are about to begin.
     fn draw_again(&mut self, now_ns: u64) {
         while let Some((_, trace)) = self.again.pop_front_if(|(first_ns, _)| *first_ns <= now_ns + AHEAD_NS) {
             self.board.trace(self.traces, trace, false);

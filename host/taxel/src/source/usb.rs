@@ -1,7 +1,7 @@
 //! Boards and probes among the serial ports, by their USB ids.
 
 use super::serial_ports::SerialPorts;
-use crate::tell::words::printable;
+use crate::text::words::printable;
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 
 /// USB vendor, product and name of a board. The numbers are for tests (<https://pid.codes>), so other devices
@@ -30,7 +30,7 @@ impl PortKind {
         let (vendor, product, name) = BOARD;
         match usb_of(port) {
             Some(usb) if (usb.vid, usb.pid) == (vendor, product) => {
-                match usb.product.as_deref().is_none_or(|told| told.contains(name)) {
+                match usb.product.as_deref().is_none_or(|stated| stated.contains(name)) {
                     true => PortKind::Board,
                     false => PortKind::Other,
                 }
@@ -53,8 +53,8 @@ impl PortKind {
 /// Serial ports: name, kind, and USB description with the serial number.
 pub fn listed() -> Vec<(String, PortKind, String)> {
     let describe = |port: SerialPortInfo| {
-        let (kind, told) = (PortKind::of(&port), usb_of(&port).map_or(String::new(), described));
-        (port.port_name, kind, told)
+        let (kind, stated) = (PortKind::of(&port), usb_of(&port).map_or(String::new(), described));
+        (port.port_name, kind, stated)
     };
     SerialPorts::default().list().into_iter().map(describe).collect()
 }
@@ -74,8 +74,8 @@ pub fn serial_of(port: &SerialPortInfo) -> Option<&str> {
 
 /// Id, name and serial number of a device, as far as it has them.
 fn described(usb: &UsbPortInfo) -> String {
-    let told = [&usb.product, &usb.serial_number].into_iter().flatten().map(|text| printable(text));
-    told.fold(format!("{:04x}:{:04x}", usb.vid, usb.pid), |line, text| format!("{line} {text}"))
+    let stated = [&usb.product, &usb.serial_number].into_iter().flatten().map(|text| printable(text));
+    stated.fold(format!("{:04x}:{:04x}", usb.vid, usb.pid), |line, text| format!("{line} {text}"))
 }
 
 /// Label of a port; a USB port has no speed.

@@ -68,21 +68,21 @@ struct Inbox {
     alive: Vec<u64>,
     /// Frames of the publisher; none before one is chosen.
     order: Option<PieceOrder>,
-    /// What is to be told.
+    /// What is to be reported.
     news: VecDeque<String>,
     /// Requests that have no answer yet.
     open: usize,
     /// The last request that was answered was not handed over.
     is_unheard: bool,
-    /// Ways by which something came that the publisher has not sent: it was told of.
+    /// Ways by which something came that the publisher has not sent: it was reported.
     strange: Vec<PieceKind>,
     /// Nobody reads any longer.
     is_closed: bool,
 }
 
 impl Inbox {
-    /// Adds what is to be told, unless nobody has listened for long.
-    fn tell(&mut self, news: String) {
+    /// Adds what is to be reported, unless nobody has listened for long.
+    fn report(&mut self, news: String) {
         if self.news.len() < KNOWN {
             self.news.push_back(news);
         }
@@ -107,11 +107,11 @@ impl ZenohPort {
     fn open(network: &Network, before: Option<u64>, longest: Duration) -> Result<ZenohPort> {
         let Network { place, session, .. } = network;
         let inbox = Arc::<Shared<Inbox>>::default();
-        let told = inbox.clone();
+        let reported = inbox.clone();
         let alive = session.liveliness().declare_subscriber(place.all_alive()).history(true);
-        let alive = alive.callback(move |sample| note_life(&told, &sample)).wait().map_err(failed)?;
+        let alive = alive.callback(move |sample| note_life(&reported, &sample)).wait().map_err(failed)?;
         let publisher = chosen(&inbox, place, before, longest)?;
-        let told = inbox.clone();
+        let reported = inbox.clone();
         let (main, images) = (place.main(), place.images());
         let wire = session.declare_subscriber(place.wire()).callback(move |sample| {
             let kind = match sample.key_expr().as_str() {
@@ -119,7 +119,7 @@ impl ZenohPort {
                 key if key == images => PieceKind::Image,
                 _ => return,
             };
-            note_piece(&told, kind, &sample);
+            note_piece(&reported, kind, &sample);
         });
         Ok(ZenohPort {
             publisher,
@@ -230,7 +230,7 @@ impl Ticket {
             && !was_unheard
         {
             let why = network::words(&why.payload().to_bytes());
-            self.0.change(|inbox| inbox.tell(format!("a request was not handed over: {why}")));
+            self.0.change(|inbox| inbox.report(format!("a request was not handed over: {why}")));
         }
     }
 }
@@ -254,7 +254,7 @@ fn note_life(inbox: &Shared<Inbox>, sample: &Sample) {
             inbox.alive.push(id);
         }
         if let Some(ours) = ours.filter(|ours| *ours != id) {
-            inbox.tell(twice(ours, id));
+            inbox.report(twice(ours, id));
         }
     });
 }
@@ -278,12 +278,12 @@ fn chosen(inbox: &Shared<Inbox>, place: &BoardPlace, before: Option<u64>, longes
     let before = before.filter(|before| known.alive.contains(before));
     let ours = before.or(known.alive.iter().min().copied()).unwrap_or_default();
     let others: Vec<u64> = known.alive.iter().copied().filter(|id| *id != ours).collect();
-    others.into_iter().for_each(|other| known.tell(twice(ours, other)));
+    others.into_iter().for_each(|other| known.report(twice(ours, other)));
     known.order = Some(PieceOrder::new(ours));
     Ok(ours)
 }
 
-/// Takes a frame; what the publisher has not sent is ignored, and told of once.
+/// Takes a frame; what the publisher has not sent is ignored, and reported once.
 fn note_piece(inbox: &Shared<Inbox>, kind: PieceKind, sample: &Sample) {
     let stamp = sample.attachment().map(|bytes| bytes.to_bytes()).unwrap_or_default();
     let piece = WirePiece::read(kind, &stamp, &sample.payload().to_bytes());
@@ -300,7 +300,7 @@ fn note_piece(inbox: &Shared<Inbox>, kind: PieceKind, sample: &Sample) {
     {
         known.strange.push(kind);
         let key = sample.key_expr();
-        known.tell(format!("something else writes to {key}, and is ignored: {why}"));
+        known.report(format!("something else writes to {key}, and is ignored: {why}"));
     }
     drop(known);
     inbox.wake();

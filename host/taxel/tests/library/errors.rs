@@ -1,4 +1,4 @@
-//! The kinds of errors that a program can tell apart: each is really returned.
+//! The kinds of errors that a program can distinguish: each is really returned.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -83,7 +83,7 @@ fn a_file_that_is_missing_is_named_by_each_reader() {
 }
 
 #[test]
-fn an_output_that_exists_is_told_from_one_that_cannot_be() {
+fn an_output_that_exists_is_distinguished_from_one_that_cannot_be() {
     let folder = Folder::new("outputs");
     let there = folder.file("there.csv", "old");
     let none: [&Path; 0] = [];
@@ -99,7 +99,7 @@ fn an_output_that_exists_is_told_from_one_that_cannot_be() {
 }
 
 #[test]
-fn garbage_a_foreign_recording_and_a_damaged_one_are_told_apart() {
+fn garbage_a_foreign_recording_and_a_damaged_one_are_distinguished() {
     let folder = Folder::new("recordings");
     let garbage = folder.file("garbage.mcap", [0xA5; 4096]);
     for error in [failed(Overview::of(&garbage)), failed(Messages::open(&garbage))] {
@@ -128,7 +128,7 @@ fn garbage_a_foreign_recording_and_a_damaged_one_are_told_apart() {
 }
 
 #[test]
-fn arrays_that_are_none_damaged_or_unfit_are_told_apart() {
+fn arrays_that_are_none_damaged_or_unfit_are_distinguished() {
     let folder = Folder::new("arrays");
     let of = |name: &str, bytes: &[u8]| failed(arrays::read(&folder.file(name, bytes), None)).into_kind();
     assert!(matches!(of("a.npy", b"no array"), ErrorKind::Array(ArrayError::NotAnArray(_))));
@@ -142,7 +142,7 @@ fn arrays_that_are_none_damaged_or_unfit_are_told_apart() {
 }
 
 #[test]
-fn a_source_that_is_not_there_and_one_that_does_not_exist_are_told_apart() {
+fn a_source_that_is_not_there_and_one_that_does_not_exist_are_distinguished() {
     for source in ["serial:/dev/no-such-port", "tcp:127.0.0.1:1"] {
         let error = failed(taxel::open(source));
         match error.kind() {
@@ -194,7 +194,7 @@ fn an_invalid_setting_names_its_parameter() {
 }
 
 #[test]
-fn a_base_of_another_version_is_told_from_one_that_is_none() {
+fn a_base_of_another_version_is_distinguished_from_one_that_is_none() {
     let error = failed(Base::parse("{ \"kind\": \"taxel shapes 9\" }"));
     assert!(matches!(error.kind(), ErrorKind::Learn(LearnError::Version(_))), "{error:?}");
     let error = failed(Base::parse("{}"));

@@ -183,7 +183,7 @@ fn the_core_follows_the_whole_trajectory() {
 /// says that the state reproduces itself, not that it is near the limit.
 #[test]
 fn a_creeping_map_rests_before_its_limit() {
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     for (problem, case) in all().filter(|(_, case)| case.outcome.starts_with("slow")) {
         let run = engine::q15(&problem, &case.settings, 1500).unwrap();
         let far = engine::run(&problem, &case.settings, 100_000);
@@ -193,10 +193,10 @@ fn a_creeping_map_rests_before_its_limit() {
             case.label, run.outcome, run.steps
         );
         assert_eq!(run.outcome, Outcome::Fixed, "{}", case.label);
-        told.push((case.settings.transfer, same, limit));
+        reported.push((case.settings.transfer, same, limit));
     }
-    assert_eq!(told.len(), 3);
-    for (transfer, same, limit) in told {
+    assert_eq!(reported.len(), 3);
+    for (transfer, same, limit) in reported {
         if transfer == Transfer::Tanh {
             assert!((1.1e-2..1.3e-2).contains(&same) && (0.2..0.24).contains(&limit), "{same} {limit}");
         } else {

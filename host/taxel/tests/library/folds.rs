@@ -43,14 +43,14 @@ struct Seen {
     sweep: FoldSweep,
     contacts: Vec<(u64, u32, u32)>,
     leading: Vec<Leading>,
-    told: Vec<FoldsReport>,
+    reported: Vec<FoldsReport>,
 }
 
 fn layout(script: &Script) -> Layout {
     Layout::build(&scripts::garment(script).expect("it is a preset"), 2048, 4095).expect("it is checked")
 }
 
-/// Plays a script to a board that is told the angles at 50 Hz, with a table in force or none.
+/// Plays a script to a board that is sent the angles at 50 Hz, with a table in force or none.
 fn play(script: &Script, folds: Option<&LearnedFolds>) -> Seen {
     let garment = scripts::garment(script).expect("it is a preset");
     let mut board = VirtualBoard::new(garment.clone(), Scene::shipped()).expect("they fit");
@@ -83,11 +83,12 @@ fn play(script: &Script, folds: Option<&LearnedFolds>) -> Seen {
                     }
                     // Before the tare the garment at rest looks like a touch.
                     Event::Contacts { .. } if step > begin => {
-                        let told = client.contacts().iter().map(|it| (time, it.contact.id, it.contact.total));
-                        seen.contacts.extend(told);
+                        let reported =
+                            client.contacts().iter().map(|it| (time, it.contact.id, it.contact.total));
+                        seen.contacts.extend(reported);
                     }
                     Event::Intent(report) if step > begin => seen.leading.push(report.leading),
-                    Event::Folds(report) => seen.told.push((**report).clone()),
+                    Event::Folds(report) => seen.reported.push((**report).clone()),
                     Event::Answer { refusal: Some(why), .. } => panic!("{why}"),
                     _ => {}
                 }
@@ -95,7 +96,10 @@ fn play(script: &Script, folds: Option<&LearnedFolds>) -> Seen {
             })
             .expect("the codes are of this garment");
     }
-    assert!(folds.is_none() || seen.told.last().is_some_and(|told| told.followed), "no table in force");
+    assert!(
+        folds.is_none() || seen.reported.last().is_some_and(|reported| reported.followed),
+        "no table in force"
+    );
     seen
 }
 
@@ -162,10 +166,10 @@ fn a_bending_arm_is_no_touch_and_a_hand_on_it_is() {
         let held = ((bent_s + 0.6) * 1e6) as u64;
         let felt = total_at(&seen, held, begin);
         let doubt = seen
-            .told
+            .reported
             .iter()
-            .filter(|told| told.time.0 >= held + begin * FRAME_PERIOD_US)
-            .find_map(|told| told.contacts.first().map(|it| it.doubt))
+            .filter(|reported| reported.time.0 >= held + begin * FRAME_PERIOD_US)
+            .find_map(|reported| reported.contacts.first().map(|it| it.doubt))
             .unwrap_or(0);
         println!("row {row}: {felt} of {alone} counts, doubt {doubt}");
         assert!(f64::from(felt.abs_diff(alone)) <= (0.1 * f64::from(alone)).max(doubt.into()), "{row}");
@@ -240,9 +244,9 @@ fn one_day_leaves_room_for_another_that_is_twice_as_strong() {
     }
 }
 
-/// Wears a garment of which that was learned on another day, on an arm that bends to `degrees` in so many
+/// Feels a garment of which that was learned on another day, on an arm that bends to `degrees` in so many
 /// frames. Returns the number of frames with a contact, and what is expected at the end, counts.
-fn worn(
+fn on_another_day(
     learned: &LearnedFolds,
     mut felt: impl FnMut(f32) -> Vec<u16>,
     frames: u64,
@@ -288,7 +292,7 @@ fn a_board_learns_all_that_another_day_brings() {
     let learned = learned_once(growing(101, 600.0), 30.0);
     // Five times there and back within 6.4 s, and there.
     let degrees = |step| 50.0 - 50.0 * (step as f32 / 200.0).min(11.0 * std::f32::consts::PI).cos();
-    let (contacts, expected) = worn(&learned, growing(103, 1000.0), 7200, degrees);
+    let (contacts, expected) = on_another_day(&learned, growing(103, 1000.0), 7200, degrees);
     assert_eq!(contacts, 0);
     assert!((1900..2100).contains(&expected), "{expected} of 2000 counts");
 }
@@ -303,7 +307,7 @@ fn a_bulge_that_appears_at_once_may_do_so_later_and_be_stronger() {
         let campaign = std::env::var_os("TAXEL_CAMPAIGN").is_some();
         for later in &all[..if campaign { all.len() } else { 4 }] {
             let bulge = at_once(101, 450, [from + later, until + later]);
-            let (contacts, _) = worn(&learned, bulge, 18_800, degrees);
+            let (contacts, _) = on_another_day(&learned, bulge, 18_800, degrees);
             assert_eq!(contacts, 0, "{from} to {until} degrees, {later} later");
         }
     }
@@ -334,7 +338,7 @@ fn what_cannot_be_learned_is_said() {
         refused(&[sweep(80, 2048, 0)], &[]),
         "no taxel is pressed while the joints move: nothing folds"
     );
-    assert_eq!(refused(&[sweep(80, 2048, 90)], &[&["knee"]]), "joint knee: no sweep tells its angle");
+    assert_eq!(refused(&[sweep(80, 2048, 90)], &[&["knee"]]), "joint knee: no sweep reports its angle");
     let three = ["elbow", "elbow", "elbow"];
     assert_eq!(refused(&[sweep(80, 2048, 90)], &[&three]), "a fold has one joint or two, not 3");
     let many = refused(&[sweep(80, 2048, 90)], &[]);

@@ -120,7 +120,7 @@ fn a_script_waits_for_ten_seconds_of_nobody_and_what_was_pressed_is_played_again
     assert!(on(12.0, 20.0, 0) > 100, "then it plays, on the chest");
     assert_eq!((on(4.0, 20.0, 1), hand.touches()), (0, 1));
     hand.clear();
-    assert_eq!(hand.script().traces.len(), 1, "the board does as it is told after its next frame");
+    assert_eq!(hand.script().traces.len(), 1, "the board does as it is asked after its next frame");
 }
 
 #[test]

@@ -38,34 +38,34 @@ const BODIES: [(&str, &str); 5] = [
     ("reference", ""),
 ];
 
-struct Worn {
+struct Dressed {
     layout: Layout,
     surface: Surface,
     table: Vec<u8>,
 }
 
-fn worn((garment, text): (&str, &str)) -> Worn {
+fn dressed((garment, text): (&str, &str)) -> Dressed {
     let garment = if garment == "mat" { Garment::mat() } else { Garment::reference() };
     let body: Body =
         if text.is_empty() { body::read("reference").unwrap().body } else { toml::from_str(text).unwrap() };
     let layout = Layout::build(&garment, 2048, 65_535).unwrap();
     let surface = Surface::build(&body, &garment, &layout).unwrap();
     let table = body::table(&surface, &layout).unwrap();
-    Worn { layout, surface, table }
+    Dressed { layout, surface, table }
 }
 
 /// What a board says of an image.
-struct Told {
+struct Felt {
     contacts: Vec<Landed>,
     links: Vec<Wrench>,
 }
 
 /// What a board makes of an image; also the contacts.
-fn felt(worn: &Worn, values: &[u16], frames: &LinkFrames) -> (Told, Vec<Contact>) {
-    let contacts = contacts(&worn.layout, values);
-    let table = Table::check(&worn.table, &worn.layout).unwrap();
+fn felt(dressed: &Dressed, values: &[u16], frames: &LinkFrames) -> (Felt, Vec<Contact>) {
+    let contacts = contacts(&dressed.layout, values);
+    let table = Table::check(&dressed.table, &dressed.layout).unwrap();
     let mut pressing = Pressing::new();
-    pressing.sum(&table, &contacts, &worn.layout, [values; 2]);
+    pressing.sum(&table, &contacts, &dressed.layout, [values; 2]);
     let owned = |wrench: Wrench<&str>| Wrench {
         link: wrench.link,
         name: LinkName::try_from(wrench.name).unwrap(),
@@ -75,7 +75,7 @@ fn felt(worn: &Worn, values: &[u16], frames: &LinkFrames) -> (Told, Vec<Contact>
         center: wrench.center,
     };
     let links = pressing.links(&table).map(owned).collect();
-    (Told { contacts: pressing.contacts(frames).collect(), links }, contacts.present().to_vec())
+    (Felt { contacts: pressing.contacts(frames).collect(), links }, contacts.present().to_vec())
 }
 
 /// The contacts of an image, each taxel of which counts.
@@ -121,23 +121,23 @@ fn contacts_and_wrenches_are_those_of_the_host() {
     let mut random = Noise(22);
     let mut worst = [0.0f64; 4];
     for kind in BODIES {
-        let worn = worn(kind);
+        let dressed = dressed(kind);
         for most in [40.0, 4000.0, 65_535.0] {
             for _ in 0..20 {
-                let values = image(&mut random, &worn.layout, most);
-                let (pressing, contacts) = felt(&worn, &values, &LinkFrames::NONE);
+                let values = image(&mut random, &dressed.layout, most);
+                let (pressing, contacts) = felt(&dressed, &values, &LinkFrames::NONE);
                 assert_eq!(pressing.contacts.len(), contacts.len());
                 for (landed, contact) in pressing.contacts.iter().zip(&contacts) {
                     let [x, y] = [contact.x, contact.y].map(|at| at.to_f64());
-                    let want = worn.surface.at(&worn.layout, contact.panel, x, y).unwrap();
+                    let want = dressed.surface.at(&dressed.layout, contact.panel, x, y).unwrap();
                     assert_eq!((landed.id, usize::from(landed.spot.link)), (contact.id, want.link));
                     worst[0] = worst[0].max((metres(landed.spot.at) - want.at).length());
                     let normal = DVec3::from(landed.spot.normal.map(|n| f64::from(n) / f64::from(ONE)));
                     worst[1] = worst[1].max((normal - want.normal).length());
                 }
                 // All taxels of contacts: an image of presses has a few that are of none.
-                let touched = touched(&worn.layout, &values, &contacts);
-                let wanted = wrenches(&worn.surface, &touched);
+                let touched = touched(&dressed.layout, &values, &contacts);
+                let wanted = wrenches(&dressed.surface, &touched);
                 for wrench in &pressing.links {
                     let want = &wanted[usize::from(wrench.link)];
                     assert_eq!(f64::from(wrench.pressed), want.pressed);
@@ -187,24 +187,24 @@ fn contacts_in_the_base_frame_are_within_a_tenth_of_a_millimetre() {
     let mut random = Noise(23);
     let (mut at, mut turned, mut pushed) = (0.0f64, 0.0f64, 0.0f64);
     for kind in BODIES {
-        let worn = worn(kind);
+        let dressed = dressed(kind);
         for _ in 0..40 {
-            let values = image(&mut random, &worn.layout, 4000.0);
+            let values = image(&mut random, &dressed.layout, 4000.0);
             let mut state = SurfaceState::new();
-            let links = worn.surface.links().len();
+            let links = dressed.surface.links().len();
             let poses: Vec<_> = (0..links)
                 .map(|_| ([0; 3].map(|_| random.below(4_000_001) as i32 - 2_000_000), rotation(&mut random)))
                 .collect();
-            let told = poses.iter().zip(worn.surface.links());
-            let told: Vec<LinkPose> = told
+            let reported = poses.iter().zip(dressed.surface.links());
+            let reported: Vec<LinkPose> = reported
                 .map(|((at, (turn, _)), link)| (called(link), Pose { at: *at, turn: *turn }, None))
                 .collect();
-            state.accept(&told, &Table::view(&worn.table).unwrap(), Micros(7)).unwrap();
-            assert_eq!(state.told(), Some(Micros(7)));
-            let (pressing, contacts) = felt(&worn, &values, &state.at(Micros(7)));
+            state.accept(&reported, &Table::view(&dressed.table).unwrap(), Micros(7)).unwrap();
+            assert_eq!(state.updated(), Some(Micros(7)));
+            let (pressing, contacts) = felt(&dressed, &values, &state.at(Micros(7)));
             for (landed, contact) in pressing.contacts.iter().zip(&contacts) {
                 let [x, y] = [contact.x, contact.y].map(|at| at.to_f64());
-                let want = worn.surface.at(&worn.layout, contact.panel, x, y).unwrap();
+                let want = dressed.surface.at(&dressed.layout, contact.panel, x, y).unwrap();
                 let (origin, (_, turn)) = poses[want.link];
                 let base = landed.base.unwrap();
                 at = at.max((metres(base.at) - (metres(origin) + turn * want.at)).length());
@@ -223,8 +223,8 @@ fn contacts_in_the_base_frame_are_within_a_tenth_of_a_millimetre() {
 /// says; no longer than 0.2 s.
 #[test]
 fn links_that_move_are_carried_on() {
-    let (mut random, worn) = (Noise(25), worn(BODIES[1]));
-    let table = Table::view(&worn.table).unwrap();
+    let (mut random, dressed) = (Noise(25), dressed(BODIES[1]));
+    let table = Table::view(&dressed.table).unwrap();
     let mut worst = 0.0f64;
     for _ in 0..400 {
         let at = [0; 3].map(|_| random.below(2_000_001) as i32 - 1_000_000);
@@ -233,15 +233,15 @@ fn links_that_move_are_carried_on() {
         let spin = [0; 3].map(|_| random.below(5 << 20) as i32 - (5 << 19));
         let motion = LinkMotion { velocity, spin, error: 500, drift: 3_000, acceleration: 2_000_000 };
         let mut state = SurfaceState::new();
-        let told = Micros(1_000_000);
-        state.accept(&[(called("base"), Pose { at, turn }, Some(motion))], &table, told).unwrap();
+        let reported = Micros(1_000_000);
+        state.accept(&[(called("base"), Pose { at, turn }, Some(motion))], &table, reported).unwrap();
         let us = random.below(2 * u64::from(CARRIED_US) + 1) as i64 - i64::from(CARRIED_US);
-        let frames = state.at(Micros(told.0.wrapping_add_signed(us)));
+        let frames = state.at(Micros(reported.0.wrapping_add_signed(us)));
         let seconds = us as f64 * 1e-6;
-        let image = image(&mut random, &worn.layout, 4000.0);
-        let (told, _) = felt(&worn, &image, &frames);
+        let image = image(&mut random, &dressed.layout, 4000.0);
+        let (reported, _) = felt(&dressed, &image, &frames);
         let turned = DVec3::from(spin.map(f64::from)) / f64::from(1 << 20) * seconds;
-        for landed in &told.contacts {
+        for landed in &reported.contacts {
             let own = metres(landed.spot.at);
             let origin = metres(at) + metres(velocity) * seconds;
             let want = origin + glam::DQuat::from_scaled_axis(turned) * exact * own;
@@ -261,12 +261,12 @@ fn links_that_move_are_carried_on() {
 /// place; a taxel at the end of its range is counted.
 #[test]
 fn what_faulty_and_saturated_taxels_leave_unknown_is_bounded() {
-    let (mut random, worn) = (Noise(26), worn(BODIES[4]));
-    let table = Table::view(&worn.table).unwrap();
+    let (mut random, dressed) = (Noise(26), dressed(BODIES[4]));
+    let table = Table::view(&dressed.table).unwrap();
     let (mut judged, mut held, mut placed) = (0, 0, 0);
     let mut widths = Vec::new();
     for _ in 0..400 {
-        let whole = image(&mut random, &worn.layout, 3000.0);
+        let whole = image(&mut random, &dressed.layout, 3000.0);
         let mut faulty = Vec::new();
         let mut values = whole.clone();
         for _ in 0..12 {
@@ -279,12 +279,12 @@ fn what_faulty_and_saturated_taxels_leave_unknown_is_bounded() {
                 values[*taxel] = 0;
             }
         }
-        let (truth, _) = felt(&worn, &whole, &LinkFrames::NONE);
-        let contacts = contacts(&worn.layout, &values);
+        let (truth, _) = felt(&dressed, &whole, &LinkFrames::NONE);
+        let contacts = contacts(&dressed.layout, &values);
         let mut pressing = Pressing::new();
-        pressing.sum(&table, &contacts, &worn.layout, [&values; 2]);
+        pressing.sum(&table, &contacts, &dressed.layout, [&values; 2]);
         let senses = TaxelLimits { faulty: &faulty, ceiling: |_| u16::MAX };
-        pressing.doubt(&table, &contacts, &worn.layout, [&values; 2], &senses);
+        pressing.doubt(&table, &contacts, &dressed.layout, [&values; 2], &senses);
         let doubts: Vec<_> = pressing.doubts_of_links(&table).collect();
         for wrench in pressing.links(&table) {
             let Some(want) = truth.links.iter().find(|it| it.link == wrench.link) else { continue };
@@ -305,54 +305,54 @@ fn what_faulty_and_saturated_taxels_leave_unknown_is_bounded() {
     );
     assert!(judged > 300 && held * 100 >= judged * 95 && placed * 100 >= judged * 95);
 
-    let whole = image(&mut random, &worn.layout, 4000.0);
+    let whole = image(&mut random, &dressed.layout, 4000.0);
     let ceiling = whole.iter().max().unwrap() * 3 / 4;
     let values: Vec<u16> = whole.iter().map(|value| *value.min(&ceiling)).collect();
     let full = values.iter().filter(|value| **value == ceiling).count();
-    let contacts = contacts(&worn.layout, &values);
+    let contacts = contacts(&dressed.layout, &values);
     let mut pressing = Pressing::new();
-    pressing.sum(&table, &contacts, &worn.layout, [&values; 2]);
+    pressing.sum(&table, &contacts, &dressed.layout, [&values; 2]);
     assert!(!pressing.is_in_doubt());
     let senses = TaxelLimits { faulty: &[], ceiling: |_| ceiling };
-    pressing.doubt(&table, &contacts, &worn.layout, [&values; 2], &senses);
+    pressing.doubt(&table, &contacts, &dressed.layout, [&values; 2], &senses);
     let of = |all: &mut dyn Iterator<Item = u16>| all.map(usize::from).sum::<usize>();
-    let told = of(&mut pressing.doubts_of_contacts(&table).map(|(_, it)| it.saturated));
+    let reported = of(&mut pressing.doubts_of_contacts(&table).map(|(_, it)| it.saturated));
     let by_link = of(&mut pressing.doubts_of_links(&table).map(|(_, it)| it.saturated));
     assert!(pressing.is_in_doubt() && full > 0);
-    assert_eq!([told, by_link], [full; 2]);
+    assert_eq!([reported, by_link], [full; 2]);
 }
 
 /// A table that is damaged anywhere is refused, and none of its readers panics.
 #[test]
 fn a_damaged_table_is_refused() {
-    let worn = worn(BODIES[1]);
+    let dressed = dressed(BODIES[1]);
     let refusal =
         |bytes: &[u8], layout: &Layout| Table::check(bytes, layout).map(|_| ()).map_err(|e| e.to_string());
-    assert_eq!(refusal(&worn.table, &worn.layout), Ok(()));
-    assert_eq!(worn.table.len(), table_bytes(2048));
+    assert_eq!(refusal(&dressed.table, &dressed.layout), Ok(()));
+    assert_eq!(dressed.table.len(), table_bytes(2048));
     let other = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
-    assert_eq!(refusal(&worn.table, &other), Err("surface must be made for this garment".into()));
+    assert_eq!(refusal(&dressed.table, &other), Err("surface must be made for this garment".into()));
     let mut random = Noise(24);
     for _ in 0..400 {
-        let mut bytes = worn.table.clone();
+        let mut bytes = dressed.table.clone();
         let at = random.below(bytes.len() as u64) as usize;
         bytes[at] ^= 1 << random.below(8);
-        assert!(refusal(&bytes, &worn.layout).is_err(), "byte {at}");
+        assert!(refusal(&bytes, &dressed.layout).is_err(), "byte {at}");
         if let Some(table) = Table::view(&bytes) {
             let _ = (0..=255).filter_map(|link| table.link(link)).count();
         }
     }
-    for length in [0, 1, 15, 143, 144, 163, worn.table.len() - 1, worn.table.len() - 20] {
+    for length in [0, 1, 15, 143, 144, 163, dressed.table.len() - 1, dressed.table.len() - 20] {
         let must = "surface must be a table of taxels, version 2";
-        assert_eq!(refusal(&worn.table[..length], &worn.layout), Err(must.into()), "{length}");
+        assert_eq!(refusal(&dressed.table[..length], &dressed.layout), Err(must.into()), "{length}");
     }
 }
 
 /// Poses that are none change nothing.
 #[test]
 fn a_pose_that_is_none_is_refused() {
-    let (worn, mut state) = (worn(BODIES[1]), SurfaceState::new());
-    let table = Table::view(&worn.table).unwrap();
+    let (dressed, mut state) = (dressed(BODIES[1]), SurfaceState::new());
+    let table = Table::view(&dressed.table).unwrap();
     let one = 1 << 30;
     let good = Pose { at: [1, 2, 3], turn: [0, 0, 0, one] };
     for (pose, link, why) in [
@@ -371,9 +371,9 @@ fn a_pose_that_is_none_is_refused() {
     state.accept(&[(called("base"), good, None)], &table, Micros(1)).unwrap();
 }
 
-/// A body is sent to a board piece by piece, and the board tells what presses where.
+/// A body is sent to a board piece by piece, and the board says what presses where.
 #[test]
-fn a_board_takes_a_body_and_tells_what_presses_on_it() {
+fn a_board_takes_a_body_and_says_what_presses_on_it() {
     let garment = Garment::reference();
     let mut board = VirtualBoard::new(garment.clone(), Scene::shipped()).unwrap();
     let (mut codes, mut frame) = (vec![100; board.taxels()], 0);
@@ -381,7 +381,7 @@ fn a_board_takes_a_body_and_tells_what_presses_on_it() {
     let mut steps = |board: &mut VirtualBoard, codes: &[u16], count: u64| {
         for _ in 0..count {
             frame += 1;
-            let mut told = |_: &Client, event: &Event| {
+            let mut reported = |_: &Client, event: &Event| {
                 match event {
                     Event::Answer { request, refusal } => answers.push((*request, refusal.clone())),
                     Event::Pressing(report) => pressed.push(report.clone()),
@@ -389,7 +389,7 @@ fn a_board_takes_a_body_and_tells_what_presses_on_it() {
                 }
                 Ok(())
             };
-            board.step(codes, Micros(frame * 5_128), &mut told).unwrap();
+            board.step(codes, Micros(frame * 5_128), &mut reported).unwrap();
         }
     };
     setting::set_body(board.client(), "reference", "reference").unwrap();

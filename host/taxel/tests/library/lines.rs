@@ -59,8 +59,8 @@ fn simulate(scene: &str, lines: &mut Lines) {
             MessagePrinter::new(true, &mut printed).event(client, &event, STAMP).unwrap();
             keep(lines, &format!("{scene} printed"), std::str::from_utf8(&printed).unwrap());
         }
-        if let (Event::Hello, Some(worn)) = (&event, client.worn()) {
-            replay = Some(Replay::new(&worn.garment, &worn.scene, 4095).unwrap());
+        if let (Event::Hello, Some(description)) = (&event, client.description()) {
+            replay = Some(Replay::new(&description.garment, &description.scene, 4095).unwrap());
         }
         if let (Event::Raw { time, whole: true, .. }, Some(replay)) = (&event, &mut replay) {
             keep(lines, &format!("{scene} replayed"), &replay.frame(client.raw(), *time).to_string());

@@ -116,8 +116,8 @@ impl Link {
         let mut arrived = [false; BATCH];
         for byte in wire {
             if let Some(Event::Sync(report)) = self.client.push(byte) {
-                let told = (first..self.seq).find(|seq| message(*seq) == report);
-                let seq = told.unwrap_or_else(|| panic!("{:?}: {report:?} was never sent", self.fault));
+                let reported = (first..self.seq).find(|seq| message(*seq) == report);
+                let seq = reported.unwrap_or_else(|| panic!("{:?}: {report:?} was never sent", self.fault));
                 assert!(
                     self.last.is_none_or(|last| last < seq),
                     "{:?}: {seq} after {:?}",
@@ -193,16 +193,16 @@ fn messages_that_belong_to_the_next_one_are_there_with_it() {
     let sync = |token| Report::Sync(SyncReport { token, received: Micros(1), sent: Micros(2) });
     let names = || Report::RegionNames(RegionNames { names: Default::default() });
     let reports = [sync(1), names(), names(), sync(2), sync(3)];
-    let (mut client, mut told) = (Client::new(), Vec::new());
+    let (mut client, mut reported) = (Client::new(), Vec::new());
     let mut frames = Vec::new();
     for (seq, report) in reports.iter().enumerate() {
         let frame = encode(&(seq as u32, report), &mut [0; 64]).unwrap().to_vec();
         for byte in &frame {
             if client.push(*byte).is_some() {
-                told.push(client.lines().collect::<Vec<_>>().concat());
+                reported.push(client.lines().collect::<Vec<_>>().concat());
             }
         }
         frames.push(frame);
     }
-    assert_eq!(told, [frames[0].clone(), frames[1..4].concat(), frames[4].clone()]);
+    assert_eq!(reported, [frames[0].clone(), frames[1..4].concat(), frames[4].clone()]);
 }

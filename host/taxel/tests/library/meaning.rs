@@ -177,13 +177,13 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
 
 /// A bending arm folds its own garment, without a touch.
 #[test]
-fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
+fn an_arm_that_bends_means_nothing_where_its_posture_is_sent() {
     let script = scripts::load("elbow").expect("built in");
     let garment = scripts::garment(&script).expect("it is a preset");
     let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
     let scene = Scene::shipped();
     let pipeline = Pipeline::build(&scene, &layout).expect("the shipped scene fits");
-    let led = |tells: bool| {
+    let led = |is_posture_sent: bool| {
         let mut state = Box::new(PipelineState::<TAXELS, { TAXELS / 2 }>::default());
         state.reset(&layout, false, 4095);
         state.condition.tare(script.tare_frames as u16);
@@ -192,7 +192,7 @@ fn an_arm_that_bends_means_nothing_where_its_posture_is_told() {
         for start in (0..3_500_000).step_by(FRAME_PERIOD_US as usize) {
             let angle = script.posture(start as f64 / 1e6).map(|(_, angle)| (100.0 * angle) as i16);
             let joints = (0..).zip(angle).map(|(joint, centidegrees)| JointAngle { joint, centidegrees });
-            if tells {
+            if is_posture_sent {
                 let posture = Posture { joints: joints.collect() };
                 state
                     .condition

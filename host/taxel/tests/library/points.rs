@@ -16,7 +16,7 @@ const BEGIN: u64 = 40;
 const COUNTS: f64 = 1000.0;
 
 /// For each frame of an object pressed on the chest: the total of all contacts, N, and the largest code.
-fn told(size_mm: f64, force_n: f64, at: [f64; 2], rise_s: f64, frames: u64) -> Vec<(f64, u16)> {
+fn reported(size_mm: f64, force_n: f64, at: [f64; 2], rise_s: f64, frames: u64) -> Vec<(f64, u16)> {
     let start_s = (BEGIN * FRAME_PERIOD_US) as f64 / 1e6;
     let text = format!(
         "duration_s = 2\nseed = 5\n[[touch]]\npanel = \"chest\"\nshape = \"finger\"\nsize_mm = {size_mm}\n\
@@ -48,14 +48,14 @@ fn places() -> impl Iterator<Item = [f64; 2]> {
 }
 
 #[test]
-fn the_force_of_small_things_is_told_wherever_they_land() {
-    println!("size, mm   force, N   told, N: least, greatest");
+fn the_force_of_small_things_is_reported_wherever_they_land() {
+    println!("size, mm   force, N   reported, N: least, greatest");
     for (size_mm, force_n) in
         [8.0, 12.0, 16.0].into_iter().flat_map(|size| [1.0, 2.0, 3.5].map(|f| (size, f)))
     {
         let (mut least, mut greatest) = (f64::MAX, 0f64);
         for at in places() {
-            let (force, code) = told(size_mm, force_n, at, 0.03, 40).pop().unwrap();
+            let (force, code) = reported(size_mm, force_n, at, 0.03, 40).pop().unwrap();
             assert!(code < 4095, "no taxel is full");
             (least, greatest) = (least.min(force), greatest.max(force));
         }
@@ -70,12 +70,12 @@ fn the_force_of_small_things_is_told_wherever_they_land() {
 fn a_needle_is_felt_within_three_frames() {
     let high = Scene::shipped().contact.high;
     for (at, rise_s) in places().flat_map(|at| [0.001, 0.02, 0.08].map(|rise_s| (at, rise_s))) {
-        let told = told(4.0, 8.0, at, rise_s, 40);
-        let rest = told[usize::from(TARE)..BEGIN as usize].iter().map(|it| it.1).max().unwrap();
-        let shows = told.iter().position(|(_, code)| *code >= rest + high).unwrap();
-        let felt = told.iter().position(|(force, _)| *force > 0.0).unwrap();
+        let reported = reported(4.0, 8.0, at, rise_s, 40);
+        let rest = reported[usize::from(TARE)..BEGIN as usize].iter().map(|it| it.1).max().unwrap();
+        let shows = reported.iter().position(|(_, code)| *code >= rest + high).unwrap();
+        let felt = reported.iter().position(|(force, _)| *force > 0.0).unwrap();
         assert!(felt < shows + 3, "at {at:?}: shown in frame {shows}, felt in {felt}");
         // A taxel saturates at 4 N.
-        assert!(told.last().unwrap().0 >= 3.8, "at {at:?}: {:?}", told.last());
+        assert!(reported.last().unwrap().0 >= 3.8, "at {at:?}: {:?}", reported.last());
     }
 }

@@ -18,16 +18,16 @@ struct Both {
     computed: BTreeMap<u32, BTreeMap<u32, Push>>,
     /// Sum of the magnitudes on all links, counts.
     pressed: BTreeMap<u32, u32>,
-    told: Vec<PressingReport>,
+    reported: Vec<PressingReport>,
 }
 
 impl Both {
     fn event(&mut self, client: &Client, event: &Event) -> Result<(), Error> {
         match event {
             Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
-                let worn = client.worn().unwrap();
-                let surface = body::read("reference")?.surface(&worn.garment, &worn.layout)?;
-                let line = computed_pressing(client, *time, &worn.layout, &surface).unwrap();
+                let description = client.description().unwrap();
+                let surface = body::read("reference")?.surface(&description.garment, &description.layout)?;
+                let line = computed_pressing(client, *time, &description.layout, &surface).unwrap();
                 assert_eq!((line.frame, line.time_us), (*frame, time.0));
                 let push = |landed: &taxel::json::lines::LandedLine<'_>| {
                     let force = DVec3::from(landed.own.force.map(f64::from));
@@ -36,7 +36,7 @@ impl Both {
                 self.computed.insert(*frame, line.contacts.iter().map(push).collect());
                 self.pressed.insert(*frame, line.links.iter().map(|wrench| wrench.pressed).sum());
             }
-            Event::Pressing(report) => self.told.push((**report).clone()),
+            Event::Pressing(report) => self.reported.push((**report).clone()),
             _ => {}
         }
         Ok(())
@@ -58,15 +58,15 @@ fn the_host_computes_what_a_board_says() {
         both.event(session.client(), &event).unwrap();
     }
     let (mut compared, mut farthest, mut worst) = (0, 0.0f64, 0.0f64);
-    for report in &both.told {
+    for report in &both.reported {
         let Some(computed) = both.computed.get(&report.frame) else { continue };
         for landed in &report.contacts {
             // A contact's list may be left out where the link has no room.
             let Some((link, at, force)) = computed.get(&landed.id) else { continue };
             let name = report.links.iter().find(|wrench| wrench.link == landed.spot.link).unwrap();
             assert_eq!(link, name.name.as_str());
-            let told = DVec3::from(landed.spot.at.map(|um| f64::from(um) * 1e-6));
-            farthest = farthest.max(at.distance(told));
+            let reported = DVec3::from(landed.spot.at.map(|um| f64::from(um) * 1e-6));
+            farthest = farthest.max(at.distance(reported));
             let board = DVec3::from(landed.force.map(f64::from));
             // The board also counts what its filter cuts from a crest: of a light touch that is much.
             if landed.force.iter().any(|part| part.abs() > 1_000) {
@@ -79,7 +79,7 @@ fn the_host_computes_what_a_board_says() {
     assert!(compared > 500 && farthest < 1e-4 && worst < 0.05, "{compared}, {farthest} m, {worst}");
     // Held by all five, the links feel as much.
     let pressed = |report: &PressingReport| report.links.iter().map(|wrench| wrench.pressed).sum::<u32>();
-    let held = both.told.iter().filter(|report| both.pressed.contains_key(&report.frame));
+    let held = both.reported.iter().filter(|report| both.pressed.contains_key(&report.frame));
     let held = held.max_by_key(|report| pressed(report)).unwrap();
     let (board, host) = (pressed(held), both.pressed[&held.frame]);
     assert!(held.contacts.len() == 5 && board.abs_diff(host) < board / 20, "{board}, {host}");

@@ -229,7 +229,7 @@ fn classes_are_derived_from_the_structs() {
     names.extend(written.iter().map(|part| class(part)));
     names.sort_unstable();
     text.push_str("\n__all__ = [\n");
-    names.iter().for_each(|name| drop(writeln!(text, "    \"{name}\",")));
+    names.iter().for_each(|name| _ = writeln!(text, "    \"{name}\","));
     text.push_str("]\n");
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../python/python/taxel/_events.py");
     if std::env::var_os("TAXEL_BLESS").is_some() {

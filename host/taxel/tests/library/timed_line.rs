@@ -91,10 +91,10 @@ impl TimedLine {
     /// The host sends due requests, and handles arrived bytes.
     pub fn poll(&mut self, now: f64) {
         while let Some((at, bytes)) = self.coming.pop_front_if(|(at, _)| *at <= now) {
-            self.client.tell_time((EPOCH + at) as u64);
+            self.client.set_time((EPOCH + at) as u64);
             bytes.into_iter().for_each(|byte| drop(self.client.push(byte)));
         }
-        self.client.tell_time((EPOCH + now) as u64);
+        self.client.set_time((EPOCH + now) as u64);
         let asked = self.client.take_requests();
         if asked.is_empty() {
             return;

@@ -36,7 +36,7 @@ fn trained() -> (Ridge, Vec<u8>) {
 }
 
 #[test]
-fn a_trained_model_tells_touches_apart_that_it_has_not_seen() {
+fn a_trained_model_distinguishes_touches_that_it_has_not_seen() {
     let (_, bytes) = trained();
     let touches = TouchClassifier::new(Model::read(&bytes).unwrap(), 8, 8);
     for seed in 100..140 {

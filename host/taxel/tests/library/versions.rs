@@ -49,8 +49,8 @@ fn another_protocol_is_named_with_what_to_do() {
     for (protocol, sentence) in cases {
         let later = [&hello(protocol)[..], b"and then something else"].concat();
         for body in [&hello(protocol), &later] {
-            let told = events(&[(Report::HELLO, body)]);
-            assert!(matches!(&told[..], [Event::Unusable(why)] if why == sentence), "{told:?}");
+            let reported = events(&[(Report::HELLO, body)]);
+            assert!(matches!(&reported[..], [Event::Unusable(why)] if why == sentence), "{reported:?}");
         }
     }
 }
@@ -60,10 +60,10 @@ fn messages_and_fields_of_a_later_version_are_passed_over() {
     let temperature = Temperature { time: Micros(7), celsius: Celsius(2_500) };
     let mut later = postcard::to_allocvec(&temperature).unwrap();
     later.extend([1, 2, 3]);
-    let told = events(&[
+    let reported = events(&[
         (REPORTS.len() as u32, &[1, 2, 3]),
         (Report::TEMPERATURE, &later),
         (1_000_000, b"of whichever length, and whatever it holds"),
     ]);
-    assert!(matches!(&told[..], [Event::Temperature(read)] if *read == temperature), "{told:?}");
+    assert!(matches!(&reported[..], [Event::Temperature(read)] if *read == temperature), "{reported:?}");
 }

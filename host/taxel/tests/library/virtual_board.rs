@@ -38,11 +38,11 @@ fn stepped(scene: &str, scans: &[(Micros, Vec<u16>)]) -> Vec<Value> {
     }
     let mut lines = Vec::new();
     for (time, codes) in scans {
-        let mut told = |client: &_, event: &_| {
+        let mut reported = |client: &_, event: &_| {
             lines.push(message(client, event));
             Ok(())
         };
-        board.step(codes, *time, &mut told).unwrap();
+        board.step(codes, *time, &mut reported).unwrap();
     }
     lines
 }

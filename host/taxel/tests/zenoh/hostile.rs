@@ -8,7 +8,7 @@ use taxel::session::Session;
 use zenoh::Wait;
 use zenoh::qos::CongestionControl;
 
-/// How it is told of.
+/// How it is reported.
 const STRANGE: &str = "something else writes to";
 
 /// Who offers the board.
@@ -18,7 +18,7 @@ fn publisher(other: &zenoh::Session) -> u64 {
     BoardPlace::publisher(sample.key_expr().as_str()).unwrap()
 }
 
-/// Another hundred frames, all as the board has sent them; nothing is told a second time.
+/// Another hundred frames, all as the board has sent them; nothing is reported a second time.
 fn goes_on(viewer: &mut Session) {
     let mut frames = 0;
     wait_for(viewer, "frames", |event| {
@@ -31,7 +31,7 @@ fn goes_on(viewer: &mut Session) {
 }
 
 #[test]
-fn what_the_program_has_not_sent_is_told_of_and_ignored() {
+fn what_the_program_has_not_sent_is_reported_and_ignored() {
     for (stamp, payload, why) in [
         (None, vec![2, 1, 0], "its attachment is no stamp"),
         (Some((0, 0)), vec![2, 1, 0], "its stamp does not count it"),
@@ -57,10 +57,10 @@ fn what_the_program_has_not_sent_is_told_of_and_ignored() {
             }
         };
         put();
-        let told = wait_for_words(&mut viewer, STRANGE);
+        let reported = wait_for_words(&mut viewer, STRANGE);
         let ends = format!("{STRANGE} taxel/arm/left/wire/main, and is ignored: {why}");
-        assert_eq!(told, format!("zenoh:arm/left: {ends}"));
-        // It is told of once, and a flood takes nothing from the board.
+        assert_eq!(reported, format!("zenoh:arm/left: {ends}"));
+        // It is reported once, and a flood takes nothing from the board.
         (0..50).for_each(|_| put());
         goes_on(&mut viewer);
     }
@@ -107,7 +107,7 @@ fn names_with_signs_of_keys_are_no_boards_and_wide_queries_are_answered_for_what
 }
 
 #[test]
-fn a_flood_of_signs_of_life_is_told_of_a_few_times() {
+fn a_flood_of_signs_of_life_is_reported_a_few_times() {
     let network = Network::new();
     let _offered = Offered::begin(&network);
     let mut viewer = network.view();

@@ -61,21 +61,21 @@ fn images_leave_the_machine_only_if_somebody_listens() {
     let network = Network::new();
     let _offered = Offered::begin(&network);
     let other = network.other();
-    let (tell, told) = mpsc::channel();
-    let of_main = tell.clone();
-    let listen = |key: String, tell: mpsc::Sender<PieceStamp>| {
+    let (sender, reported) = mpsc::channel();
+    let of_main = sender.clone();
+    let listen = |key: String, sender: mpsc::Sender<PieceStamp>| {
         let heard = other.declare_subscriber(key).callback(move |sample| {
             let stamp = sample.attachment().map(|bytes| bytes.to_bytes().into_owned());
-            let _ = tell.send(PieceStamp::from_bytes(&stamp.unwrap()).unwrap());
+            let _ = sender.send(PieceStamp::from_bytes(&stamp.unwrap()).unwrap());
         });
         heard.wait().unwrap()
     };
     let _main = listen(place().main(), of_main);
     for _ in 0..50 {
-        assert_eq!(told.recv_timeout(Duration::from_secs(10)).unwrap().images, 0);
+        assert_eq!(reported.recv_timeout(Duration::from_secs(10)).unwrap().images, 0);
     }
-    let _images = listen(place().images(), tell);
-    let begun = std::iter::from_fn(|| told.recv_timeout(Duration::from_secs(10)).ok()).take(500);
+    let _images = listen(place().images(), sender);
+    let begun = std::iter::from_fn(|| reported.recv_timeout(Duration::from_secs(10)).ok()).take(500);
     assert!(begun.into_iter().any(|stamp| stamp.images > 10), "no images come");
 }
 
@@ -93,9 +93,9 @@ fn state_and_health_are_there_for_other_programs() {
     );
     assert_eq!((&state["taxels"], &state["firmware"]), (&64.into(), &"test".into()));
     let health = other.declare_subscriber(place().health()).wait().unwrap();
-    let told = health.recv_timeout(Duration::from_secs(10)).unwrap().unwrap();
-    let told: serde_json::Value = serde_json::from_slice(&told.payload().to_bytes()).unwrap();
-    assert_eq!((&told["type"], &told["lost"]), (&"health".into(), &0.into()));
+    let reported = health.recv_timeout(Duration::from_secs(10)).unwrap().unwrap();
+    let reported: serde_json::Value = serde_json::from_slice(&reported.payload().to_bytes()).unwrap();
+    assert_eq!((&reported["type"], &reported["lost"]), (&"health".into(), &0.into()));
 }
 
 #[test]
@@ -109,9 +109,12 @@ fn times_stay_within_their_bounds_across_the_network() {
         answers == 20
     });
     let client = viewer.client();
-    let told = client.host_time(client.board_time().unwrap()).unwrap();
+    let reported = client.host_time(client.board_time().unwrap()).unwrap();
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap().as_micros() as u64;
-    assert!(told.us <= now + told.uncertainty_us && told.uncertainty_us < 50_000, "{told:?} at {now}");
+    assert!(
+        reported.us <= now + reported.uncertainty_us && reported.uncertainty_us < 50_000,
+        "{reported:?} at {now}"
+    );
     drop(offered);
     let Err(error) = network.source() else { panic!("nobody offers it") };
     assert!(matches!(error.kind(), ErrorKind::Source(_)), "{error}");

@@ -29,8 +29,8 @@ fn a_viewer_stays_with_one_of_two_and_says_so() {
     // As after a network that was in two parts: the other one has its own numbers.
     let other = network.other();
     let _token = other.liveliness().declare_token(place().alive(7)).wait().unwrap();
-    let told = wait_for_words(&mut viewer, "it is offered twice");
-    assert!(told.ends_with("and 0000000000000007 is not"), "{told}");
+    let reported = wait_for_words(&mut viewer, "it is offered twice");
+    assert!(reported.ends_with("and 0000000000000007 is not"), "{reported}");
     for main in 0..200 {
         let stamp = PieceStamp { publisher: 7, main, images: 0 };
         other

@@ -65,7 +65,7 @@ impl Network {
     }
 }
 
-/// State of the offered board, as another program is told.
+/// State of the offered board, as another program gets it.
 pub fn state(other: &zenoh::Session) -> Value {
     let reply = other.get(place().state()).wait().unwrap().recv().unwrap();
     serde_json::from_slice(&reply.result().unwrap().payload().to_bytes()).unwrap()
@@ -103,10 +103,10 @@ impl Offered {
         let session = network::open(NetworkEnd::Offer, Some(&network.router)).unwrap();
         let mut offer = BoardOffer::open(&session, &place()).unwrap();
         let (ends, sent) = (Arc::new(AtomicBool::new(false)), Arc::<Mutex<Vec<u8>>>::default());
-        let (told, kept, board) = (ends.clone(), sent.clone(), source(&rig));
+        let (reported, kept, board) = (ends.clone(), sent.clone(), source(&rig));
         let thread = std::thread::spawn(move || {
             let mut session = Session::over(board).unwrap();
-            while !told.load(Ordering::Relaxed) {
+            while !reported.load(Ordering::Relaxed) {
                 turn(&mut session, &mut offer, &kept).unwrap();
             }
             let stamp = Stamps::start().now(session.client());

@@ -114,10 +114,10 @@ pub fn judge(program: &Path, folder: &Path, stream: &Stream, seconds: f64, board
     Ok(Judged { boards, seconds, each, cpu_s, memory_mb, late_ms, viewed_mb, written_mb })
 }
 
-/// Processes that play so many boards: their ports, and the lines that tell when all boards of one are played.
+/// Processes that play so many boards: their ports, and the lines that say when all boards of one are played.
 fn players(folder: &Path, boards: usize) -> Result<(Vec<Running>, Vec<String>, Receiver<String>)> {
     let (mut running, mut ports) = (Vec::new(), Vec::new());
-    let (told, played) = channel();
+    let (reported, played) = channel();
     let mut left = boards;
     while left > 0 {
         let count = left.min(EACH);
@@ -128,8 +128,8 @@ fn players(folder: &Path, boards: usize) -> Result<(Vec<Running>, Vec<String>, R
         let mut lines = BufReader::new(player.0.stdout.take().context("no output")?).lines();
         let first = lines.next().context("a player has ended")??;
         ports.extend(first.split(' ').map(String::from));
-        let told = told.clone();
-        thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| told.send(line)));
+        let reported = reported.clone();
+        thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| reported.send(line)));
         running.push(player);
     }
     Ok((running, ports, played))

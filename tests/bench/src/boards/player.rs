@@ -50,7 +50,7 @@ pub fn run(args: &PlayArgs) -> Result<()> {
     Ok(())
 }
 
-/// Plays a board to whoever connects first; tells once it is played by how much its latest message was late. Ends
+/// Plays a board to whoever connects first; says once it is played by how much its latest message was late. Ends
 /// when the connection does.
 pub fn serve(listener: &TcpListener, stream: &Stream, played: &Sender<Duration>) -> Result<()> {
     let (link, _) = listener.accept()?;
@@ -71,7 +71,7 @@ pub fn serve(listener: &TcpListener, stream: &Stream, played: &Sender<Duration>)
         player.outgoing.clear();
         if rest.is_none() && player.next == stream.messages.len() {
             player.next += 1;
-            // Whoever is told may be gone.
+            // Whoever listens may be gone.
             let _ = played.send(player.late);
         }
         thread::sleep(rest.unwrap_or(LOOK).min(LOOK));

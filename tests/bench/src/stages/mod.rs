@@ -15,7 +15,7 @@ use format::Form;
 use row::{Cost, Row};
 use std::path::PathBuf;
 use table::Table;
-use twin::{Told, Twin};
+use twin::{StepResult, Twin};
 
 /// Repetitions of each measurement; the least disturbed counts.
 const ROUNDS: usize = 5;
@@ -30,8 +30,8 @@ pub fn report() -> Result<Report> {
     let mut rows = Vec::new();
     for case in &cases {
         let steps = case.steps()?;
-        let (costs, told) = measure(&steps);
-        rows.push(Row::of(case, &steps, &costs, &told));
+        let (costs, results) = measure(&steps);
+        rows.push(Row::of(case, &steps, &costs, &results));
     }
     let forms = Form::all().into_iter().map(|form| form.row(&measure(&form.steps()).0)).collect();
     let table = Table { place: "this machine".into(), unit: "ns", rows, forms };
@@ -39,19 +39,19 @@ pub fn report() -> Result<Report> {
 }
 
 /// Least cost of each step, and its result.
-fn measure(steps: &[Step]) -> (Vec<Cost>, Vec<Told>) {
+fn measure(steps: &[Step]) -> (Vec<Cost>, Vec<StepResult>) {
     let round = || {
         let mut twin = Twin::default();
-        steps.iter().map(|step| twin.perform(step)).collect::<Vec<Told>>()
+        steps.iter().map(|step| twin.perform(step)).collect::<Vec<StepResult>>()
     };
-    let told = round();
-    let mut least: Vec<_> = told.iter().map(|told| told.spent).collect();
+    let results = round();
+    let mut least: Vec<_> = results.iter().map(|results| results.spent).collect();
     for _ in 1..ROUNDS {
-        for (least, told) in least.iter_mut().zip(round()) {
-            if told.spent.iter().sum::<u64>() < least.iter().sum() {
-                *least = told.spent;
+        for (least, results) in least.iter_mut().zip(round()) {
+            if results.spent.iter().sum::<u64>() < least.iter().sum() {
+                *least = results.spent;
             }
         }
     }
-    (least.into_iter().map(|stages| Cost { stages, stack: None }).collect(), told)
+    (least.into_iter().map(|stages| Cost { stages, stack: None }).collect(), results)
 }

@@ -2,7 +2,7 @@
 
 use super::case::{Case, Step, Variant};
 use super::error::{Error, Truth};
-use super::twin::{STAGES, Told};
+use super::twin::{STAGES, StepResult};
 use serde_json::{Value, json};
 use taxel_core::pipeline::Stage;
 
@@ -46,26 +46,26 @@ pub struct Row {
 impl Row {
     /// Row from the steps of a case, of whose scans the last are the measured frames: what the host sends
     /// between them is none.
-    pub fn of(case: &Case, steps: &[Step], costs: &[Cost], told: &[Told]) -> Row {
+    pub fn of(case: &Case, steps: &[Step], costs: &[Cost], results: &[StepResult]) -> Row {
         let scans =
-            steps.iter().zip(costs.iter().zip(told)).filter(|(step, _)| matches!(step, Step::Scan(_)));
-        let (costs, told): (Vec<&Cost>, Vec<&Told>) = scans.map(|(_, done)| done).unzip();
+            steps.iter().zip(costs.iter().zip(results)).filter(|(step, _)| matches!(step, Step::Scan(_)));
+        let (costs, results): (Vec<&Cost>, Vec<&StepResult>) = scans.map(|(_, done)| done).unzip();
         let costs = costs.get(costs.len().saturating_sub(case.measured())..).unwrap_or(&[]);
-        let told = told.get(told.len().saturating_sub(case.measured())..).unwrap_or(&[]);
+        let results = results.get(results.len().saturating_sub(case.measured())..).unwrap_or(&[]);
         let frames = costs.len().max(1) as u64;
         let mut truth = Truth::default();
         if let Some(pattern) = case.pattern {
-            let frames = told.iter().enumerate().filter(|(_, told)| !told.contacts.is_empty());
-            frames.for_each(|(n, told)| truth.compare(pattern, Case::number(n), &told.contacts));
+            let frames = results.iter().enumerate().filter(|(_, results)| !results.contacts.is_empty());
+            frames.for_each(|(n, results)| truth.compare(pattern, Case::number(n), &results.contacts));
         }
-        let last = told.last();
-        let present = |t: &&Told| t.contacts.iter().filter(|c| c.contact.total > 0).count() as u64;
+        let last = results.last();
+        let present = |t: &&StepResult| t.contacts.iter().filter(|c| c.contact.total > 0).count() as u64;
         Row {
             name: case.name,
             variant: case.variant,
             stages: std::array::from_fn(|stage| costs.iter().map(|c| c.stages[stage]).sum::<u64>() / frames),
             largest: costs.iter().map(|cost| cost.whole()).max().unwrap_or(0),
-            bytes: told.iter().map(|t| u64::from(t.said.bytes)).sum::<u64>() / frames,
+            bytes: results.iter().map(|t| u64::from(t.said.bytes)).sum::<u64>() / frames,
             stack: costs.iter().filter_map(|c| c.stack).max(),
             contacts: [last.map_or(0, present), last.map_or(0, |t| t.dropped.into())],
             error: truth.errors(),

@@ -23,7 +23,7 @@ pub struct Twin {
 
 /// Result of a step.
 #[derive(Debug, Clone, Default)]
-pub struct Told {
+pub struct StepResult {
     /// Output.
     pub said: Said,
     /// Nanoseconds by stage.
@@ -64,10 +64,10 @@ impl Default for Twin {
 
 impl Twin {
     /// Performs a step.
-    pub fn perform(&mut self, step: &Step) -> Told {
-        let (mut told, mut watch, mut sent) = (Told::default(), Watch::default(), Vec::new());
-        told.said = match step {
-            Step::Receive(bytes) => bytes.iter().fold(told.said, |_, byte| self.chain.receive(&[*byte])),
+    pub fn perform(&mut self, step: &Step) -> StepResult {
+        let (mut results, mut watch, mut sent) = (StepResult::default(), Watch::default(), Vec::new());
+        results.said = match step {
+            Step::Receive(bytes) => bytes.iter().fold(results.said, |_, byte| self.chain.receive(&[*byte])),
             Step::Scan(codes) => self.chain.scanned(codes, &mut watch, |bytes| sent.extend_from_slice(bytes)),
             Step::Fold(on) => {
                 self.chain.fold(*on);
@@ -77,15 +77,15 @@ impl Twin {
                 Said { bytes: 0, digest: kernel.run(&mut self.bench, codes, &mut watch) }
             }
         };
-        told.spent = watch.spent;
+        results.spent = watch.spent;
         for byte in sent {
             let Some(body) = self.receiver.push(byte) else { continue };
             let (_, report) = decode::<(u32, Report<'_>)>(body.expect("a whole frame")).expect("a message");
             if let Report::Contacts(list) = report {
-                told.contacts = list.contacts.iter().cloned().collect();
-                told.dropped = list.dropped;
+                results.contacts = list.contacts.iter().cloned().collect();
+                results.dropped = list.dropped;
             }
         }
-        told
+        results
     }
 }

@@ -22,7 +22,7 @@ const PAGE: u32 = 256;
 /// Flash range of the program. The board's settings are behind it and survive a new firmware.
 const PROGRAM: std::ops::Range<u32> = 0x1000_0000..0x1000_0000 + (2048 - 216) * 1024;
 /// File that identifies the boot loader's drive, and a word in it.
-const TELLS: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
+const MARKER: (&str, &str) = ("INFO_UF2.TXT", "RPI-RP2");
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
@@ -55,7 +55,7 @@ pub fn run(args: FlashArgs) -> Result<()> {
                 is_drive(drive),
                 "{} is not the drive of an RP2040's boot loader: it has no {}",
                 drive.display(),
-                TELLS.0
+                MARKER.0
             );
             drive.clone()
         }
@@ -80,7 +80,7 @@ fn only(drives: Vec<PathBuf>) -> Result<PathBuf> {
         [] => bail!(Fault::board(format!(
             "no drive {} is mounted: hold BOOTSEL while plugging the board in, open the drive once if nothing mounts it by itself, \
              and try again",
-            TELLS.1
+            MARKER.1
         ))),
         many => {
             let count = many.len();
@@ -101,7 +101,7 @@ fn places() -> Vec<PathBuf> {
 }
 
 fn is_drive(place: &Path) -> bool {
-    fs::read_to_string(place.join(TELLS.0)).is_ok_and(|text| text.contains(TELLS.1))
+    fs::read_to_string(place.join(MARKER.0)).is_ok_and(|text| text.contains(MARKER.1))
 }
 
 /// Checks for a complete UF2 for the RP2040 that writes one contiguous program and nothing else. Errors name

@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail, ensure};
 use ghosts::Ghosts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use taxel::client::{Client, Event, Stamp, Worn};
+use taxel::client::{BoardDescription, Client, Event, Stamp};
 use taxel::files::garments;
 use taxel::robot::BoardConfig;
 use taxel::session::Observer;
@@ -70,14 +70,14 @@ pub struct HealthText {
 
 /// Runs the command. Blames the board for a faulty line, input or taxel.
 pub fn run(args: HealthArgs) -> Result<()> {
-    let told = look(&args)?;
+    let reported = look(&args)?;
     if args.json {
-        println!("{}", told.json);
+        println!("{}", reported.json);
     } else {
-        print!("{}", told.text);
+        print!("{}", reported.text);
     }
-    ensure!(told.faults == 0, Fault::board(format!("faults of lines and inputs: {}", told.faults)));
-    ensure!(told.taxels == 0, Fault::board(format!("faulty taxels: {}", told.taxels)));
+    ensure!(reported.faults == 0, Fault::board(format!("faults of lines and inputs: {}", reported.faults)));
+    ensure!(reported.taxels == 0, Fault::board(format!("faulty taxels: {}", reported.taxels)));
     Ok(())
 }
 
@@ -95,7 +95,7 @@ pub fn look(args: &HealthArgs) -> Result<HealthText> {
     }
     let passive = found.is_passive();
     let garment = found.garment.context("the board has not sent its garment").board()?;
-    let places = places(&garment, &found.ill)?;
+    let places = places(&garment, &found.faulty)?;
     let (pins, simulated) = (found.pins.as_ref(), found.simulated);
     let simulation = if simulated { "This is a simulated board.\n" } else { "" };
     let ghosts = passive.then(|| found.ghosts.report(&garment));
@@ -117,7 +117,7 @@ pub fn look(args: &HealthArgs) -> Result<HealthText> {
 struct Known {
     garment: Option<Garment>,
     simulated: bool,
-    ill: BTreeMap<u16, TaxelHealth>,
+    faulty: BTreeMap<u16, TaxelHealth>,
     pins: Option<Findings>,
     /// A self-test is still to be requested.
     wanted: bool,
@@ -137,10 +137,10 @@ impl Observer for Known {
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
-                self.garment = client.worn().map(|worn| worn.garment.clone());
-                self.simulated = client.worn().is_some_and(Worn::is_simulated);
+                self.garment = client.description().map(|description| description.garment.clone());
+                self.simulated = client.description().is_some_and(BoardDescription::is_simulated);
             }
-            Event::HealthMap { .. } => self.ill = client.ill().clone(),
+            Event::HealthMap { .. } => self.faulty = client.faulty().clone(),
             Event::Contacts { .. } if self.is_passive() => {
                 if let Some(garment) = &self.garment {
                     self.ghosts.take(garment, client.contacts());
@@ -168,7 +168,7 @@ impl Observer for Known {
 
 /// Place of a faulty taxel.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct IllPlace {
+pub struct FaultyPlace {
     /// Number of the taxel.
     pub taxel: u16,
     /// Its fault.
@@ -182,13 +182,13 @@ pub struct IllPlace {
 }
 
 /// Finds the places of faulty taxels in a garment.
-pub fn places(garment: &Garment, ill: &BTreeMap<u16, TaxelHealth>) -> Result<Vec<IllPlace>> {
+pub fn places(garment: &Garment, faulty: &BTreeMap<u16, TaxelHealth>) -> Result<Vec<FaultyPlace>> {
     let layout = Layout::build(garment, usize::from(u16::MAX), 4095)?;
     let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
-    let found = ill.iter().filter_map(|(taxel, health)| {
+    let found = faulty.iter().filter_map(|(taxel, health)| {
         let place = layout.place(usize::from(*taxel))?;
         let panel = layout.areas().get(usize::from(place.panel))?;
-        Some(IllPlace {
+        Some(FaultyPlace {
             taxel: *taxel,
             health: *health,
             panel: panel.name.as_str().into(),
@@ -200,8 +200,8 @@ pub fn places(garment: &Garment, ill: &BTreeMap<u16, TaxelHealth>) -> Result<Vec
 }
 
 /// `[{"taxel", "health", "panel", "row", "column", "block", "wired_row", "wired_column"}]`
-pub fn report(places: &[IllPlace]) -> Value {
-    let one = |p: &IllPlace| {
+pub fn report(places: &[FaultyPlace]) -> Value {
+    let one = |p: &FaultyPlace| {
         let (row, column) = p.place;
         let wired = p.wired;
         json!({
@@ -213,11 +213,11 @@ pub fn report(places: &[IllPlace]) -> Value {
 }
 
 /// Readable form: one line for each taxel.
-pub fn table(garment: &Garment, places: &[IllPlace]) -> String {
+pub fn table(garment: &Garment, places: &[FaultyPlace]) -> String {
     if places.is_empty() {
         return format!("{}: no faulty taxels.\n", garment.name);
     }
-    let line = |p: &IllPlace| {
+    let line = |p: &FaultyPlace| {
         let (row, column) = p.place;
         let wired = match p.wired {
             Some((block, row, column)) => format!("block {block}, its row {row}, column {column}"),
@@ -239,7 +239,7 @@ mod tests {
     use crate::fault;
 
     #[test]
-    fn a_line_at_fault_is_told_and_fails_the_command() {
+    fn a_line_at_fault_is_reported_and_fails_the_command() {
         let file = std::env::temp_dir().join(format!("taxel-health-{}.toml", std::process::id()));
         let args = |faults: &str| {
             std::fs::write(&file, format!("duration_s = 1\n{faults}")).unwrap();
@@ -262,10 +262,10 @@ mod tests {
     }
 
     #[test]
-    fn an_ill_taxel_is_named_by_panel_and_by_block() {
+    fn a_faulty_taxel_is_named_by_panel_and_by_block() {
         let garment = Garment::reference();
-        let ill = BTreeMap::from([(512 + 16 * 7 + 5, TaxelHealth::Stuck)]);
-        let places = places(&garment, &ill).unwrap();
+        let faulty = BTreeMap::from([(512 + 16 * 7 + 5, TaxelHealth::Stuck)]);
+        let places = places(&garment, &faulty).unwrap();
         let block = garment.blocks.iter().position(|b| b.panel == 1 && b.row == 4).unwrap();
         assert_eq!(
             table(&garment, &places),

@@ -74,7 +74,7 @@ impl Observer for Asking {
     }
 
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
-        if !self.asked && client.worn().is_some() {
+        if !self.asked && client.description().is_some() {
             client.request(&Request::ResetSettings { undo: self.undo })?;
             self.asked = true;
         }

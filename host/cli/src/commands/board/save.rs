@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
-use taxel::client::{Client, Event, Stamp, Worn};
+use taxel::client::{BoardDescription, Client, Event, Stamp};
 use taxel::session::Observer;
 use taxel::source::SourceOptions;
 use taxel_core::wire::Request;
@@ -56,7 +56,7 @@ struct Saving {
 
 impl Observer for Saving {
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
-        self.simulated = client.worn().is_some_and(Worn::is_simulated);
+        self.simulated = client.description().is_some_and(BoardDescription::is_simulated);
         let Event::Answer { request, refusal } = event else { return Ok(()) };
         if let Some(why) = refusal {
             return Err(Fault::board(format!("the board refuses: {why}")).into());
@@ -69,12 +69,12 @@ impl Observer for Saving {
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         let silent = || Err(Fault::board("the board does not answer").into());
         match self.asked {
-            None if client.worn().is_some() && !self.waits_for => {
+            None if client.description().is_some() && !self.waits_for => {
                 client.request(&Request::Save)?;
                 self.asked = Some(Instant::now());
             }
             // A tare over many frames may take longer.
-            None if client.worn().is_none() && self.begun.elapsed() > PATIENCE => return silent(),
+            None if client.description().is_none() && self.begun.elapsed() > PATIENCE => return silent(),
             Some(asked) if asked.elapsed() > PATIENCE => return silent(),
             _ => {}
         }

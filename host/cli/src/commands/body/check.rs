@@ -7,7 +7,7 @@ use taxel::body::{Fit, Surface};
 use taxel_core::garment::Layout;
 
 /// A table with a line for each panel and each region, and one for the robot, or JSON of panels and regions.
-pub fn told(layout: &Layout, surface: &Surface, robot: Option<&Robot>, is_json: bool) -> String {
+pub fn text(layout: &Layout, surface: &Surface, robot: Option<&Robot>, is_json: bool) -> String {
     let fits = surface.fits(layout);
     let link = |fit: &Fit| surface.links()[fit.link].as_str();
     if is_json {

@@ -11,7 +11,7 @@ use taxel::body::robot::LinkShape;
 use taxel::body::{DVec3, Pose};
 use taxel::files::garments;
 use taxel::files::output::Output;
-use taxel::tell::words;
+use taxel::text::words;
 
 /// A mesh, a panel, and where its middle lies.
 #[derive(Debug, Clone, Args)]

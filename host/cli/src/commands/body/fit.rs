@@ -1,8 +1,8 @@
-//! How the garment is worn, found by touches whose place on the robot is known.
+//! How the garment sits, found by touches whose place on the robot is known.
 
+use super::dressed::DressedArgs;
+use super::fit_text;
 use super::mark_dialogue::MarkDialogue;
-use super::told_fit;
-use super::worn::WornArgs;
 use crate::fault::Fault;
 use crate::watch::{BoardArgs, Overwrite, WatchOptions, stop, watch};
 use anyhow::{Context, Result, bail, ensure};
@@ -22,7 +22,7 @@ use taxel_core::garment::Layout;
 #[command(group(ArgGroup::new("known").required(true).args(["touches", "marks", "pick"])))]
 pub struct FitArgs {
     #[command(flatten)]
-    worn: WornArgs,
+    dressed: DressedArgs,
     /// Touches whose place on the robot is known: a CSV file `panel,column,row,link,x,y,z`
     #[arg(long, value_name = "FILE")]
     touches: Option<PathBuf>,
@@ -36,7 +36,7 @@ pub struct FitArgs {
     /// `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]` or `replay:FILE[@SPEED]`
     #[arg(long, value_name = "SOURCE", default_value = "auto", conflicts_with = "touches")]
     source: SourceSpec,
-    /// The body file to write, which says how each panel is worn; - for the standard output
+    /// The body file to write, which says how each panel sits; - for the standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Whether an existing file is replaced.
@@ -47,16 +47,16 @@ pub struct FitArgs {
     json: bool,
 }
 
-/// Finds how each panel is worn, and writes the body file that says so.
+/// Finds how each panel sits, and writes the body file that says so.
 pub fn run(args: &FitArgs) -> Result<()> {
-    let read = body::read(&args.worn.body)?;
-    let inputs = [Some(Path::new(&args.worn.body)), Some(Path::new(&args.worn.garment))];
+    let read = body::read(&args.dressed.body)?;
+    let inputs = [Some(Path::new(&args.dressed.body)), Some(Path::new(&args.dressed.garment))];
     let inputs = inputs.into_iter().chain([args.touches.as_deref(), args.marks.as_deref()]).flatten();
     let recorded = args.source.file();
     let inputs = inputs.chain(recorded.as_deref()).chain(read.lists());
     let output = Output::stream(&args.output, args.force, inputs)?;
     beside(args, &read)?;
-    let (garment, layout) = args.worn.garment()?;
+    let (garment, layout) = args.dressed.garment()?;
     let touches = match &args.touches {
         Some(file) => known_touches(&file.display().to_string(), &text(file)?)?,
         None => {
@@ -65,14 +65,14 @@ pub fn run(args: &FitArgs) -> Result<()> {
         }
     };
     let fit = read.fit(&garment, &layout, &touches)?;
-    let said = if args.json { told_fit::json(&fit) } else { told_fit::table(&fit, &touches) };
+    let said = if args.json { fit_text::json(&fit) } else { fit_text::table(&fit, &touches) };
     // A body on the standard output is not mixed with words.
     match args.output.as_os_str() == "-" {
         true => eprint!("{said}"),
         false => print!("{said}"),
     }
     ensure!(!fit.panels.is_empty(), "no panel has been touched at three places or more: nothing is written");
-    Ok(output.write(read.worn(&fit.panels)?.as_bytes())?)
+    Ok(output.write(read.with_offsets(&fit.panels)?.as_bytes())?)
 }
 
 /// Refuses an output from where the lists of the body are not found: they lie beside it.
@@ -85,8 +85,8 @@ fn beside(args: &FitArgs, read: &ReadBody) -> Result<()> {
         path.parent().filter(|path| *path != Path::new("")).unwrap_or(Path::new(".")).canonicalize()
     };
     let Some(file) = listed.filter(|_| args.output.as_os_str() != "-") else { return Ok(()) };
-    if folder(&args.output).ok() != folder(Path::new(&args.worn.body)).ok() {
-        let (output, body) = (args.output.display(), &args.worn.body);
+    if folder(&args.output).ok() != folder(Path::new(&args.dressed.body)).ok() {
+        let (output, body) = (args.output.display(), &args.dressed.body);
         bail!(Fault::usage(format!("{output}: must lie beside {body}, which lists taxels in {file}")));
     }
     Ok(())
@@ -96,7 +96,7 @@ fn text(file: &Path) -> Result<String> {
     input::text(file).with_context(|| format!("cannot read {}", file.display()))
 }
 
-/// The marks to be touched, each on a link that wears a panel.
+/// The marks to be touched, each on a link that carries a panel.
 fn marked(args: &FitArgs, surface: &Surface, layout: &Layout) -> Result<Vec<Mark>> {
     let Some(file) = &args.marks else {
         return Ok(picked(surface, layout, usize::from(args.pick.unwrap_or_default())));
@@ -118,8 +118,8 @@ fn marked(args: &FitArgs, surface: &Surface, layout: &Layout) -> Result<Vec<Mark
 
 /// Shows the marks one after the other, and takes the touch of each from the board.
 fn asked(args: &FitArgs, marks: Vec<Mark>, surface: &Surface, layout: &Layout) -> Result<Vec<KnownTouch>> {
-    // A simulated board wears it; a real one has its own.
-    let garment = matches!(args.source, SourceSpec::Sim(_)).then(|| args.worn.garment.clone());
+    // A simulated board has it; a real one has its own.
+    let garment = matches!(args.source, SourceSpec::Sim(_)).then(|| args.dressed.garment.clone());
     let config = BoardConfig { garment, ..BoardConfig::of(args.source.clone()) };
     let board = BoardArgs { config, ..BoardArgs::default() };
     let (source, _) = board.open(SourceOptions::default())?;

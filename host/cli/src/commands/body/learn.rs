@@ -70,7 +70,7 @@ pub fn run(args: &BodyLearnArgs) -> Result<()> {
         FoldSettings { folds, step_deg: args.step, shift_mm: args.shift, shift_deg: args.shift_angle };
     let learned = learn(&layout, &sweeps, &settings)?;
     output.write(&learned.table)?;
-    print!("{}", told(&learned.folds));
+    print!("{}", text(&learned.folds));
     println!("{}: {} bytes, from {}", args.output.display(), learned.table.len(), counted(&sweeps));
     Ok(())
 }
@@ -82,14 +82,14 @@ fn sweep(recording: &BoardRecording, taxels: usize) -> Result<FoldSweep> {
     let joints = angles.joints();
     let mut sweep = FoldSweep::new(joints.to_vec(), taxels);
     let mut now: BTreeMap<&str, f32> = BTreeMap::new();
-    let mut told = angles.all().peekable();
+    let mut angles_left = angles.all().peekable();
     let mut play = Play::open(recording)?;
     while let Some((_, event)) = play.next_event()? {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { continue };
-        while let Some((_, joint, degrees)) = told.next_if(|(at_us, ..)| *at_us <= time.0) {
+        while let Some((_, joint, degrees)) = angles_left.next_if(|(at_us, ..)| *at_us <= time.0) {
             now.insert(joint, degrees);
         }
-        // Until every joint was told, nobody knows the posture.
+        // Until every joint was sent, nobody knows the posture.
         let all: Option<Vec<f32>> = joints.iter().map(|joint| now.get(joint.as_str()).copied()).collect();
         if let (Some(degrees), Some((_, image))) = (all, play.client().image()) {
             sweep.push(&degrees, image).with_context(|| recording.to_string())?;
@@ -99,7 +99,7 @@ fn sweep(recording: &BoardRecording, taxels: usize) -> Result<FoldSweep> {
 }
 
 /// A table of the folds.
-fn told(folds: &[LearnedFold]) -> String {
+fn text(folds: &[LearnedFold]) -> String {
     let mut text = format!(
         "{:<34}{:>8}{:>8}{:>7}{:>9}{:>9}{:>11}{:>11}{:>8}{:>7}\n",
         "fold", "taxels", "beside", "knots", "step", "play", "strongest", "explained", "flash", "RAM"

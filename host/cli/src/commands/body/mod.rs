@@ -2,18 +2,19 @@
 
 mod check;
 mod drape;
+mod dressed;
 mod fit;
+mod fit_text;
 mod learn;
 mod mark_dialogue;
 mod posed;
 mod show;
-mod told_fit;
-mod worn;
 
 use crate::watch::Overwrite;
 use anyhow::Result;
 use clap::{Args, Subcommand};
 use drape::DrapeArgs;
+use dressed::DressedArgs;
 use fit::FitArgs;
 use learn::BodyLearnArgs;
 use posed::PosedArgs;
@@ -22,7 +23,6 @@ use std::sync::Arc;
 use taxel::body::{self, Surface, robot};
 use taxel::files::output::Output;
 use taxel_core::garment::Layout;
-use worn::WornArgs;
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
@@ -32,7 +32,7 @@ const EXAMPLES: &str = "Examples:
   taxel body places reference -o places.csv
   taxel body places reference --robot reference --joints left_elbow=30deg --frame base -o places.csv
   taxel body drape torso.stl --scale 0.001 --panel chest --at 0.06,0,0.2 -o chest.txt
-  taxel body fit reference --marks marks.txt -o worn.toml";
+  taxel body fit reference --marks marks.txt -o fitted.toml";
 
 /// Place a garment's taxels on the robot's links
 #[derive(Debug, Clone, Args)]
@@ -46,8 +46,8 @@ pub struct BodyArgs {
 #[derive(Debug, Clone, Args)]
 pub struct WrittenArgs {
     #[command(flatten)]
-    worn: WornArgs,
-    /// The robot that wears it, and its posture.
+    dressed: DressedArgs,
+    /// The robot that carries it, and its posture.
     #[command(flatten)]
     posed: PosedArgs,
     /// The file to write; - for the standard output
@@ -61,12 +61,12 @@ pub struct WrittenArgs {
 impl WrittenArgs {
     /// Places the taxels, and writes what `text` says of them and of the frame that they are in.
     fn write(&self, text: impl Fn(&Layout, &Surface, Option<&str>) -> String) -> Result<()> {
-        let WornArgs { body, garment } = &self.worn;
+        let DressedArgs { body, garment } = &self.dressed;
         let read = body::read(body)?;
         let files =
             [Some(body), Some(garment), self.posed.robot.as_ref()].into_iter().flatten().map(Path::new);
         let output = Output::stream(&self.output, self.force, files.chain(read.lists()))?;
-        let (garment, layout) = self.worn.garment()?;
+        let (garment, layout) = self.dressed.garment()?;
         let (surface, frame) = self.posed.surface(&read, &garment, &layout)?;
         Ok(output.write(text(&layout, &surface, frame.as_deref()).as_bytes())?)
     }
@@ -81,7 +81,7 @@ enum BodyTask {
     Check {
         /// What is checked.
         #[command(flatten)]
-        worn: WornArgs,
+        dressed: DressedArgs,
         /// The robot, whose links it must lie on: a URDF file or `reference`
         #[arg(long, value_name = "URDF")]
         robot: Option<String>,
@@ -112,11 +112,11 @@ enum BodyTask {
         after_help = "Example:\n  taxel body learn monday.mcap tuesday.mcap wednesday.mcap -o elbows.folds\n  taxel live --folds elbows.folds"
     )]
     Learn(BodyLearnArgs),
-    /// Find how each panel is worn, by touches whose place on the robot is known, and write the body file
+    /// Find how each panel sits, by touches whose place on the robot is known, and write the body file
     /// that says so
     #[command(
-        after_help = "Examples:\n  taxel body fit reference --marks marks.txt -o worn.toml\n  taxel body fit reference --pick 5 -o \
-                      worn.toml\n  taxel body fit body.toml --touches touches.csv -o worn.toml"
+        after_help = "Examples:\n  taxel body fit reference --marks marks.txt -o fitted.toml\n  taxel body fit reference --pick 5 -o \
+                      fitted.toml\n  taxel body fit body.toml --touches touches.csv -o fitted.toml"
     )]
     Fit(FitArgs),
 }
@@ -124,16 +124,16 @@ enum BodyTask {
 /// Runs the command.
 pub fn run(args: BodyArgs) -> Result<()> {
     match &args.what {
-        BodyTask::Check { worn, robot, json } => {
-            let read = body::read(&worn.body)?;
-            let (garment, layout) = worn.garment()?;
+        BodyTask::Check { dressed, robot, json } => {
+            let read = body::read(&dressed.body)?;
+            let (garment, layout) = dressed.garment()?;
             let robot = robot.as_deref().map(robot::read).transpose()?.map(Arc::new);
             let surface = match &robot {
                 Some(robot) => read.on_robot(&garment, &layout, robot.clone())?.surface().clone(),
                 None => read.surface(&garment, &layout)?,
             };
             read.check_overlap(&surface, &layout)?;
-            print!("{}", check::told(&layout, &surface, robot.as_deref(), *json));
+            print!("{}", check::text(&layout, &surface, robot.as_deref(), *json));
             Ok(())
         }
         BodyTask::Drape(args) => drape::run(args),

@@ -1,4 +1,4 @@
-//! The robot that wears the garment, and its posture.
+//! The robot that carries the garment, and its posture.
 
 use crate::fault::Blame;
 use anyhow::Result;
@@ -13,7 +13,7 @@ const BASE: &str = "base";
 /// A robot, a posture and a frame.
 #[derive(Debug, Clone, Args)]
 pub struct PosedArgs {
-    /// The robot that wears it: a URDF file or `reference`
+    /// The robot that carries it: a URDF file or `reference`
     #[arg(long, value_name = "URDF")]
     pub robot: Option<String>,
     /// Positions of joints, deg, rad or m: elbow=30deg,wrist=-0.5rad. The others rest
@@ -34,7 +34,7 @@ impl PosedArgs {
     ) -> Result<(Surface, Option<String>)> {
         let Some(file) = &self.robot else { return Ok((body.surface(garment, layout)?, None)) };
         let robot = Arc::new(robot::read(file)?);
-        let worn = body.on_robot(garment, layout, robot.clone())?;
+        let on_robot = body.on_robot(garment, layout, robot.clone())?;
         let frame = self.frame.as_deref().unwrap_or(BASE);
         let frame = match robot.link(frame) {
             Err(_) if frame == BASE => 0,
@@ -42,6 +42,6 @@ impl PosedArgs {
         };
         let posture = robot.posture_of(self.joints.as_deref().unwrap_or_default()).usage()?;
         let name = robot.links().get(frame).map(|link| link.name.clone());
-        Ok((worn.seen_from(&posture, frame)?, name))
+        Ok((on_robot.seen_from(&posture, frame)?, name))
     }
 }

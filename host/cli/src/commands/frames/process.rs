@@ -10,7 +10,7 @@ use taxel::files::arrays::{self, Frames};
 use taxel::json::Replay;
 use taxel::learn::doubts;
 use taxel::robot::FormsInFrame;
-use taxel::tell::progress::{Progress, Unit};
+use taxel::text::progress::{Progress, Unit};
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;

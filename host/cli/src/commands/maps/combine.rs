@@ -1,6 +1,6 @@
 //! `taxel fcm combine` and `taxel fcm merge`: combine several maps into one, and report disagreements.
 
-use crate::commands::tell;
+use crate::commands::print_beside;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;
@@ -95,7 +95,7 @@ fn write(paths: &[String], output: Output, shared: EdgeConflict, as_json: bool) 
     let united = unite(&maps, &name, shared)?;
     BoardMap::build(&united.map)?;
     load::save(&united.map, output)?;
-    let told = if as_json { format!("{}\n", report(&united)) } else { table(&united).to_string() };
-    tell(is_standard, &told);
+    let text = if as_json { format!("{}\n", report(&united)) } else { table(&united).to_string() };
+    print_beside(is_standard, &text);
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! `taxel fcm draw`: writes the graph of a map, for Graphviz to draw.
 
-use crate::commands::maps::told::ToldArgs;
+use crate::commands::maps::reported::ReportedArgs;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;
@@ -28,17 +28,17 @@ pub struct DrawArgs {
     pub input: Vec<(String, Decimal)>,
     /// Alternatively a source, whose activations are drawn.
     #[command(flatten)]
-    pub told: ToldArgs,
+    pub reported: ReportedArgs,
 }
 
 /// Runs the command.
 pub fn run(args: DrawArgs) -> Result<()> {
-    let inputs = args.map.iter().map(PathBuf::from).chain(args.told.files());
+    let inputs = args.map.iter().map(PathBuf::from).chain(args.reported.files());
     let output = Output::stream(&args.output, args.force, inputs)?;
-    let (map, activations) = match args.told.listen()? {
-        Some(told) => {
-            let activations = told.report.concepts.iter().map(|value| value.to_f64()).collect();
-            (told.map, Some(activations))
+    let (map, activations) = match args.reported.listen()? {
+        Some(reported) => {
+            let activations = reported.report.concepts.iter().map(|value| value.to_f64()).collect();
+            (reported.map, Some(activations))
         }
         None => {
             let map = load::map(args.map.as_deref().unwrap_or_default())?;

@@ -1,6 +1,6 @@
 //! `taxel fcm learn`: improves weights by labelled touches, within the limits set by the expert.
 
-use crate::commands::tell;
+use crate::commands::print_beside;
 use crate::watch::Overwrite;
 use anyhow::Result;
 use std::path::PathBuf;
@@ -41,10 +41,10 @@ pub fn run(args: MapLearnArgs) -> Result<()> {
     let touches = touches::read(&args.touches, &file, &BoardMap::build(&file)?)?;
     let learned = learn(&file, &touches, args.folds.into())?;
     load::save(&learned.map, output)?;
-    let told = match args.json {
+    let text = match args.json {
         true => format!("{}\n", report(&file, &touches, &learned)),
         false => text(&file, &touches, &learned),
     };
-    tell(is_standard, &told);
+    print_beside(is_standard, &text);
     Ok(())
 }

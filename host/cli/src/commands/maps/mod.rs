@@ -4,8 +4,8 @@ pub mod check;
 pub mod combine;
 pub mod draw;
 pub mod learn;
+pub mod reported;
 pub mod run;
-pub mod told;
 pub mod why;
 
 use crate::fault::Fault;

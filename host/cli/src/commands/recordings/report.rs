@@ -2,7 +2,7 @@
 
 use crate::fault::Fault;
 use crate::folding::Folding;
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use crate::report::{Seen, page};
 use crate::watch::{self, Overwrite, WatchOptions};
 use anyhow::{Result, bail};
@@ -14,7 +14,7 @@ use taxel::record::Play;
 use taxel::recording::BoardRecording;
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions, SourceSpec};
-use taxel::tell::progress::{Progress, Unit};
+use taxel::text::progress::{Progress, Unit};
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
@@ -41,7 +41,7 @@ pub struct ReportArgs {
     /// Also show the garment on the robot: the body, a TOML file or `reference`
     #[arg(long, value_name = "BODY")]
     pub body: Option<String>,
-    /// The robot that wears the body: a URDF file or `reference`
+    /// The robot that carries the body: a URDF file or `reference`
     #[arg(long, value_name = "URDF", requires = "body")]
     pub robot: Option<String>,
     /// Positions of joints, deg, rad or m: elbow=30deg,wrist=-0.5rad; the others rest
@@ -61,25 +61,26 @@ const WATCHED: f64 = 10.0;
 
 /// Runs the command.
 pub fn run(args: ReportArgs) -> Result<()> {
-    let read =
-        |body: &String| Wearer::read(body, args.robot.as_deref(), args.joints.as_deref().unwrap_or_default());
-    let wearer = args.body.as_ref().map(read).transpose()?;
+    let read = |body: &String| {
+        ShownRobot::read(body, args.robot.as_deref(), args.joints.as_deref().unwrap_or_default())
+    };
+    let shown_robot = args.body.as_ref().map(read).transpose()?;
     let file = args.file.iter().map(|recording| recording.path.clone());
     let inputs = file.chain(args.source.as_ref().and_then(SourceSpec::file));
     let named = [&args.body, &args.robot].into_iter().flatten().map(PathBuf::from).chain(args.folds.clone());
-    let lists = wearer.iter().flat_map(Wearer::lists).map(Path::to_path_buf);
+    let lists = shown_robot.iter().flat_map(ShownRobot::lists).map(Path::to_path_buf);
     let output = Output::stream(&args.output, args.force, inputs.chain(named).chain(lists))?;
     let seen = match (&args.file, args.source) {
         (Some(recording), _) => {
             let folding = args.folds.as_ref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
-            recorded(recording, args.seconds, wearer, folding)?
+            recorded(recording, args.seconds, shown_robot, folding)?
         }
-        (None, Some(spec)) => watched(spec, args.seconds, wearer, args.folds)?,
+        (None, Some(spec)) => watched(spec, args.seconds, shown_robot, args.folds)?,
         (None, None) => bail!(Fault::usage("give a recording, or a --source")),
     };
-    let told = !output.is_standard();
+    let is_file = !output.is_standard();
     output.write(page(&seen)?.as_bytes())?;
-    if told {
+    if is_file {
         println!("{}: figures of {}", args.output.display(), seen.label);
     }
     if !seen.skipped.is_none() {
@@ -92,14 +93,14 @@ pub fn run(args: ReportArgs) -> Result<()> {
 fn recorded(
     recording: &BoardRecording,
     seconds: Option<f64>,
-    wearer: Option<Wearer>,
+    shown_robot: Option<ShownRobot>,
     folding: Option<Folding>,
 ) -> Result<Seen> {
     let overview = recording.overview()?;
     let mut play = Play::open(recording)?;
     let mut progress = Progress::of(format!("reading {recording}"), Unit::Bytes, Some(play.passed()[1]));
     let scale = overview.counts_per_newton(recording.board.as_deref()).map(|counts| counts as f32);
-    let mut seen = Seen::new(recording.to_string(), scale).on(wearer).folding(folding);
+    let mut seen = Seen::new(recording.to_string(), scale).on(shown_robot).folding(folding);
     let mut began = None;
     let mut stamp = Stamp::recorded(0, 0);
     while let Some((header, event)) = play.next_event()? {
@@ -122,14 +123,14 @@ fn recorded(
 fn watched(
     spec: SourceSpec,
     seconds: Option<f64>,
-    wearer: Option<Wearer>,
+    shown_robot: Option<ShownRobot>,
     folds: Option<PathBuf>,
 ) -> Result<Seen> {
     let folding = folds.as_deref().map(Folding::read).transpose()?;
     let options = SourceOptions { seconds, folds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;
     let seconds = seconds.or(source.real_time.then_some(WATCHED));
-    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(wearer).folding(folding);
+    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(shown_robot).folding(folding);
     watch::watch(&WatchOptions { seconds, ..WatchOptions::of(spec) }, source, &mut seen)?;
     Ok(seen)
 }

@@ -43,13 +43,15 @@ impl<'a> Hold<'a> {
 
     /// Handles an image scanned at `time`.
     fn frame(&mut self, client: &Client, time: Micros) -> taxel::Result<()> {
-        let (Some(worn), Some((_, values))) = (client.worn(), client.image()) else { return Ok(()) };
+        let (Some(description), Some((_, values))) = (client.description(), client.image()) else {
+            return Ok(());
+        };
         let image = Image { values, rows: &Rows::ALL };
-        let stage = worn.scene.contact.build().map_err(taxel::Error::other)?;
-        let touches = stage.process(&mut self.contacts, &worn.layout, &image, time);
+        let stage = description.scene.contact.build().map_err(taxel::Error::other)?;
+        let touches = stage.process(&mut self.contacts, &description.layout, &image, time);
         let (present, released) = (touches.present.to_vec(), touches.released.to_vec());
         for (index, contact) in present.iter().enumerate() {
-            if let Some(descriptor) = seen(&self.contacts, &worn.layout, &image, (index, contact)) {
+            if let Some(descriptor) = seen(&self.contacts, &description.layout, &image, (index, contact)) {
                 self.open(contact).course.push((contact.total, descriptor));
             }
         }

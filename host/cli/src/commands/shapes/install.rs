@@ -70,7 +70,7 @@ impl Observer for Installing {
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
         let silent = || Err(Fault::board("the board does not answer").into());
         match self.begun {
-            None if client.worn().is_some() => {
+            None if client.description().is_some() => {
                 let too_long = |error: taxel::Error| error.context("the base is too long for a request");
                 set_shapes(client, &self.base).map_err(too_long)?;
                 self.begun = Some(Instant::now());

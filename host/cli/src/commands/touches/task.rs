@@ -87,7 +87,7 @@ impl Task {
     /// Trains on all touches and writes the model.
     pub fn train(&self, data: &Data, output: Output) -> Result<()> {
         eprintln!("{} touches of {} classes", data.touches.len(), data.classes.len());
-        tell(&doubts(data));
+        print(&doubts(data));
         let courses = courses(data, &self.settings);
         let examples: Vec<_> =
             courses.iter().zip(&data.touches).map(|(course, touch)| example(touch, course)).collect();
@@ -114,7 +114,7 @@ impl Task {
             (Some(_), false) => cross(&data, &self.settings, times)?,
             (Some(_), true) => nested(&data, &(self.candidates)())?,
         };
-        tell(&doubts);
+        print(&doubts);
         report.add("doubts", doubts.into());
         if args.json {
             println!("{}", report.json());
@@ -155,7 +155,7 @@ fn doubts(data: &Data) -> Vec<String> {
 }
 
 /// Prints warnings.
-fn tell(doubts: &[String]) {
+fn print(doubts: &[String]) {
     doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
 }
 

@@ -112,11 +112,11 @@ export class Body {
     const moment = store.paused ? shown.head.came : Infinity;
     const others = (robot?.boards ?? []).flatMap(({ name }) => {
       const other = this.others.of(name);
-      const worn = other?.garment;
-      if (!other || !worn) return [];
+      const theirs = other?.garment;
+      if (!other || !theirs) return [];
       const then = other.newestAt(moment);
       const stands = then && (store.paused ? moment - then.head.came < STANDS_MS : isLive(name));
-      return [partOf(name, other, worn, stands ? then : null, settings, garment)];
+      return [partOf(name, other, theirs, stands ? then : null, settings, garment)];
     });
     if (robot && others.length && !store.paused && !isLive(robot.board)) Object.assign(own, { image: null, pressing: null });
     return [own, ...others];

@@ -13,17 +13,17 @@ export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions:
 
 /** Where it is not known what presses: no colour of the ramp. */
 export const GREY = 0.45;
-/** The robot that wears the garment. */
+/** The robot that carries the garment. */
 export const ROBOT = 0.72;
 
 /**
  * Takes the palette.
- * @param {Palette} told
+ * @param {Palette} given
  */
-export function take(told) {
+export function take(given) {
   // As pixels of ImageData: little-endian ABGR.
-  const pixels = told.ramp.map(([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0);
-  Object.assign(palette, told, { pixels: Uint32Array.from(pixels) });
+  const pixels = given.ramp.map(([r, g, b]) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0);
+  Object.assign(palette, given, { pixels: Uint32Array.from(pixels) });
 }
 
 /**

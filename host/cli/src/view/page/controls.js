@@ -62,7 +62,7 @@ export class Controls {
     this.ask = ask;
     this.changed = changed;
     this.follow = new Follow();
-    this.worn = "";
+    this.followed = "";
     /** @type {import("./types.d.ts").Settings} */
     this.settings = {
       view: "garment",
@@ -177,8 +177,8 @@ export class Controls {
     if (!settings.top && palette.start) this.set({ top: palette.start });
     const shown = settings.auto && store.shown();
     if (!shown || !garment) return;
-    if (garment.key !== this.worn) this.follow = new Follow();
-    this.worn = garment.key;
+    if (garment.key !== this.followed) this.follow = new Follow();
+    this.followed = garment.key;
     const image = settings.held && store.held ? store.held : shown.image;
     const greatest = image.reduce((most, value) => Math.max(most, value), 0);
     const top = this.follow.next(settings.top, greatest, garment.low, palette.ends);

@@ -1,18 +1,18 @@
-// One touch by hand from its press to its release, and what the program is told of it.
+// One touch by hand from its press to its release, and what the program hears of it.
 
 import { forceOf, lashes, REST_MM_S } from "./force-law.js";
 
 /**
  * @typedef {import("./force-law.js").Tool} Tool
  * @typedef {import("./types.d.ts").Spot} Spot
- * @typedef {import("./types.d.ts").Wish} Wish
+ * @typedef {import("./types.d.ts").PageRequest} PageRequest
  */
 
 /** Least duration of a touch, so that the shortest tap is felt as a pat; that of a lash, ms. */
 const [TAP_MS, LASH_MS] = [120, 60];
 /** Time over which the speed is measured, and its least, ms. */
 const [SPAN_MS, LEAST_MS] = [50, 16];
-/** Time in which the program reaches what it is told: it is told the force of that moment, ms. */
+/** Time in which the program reaches what it is sent: it is sent the force of that moment, ms. */
 const AHEAD_MS = 16;
 
 /** @param {number} value */
@@ -41,7 +41,7 @@ export class Finger {
     this.rested = 0;
     this.force = 0;
     this.lashed = false;
-    /** Whether it has moved since the program was told. */
+    /** Whether it has moved since the program was sent. */
     this.moved = false;
     /** @type {number | null} pressure of a pen, 0 to 1 */
     this.pressure = null;
@@ -49,7 +49,7 @@ export class Finger {
     this.lifted = null;
     /** @type {{ from: number, time: number, mm: number }[]} the last steps */
     this.steps = [];
-    this.told = "";
+    this.sent = "";
   }
 
   /**
@@ -85,7 +85,8 @@ export class Finger {
   }
 
   /**
-   * True once it is to be released: a short tap lasts longer than its pointer is down, and the program is told each move.
+   * True once it is to be released: a short tap lasts longer than its pointer is down, and the program is sent each
+   * move.
    * @param {number} now ms
    */
   isOver(now) {
@@ -93,9 +94,9 @@ export class Finger {
   }
 
   /**
-   * What the program is to be told now; null if nothing has changed.
+   * What the program is to be sent now; null if nothing has changed.
    * @param {number} now ms
-   * @returns {Wish | null}
+   * @returns {PageRequest | null}
    */
   next(now) {
     const speed = this.speed(now);
@@ -113,9 +114,9 @@ export class Finger {
       force_n: rounded(this.force),
       angle_deg: angle,
     };
-    const told = JSON.stringify(press);
-    if (told === this.told) return null;
-    this.told = told;
+    const sent = JSON.stringify(press);
+    if (sent === this.sent) return null;
+    this.sent = sent;
     return { press };
   }
 }

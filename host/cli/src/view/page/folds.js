@@ -19,9 +19,9 @@ export const folding = ({ head }, settings) => (settings.folds && !settings.held
  * @param {Settings} settings
  */
 export function legend(shown, settings) {
-  const told = shown?.head.folding;
-  if (!told || !settings.folds || settings.held) return "";
-  const { followed, taxels } = told;
-  if (!followed) return `╱ may fold: ${taxels.length} taxels, no posture is told`;
+  const drawn = shown?.head.folding;
+  if (!drawn || !settings.folds || settings.held) return "";
+  const { followed, taxels } = drawn;
+  if (!followed) return `╱ may fold: ${taxels.length} taxels, no posture is sent`;
   return taxels.length ? `╱ folds here: ${taxels.length} taxels` : "no fold presses";
 }

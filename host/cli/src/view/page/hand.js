@@ -23,7 +23,7 @@ export const KEYS = [
 const VIEWS = ["panels", "surface", "body"];
 /** Numbers of the fingers that can press at a time. */
 const NUMBERS = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
-/** Distance of a notch of the wheel by the unit in which the browser tells it: pixels, lines, pages. */
+/** Distance of a notch of the wheel by the unit in which the browser reports it: pixels, lines, pages. */
 const NOTCH = [100, 3, 1];
 
 /** Pointers and keys that press. */
@@ -173,8 +173,8 @@ export class Hand {
    * @param {number} now ms
    */
   send(finger, now) {
-    const wish = finger.next(now);
-    if (wish) this.ask(wish);
+    const request = finger.next(now);
+    if (request) this.ask(request);
   }
 
   /** All fingers lift at once. */
@@ -230,7 +230,7 @@ export class Hand {
   }
 
   /**
-   * A frame of the screen: tells the program what has changed, and draws the tools.
+   * A frame of the screen: sends the program what has changed, and draws the tools.
    * @param {number} now ms
    */
   frame(now) {

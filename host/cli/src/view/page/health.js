@@ -24,7 +24,7 @@ export class Health {
     this.list = make("div", { class: "list", tabindex: 0 });
     root.append(this.canvas, this.list);
     /** @type {unknown[] | null} */
-    this.told = null;
+    this.drawn = null;
   }
 
   /** @param {import("./store.js").Store} store */
@@ -32,19 +32,19 @@ export class Health {
     const { garment } = store;
     const context = garment && fit(this.canvas);
     if (!context) return;
-    this.map(context, garment, store.ill());
-    const told = [store.states.health_map, store.states.health, store.states.pins];
-    if (this.told?.every((line, at) => line === told[at])) return;
-    this.told = told;
+    this.map(context, garment, store.faulty());
+    const drawn = [store.states.health_map, store.states.health, store.states.pins];
+    if (this.drawn?.every((line, at) => line === drawn[at])) return;
+    this.drawn = drawn;
     this.list.replaceChildren(...lists(garment, store.states));
   }
 
   /**
    * @param {CanvasRenderingContext2D} context
    * @param {import("./types.d.ts").Garment} garment
-   * @param {Map<number, string>} ill
+   * @param {Map<number, string>} faulty
    */
-  map(context, garment, ill) {
+  map(context, garment, faulty) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const { panels } = garment;
     const wide = panels.reduce((sum, panel) => sum + panel.columns * panel.mm[0], 0);
@@ -63,7 +63,7 @@ export class Health {
         const taxel = panel.base + at;
         if (garment.absent[taxel]) continue;
         const [x, y] = [left + (at % panel.columns) * sx, CAPTION + Math.floor(at / panel.columns) * sy];
-        cell(context, ill.get(taxel), x, y, sx, sy);
+        cell(context, faulty.get(taxel), x, y, sx, sy);
       }
       left += panel.columns * sx + GAP;
     }
@@ -115,7 +115,7 @@ function cell(context, health, x, y, sx, sy) {
  */
 function lists(garment, states) {
   const board = states.health;
-  const ill = states.health_map?.ill || [];
+  const faulty = states.health_map?.faulty || [];
   const line = (/** @type {{ taxel: number, health: string }} */ { taxel, health }) => {
     const { panel, row, column } = placeOf(garment, taxel);
     return make("li", {}, `${health}: ${panel.name}, row ${row}, column ${column}`);
@@ -134,15 +134,15 @@ function lists(garment, states) {
   const cells = counts.map(([name, value]) =>
     make("tr", {}, make("th", { scope: "row" }, String(name)), make("td", {}, String(value))),
   );
-  const title = ill.length
-    ? `${ill.length} of ${garment.taxels} taxels are faulty`
+  const title = faulty.length
+    ? `${faulty.length} of ${garment.taxels} taxels are faulty`
     : "No faulty taxels.";
   const items = (/** @type {HTMLElement[]} */ lines) =>
     make("ul", { style: "padding-left:16px;margin:0 0 12px" }, ...lines);
-  const pins = states.pins?.told ?? ["The board has not tested its lines and inputs yet."];
+  const pins = states.pins?.table ?? ["The board has not tested its lines and inputs yet."];
   return [
     make("h2", {}, title),
-    items(ill.slice(0, LISTED).map(line)),
+    items(faulty.slice(0, LISTED).map(line)),
     make("h2", {}, "Lines and inputs"),
     items(pins.map((text) => make("li", {}, text))),
     make("h2", {}, "The board"),

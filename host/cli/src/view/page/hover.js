@@ -11,7 +11,7 @@ import { pressure } from "./units.js";
  */
 const WAYS = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
 
-/** The selected taxel and the note beside it. `ask` tells the program, which then sends its raw code. */
+/** The selected taxel and the note beside it. `ask` sends requests to the program, which then sends its raw code. */
 export class Hover {
   /**
    * @param {HTMLElement} element
@@ -91,7 +91,7 @@ export class Hover {
    * The taxel that the keys have chosen, in words; null if there is none.
    * @param {import("./store.js").Store} store
    */
-  told(store) {
+  text(store) {
     const { place } = this;
     const { garment } = store;
     const shown = store.shown();
@@ -109,16 +109,16 @@ export class Hover {
     const { garment, states } = store;
     if (!place || !shown || !garment) return;
     const taxel = place.panel.base + place.row * place.panel.columns + place.column;
-    const told = states.taxel?.taxel === taxel ? states.taxel : null;
+    const drawn = states.taxel?.taxel === taxel ? states.taxel : null;
     const counts = shown.image[taxel] ?? 0;
     const waits = store.recorded ? "not recorded" : "waiting …";
     const rows = [
       ["pressure", pressure(garment, counts)],
       ["counts", String(counts)],
-      ["raw code", !store.recorded && store.paused ? "live only" : (told?.code ?? waits)],
-      ["health", store.ill().get(taxel) ?? "good"],
+      ["raw code", !store.recorded && store.paused ? "live only" : (drawn?.code ?? waits)],
+      ["health", store.faulty().get(taxel) ?? "good"],
       ["highest", pressure(garment, store.held?.[taxel] ?? 0)],
-      ["wired", wiredText(told)],
+      ["wired", wiredText(drawn)],
     ];
     element.replaceChildren(
       make("b", {}, `${place.panel.name}, row ${place.row}, column ${place.column}`),
@@ -134,9 +134,9 @@ export class Hover {
 
 /**
  * Where a taxel is wired to, if that is known.
- * @param {import("./types.d.ts").TaxelState | null} told
+ * @param {import("./types.d.ts").TaxelState | null} drawn
  */
-function wiredText(told) {
-  if (!told || told.block === null) return "–";
-  return `block ${told.block}, row ${told.wired_row}, column ${told.wired_column}`;
+function wiredText(drawn) {
+  if (!drawn || drawn.block === null) return "–";
+  return `block ${drawn.block}, row ${drawn.wired_row}, column ${drawn.wired_column}`;
 }

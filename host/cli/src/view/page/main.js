@@ -55,7 +55,7 @@ const socket = connect({
   heard: () => link.hear(),
 });
 /** @type {import("./types.d.ts").Ask} */
-const ask = (wish) => socket.ask(wish);
+const ask = (request) => socket.ask(request);
 const hover = new Hover($("hover"), ask, changed);
 const controls = new Controls(store, ask, changed);
 const robot = new Robot();
@@ -113,12 +113,12 @@ function draw() {
  * else the intention, of the robot if it has one.
  */
 function spoken() {
-  const changed = tools.told(performance.now());
+  const changed = tools.text(performance.now());
   if (changed !== null) return changed;
   const meant = store.states.robot_intent?.leading ?? "none";
-  if (meant !== "none") return hover.told(store) ?? `intention of the robot: ${meant}`;
+  if (meant !== "none") return hover.text(store) ?? `intention of the robot: ${meant}`;
   const leading = store.shown()?.head.frame.intent.leading ?? "none";
-  return hover.told(store) ?? (leading === "none" ? "" : `intention: ${leading}`);
+  return hover.text(store) ?? (leading === "none" ? "" : `intention: ${leading}`);
 }
 
 /** @param {import("./types.d.ts").Settings} settings */

@@ -128,7 +128,7 @@ export function ticks(end) {
 }
 
 /**
- * Decimals that tell ticks apart.
+ * Decimals that distinguish ticks.
  * @param {number[]} ticks
  */
 export function decimals(ticks) {

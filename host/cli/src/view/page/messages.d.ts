@@ -143,7 +143,7 @@ export type HealthMapLine = {
   /** True if the list is complete; else more follows. */
   whole: boolean;
   /** The faulty taxels, ascending. */
-  ill: {
+  faulty: {
     /** Number of the taxel. */
     taxel: number;
     /** Its fault, for people. */
@@ -308,7 +308,7 @@ export type ImageHead = {
     felt: {
       /** The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`. */
       what: string;
-      /** The same with the greatest force of the strongest touch so far: told once it has ended. */
+      /** The same with the greatest force of the strongest touch so far: reported once it has ended. */
       peak: string;
       /** The announced intention, or why none is; empty while nothing touches. */
       meaning: string;
@@ -331,7 +331,7 @@ export type ImageHead = {
       posed_us: number | null;
       /** Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses. */
       pose_age_us: number | null;
-      /** The most by which a place in the frame of the poses is off, m, because joints are not known exactly and move on: by what the host that tells the poses knows of the joints. Null if it does not say it. */
+      /** The most by which a place in the frame of the poses is off, m, because joints are not known exactly and move on: by what the host that sends the poses knows of the joints. Null if it does not say it. */
       pose_error_m: number | null;
       /** The contacts that have a place. */
       contacts: {
@@ -480,7 +480,7 @@ export type PinsLine = {
   /** Number of faults. */
   faults: number;
   /** A sentence for each, or one if there are none. */
-  told: string[];
+  table: string[];
 };
 
 /** The taxel under the pointer. */
@@ -738,7 +738,7 @@ export type RobotIntentLine = {
 };
 
 /** A request of a page. */
-export type PageWish = {
+export type PageRequest = {
   hover: number | null;
 } | {
   tare: number;

@@ -124,11 +124,11 @@ export class OnRobot {
 
   /** A picture that turns is a control, one that does not is a picture. */
   become() {
-    const told = this.turns
+    const attributes = this.turns
       ? { role: "application", tabindex: "0", "aria-label": `The garment on the robot. ${TURNS}` }
       : { role: "img", "aria-label": "The garment on the robot, from the front and from behind" };
     for (const name of ["role", "tabindex", "aria-label"]) this.stage.removeAttribute(name);
-    for (const [name, value] of Object.entries(told)) this.stage.setAttribute(name, value);
+    for (const [name, value] of Object.entries(attributes)) this.stage.setAttribute(name, value);
   }
 
   /**
@@ -336,7 +336,7 @@ export class OnRobot {
     });
   }
 
-  /** Places the names of the sides, and of the links that wear cloth or end a limb. */
+  /** Places the names of the sides, and of the links that carry cloth or end a limb. */
   placeNames() {
     const { cloth, standing, body } = this;
     if (!cloth || !standing || !body) return;

@@ -26,7 +26,7 @@ export class Regions {
     );
     root.append(this.note, this.list);
     this.key = "";
-    /** @type {{ name: string, panels: { panel: Panel, canvas: HTMLCanvasElement }[], told: HTMLElement }[]} */
+    /** @type {{ name: string, panels: { panel: Panel, canvas: HTMLCanvasElement }[], state: HTMLElement }[]} */
     this.parts = [];
     this.raster = new Raster();
   }
@@ -42,7 +42,7 @@ export class Regions {
     this.build(garment);
     const image = settings.held && store.held ? store.held : shown.image;
     const { contacts } = shown.head.frame;
-    for (const { name, panels, told } of this.parts) {
+    for (const { name, panels, state } of this.parts) {
       for (const { panel, canvas } of panels) {
         const context = fit(canvas);
         if (!context) continue;
@@ -51,7 +51,7 @@ export class Regions {
         context.imageSmoothingEnabled = settings.smooth;
         context.drawImage(this.raster.paint(image, panel, { ...settings, absent: garment.absent }), 0, 0, width, height);
       }
-      say(told, stateOf(garment, contacts.filter((touch) => touch.region === name)));
+      say(state, stateOf(garment, contacts.filter((touch) => touch.region === name)));
     }
   }
 
@@ -69,14 +69,14 @@ export class Regions {
     const names = [...new Set(garment.panels.map(({ region }) => region))];
     this.parts = names.map((name) => {
       const panels = garment.panels.filter(({ region }) => region === name);
-      return { name, panels: panels.map((panel) => ({ panel, canvas: canvasOf(panel, scale) })), told: make("p") };
+      return { name, panels: panels.map((panel) => ({ panel, canvas: canvasOf(panel, scale) })), state: make("p") };
     });
     this.list.replaceChildren(
-      ...this.parts.map(({ name, panels, told }) => {
+      ...this.parts.map(({ name, panels, state }) => {
         const figures = panels.map(({ panel, canvas }) =>
           make("figure", {}, ...(panel.name === name ? [] : [make("figcaption", {}, panel.name)]), canvas),
         );
-        return make("li", {}, make("h2", {}, name), told, make("div", {}, ...figures));
+        return make("li", {}, make("h2", {}, name), state, make("div", {}, ...figures));
       }),
     );
   }

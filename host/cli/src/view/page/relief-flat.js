@@ -9,7 +9,7 @@ import { STRIDE } from "./mesh.js";
  * @typedef {import("./mesh.js").Relief} Relief
  */
 
-/** Steps of light that are told apart. */
+/** Steps of light that are distinguished. */
 const LIGHTS = 16;
 
 /** Draws into a canvas of its own. */

@@ -87,7 +87,7 @@ export class GlPainter {
     return buffer;
   }
 
-  /** Takes the colours, which the program tells with the garment. */
+  /** Takes the colours, which the program reports with the garment. */
   ramp() {
     const { gl } = this;
     gl.uniform1f(this.steps, palette.ramp.length - 1);

@@ -59,7 +59,7 @@ export function set(element, name, value) {
 export const text = ([x, y]) => `${Math.round(2 * x) / 2} ${Math.round(2 * y) / 2}`;
 
 /**
- * The point below the cloth of a link in the picture, where its name stands; null if it wears none.
+ * The point below the cloth of a link in the picture, where its name stands; null if it carries none.
  * @param {Aspect} aspect
  * @param {import("./cloth.js").Cloth} cloth
  * @param {number} link

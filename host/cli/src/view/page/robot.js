@@ -41,9 +41,9 @@ export class Robot {
     robot.boards.forEach((board, at) => {
       const link = this.links[at];
       if (!link) return;
-      const told = condition(board, Date.now());
+      const drawn = condition(board, Date.now());
       link.classList.toggle("lost", board.state !== "live");
-      if (link.title !== told) link.title = told;
+      if (link.title !== drawn) link.title = drawn;
       say(link.lastElementChild ?? link, board.state === "live" ? String(board.contacts) : board.state);
       const shown = board.name === robot.board;
       if (shown) link.setAttribute("aria-current", "page");

@@ -1,6 +1,6 @@
 // What is felt, in a sentence: of the moment shown, or of a touch that has just ended.
 
-/** Time for which a touch that has ended is still told, us of the board: the pause between two pats. */
+/** Time for which a touch that has ended is still reported, us of the board: the pause between two pats. */
 const LASTS_US = 800_000;
 
 /**
@@ -16,8 +16,8 @@ export function sentence(store) {
   const { leading } = frame.intent;
   const at = `at ${((frame.at_us ?? frame.time_us) / 1e6).toFixed(2)} s`;
   const when = touched === shown ? "now" : "just now";
-  const told = touched === shown ? what : peak;
-  return { when: store.paused ? at : when, what: told, meaning: leading === "none" ? meaning : leading };
+  const text = touched === shown ? what : peak;
+  return { when: store.paused ? at : when, what: text, meaning: leading === "none" ? meaning : leading };
 }
 
 /**

@@ -48,8 +48,8 @@ export function connect(on, place = "socket") {
   };
   open();
   return {
-    ask: (wish) => {
-      if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(wish));
+    ask: (request) => {
+      if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(request));
     },
     close: () => {
       isClosed = true;

@@ -82,11 +82,11 @@ export class Store {
       return;
     }
     if (line.type === "say") {
-      this.tell(line);
+      this.keep(line);
       return;
     }
     if (line.type === "log") {
-      for (const said of line.said) this.tell(said);
+      for (const said of line.said) this.keep(said);
       return;
     }
     Object.assign(this.states, { [line.type]: line });
@@ -108,7 +108,7 @@ export class Store {
    * Keeps a line of the live log. After a restart of the board's clock, no moment can be sought by earlier lines.
    * @param {SayLine} line
    */
-  tell(line) {
+  keep(line) {
     const newest = this.log.findLast(({ time_us: time }) => time !== null)?.time_us ?? 0;
     if (line.time_us !== null && line.time_us < newest) this.log = this.log.map((old) => ({ ...old, time_us: null }));
     this.log.push(line);
@@ -157,8 +157,8 @@ export class Store {
    * @param {import("./types.d.ts").Frame} frame
    * @param {number | undefined} newest
    */
-  follows({ time_us: time, seeks: told, past }, newest) {
-    const seeks = told ?? null;
+  follows({ time_us: time, seeks: sent, past }, newest) {
+    const seeks = sent ?? null;
     const sought = seeks !== this.seeks;
     if (sought) {
       // Another moment of a recording: held pressures are discarded.
@@ -357,18 +357,18 @@ export class Store {
   }
 
   /** Faults of taxels, by number. */
-  ill() {
-    return new Map((this.states.health_map?.ill || []).map(({ taxel, health }) => [taxel, health]));
+  faulty() {
+    return new Map((this.states.health_map?.faulty || []).map(({ taxel, health }) => [taxel, health]));
   }
 }
 
 /**
  * An image of this many taxels, from the values that are not 0.
- * @param {[number, number][]} told
+ * @param {[number, number][]} sent
  * @param {number} taxels
  */
-function spread(told, taxels) {
+function spread(sent, taxels) {
   const values = new Uint16Array(taxels);
-  for (const [taxel, counts] of told) values[taxel] = counts;
+  for (const [taxel, counts] of sent) values[taxel] = counts;
   return values;
 }

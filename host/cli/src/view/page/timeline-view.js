@@ -14,7 +14,7 @@ const REACH = 5;
  * @typedef {import("./types.d.ts").Overview} Overview
  */
 
-/** Both lines. `ask` tells the program. */
+/** Both lines. `ask` sends requests to the program. */
 export class Timeline {
   /**
    * @param {import("./store.js").Store} store

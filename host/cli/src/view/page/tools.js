@@ -110,7 +110,7 @@ export class Tools {
    * What the keys have just changed, in words; null if that is long ago.
    * @param {number} now ms
    */
-  told(now) {
+  text(now) {
     return now - this.keyed.at < SPOKEN_MS ? this.keyed.text : null;
   }
 

@@ -17,7 +17,7 @@ import type {
   NoneLine,
   OverviewLine,
   PageHello,
-  PageWish,
+  PageRequest,
   PinsLine,
   PlayerLine,
   PosesLine,
@@ -156,8 +156,8 @@ export type Line =
   | { type: Exclude<keyof States, "hello"> };
 
 /** What a page asks of the program. */
-export type Wish = PageWish;
-export type Ask = (wish: Wish) => void;
+export type { PageRequest };
+export type Ask = (request: PageRequest) => void;
 
 export interface Settings {
   view: string;

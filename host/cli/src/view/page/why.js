@@ -1,4 +1,4 @@
-// Why the board means that: what the inputs of its map contribute to an activation, told by the program.
+// Why the board means that: what the inputs of its map contribute to an activation, reported by the program.
 
 import { $, make, one, say } from "./dom.js";
 
@@ -20,7 +20,7 @@ export class Why {
     this.concept = null;
     this.asked = "";
     /** @type {WhyLine | undefined} */
-    this.told = undefined;
+    this.drawn = undefined;
     $("why").addEventListener("click", () => (this.isOpen ? this.close() : this.open(null)));
     $("why-close").addEventListener("click", () => this.close());
   }
@@ -56,13 +56,13 @@ export class Why {
     if (!this.isOpen || !shown || !map) return;
     const { concepts, leading } = shown.head.frame.intent;
     const of = this.concept ?? (leading === "none" ? null : leading);
-    const wish = { why: { of, concepts: map.concepts.map(({ name }) => concepts[name] ?? 0) } };
-    const asked = JSON.stringify(wish);
-    if (asked !== this.asked) this.ask(wish);
+    const request = { why: { of, concepts: map.concepts.map(({ name }) => concepts[name] ?? 0) } };
+    const asked = JSON.stringify(request);
+    if (asked !== this.asked) this.ask(request);
     this.asked = asked;
     const { why } = store.states;
-    if (why === this.told && why) return;
-    this.told = why;
+    if (why === this.drawn && why) return;
+    this.drawn = why;
     say($("reasons-title"), why ? `Why ${why.concept} is ${why.activation.toFixed(2)}` : "Why");
     $("reasons-none").hidden = Boolean(why);
     one(HTMLTableElement, "reasons-inputs").replaceChildren(...(why ? [inputs(why)] : []));

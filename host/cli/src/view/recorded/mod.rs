@@ -10,7 +10,7 @@
 //! | `deck.rs` | time: position, speed, range, loop |
 //! | `reel.rs` | the recording, read from any image on |
 //! | `survey.rs` | reads the recording once |
-//! | `told.rs` | the message of a piece of it |
+//! | `wire_message.rs` | the message of a piece of it |
 //! | `overview.rs` | summary for the timeline |
 //! | `screen.rs` | messages to the pages about a moment |
 //! | `cut.rs` | a part of it as a recording of its own |
@@ -21,7 +21,7 @@ mod overview;
 mod reel;
 mod screen;
 mod survey;
-mod told;
+mod wire_message;
 
 use crate::view::Order;
 pub use cut::Cut;
@@ -43,7 +43,7 @@ use taxel::record::{CALIBRATION, Origin};
 use taxel::recording::{BoardRecording, Clips, WIRE, gap_marks};
 
 /// Time between two messages about the position.
-const TOLD: Duration = Duration::from_millis(250);
+const UPDATE: Duration = Duration::from_millis(250);
 /// Time of playing between two looks at the orders.
 const TURN: Duration = Duration::from_millis(40);
 /// Lag of the images beyond which the transport waits for them, us.
@@ -55,8 +55,8 @@ pub struct Player {
     deck: Deck,
     reel: Reel,
     screen: PageScreen,
-    told: Instant,
-    /// Number of pages that was told last.
+    sent: Instant,
+    /// Number of pages that was sent last.
     pages: usize,
 }
 
@@ -89,15 +89,15 @@ impl Player {
             deck: Deck::new(clock.duration(), speed, Instant::now()),
             reel: Reel::new(clips, survey, gap_marks(recording)?),
             screen: PageScreen::new(hub.clone(), recording.to_string(), scale, folding),
-            told: Instant::now(),
+            sent: Instant::now(),
             pages: 0,
             hub,
         };
         let Some((at, event)) = player.reel.seek(0) else { bail!("{recording} holds no image") };
-        // A body that does not fit is an error, unless another garment is worn later on.
-        player.hub.worn(player.reel.client())?;
+        // A body that does not fit is an error, unless another garment is in use later on.
+        player.hub.dress(player.reel.client())?;
         player.moment(at, &event);
-        player.tell();
+        player.send_state();
         Ok(player)
     }
 
@@ -126,11 +126,11 @@ impl Player {
         if std::mem::replace(&mut self.pages, self.hub.pages()) != self.pages {
             self.screen.link(self.reel.client());
         }
-        if self.deck.is_playing() && self.told.elapsed() >= TOLD {
-            self.tell();
+        if self.deck.is_playing() && self.sent.elapsed() >= UPDATE {
+            self.send_state();
             self.screen.link(self.reel.client());
         } else if matches!(go, Go::To(_)) || (go != Go::Stay && !self.deck.is_playing()) {
-            self.tell();
+            self.send_state();
         }
     }
 
@@ -138,7 +138,7 @@ impl Player {
         let go = self.deck.obey(order, Instant::now());
         self.go(go);
         self.hub.cut_at(self.deck.range());
-        self.tell();
+        self.send_state();
     }
 
     fn go(&mut self, go: Go) {
@@ -187,9 +187,9 @@ impl Player {
         }
     }
 
-    fn tell(&mut self) {
-        self.told = Instant::now();
-        self.hub.state("player", &self.deck.message(self.told));
+    fn send_state(&mut self) {
+        self.sent = Instant::now();
+        self.hub.state("player", &self.deck.message(self.sent));
     }
 }
 
@@ -203,8 +203,8 @@ fn origin(clips: &Clips, recording: &BoardRecording, calibration: Option<Calibra
     let calibration = calibration.or(attached.transpose()?);
     let words = clips.words("taxel");
     let word = |name: &str| words.and_then(|words| words.get(name)).cloned().unwrap_or_default();
-    let told =
+    let sent =
         word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);
-    let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton).or(told);
+    let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton).or(sent);
     Ok(Origin { label: word("source"), counts_per_newton, calibration })
 }

@@ -1,7 +1,7 @@
 //! Reads a recording from any image on.
 
 use super::survey::{RecordedTime, Survey};
-use super::told::with_report;
+use super::wire_message::with_report;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use taxel::client::{Client, Event, RetainedState};

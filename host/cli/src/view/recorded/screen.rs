@@ -41,8 +41,8 @@ impl PageScreen {
             ("pins", client.self_test().map(|report| Event::SelfTest(report.clone()))),
             ("health_map", Some(Event::HealthMap { time: Micros(0), whole: true })),
         ];
-        for (kind, told) in states {
-            match told {
+        for (kind, sent) in states {
+            match sent {
                 Some(event) => self.state(client, &event),
                 None => self.hub.forget(kind),
             }
@@ -77,8 +77,8 @@ impl PageScreen {
         }
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
         let Some(line) = message::frame(client, event, self.scale) else { return };
-        let wearer = self.hub.wearer();
-        let pressing = wearer.as_ref().and_then(|wearer| wearer.pressing(client, *time));
+        let shown_robot = self.hub.shown_robot();
+        let pressing = shown_robot.as_ref().and_then(|shown_robot| shown_robot.pressing(client, *time));
         let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), pressing, ..line });
         self.hub.show(Shot { line, image: image.into(), time_us: time.0, total });
     }
@@ -95,11 +95,11 @@ impl PageScreen {
 
     fn hello(&mut self, client: &Client) {
         self.hub.greet(client, &self.label, self.scale);
-        let folds = match (&mut self.folding, client.worn()) {
-            (Some(folding), Some(worn)) => folding.wear(worn),
+        let folds = match (&mut self.folding, client.description()) {
+            (Some(folding), Some(description)) => folding.use_garment(description),
             _ => Ok(()),
         };
-        for error in [folds.err(), self.hub.worn(client).err()].into_iter().flatten() {
+        for error in [folds.err(), self.hub.dress(client).err()].into_iter().flatten() {
             self.hub.say(&Said::note(format!("{error:#}")));
         }
     }

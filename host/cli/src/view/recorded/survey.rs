@@ -1,7 +1,7 @@
 //! Reads a recording once, beside its player: for the overview, and so that any part of it can be shown.
 
 use super::overview::Overview;
-use super::told::with_report;
+use super::wire_message::with_report;
 use crate::view::hub::PageHub;
 use crate::view::line_kind::LineKind;
 use crate::view::said::{EventLines, Said, gap};
@@ -11,11 +11,11 @@ use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, RetainedState};
 use taxel::recording::{ClipMessage, Clips, HELLO, lost};
 use taxel::source::shared::Shared;
-use taxel::tell::words;
+use taxel::text::words;
 use taxel_core::wire::{self, Report};
 
 /// Time between two progress messages.
-const TOLD: Duration = Duration::from_millis(500);
+const UPDATE: Duration = Duration::from_millis(500);
 
 /// State at the beginning of each chunk.
 #[derive(Debug, Default)]
@@ -49,7 +49,7 @@ impl Survey {
             lines: EventLines::new(scale),
         };
         for frame in surveyor.retained.frames() {
-            surveyor.tell(0, &frame);
+            surveyor.report(0, &frame);
         }
         let found = survey.clone();
         thread::Builder::new().name("survey".into()).spawn(move || {
@@ -135,7 +135,7 @@ struct Surveyor {
 
 impl Surveyor {
     fn go(&mut self, survey: &Survey, hub: &PageHub) {
-        let mut told = Instant::now();
+        let mut sent = Instant::now();
         for chunk in 0..self.clips.places().len() {
             survey.found.change(|found| found.retained.push(self.retained.clone()));
             let at = self.clips.places().get(chunk).map_or(0, |place| self.clock.at(place.start));
@@ -148,9 +148,9 @@ impl Surveyor {
                 }
             }
             self.overview.reach(at);
-            if told.elapsed() >= TOLD {
+            if sent.elapsed() >= UPDATE {
                 hub.state("overview", &self.overview.message());
-                told = Instant::now();
+                sent = Instant::now();
             }
         }
         self.overview.reach(self.clock.duration());
@@ -163,19 +163,19 @@ impl Surveyor {
         let mut bytes = piece.data.strip_suffix(&[0]).unwrap_or(&piece.data).to_vec();
         let message = wire::open(&mut bytes).ok();
         let read = message.and_then(|message| wire::decode::<(u32, Report<'_>)>(message).ok());
-        let Some((seq, report)) = read else { return self.tell(at, &piece.data) };
+        let Some((seq, report)) = read else { return self.report(at, &piece.data) };
         let lost = self.retained.take(seq, &report, &piece.data);
         if lost > 0 {
             self.overview.say(at, gap(lost, None));
         }
         match &report {
             Report::Frame(_) | Report::Raw(_) => {}
-            _ => self.tell(at, &piece.data),
+            _ => self.report(at, &piece.data),
         }
     }
 
     /// Handles a message.
-    fn tell(&mut self, at: u64, frame: &[u8]) {
+    fn report(&mut self, at: u64, frame: &[u8]) {
         let client = &mut self.client;
         let Some(event) = client.push_all(frame).1 else { return };
         for said in self.lines.lines(client, &event) {

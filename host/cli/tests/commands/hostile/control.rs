@@ -85,7 +85,7 @@ fn control_codes_of_a_board_never_reach_a_terminal() {
     for event in events(&mut client, &says()) {
         shows.event(&client, &event, stamp).unwrap();
     }
-    assert!(client.worn().is_some(), "a board with such names is of use all the same");
+    assert!(client.description().is_some(), "a board with such names is of use all the same");
     for text in [lines.text(), json.text()] {
         let obeyed =
             |sign: &char| (sign.is_control() && *sign != '\n') || ('\u{2028}'..='\u{202e}').contains(sign);

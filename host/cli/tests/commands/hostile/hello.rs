@@ -30,7 +30,7 @@ fn a_map_with_an_edge_to_a_concept_that_is_not_there_is_refused() {
     let heard = events(&mut client, &hello(0, &Garment::reference(), &scene, "taxel"));
     let [Event::Unusable(why)] = heard.as_slice() else { panic!("{heard:?}") };
     assert!(why.starts_with("scene in Hello: "), "{why}");
-    assert!(client.worn().is_none());
+    assert!(client.description().is_none());
     Viewer::new(Arc::new(PageHub::default()), None).event(&client, &heard[0], STAMP).unwrap();
 }
 

@@ -103,7 +103,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
     // A host that requests the time, so that answers count as round trips.
     client.start(0).unwrap();
     for (now, part) in (1_000_000u64..).step_by(50_000).zip(said().chunks(200)) {
-        client.tell_time(now);
+        client.set_time(now);
         client.take_requests();
         for byte in part {
             let Some(event) = client.push(*byte) else { continue };

@@ -1,3 +1,3 @@
 //! Maps that are explained from a board's reports.
 
-mod told;
+mod reported;

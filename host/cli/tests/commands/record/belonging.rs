@@ -14,7 +14,7 @@ fn they_are_recorded_with_the_event_that_they_belong_to() {
     let mut client = Client::new();
     let before = idle.wire.iter().take_while(|byte| {
         client.push(**byte);
-        client.worn().is_none()
+        client.description().is_none()
     });
     let hello = &idle.wire[..=before.count()];
     let first = taxel::recording::sequence(client.line()).unwrap();

@@ -66,11 +66,11 @@ fn one_that_is_not_in_force_is_not_in_it() {
     let spec: source::SourceSpec = "sim:pat".parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
     let origin = Origin { calibration: Some(calibration), ..Origin::default() };
-    let recorder = recorder(origin, "not-told.mcap");
+    let recorder = recorder(origin, "unstated.mcap");
     watch(&WatchOptions::of(spec), source, &mut recorder.board(0)).unwrap();
     recorder.finish().unwrap();
-    let scan = taxel::recording::scan(&file("not-told.mcap")).unwrap();
-    assert!(Overview::of(&file("not-told.mcap")).unwrap().attached(CALIBRATION).unwrap().is_none());
+    let scan = taxel::recording::scan(&file("unstated.mcap")).unwrap();
+    assert!(Overview::of(&file("unstated.mcap")).unwrap().attached(CALIBRATION).unwrap().is_none());
     assert!(scan.metadata.iter().all(|metadata| !metadata.metadata.contains_key("calibration_by")));
 }
 
@@ -78,20 +78,20 @@ fn one_that_is_not_in_force_is_not_in_it() {
 fn a_table_is_in_volts_and_in_the_unit_of_the_calibration() {
     recorded("in-kpa", &knee());
     let path = file("in-kpa.mcap");
-    let (told, plain) = (table(&path, "in-kpa.csv", false), table(&path, "in-counts.csv", true));
-    assert_eq!((told.len(), told.len() % 64), (plain.len(), 0));
+    let (printed, plain) = (table(&path, "in-kpa.csv", false), table(&path, "in-counts.csv", true));
+    assert_eq!((printed.len(), printed.len() % 64), (plain.len(), 0));
     let (mut most, mut raised) = (0f64, 0.0);
-    for (told, plain) in told.iter().zip(&plain) {
-        assert_eq!((told[..11].to_vec(), told[12].as_str()), (plain[..11].to_vec(), "kPa"));
-        let [column, x]: [f64; 2] = [&told[3], &told[4]].map(|text| text.parse().unwrap());
-        assert_eq!((x, told[6].as_str(), plain[12].as_str()), (10.0 * column, "base", "counts"));
-        assert!(told[7..10].iter().all(String::is_empty), "a panel's place on its link is not known");
+    for (printed, plain) in printed.iter().zip(&plain) {
+        assert_eq!((printed[..11].to_vec(), printed[12].as_str()), (plain[..11].to_vec(), "kPa"));
+        let [column, x]: [f64; 2] = [&printed[3], &printed[4]].map(|text| text.parse().unwrap());
+        assert_eq!((x, printed[6].as_str(), plain[12].as_str()), (10.0 * column, "base", "counts"));
+        assert!(printed[7..10].iter().all(String::is_empty), "a panel's place on its link is not known");
         let counts: f64 = plain[11].parse().unwrap();
         let newtons = (counts / 1000.0).min(1.0) + (counts - 1000.0).max(0.0) / 500.0;
-        let kpa: f64 = told[11].parse().unwrap();
+        let kpa: f64 = printed[11].parse().unwrap();
         // A square of 10 mm: 1 N is 10 kPa. The curve is in whole uN.
-        assert!((kpa - 10.0 * newtons).abs() < 2e-4, "{told:?} {plain:?}");
-        let volts: f64 = told[10].parse().unwrap();
+        assert!((kpa - 10.0 * newtons).abs() < 2e-4, "{printed:?} {plain:?}");
+        let volts: f64 = printed[10].parse().unwrap();
         assert!(volts < 3.3);
         // The filter smooths counts and the volts of a touch say when they rise: 1,000 counts are 0.806 V.
         (most, raised) = (f64::max(most, kpa), f64::max(raised, volts));

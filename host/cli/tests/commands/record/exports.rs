@@ -81,9 +81,9 @@ fn images_hold_the_counts() {
         assert_eq!((info.width, info.height), (64, 32));
         let values: Vec<u16> = grey.chunks(2).map(|two| u16::from_be_bytes([two[0], two[1]])).collect();
         for (index, panel) in PANELS.iter().enumerate() {
-            let told = &legend["panels"][index];
-            let left = told["left"].as_u64().unwrap() as usize;
-            assert_eq!((told["name"].as_str(), left), (Some(*panel), 16 * index));
+            let printed = &legend["panels"][index];
+            let left = printed["left"].as_u64().unwrap() as usize;
+            assert_eq!((printed["name"].as_str(), left), (Some(*panel), 16 * index));
             for row in 0..32 {
                 assert_eq!(values[64 * row + left..][..16], image[512 * index + 16 * row..][..16]);
             }

@@ -1,7 +1,7 @@
 //! The report page has the figures of the source.
 
 use super::stage::play;
-use taxel_cli::on_robot::Wearer;
+use taxel_cli::on_robot::ShownRobot;
 use taxel_cli::report::{Seen, page};
 
 #[test]
@@ -38,8 +38,12 @@ fn a_page_is_in_one_unit() {
     play("sim:pat", &mut seen);
     let html = page(&seen).unwrap();
     assert!(html.contains("<th>total, N</th><th>peak, N</th>"));
-    let told = "the source knows that 1000 counts are a newton";
-    assert_eq!((html.matches("counts").count(), html.matches(told).count()), (1, 1), "only what the unit is");
+    let printed = "the source knows that 1000 counts are a newton";
+    assert_eq!(
+        (html.matches("counts").count(), html.matches(printed).count()),
+        (1, 1),
+        "only what the unit is"
+    );
     let mut seen = Seen::new("sim:pat".into(), None);
     play("sim:pat", &mut seen);
     let html = page(&seen).unwrap();
@@ -54,8 +58,8 @@ fn without_an_image_there_is_no_page() {
 
 #[test]
 fn a_garment_is_shown_on_its_robot() {
-    let wearer = Wearer::read("reference", Some("reference"), "waist=20deg").unwrap();
-    let mut seen = Seen::new("sim:five".into(), Some(1000.0)).on(Some(wearer));
+    let shown_robot = ShownRobot::read("reference", Some("reference"), "waist=20deg").unwrap();
+    let mut seen = Seen::new("sim:five".into(), Some(1000.0)).on(Some(shown_robot));
     play("sim:five", &mut seen);
     let html = page(&seen).unwrap();
     assert_eq!(html.matches("<h2>On the robot</h2>").count(), 1);

@@ -37,12 +37,12 @@ fn a_day_is_recorded_and_reported_in_flat_memory() {
     let (reporter, _) = watched("report", &[&file, "-o", &page]);
     let bytes = std::fs::metadata(&file).unwrap().len();
     std::fs::remove_dir_all(&folder).unwrap();
-    let (_, told) = words.split_once(": ").unwrap();
-    println!("{told}; {:.1} MB an hour", bytes as f64 / 1e6 * 3600.0 / f64::from(seconds));
-    let number = |unit| told.split(", ").find_map(|part| part.strip_suffix(unit)).unwrap();
+    let (_, printed) = words.split_once(": ").unwrap();
+    println!("{printed}; {:.1} MB an hour", bytes as f64 / 1e6 * 3600.0 / f64::from(seconds));
+    let number = |unit| printed.split(", ").find_map(|part| part.strip_suffix(unit)).unwrap();
     let frames: f64 = number(" frames").parse().unwrap();
-    assert!((frames - RATE * f64::from(seconds)).abs() < 0.001 * frames + 2.0, "{told}");
-    assert_eq!(number(" lost"), "0", "{told}");
+    assert!((frames - RATE * f64::from(seconds)).abs() < 0.001 * frames + 2.0, "{printed}");
+    assert_eq!(number(" lost"), "0", "{printed}");
     println!("{recorder}\n{reporter}");
     // The last half minute is kept on purpose, so it must be there before memory is compared.
     for watched in [recorder, reporter].iter().filter(|_| is_whole) {

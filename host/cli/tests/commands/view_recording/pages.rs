@@ -1,6 +1,6 @@
 //! All pages share one player; a later page gets the whole state, and nonsense is ignored.
 
-use super::stage::{Told, View, moments, recorded};
+use super::stage::{PageMessage, View, moments, recorded};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,18 +13,18 @@ fn a_page_that_comes_late_sees_the_whole_recording_and_the_moment() {
     let mut seeks = early.stand();
     early.overview();
     let (shown, ..) = early.seek(0.64, &mut seeks);
-    let (mut late, mut told) = (view.page(), BTreeMap::new());
+    let (mut late, mut printed) = (view.page(), BTreeMap::new());
     let image = loop {
         match late.next() {
-            Told::Line(line) => _ = told.insert(line["type"].as_str().unwrap().to_string(), line),
-            Told::Image(line, _) => break line,
+            PageMessage::Line(line) => _ = printed.insert(line["type"].as_str().unwrap().to_string(), line),
+            PageMessage::Image(line, _) => break line,
         }
     };
     assert_eq!(image, shown);
-    let player = &told["player"];
+    let player = &printed["player"];
     assert_eq!((&player["playing"], &player["at"]), (&json!(false), &json!(0.64)));
-    assert_eq!(told["hello"]["counts_per_newton"], 1000.0);
-    let overview = &told["overview"];
+    assert_eq!(printed["hello"]["counts_per_newton"], 1000.0);
+    let overview = &printed["overview"];
     assert_eq!(overview["known_us"], overview["duration_us"]);
     // Each touch has its mark at its time, and its force on the line.
     let onsets = |all: &Value| all.as_array().unwrap().iter().filter(|line| line[1] == "onset").count();
@@ -135,7 +135,7 @@ fn a_page_that_is_loaded_again_has_the_live_half_minute() {
     let mut again = view.page();
     let (mut past, mut touched, mut last) = (0, 0, 0);
     let newest = loop {
-        let Told::Image(line, _) = again.next() else { continue };
+        let PageMessage::Image(line, _) = again.next() else { continue };
         let time = line["time_us"].as_u64().unwrap();
         if line["past"] != true {
             break time;

@@ -13,13 +13,16 @@ const REGION: &str =
 
 /// What a client knows that lasts: names, settings, faults, findings.
 fn known(client: &Client) -> [String; 5] {
-    let worn = client.worn().unwrap();
+    let description = client.description().unwrap();
     let shapes: Vec<String> = (0..6).map(|class| client.shape_name(Class(class))).collect();
     [
-        format!("{} {} {} {}", worn.garment.name, worn.scene.name, worn.calibration, worn.firmware),
+        format!(
+            "{} {} {} {}",
+            description.garment.name, description.scene.name, description.calibration, description.firmware
+        ),
         client.surface_region(0).into(),
         shapes.join(" "),
-        format!("{:?}", client.ill()),
+        format!("{:?}", client.faulty()),
         format!("{:?}", client.self_test()),
     ]
 }

@@ -32,10 +32,13 @@ fn a_range_is_saved_to_the_image_and_every_command_reads_it() {
         assert_eq!(found.line["contacts"], wanted.line["contacts"]);
         assert_eq!(found.line["intent"], wanted.line["intent"]);
     }
-    let told = info(&saved);
-    assert_eq!((&told["whole"], &told["lost"], &told["undecoded"]), (&json!(true), &json!(0), &json!(0)));
-    assert_eq!(told["metadata"]["taxel"]["counts_per_newton"], "1000");
-    let (first, of) = (&told["start_us"], &info(&path)["start_us"]);
+    let printed = info(&saved);
+    assert_eq!(
+        (&printed["whole"], &printed["lost"], &printed["undecoded"]),
+        (&json!(true), &json!(0), &json!(0))
+    );
+    assert_eq!(printed["metadata"]["taxel"]["counts_per_newton"], "1000");
+    let (first, of) = (&printed["start_us"], &info(&path)["start_us"]);
     let later = first.as_u64().unwrap() - of.as_u64().unwrap();
     assert!((540_000..=550_000).contains(&later), "it begins {later} us later");
     for arguments in [
@@ -67,11 +70,11 @@ fn the_calibration_stays_with_what_is_saved() {
     live.page().image(|line| line["time_us"].as_u64().is_some_and(|time| time > 1_500_000));
     let kept = live.save("kept.mcap");
     for (index, saved) in [cut, kept].iter().enumerate() {
-        let told = info(saved);
-        let words = &told["metadata"]["taxel"];
-        assert_eq!((&words["calibration_by"], &told["lost"]), (&json!("Anna"), &json!(0)), "{told}");
-        assert!(told["attachments"].as_array().unwrap().contains(&json!("calibration.toml")));
-        assert!(told["frames"].as_u64().is_some_and(|frames| frames > 100), "{told}");
+        let printed = info(saved);
+        let words = &printed["metadata"]["taxel"];
+        assert_eq!((&words["calibration_by"], &printed["lost"]), (&json!("Anna"), &json!(0)), "{printed}");
+        assert!(printed["attachments"].as_array().unwrap().contains(&json!("calibration.toml")));
+        assert!(printed["frames"].as_u64().is_some_and(|frames| frames > 100), "{printed}");
         let table = file(&format!("kept-{index}.csv"));
         let mut export = Command::new(PROGRAM);
         export.args(["export", "--to", "csv", "-o"]).arg(&table).arg(saved);

@@ -51,10 +51,10 @@ pub fn moments(path: &Path) -> Vec<Moment> {
     while let Some((header, event)) = play.next_event().unwrap() {
         let client = play.client();
         if matches!(event, Event::Health(_)) {
-            health = Some(told(client, &event));
+            health = Some(as_read(client, &event));
         }
         if let (Event::Frame { image: ImageNews::Whole, .. }, Some((_, image))) = (&event, client.image()) {
-            let (at, line) = ((header.log_time - start) / 1000, told(client, &event));
+            let (at, line) = ((header.log_time - start) / 1000, as_read(client, &event));
             found.push(Moment { at, line, image: image.into(), health: health.clone() });
         }
     }
@@ -62,7 +62,7 @@ pub fn moments(path: &Path) -> Vec<Moment> {
 }
 
 /// An event as a page reads it, with numbers converted to text and back.
-fn told(client: &Client, event: &Event) -> Value {
+fn as_read(client: &Client, event: &Event) -> Value {
     let line = match event {
         Event::Frame { .. } => serde_json::to_value(message::frame(client, event, Some(1000.0))).unwrap(),
         event => json::message(client, event),
@@ -133,7 +133,7 @@ impl Drop for View {
 }
 
 /// A message to a page: a line, or an image with its frame.
-pub enum Told {
+pub enum PageMessage {
     Line(Value),
     Image(Value, Vec<u16>),
 }
@@ -149,25 +149,25 @@ impl Page {
         self.socket.send(Message::Text(text.to_string().into())).unwrap();
     }
 
-    pub fn ask(&mut self, wish: Value) {
-        self.say(&wish.to_string());
+    pub fn ask(&mut self, request: Value) {
+        self.say(&request.to_string());
     }
 
-    pub fn next(&mut self) -> Told {
+    pub fn next(&mut self) -> PageMessage {
         match self.socket.read().unwrap() {
             Message::Text(text) => {
                 let line: Value = serde_json::from_str(&text).unwrap();
                 if line["type"] == "overview" {
                     self.overview = Some(line.clone());
                 }
-                Told::Line(line)
+                PageMessage::Line(line)
             }
             Message::Binary(bytes) => {
                 let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
                 let (head, values) = bytes[4..].split_at(length);
                 let mut head: Value = serde_json::from_slice(head).unwrap();
                 let values: Vec<u16> = values.chunks(2).map(|b| u16::from_le_bytes([b[0], b[1]])).collect();
-                Told::Image(head["frame"].take(), values[..values.len() / 2].into())
+                PageMessage::Image(head["frame"].take(), values[..values.len() / 2].into())
             }
             other => panic!("{other:?}"),
         }
@@ -176,7 +176,7 @@ impl Page {
     /// Reads until a line of this type meets the condition.
     pub fn line(&mut self, kind: &str, wanted: impl Fn(&Value) -> bool) -> Value {
         loop {
-            if let Told::Line(line) = self.next()
+            if let PageMessage::Line(line) = self.next()
                 && line["type"] == kind
                 && wanted(&line)
             {
@@ -197,7 +197,7 @@ impl Page {
     /// Reads until an image meets the condition.
     pub fn image(&mut self, wanted: impl Fn(&Value) -> bool) -> (Value, Vec<u16>) {
         loop {
-            if let Told::Image(line, image) = self.next()
+            if let PageMessage::Image(line, image) = self.next()
                 && wanted(&line)
             {
                 return (line, image);
@@ -222,10 +222,10 @@ impl Page {
         let mut health = None;
         loop {
             match self.next() {
-                Told::Line(line) if line["type"] == "health" => health = Some(line),
-                Told::Line(line) if line["of"] == "health" => health = None,
+                PageMessage::Line(line) if line["type"] == "health" => health = Some(line),
+                PageMessage::Line(line) if line["of"] == "health" => health = None,
                 // The state that belongs to an image is sent before it.
-                Told::Image(line, image) if line["seeks"] == *seeks => return (line, image, health),
+                PageMessage::Image(line, image) if line["seeks"] == *seeks => return (line, image, health),
                 _ => {}
             }
         }

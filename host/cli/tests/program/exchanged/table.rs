@@ -1,5 +1,5 @@
-//! Every loop of the program whose board is lost, and then another one answers: what is told, with which status, and
-//! within which time.
+//! Every loop of the program whose board is lost, and then another one answers: what is reported, with which status,
+//! and within which time.
 
 use super::Socket;
 use crate::start::taxel;
@@ -10,10 +10,10 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
 
-/// Longest time until it is told, s; on a machine that does a lot besides.
+/// Longest time until it is reported, s; on a machine that does a lot besides.
 const SECONDS: f64 = if cfg!(debug_assertions) { 15.0 } else { 3.0 };
 
-/// What a loop does when it has told it.
+/// What a loop does when it has reported it.
 #[derive(Debug, Clone, Copy)]
 enum Then {
     GoesOn,
@@ -27,9 +27,8 @@ use Then::{Ends, GoesOn};
 type Row = (&'static str, (&'static str, Then), (&'static str, Then));
 
 const GONE: &str = "{} is gone: ";
-const OTHER: &str = "{} answers with another board: it wears the garment mat-64x32, not block-4x16\n";
-const REFUSED: &str =
-    "error: {} answers with another board: it wears the garment mat-64x32, not block-4x16\n";
+const OTHER: &str = "{} answers with another board: it has the garment mat-64x32, not block-4x16\n";
+const REFUSED: &str = "error: {} answers with another board: it has the garment mat-64x32, not block-4x16\n";
 /// The end of a run that is limited in time.
 const LIMITED: &str = "error: {} is gone, and has not come back within 10 s: ";
 /// The end of a run that reads raw codes.
@@ -87,8 +86,8 @@ impl Running {
         Running { child, socket, said }
     }
 
-    /// Plugs in another board, or none. Returns after which time that was told, s.
-    fn told(&mut self, garment: Option<&'static str>, (words, then): (&str, Then)) -> f64 {
+    /// Plugs in another board, or none. Returns after which time that was reported, s.
+    fn printed(&mut self, garment: Option<&'static str>, (words, then): (&str, Then)) -> f64 {
         let words = words.replace("{}", &format!("tcp:{}", self.socket.address));
         let longest = SECONDS + if let Ends(seconds) = then { seconds } else { 0.0 };
         let began = Instant::now();
@@ -141,22 +140,22 @@ fn folder(number: usize) -> PathBuf {
 fn row(number: usize, (line, lost, other): Row) -> String {
     let here = folder(number);
     let mut running = Running::start(&here, line);
-    let lost_s = running.told(None, lost);
+    let lost_s = running.printed(None, lost);
     if let Ends(_) = lost.1 {
         running = Running::start(&here, line);
     }
-    let other_s = running.told(Some("mat-64x32"), other);
-    format!("{line:<48} lost: told after {lost_s:>4.1} s   another: {other_s:>4.1} s")
+    let other_s = running.printed(Some("mat-64x32"), other);
+    format!("{line:<48} lost: reported after {lost_s:>4.1} s   another: {other_s:>4.1} s")
 }
 
 #[test]
-fn a_lost_board_and_another_one_are_told_by_every_loop() {
+fn a_lost_board_and_another_one_are_reported_by_every_loop() {
     let is_campaign = std::env::var_os("TAXEL_CAMPAIGN").is_some();
     let rest = if is_campaign { REST } else { &[] };
     let rows = LOOPS.iter().chain(rest).copied().enumerate();
     let rows: Vec<_> = rows.map(|(number, one)| thread::spawn(move || row(number, one))).collect();
-    let told: Vec<String> = rows.into_iter().map(|row| row.join().unwrap()).collect();
+    let printed: Vec<String> = rows.into_iter().map(|row| row.join().unwrap()).collect();
     if is_campaign {
-        told.iter().for_each(|line| println!("absent: {line}"));
+        printed.iter().for_each(|line| println!("absent: {line}"));
     }
 }

@@ -303,7 +303,7 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn each_key_of_a_garment_has_a_mistake_that_is_told_with_its_line() {
+fn each_key_of_a_garment_has_a_mistake_that_is_reported_with_its_line() {
     let good = file("good.toml", BASE);
     let said = check(good.to_str().unwrap(), None).unwrap();
     assert!(said.ends_with("garment mine, 128 taxels in 2 panels and 2 blocks: fits."), "{said}");
@@ -312,7 +312,7 @@ fn each_key_of_a_garment_has_a_mistake_that_is_told_with_its_line() {
 }
 
 #[test]
-fn a_taxel_in_no_block_or_in_two_is_told_with_the_panel_or_the_block() {
+fn a_taxel_in_no_block_or_in_two_is_reported_with_the_panel_or_the_block() {
     let hole = refused(&BASE.replacen("rows = 4\ncolumns = 16\ninput", "rows = 3\ncolumns = 16\ninput", 1));
     assert!(hole.contains("`panels[0]`: panel front: row 3, column 0 lies in no block"), "{hole}");
     let twice = refused(&BASE.replacen("panel = 1\nrow = 0", "panel = 0\nrow = 0", 1));

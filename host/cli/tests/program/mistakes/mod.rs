@@ -37,7 +37,7 @@ fn each(base: &str, mistakes: &[Mistake], said: impl Fn(&str) -> String) {
         let comma = if expected.starts_with(':') { "" } else { ", " };
         let expected = format!(", line {line}{comma}{expected}");
         if !said.contains(&expected) {
-            wrong.push(format!("{key}: `{to}`\n     expected {expected}\n     is told {said}"));
+            wrong.push(format!("{key}: `{to}`\n     expected {expected}\n     is reported {said}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

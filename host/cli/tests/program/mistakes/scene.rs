@@ -263,7 +263,7 @@ fn checked(garment: &str, text: &str) -> anyhow::Result<String> {
 }
 
 #[test]
-fn each_key_of_a_scene_has_a_mistake_that_is_told_with_its_line() {
+fn each_key_of_a_scene_has_a_mistake_that_is_reported_with_its_line() {
     let said = checked("reference", BASE).unwrap();
     assert!(said.ends_with("fits; scene calm can be played on it."), "{said}");
     each(BASE, MISTAKES, |text| format!("{:#}", checked("reference", text).expect_err("it is refused")));
@@ -273,7 +273,7 @@ fn each_key_of_a_scene_has_a_mistake_that_is_told_with_its_line() {
 }
 
 #[test]
-fn a_frame_that_is_too_slow_is_told_in_the_file_that_makes_it_so() {
+fn a_frame_that_is_too_slow_is_reported_in_the_file_that_makes_it_so() {
     let garment = |settle_ns: &str| {
         let text = include_str!("../../../../taxel/garments/reference.toml").replacen(
             "settle_ns = 3000 ",

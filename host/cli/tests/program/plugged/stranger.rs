@@ -10,7 +10,7 @@ fn rows() -> Vec<u8> {
 }
 
 #[test]
-fn a_port_that_speaks_otherwise_is_told_as_that() {
+fn a_port_that_speaks_otherwise_is_reported_as_that() {
     let lines = [
         "live",
         "live --json --frames 5",
@@ -41,7 +41,7 @@ fn a_port_that_speaks_otherwise_is_told_as_that() {
 }
 
 #[test]
-fn bytes_at_another_speed_are_told_as_that() {
+fn bytes_at_another_speed_are_reported_as_that() {
     let here = folder("speed");
     let noise = (0..3000u32).map(|number| (number.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     let source = format!("serial:{}@9600", stranger(noise));

@@ -1,10 +1,10 @@
-//! Every loop of the program, and what is plugged in: what is told, with which status, and within which time. None
+//! Every loop of the program, and what is plugged in: what is reported, with which status, and within which time. None
 //! simulates unasked.
 
 use super::stage::{boards, command, ended, folder};
 use std::thread;
 
-/// Longest time until a command tells that there is no board, s; on a machine that does a lot besides.
+/// Longest time until a command says that there is no board, s; on a machine that does a lot besides.
 const SECONDS: f64 = if cfg!(debug_assertions) { 12.0 } else { 3.0 };
 
 /// Command lines that follow, set or examine a board; `{}` is a folder of their own.
@@ -43,7 +43,7 @@ const REST: &[&str] = &[
     "body fit reference --pick 3 -o {}/body.toml",
 ];
 
-/// What is plugged in, the boards with how their ports open, and what is told.
+/// What is plugged in, the boards with how their ports open, and what is reported.
 type State = (&'static str, &'static [(&'static str, &'static str)], &'static str);
 
 /// The columns of the table.
@@ -111,8 +111,8 @@ fn nothing_is_simulated_in_place_of_a_board() {
     if is_campaign {
         lines.extend(REST);
     }
-    let told = table(&lines);
+    let printed = table(&lines);
     if is_campaign {
-        told.iter().for_each(|line| println!("absent: {line}"));
+        printed.iter().for_each(|line| println!("absent: {line}"));
     }
 }

@@ -1,11 +1,11 @@
 //! A flipped bit anywhere, and files that end anywhere.
 
-use super::made::{Told, found, read, recording, records, repaired};
+use super::made::{RecordedMessage, found, read, recording, records, repaired};
 use mcap::records::op;
 use std::ops::Range;
 
 /// The messages that were lost. There must be no new ones.
-fn lost(before: &[Told], after: &[Told]) -> Vec<Told> {
+fn lost(before: &[RecordedMessage], after: &[RecordedMessage]) -> Vec<RecordedMessage> {
     for message in after {
         assert!(before.contains(message), "{message:?} was not recorded");
     }
@@ -65,13 +65,14 @@ fn a_bit_of_a_file_without_its_end_costs_one_chunk_at_most() {
     let end = chunks[2].end;
     // Channels declared only once, before the chunks, have no checksum and no copy: only times and data are
     // compared.
-    let bare =
-        |told: &[Told]| told.iter().map(|(_, time, data)| (String::new(), *time, data.clone())).collect();
-    let before: Vec<Told> = bare(&before);
+    let bare = |printed: &[RecordedMessage]| {
+        printed.iter().map(|(_, time, data)| (String::new(), *time, data.clone())).collect()
+    };
+    let before: Vec<RecordedMessage> = bare(&before);
     for at in 0..end {
         let mut damaged = whole[..end].to_vec();
         damaged[at] ^= 1 << (at % 8);
-        let after: Vec<Told> = bare(&read(&repaired(&damaged)));
+        let after: Vec<RecordedMessage> = bare(&read(&repaired(&damaged)));
         let lost = lost(&before, &after);
         match chunks.iter().position(|chunk| chunk.contains(&at)) {
             None => assert!(lost.is_empty(), "byte {at} lies in no chunk: {lost:?}"),

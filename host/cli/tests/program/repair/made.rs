@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use taxel::recording::{Format, Messages, Scan, Writer, repair, scan};
 
 /// A message: topic, log time, data.
-pub type Told = (String, u64, Vec<u8>);
+pub type RecordedMessage = (String, u64, Vec<u8>);
 
 /// A test's file, deleted at its end.
 pub struct Scratch(pub PathBuf);
@@ -65,7 +65,7 @@ pub fn repaired(bytes: &[u8]) -> Vec<u8> {
 
 /// Messages of a file, found by its summary. There may be no error, neither for the crate `mcap` (which is
 /// built without LZ4 here and does not look into chunks) nor for us.
-pub fn read(bytes: &[u8]) -> Vec<Told> {
+pub fn read(bytes: &[u8]) -> Vec<RecordedMessage> {
     let summary = mcap::Summary::read(bytes).unwrap().expect("a summary");
     for record in mcap::read::LinearReader::new(bytes).unwrap() {
         record.unwrap();
@@ -74,9 +74,9 @@ pub fn read(bytes: &[u8]) -> Vec<Told> {
     let (mut messages, mut all) = (Messages::open(&scratch.0).unwrap(), Vec::new());
     while let Some(message) = messages.next_message().unwrap() {
         let (header, data) = (message.header, message.data.to_vec());
-        let topic = messages.topic(header.channel_id).expect("a channel that was told before");
-        let told = summary.channels.get(&header.channel_id).expect("a channel that the summary tells");
-        assert_eq!(told.topic, topic);
+        let topic = messages.topic(header.channel_id).expect("a channel that was reported before");
+        let printed = summary.channels.get(&header.channel_id).expect("a channel that the summary reports");
+        assert_eq!(printed.topic, topic);
         all.push((topic.to_string(), header.log_time, data));
     }
     assert!(messages.skipped().is_none());

@@ -115,7 +115,10 @@ fn a_recording_without_its_first_chunk_is_played() {
         let played = folder.good(&["live", &format!("{name}@max"), "--json"]);
         let lines: Vec<serde_json::Value> =
             played.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-        assert_eq!(lines[0]["type"], "hello", "{name}: what the board is was told in the chunk that is lost");
+        assert_eq!(
+            lines[0]["type"], "hello",
+            "{name}: what the board is was reported in the chunk that is lost"
+        );
         let decoded = lines.iter().filter(|line| line["decoded"] == true).count() as u64;
         assert!(decoded > 100 && decoded < whole, "{name}: {decoded} of {whole} frames");
         let npz = format!("{name}.npz");

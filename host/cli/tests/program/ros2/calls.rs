@@ -74,7 +74,7 @@ fn a_scene_that_is_read_slowly_holds_up_no_contacts() {
 #[test]
 fn a_call_is_answered_though_its_client_is_known_later() {
     let (taxel, mut peer) = (Taxel::start("early_call", &["--source", "sim:idle"]), Peer::open("early_call"));
-    let told: Subscription<String> = peer.hear(&taxel.name("taxel/json"), ("std_msgs", "String"));
+    let heard: Subscription<String> = peer.hear(&taxel.name("taxel/json"), ("std_msgs", "String"));
     let (service, kind) = (taxel.name("taxel/save"), "std_srvs::srv::dds_::Trigger");
     let caller = peer.caller(&service, kind);
     peer.find(&service);
@@ -85,7 +85,7 @@ fn a_call_is_answered_though_its_client_is_known_later() {
             caller.write(Trigger(0), None).unwrap();
         }
         calls += 1;
-        let mut lines = std::iter::from_fn(|| told.take().unwrap()).map(|(line, _)| line);
+        let mut lines = std::iter::from_fn(|| heard.take().unwrap()).map(|(line, _)| line);
         lines.any(|line| line.contains("\"request\":\"save\"")).then_some(())
     });
     let mut answers = peer.answered::<Done>(&service, kind);

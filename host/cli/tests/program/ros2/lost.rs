@@ -86,7 +86,7 @@ fn a_lost_board_has_a_last_wrench_of_zero_and_is_stale_again_and_again() {
     let lists = ("taxel_msgs", "Contacts");
     let mut contacts = Heard::<Framed>::of(&mut peer, &format!("{namespace}/taxel/contacts"), lists);
     let states = ("diagnostic_msgs", "DiagnosticArray");
-    let mut told = Heard::<Diagnostics>::of(&mut peer, "/diagnostics", states);
+    let mut heard = Heard::<Diagnostics>::of(&mut peer, "/diagnostics", states);
     until("forces", || {
         while let Poll::Event(event) = session.poll().unwrap() {
             let stamp = stamps.of(session.client(), &event);
@@ -106,14 +106,14 @@ fn a_lost_board_has_a_last_wrench_of_zero_and_is_stale_again_and_again() {
     while lost.elapsed() < Duration::from_secs(4) {
         show.idle(session.parts().0).unwrap();
         contacts.listen();
-        told.listen();
+        heard.listen();
         [&mut panel, &mut link].into_iter().for_each(Heard::listen);
         sleep(Duration::from_millis(5));
     }
     assert_eq!([panel.zeros(), link.zeros()], [1, 1]);
     let silent = [panel.last, link.last, contacts.last].map(|last| last.elapsed() > Duration::from_secs(2));
     assert_eq!(silent, [true; 3], "after the last messages about what touched it");
-    let states = told.messages.iter().flat_map(|message| &message.status);
+    let states = heard.messages.iter().flat_map(|message| &message.status);
     let stale = states.filter(|state| state.level == STALE && state.message == "simulated: it is gone");
-    assert!((3..=5).contains(&stale.count()), "once a second: {:?}", told.messages);
+    assert!((3..=5).contains(&stale.count()), "once a second: {:?}", heard.messages);
 }

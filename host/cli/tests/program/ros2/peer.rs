@@ -137,7 +137,7 @@ impl Peer {
     }
 
     /// Publishes reliably.
-    pub fn tell<T: Serialize>(&mut self, name: &str, (package, kind): (&str, &str)) -> Publisher<T> {
+    pub fn publish_to<T: Serialize>(&mut self, name: &str, (package, kind): (&str, &str)) -> Publisher<T> {
         let kind = MessageTypeName::new(package, kind);
         let topic = self.node.create_topic(&Name::parse(name).unwrap(), kind, &reliable(10)).unwrap();
         self.node.create_publisher(&topic, None).unwrap()

@@ -110,7 +110,7 @@ fn a_flood_of_joint_states_takes_no_contacts() {
         rest: [0; 2],
     };
     frames(&contacts, 1);
-    let publisher = peer.tell(&taxel.name("joint_states"), ("sensor_msgs", "JointState"));
+    let publisher = peer.publish_to(&taxel.name("joint_states"), ("sensor_msgs", "JointState"));
     let is_over = AtomicBool::new(false);
     let heard = thread::scope(|scope| {
         scope.spawn(|| {

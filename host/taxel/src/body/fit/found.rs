@@ -1,9 +1,9 @@
-//! How each panel is worn.
+//! How each panel sits.
 
 use super::registered::{LEAST, Pair, Registered, registered};
 use super::touch::KnownTouch;
 use crate::body::chart::{Chart, Charted};
-use crate::body::config::{Body, WornShift};
+use crate::body::config::{Body, PatchOffset};
 use crate::body::listed::Listed;
 use crate::body::surface::Surface;
 use crate::error::SettingError;
@@ -13,7 +13,7 @@ use taxel_core::garment::{Area, Garment, Layout};
 /// link.
 const ABOVE: f64 = 0.03;
 
-/// How the panels are worn.
+/// How the panels sit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyFit {
     /// The panels that were found.
@@ -22,18 +22,18 @@ pub struct BodyFit {
     pub few: Vec<(String, usize)>,
 }
 
-/// How a panel is worn.
+/// How a panel sits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PatchFit {
     /// Number of its patch in the body.
     pub patch: usize,
     /// Its name.
     pub panel: String,
-    /// How it is worn.
-    pub worn: WornShift,
+    /// How it sits.
+    pub offset: PatchOffset,
     /// Standard deviation of the shift of the panel's middle, m: to the right and down.
     pub shift_sd: [f64; 2],
-    /// Standard deviation of the turn, degrees. None if the touches are too near each other to tell the turn:
+    /// Standard deviation of the turn, degrees. None if the touches are too near each other to find the turn:
     /// it is that of the body file then.
     pub turn_sd: Option<f64>,
     /// Its touches.
@@ -82,7 +82,7 @@ impl PatchFit {
     }
 }
 
-/// Finds how the panels of a body are worn. Errors name the panel, the link or the touch.
+/// Finds how the panels of a body sit. Errors name the panel, the link or the touch.
 pub(in crate::body) fn fit(
     body: &Body,
     garment: &Garment,
@@ -91,7 +91,7 @@ pub(in crate::body) fn fit(
     touches: &[KnownTouch],
 ) -> Result<BodyFit, SettingError> {
     let mut still = body.clone();
-    still.patches.iter_mut().for_each(|patch| patch.worn = None);
+    still.patches.iter_mut().for_each(|patch| patch.offset = None);
     let surface = Surface::build_with(&still, garment, layout, listed, &[])?;
     let areas: Vec<Option<usize>> = touches
         .iter()
@@ -99,7 +99,7 @@ pub(in crate::body) fn fit(
         .map(|(number, touch)| of_panel(number, touch, &surface, layout))
         .collect::<Result<_, SettingError>>()?;
     let mut found = BodyFit { panels: Vec::new(), few: Vec::new() };
-    for (index, (patch, worn)) in still.patches.iter().zip(&body.patches).enumerate() {
+    for (index, (patch, given)) in still.patches.iter().zip(&body.patches).enumerate() {
         let of_patch =
             |area: &Option<usize>| area.is_some_and(|area| *layout.areas()[area].name == *patch.panel);
         let Some(panel) = areas.iter().filter(|area| of_patch(area)).find_map(|area| *area) else { continue };
@@ -126,7 +126,7 @@ pub(in crate::body) fn fit(
             found.few.push((area.name.to_string(), pairs.len()));
             continue;
         }
-        let before = worn.worn.unwrap_or_default();
+        let before = given.offset.unwrap_or_default();
         let registered = registered(&pairs, before.radians()).ok_or_else(|| {
             wrong(format!(
                 "its {} touches do not agree: no placing brings more than half of them within 20 mm",
@@ -157,8 +157,8 @@ fn of_panel(
         let (x, y) = (touch.column, touch.row);
         return Err(wrong(format!("column {x}, row {y} is far beside panel {}", areas[area].name)));
     }
-    let is_worn = surface.panel(&areas[area]).iter().flatten().any(Option::is_some);
-    Ok(is_worn.then_some(area))
+    let is_placed = surface.panel(&areas[area]).iter().flatten().any(Option::is_some);
+    Ok(is_placed.then_some(area))
 }
 
 /// A touch in a patch's chart.
@@ -190,7 +190,7 @@ fn fitted(
     PatchFit {
         patch,
         panel: area.name.to_string(),
-        worn: WornShift { right: motion.shift.x, down: motion.shift.y, turn: motion.turn.to_degrees() },
+        offset: PatchOffset { right: motion.shift.x, down: motion.shift.y, turn: motion.turn.to_degrees() },
         shift_sd: shift_sd.to_array(),
         turn_sd: turn_sd.map(f64::to_degrees),
         touches: touches.collect(),

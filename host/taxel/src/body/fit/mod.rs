@@ -1,9 +1,9 @@
-//! How a garment is worn: the place of each panel on its link, found by touches whose place on the robot is
+//! How a garment sits: the place of each panel on its link, found by touches whose place on the robot is
 //! known.
 //!
 //! Along its surface a panel has three ways to be elsewhere than its body file says: to the right, down, and
 //! turned. Touches come from marks on the robot, one after the other, or from the robot's own hand, whose
-//! place kinematics tells. A few may be wrong: the placing is the one on which most agree.
+//! place kinematics gives. A few may be wrong: the placing is the one on which most agree.
 //!
 //! | file | holds |
 //! |---|---|
@@ -11,7 +11,7 @@
 //! | `marks.rs` | places to be touched |
 //! | `gather.rs` | touches in a board's lists of contacts |
 //! | `registered.rs` | turn and shift between points of a plane |
-//! | `found.rs` | how each panel is worn |
+//! | `found.rs` | how each panel sits |
 //! | `written.rs` | the body file that says so |
 
 mod found;

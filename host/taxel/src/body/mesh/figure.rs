@@ -5,7 +5,7 @@ use super::model::Mesh;
 use super::solids::mesh_of;
 use crate::body::robot::{LinkShape, LinkSolid, solids, text};
 use crate::error::{Result, RobotError};
-use crate::tell::words;
+use crate::text::words;
 use std::path::PathBuf;
 
 /// Most triangles of a link.

@@ -68,7 +68,7 @@ impl JointHistory {
     }
 
     /// Needs these of [`Robot::free`] alone: those that move the links of a garment
-    /// ([`RobotSurface::moving`](crate::body::RobotSurface::moving)). Nobody may tell those of the legs.
+    /// ([`RobotSurface::moving`](crate::body::RobotSurface::moving)). Nobody may send those of the legs.
     pub fn need(&mut self, free: &[usize]) {
         self.is_needed = (0..self.tracks.len()).map(|number| free.contains(&number)).collect();
     }

@@ -83,8 +83,8 @@ mod tests {
 
     #[test]
     fn what_is_left_out_has_its_default() {
-        let told: Motion = "angular=12.5, linear_error=0.001".parse().unwrap();
-        assert_eq!(told, Motion { angular: 12.5, linear_error: 0.001, ..Motion::default() });
+        let parsed: Motion = "angular=12.5, linear_error=0.001".parse().unwrap();
+        assert_eq!(parsed, Motion { angular: 12.5, linear_error: 0.001, ..Motion::default() });
     }
 
     #[test]

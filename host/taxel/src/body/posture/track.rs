@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
 /// Time after the last reading from which a joint is taken to stand still, s: it has a target, and whoever
-/// tells its position may be gone. The bound of the error grows on.
+/// sends its position may be gone. The bound of the error grows on.
 const HORIZON_S: f64 = 0.2;
 
 /// A position at a time.

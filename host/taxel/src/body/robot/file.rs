@@ -5,7 +5,7 @@ use super::tree::tree;
 use super::urdf::{document, parts};
 use crate::error::{Context, Result, RobotError, UsageError};
 use crate::files::input;
-use crate::tell::words;
+use crate::text::words;
 use std::borrow::Cow;
 use std::path::Path;
 

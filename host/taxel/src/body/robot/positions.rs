@@ -2,7 +2,7 @@
 
 use super::model::{JointKind, Robot, RobotJoint};
 use crate::error::{Result, RobotError, UsageError};
-use crate::tell::words;
+use crate::text::words;
 use std::fmt::Display;
 
 /// Share of a joint's range by which a measured position may be beyond its limits: encoders are set to zero by

@@ -4,7 +4,7 @@ use super::element::{Element, Owner, line};
 use super::urdf::document;
 use crate::body::pose::Pose;
 use crate::error::RobotError;
-use crate::tell::words;
+use crate::text::words;
 use glam::DVec3;
 use roxmltree::Node;
 

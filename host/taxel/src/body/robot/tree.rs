@@ -4,7 +4,7 @@ use super::element::Owner;
 use super::model::{Drive, JointKind, Robot, RobotJoint, RobotLink};
 use super::urdf::{UrdfJoint, UrdfLink};
 use crate::error::RobotError;
-use crate::tell::words;
+use crate::text::words;
 use std::collections::HashMap;
 
 /// Numbers of links and joints by their names.

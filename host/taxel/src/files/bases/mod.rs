@@ -5,7 +5,7 @@ pub mod view;
 use crate::error::{Context, FileError, LearnError, Result, UsageError};
 use crate::files::input;
 use crate::files::output::Output;
-use crate::tell::words;
+use crate::text::words;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::shape::{DIMENSIONS, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery, MEASURE_NAMES, MEASURES};

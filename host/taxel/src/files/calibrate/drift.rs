@@ -1,14 +1,14 @@
 //! Checks whether a calibration still holds, and if not, why.
 
 use super::file::Calibration;
-use crate::tell::date::days_between;
+use crate::text::date::days_between;
 use std::collections::BTreeSet;
 use std::fmt;
 
 /// Tolerated movement of the garment at rest (median over taxels), as a share of the last knot's counts.
 const REST: f64 = 0.02;
 /// Tolerated share of taxels that have become faulty since.
-const ILL: f64 = 0.01;
+const FAULTY_SHARE: f64 = 0.01;
 /// Least significant error of a known press: share of it, and multiple of the calibration's own error.
 const PRESS: (f64, f64) = (0.05, 3.0);
 
@@ -20,11 +20,11 @@ const WARMTH: f64 = 10.0;
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Seen {
     /// The calibration by the board's `Hello`.
-    pub told: String,
+    pub reported: String,
     /// Codes at rest by taxel number.
     pub rest: Vec<f64>,
     /// Faulty taxels.
-    pub ill: BTreeSet<u16>,
+    pub faulty: BTreeSet<u16>,
     /// Today, year-month-day.
     pub today: String,
     /// Days after which a calibration is old.
@@ -47,7 +47,7 @@ pub enum Reason {
     /// Movement of the garment at rest: counts, median over taxels, and share of the last knot's.
     Rest(f64, f64),
     /// Number of taxels that have become faulty.
-    Ill(usize),
+    Faulty(usize),
     /// Age, days.
     Old(u64),
     /// Known force of a press, and its value by the calibration, N.
@@ -60,15 +60,15 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Reason::None => f.write_str("the board has no calibration: it was restarted without --save, or its garment or gains were changed"),
-            Reason::Another(told) => write!(f, "the board has another calibration ({told})"),
+            Reason::Another(reported) => write!(f, "the board has another calibration ({reported})"),
             Reason::Garment(has, had) => write!(f, "the garment has {has} taxels, the calibration is of {had}"),
             Reason::Rest(counts, part) => write!(
                 f,
-                "the garment at rest has moved by {counts:.0} counts ({:.1} % of the heaviest weight): it was folded, worn, warmed, \
+                "the garment at rest has moved by {counts:.0} counts ({:.1} % of the heaviest weight): it was folded, used, warmed, \
                  or something lies on it",
                 100.0 * part
             ),
-            Reason::Ill(count) => write!(f, "{count} taxels have become faulty since: `taxel health` lists them"),
+            Reason::Faulty(count) => write!(f, "{count} taxels have become faulty since: `taxel health` lists them"),
             Reason::Old(days) => write!(f, "it is {days} days old"),
             Reason::Press(known, felt) => {
                 write!(f, "{known:.2} N are felt as {felt:.2} N ({:+.1} %)", 100.0 * (felt / known - 1.0))
@@ -84,10 +84,10 @@ impl fmt::Display for Reason {
 /// Returns all reasons to calibrate again.
 pub fn judge(calibration: &Calibration, seen: &Seen) -> Vec<Reason> {
     let mut reasons = Vec::new();
-    if seen.told.is_empty() {
+    if seen.reported.is_empty() {
         reasons.push(Reason::None);
-    } else if !calibration.is_in_force(&seen.told) {
-        reasons.push(Reason::Another(seen.told.clone()));
+    } else if !calibration.is_in_force(&seen.reported) {
+        reasons.push(Reason::Another(seen.reported.clone()));
     }
     if seen.rest.len() != calibration.gains.len() {
         reasons.push(Reason::Garment(seen.rest.len(), calibration.gains.len()));
@@ -101,9 +101,9 @@ pub fn judge(calibration: &Calibration, seen: &Seen) -> Vec<Reason> {
     if moved > (REST * range).max(2.0) {
         reasons.push(Reason::Rest(moved, moved / range.max(1.0)));
     }
-    let ill = seen.ill.iter().filter(|taxel| !calibration.silent.contains(taxel)).count();
-    if ill as f64 > ILL * calibration.gains.len() as f64 {
-        reasons.push(Reason::Ill(ill));
+    let faulty = seen.faulty.iter().filter(|taxel| !calibration.silent.contains(taxel)).count();
+    if faulty as f64 > FAULTY_SHARE * calibration.gains.len() as f64 {
+        reasons.push(Reason::Faulty(faulty));
     }
     match days_between(&calibration.date, &seen.today) {
         Some(days) if days > seen.days => reasons.push(Reason::Old(days)),
@@ -124,7 +124,7 @@ pub fn judge(calibration: &Calibration, seen: &Seen) -> Vec<Reason> {
 
 /// Median over the taxels of their movement at rest, counts.
 fn moved(calibration: &Calibration, seen: &Seen) -> f64 {
-    let well = |taxel: &usize| !seen.ill.contains(&(*taxel as u16));
+    let well = |taxel: &usize| !seen.faulty.contains(&(*taxel as u16));
     let pairs = seen.rest.iter().zip(&calibration.rest).enumerate().filter(|(taxel, _)| well(taxel));
     let mut all: Vec<f64> = pairs.map(|(_, (now, then))| (now - f64::from(*then)).abs()).collect();
     all.sort_by(f64::total_cmp);

@@ -7,7 +7,7 @@ use super::residuals::{OfWeight, Residuals};
 use crate::error::{Context, Result, SettingError};
 use crate::files::input;
 use crate::files::output::Output;
-use crate::tell::date;
+use crate::text::date;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::condition::Certificate;
@@ -105,7 +105,7 @@ impl Calibration {
     /// Parses and checks the text of a file with this name.
     pub fn parse(text: &str, name: &str) -> Result<Calibration> {
         let read: Calibration = toml::from_str(text)
-            .map_err(|error| SettingError::Malformed(crate::tell::words::toml(&error, text, name)))?;
+            .map_err(|error| SettingError::Malformed(crate::text::words::toml(&error, text, name)))?;
         read.check().with_context(|| name.to_string())?;
         Ok(read)
     }
@@ -162,7 +162,7 @@ impl Calibration {
     }
 
     /// True if a board with this description of its calibration uses this one.
-    pub fn is_in_force(&self, told: &str) -> bool {
-        told.starts_with(&format!("id {},", self.id))
+    pub fn is_in_force(&self, reported: &str) -> bool {
+        reported.starts_with(&format!("id {},", self.id))
     }
 }

@@ -4,7 +4,7 @@ use super::named::{Named, folder};
 use super::part::{self, Part};
 use super::place::{self, Place};
 use crate::error::{Context, Result};
-use crate::tell::verbose;
+use crate::text::verbose;
 use std::fs::File;
 use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
 
@@ -42,7 +42,7 @@ impl Draft {
     /// Puts the content into the output; it is on the disk when this returns.
     pub fn keep(mut self) -> Result<()> {
         self.flush()?;
-        verbose::tell(format_args!("has written {}", self.output.name.display()));
+        verbose::print(format_args!("has written {}", self.output.name.display()));
         let Sink::File(file, part) = self.sink else { return Ok(()) };
         let place = || format!("{} cannot be written", self.output.name.display());
         file.get_ref().sync_all().with_context(place)?;
@@ -52,7 +52,7 @@ impl Draft {
 
     /// Adds the output's name to an error. Errors of the standard output stay unchanged: a reader that has
     /// exited is not a failure.
-    fn told<T>(&self, done: io::Result<T>) -> io::Result<T> {
+    fn reported<T>(&self, done: io::Result<T>) -> io::Result<T> {
         done.map_err(|error| match self.sink {
             Sink::Standard(_) => error,
             _ if error.kind() == ErrorKind::Interrupted => error,
@@ -69,7 +69,7 @@ impl Write for Draft {
             Sink::Standard(out) => out.write(bytes),
             Sink::Device(file) | Sink::File(file, _) => file.write(bytes),
         };
-        self.told(done)
+        self.reported(done)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -77,7 +77,7 @@ impl Write for Draft {
             Sink::Standard(out) => out.flush(),
             Sink::Device(file) | Sink::File(file, _) => file.flush(),
         };
-        self.told(done)
+        self.reported(done)
     }
 }
 
@@ -87,6 +87,6 @@ impl Seek for Draft {
             Sink::Standard(_) => Err(ErrorKind::NotSeekable.into()),
             Sink::Device(file) | Sink::File(file, _) => file.seek(to),
         };
-        self.told(done)
+        self.reported(done)
     }
 }

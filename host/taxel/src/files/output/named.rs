@@ -32,8 +32,9 @@ impl Named {
             fail!(UsageError::Argument, "{name} is read by this command: give another name for the output");
         }
         let same = same.display();
-        let told = format!("{name} is the same file as {same}, which this command reads: give another name");
-        fail!(UsageError::Argument, "{}", told)
+        let reported =
+            format!("{name} is the same file as {same}, which this command reads: give another name");
+        fail!(UsageError::Argument, "{}", reported)
     }
 
     /// Renames a temporary file to the output's name.

@@ -193,13 +193,13 @@ pub struct HealthMapLine {
     /// True if the list is complete; else more follows.
     pub whole: bool,
     /// The faulty taxels, ascending.
-    pub ill: Vec<IllTaxel>,
+    pub faulty: Vec<FaultyTaxel>,
 }
 
 /// A faulty taxel.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct IllTaxel {
+pub struct FaultyTaxel {
     /// Number of the taxel.
     pub taxel: u16,
     /// Its fault, for people.

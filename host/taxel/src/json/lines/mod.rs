@@ -11,7 +11,7 @@ mod regions;
 mod touch;
 
 pub use board::{
-    AnswerLine, BackLine, BudgetLine, HealthLine, HealthMapLine, HelloLine, HelloPanel, IllTaxel, LogLine,
+    AnswerLine, BackLine, BudgetLine, FaultyTaxel, HealthLine, HealthMapLine, HelloLine, HelloPanel, LogLine,
     LostLine, OtherLine, PinFaultLine, RefusedLine, SelfTestLine, StartLine, StartOfFrameLine, SyncLine,
     TemperatureLine, UnusableLine,
 };

@@ -20,7 +20,7 @@ pub struct PressingLine<'a> {
     /// Time from there to the start of the scan, us; below 0 if the poses came after it. Null without poses.
     pub pose_age_us: Option<i64>,
     /// The most by which a place in the frame of the poses is off, m, because joints are not known exactly and
-    /// move on: by what the host that tells the poses knows of the joints. Null if it does not say it.
+    /// move on: by what the host that sends the poses knows of the joints. Null if it does not say it.
     pub pose_error_m: Option<f64>,
     /// The contacts that have a place.
     pub contacts: Vec<LandedLine<'a>>,

@@ -17,12 +17,12 @@ const PLAYS: [f32; 7] = [0.0, 2.0, 4.0, 6.0, 8.0, 11.0, 15.0];
 const PRESSED: f64 = 5e-4;
 /// Share of what a taxel feels that differs from day to day, besides what the shift explains.
 const DAY_SHARE: f32 = 0.5;
-/// Share by which a taxel may feel more than on the one day that was learned from. Several days tell how they
+/// Share by which a taxel may feel more than on the one day that was learned from. Several days show how they
 /// differ: it is divided by the square of their number.
-const UNTOLD_SHARE: f32 = 0.5;
+const UNKNOWN_SHARE: f32 = 0.5;
 /// Share by which a taxel may differ more within a day than on that one, likewise: where a stronger bulge comes
 /// at once, between other knots, the expectation is further off.
-const UNTOLD_SPREAD: f32 = 1.5;
+const UNKNOWN_SPREAD: f32 = 1.5;
 /// Share of the most by which the garment shifts, within which a neighbour's spread counts, too. It is not all
 /// of the shift: the spread is doubt for the whole day, and would hide touches.
 const SPREAD_SHARE: f32 = 0.5;
@@ -105,8 +105,12 @@ pub fn learn(layout: &Layout, sweeps: &[FoldSweep], settings: &FoldSettings) -> 
     let taxels = layout.taxels();
     require!(!sweeps.is_empty(), LearnError::Data, "there are no sweeps to learn from");
     for (number, sweep) in (1..).zip(sweeps) {
-        let told = sweep.taxels();
-        require!(told == taxels, LearnError::Data, "sweep {number}: {told} taxels, the garment has {taxels}");
+        let reported = sweep.taxels();
+        require!(
+            reported == taxels,
+            LearnError::Data,
+            "sweep {number}: {reported} taxels, the garment has {taxels}"
+        );
         let frames = sweep.frames();
         require!(frames >= 50, LearnError::Data, "sweep {number}: {frames} frames are too few, 50 at least");
     }
@@ -163,7 +167,7 @@ fn groups(sweeps: &[FoldSweep], settings: &FoldSettings) -> Result<Vec<Vec<Strin
         let count = group.len();
         require!((1..=2).contains(&count), LearnError::Data, "a fold has one joint or two, not {count}");
         if let Some(joint) = group.iter().find(|joint| !known(joint)) {
-            fail!(LearnError::Data, "joint {joint}: no sweep tells its angle");
+            fail!(LearnError::Data, "joint {joint}: no sweep reports its angle");
         }
         if let Some(joint) = group.iter().find(|joint| joint.is_empty() || joint.len() > 16) {
             fail!(LearnError::Data, "joint {joint:?}: a board's names have 1 to 16 bytes");
@@ -297,7 +301,8 @@ fn courses(
     let beside: Vec<Vec<usize>> =
         (0..knots).map(|knot| fold.knots.beside(knot, settings.shift_deg)).collect();
     let shift_mm = settings.shift_mm;
-    let [stronger, wider] = [UNTOLD_SHARE, UNTOLD_SPREAD].map(|share| share / (sweeps.len() as f32).powi(2));
+    let [stronger, wider] =
+        [UNKNOWN_SHARE, UNKNOWN_SPREAD].map(|share| share / (sweeps.len() as f32).powi(2));
     let most = brought(layout, &courses, &beside, shift_mm, |course| &course.most);
     let spread = brought(layout, &courses, &beside, SPREAD_SHARE * shift_mm, |course| &course.spread);
     for (course, (most, spread)) in courses.iter_mut().zip(most.into_iter().zip(spread)) {
@@ -390,12 +395,12 @@ fn write(
     };
     write_fold_table(&parts, layout, &mut table).map_err(|error| LearnError::Data(error.to_string()))?;
     FoldTable::check(&table, layout).map_err(|error| LearnError::Data(error.to_string()))?;
-    let folds = folds.iter().zip(courses).map(|(fold, its)| told(sweeps, fold, its)).collect();
+    let folds = folds.iter().zip(courses).map(|(fold, its)| reported(sweeps, fold, its)).collect();
     Ok(LearnedFolds { table, folds })
 }
 
-/// What is told of a fold.
-fn told(sweeps: &[FoldSweep], fold: &Fold, its: &[TaxelCourse]) -> LearnedFold {
+/// What is reported of a fold.
+fn reported(sweeps: &[FoldSweep], fold: &Fold, its: &[TaxelCourse]) -> LearnedFold {
     let knots = fold.knots.count();
     let felt: f64 = fold.pressed.iter().map(|taxel| variation(sweeps, *taxel)).sum();
     LearnedFold {

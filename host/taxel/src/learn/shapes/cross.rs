@@ -3,7 +3,7 @@
 use super::data::Example;
 use crate::files::bases::BoardGallery;
 use crate::learn::stratified::stratified;
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use taxel_core::shape::Recognised;
 
 /// Assigns examples to folds. Returns the fold of each example.

@@ -2,7 +2,7 @@
 
 use super::data::{Data, Touch};
 use crate::error::{LearnError, Result};
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use taxel_core::format::Q15;
 use taxel_core::gesture::{Decision, Model, TouchClassifier, TouchState};
 

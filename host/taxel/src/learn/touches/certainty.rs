@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn who_waits_for_certainty_is_told_later_and_righter() {
+    fn who_waits_for_certainty_is_answered_later_and_righter() {
         let taken = |class, confidence| Taken { class, confidence: Some(confidence) };
         let applied = Applied {
             last: taken(1, 0.95),

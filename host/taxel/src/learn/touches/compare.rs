@@ -11,7 +11,7 @@ use super::model::train;
 use super::report::{Outcome, Report, accuracy};
 use super::settings::{EARLY, TrainSettings};
 use crate::error::{LearnError, Result};
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use serde_json::{Value, json};
 use taxel_core::gesture::{Features, Model};
 

@@ -3,7 +3,7 @@
 use super::data::{Data, Touch};
 use super::settings::{EARLY, TrainSettings};
 use super::windows::{Windows, ladder};
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use taxel_core::gesture::{Cells, Features, SIDE, Sheet, TouchState};
 
 /// Least number of frames of a half.

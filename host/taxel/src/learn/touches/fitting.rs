@@ -19,7 +19,7 @@ pub fn saturation(data: &Data) -> Option<String> {
     let classes: Vec<String> = classes.collect();
     let which = classes.join(", ");
     (classes.len() > 1).then(|| {
-        format!("saturation: values stop at {top} in {which}: force no longer tells these classes apart")
+        format!("saturation: values stop at {top} in {which}: force no longer distinguishes these classes")
     })
 }
 
@@ -68,18 +68,18 @@ mod tests {
     }
 
     #[test]
-    fn saturation_in_both_classes_is_told_and_in_one_is_not() {
-        let told = saturation(&data(500, 500)).unwrap();
+    fn saturation_in_both_classes_is_reported_and_in_one_is_not() {
+        let reported = saturation(&data(500, 500)).unwrap();
         assert!(
-            told.starts_with("saturation: values stop at 500 in 100 % of kind, 100 % of cruel"),
-            "{told}"
+            reported.starts_with("saturation: values stop at 500 in 100 % of kind, 100 % of cruel"),
+            "{reported}"
         );
         assert_eq!(saturation(&data(300, 500)), None);
         assert_eq!(saturation(&data(999, 999)), None);
     }
 
     #[test]
-    fn another_unit_is_told() {
+    fn another_unit_is_reported() {
         let model = Model::read(ShippedModel::Gestures.bytes()).unwrap();
         let (middle, _) = model.experts().last().unwrap().known(LEVEL).unwrap();
         // A sheet with the total of the training.
@@ -90,7 +90,7 @@ mod tests {
             units(&data, &model)
         };
         assert_eq!(even(1), None);
-        let told = even(100).unwrap();
-        assert!(told.starts_with("units: the touches press "), "{told}");
+        let reported = even(100).unwrap();
+        assert!(reported.starts_with("units: the touches press "), "{reported}");
     }
 }

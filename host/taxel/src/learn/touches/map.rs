@@ -19,7 +19,7 @@ const LAMBDA: f64 = 2.5;
 /// Class of each of the `asked` by a map learnt from `examples`.
 pub fn mapped(examples: &[(&Features, usize)], classes: usize, asked: &[&Features]) -> Vec<usize> {
     let (middle, deviation) = standard(examples);
-    let chosen = telling(examples, classes, &middle, &deviation);
+    let chosen = distinguishing(examples, classes, &middle, &deviation);
     let inputs = |f: &Features| -> Vec<f64> {
         let much = |i: &usize| sigmoid((f64::from(f[*i]) - middle[*i]) / deviation[*i]);
         chosen.iter().map(much).chain([1.0]).collect()
@@ -59,7 +59,12 @@ fn learn(rows: &[(Vec<f64>, usize)], class: usize) -> Vec<f64> {
 }
 
 /// Features whose class means differ most relative to their deviation.
-fn telling(examples: &[(&Features, usize)], classes: usize, middle: &[f64], deviation: &[f64]) -> Vec<usize> {
+fn distinguishing(
+    examples: &[(&Features, usize)],
+    classes: usize,
+    middle: &[f64],
+    deviation: &[f64],
+) -> Vec<usize> {
     let mut counts = vec![0usize; classes];
     examples.iter().for_each(|(_, class)| counts[*class] += 1);
     let between = |i: usize| -> f64 {
@@ -78,7 +83,7 @@ mod tests {
     use crate::learn::touches::knn::nearest;
 
     #[test]
-    fn classes_apart_are_told_apart_by_either() {
+    fn classes_apart_are_distinguished_by_either() {
         let of = |class: usize, n: u16| -> Features {
             std::array::from_fn(|f| {
                 500 + (n * 71 + f as u16 * 13) % 200 + if f % 3 == class { 400 } else { 0 }

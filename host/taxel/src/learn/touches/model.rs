@@ -6,7 +6,7 @@ use super::export::{ModelHead, export};
 use super::settings::TrainSettings;
 use crate::error::{Context, LearnError, Result};
 use crate::files::input;
-use crate::tell::date::today;
+use crate::text::date::today;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel_core::gesture::Model;

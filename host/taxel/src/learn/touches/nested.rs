@@ -6,7 +6,7 @@ use super::data::Data;
 use super::report::{Outcome, Report, accuracy};
 use super::settings::TrainSettings;
 use crate::error::{LearnError, Result};
-use crate::tell::progress::{Progress, Unit};
+use crate::text::progress::{Progress, Unit};
 use serde_json::json;
 
 /// For each group: chooses the settings that perform best in cross-validation on the other groups, trains

@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn classes_apart_are_told_apart() {
+    fn classes_apart_are_distinguished() {
         let of = |shift: u16| -> Vec<Features> {
             (0..40u16)
                 .map(|i| {

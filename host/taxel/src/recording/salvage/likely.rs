@@ -28,7 +28,7 @@ enum Trust {
     Fields,
 }
 
-/// Tells records from other bytes.
+/// Distinguishes records from other bytes.
 #[derive(Debug)]
 pub struct Judge<'a> {
     /// The file.
@@ -47,8 +47,8 @@ impl Judge<'_> {
 
     /// First offset of `from..until` at which a record certainly begins.
     pub fn search(&mut self, from: u64, until: u64) -> io::Result<Option<u64>> {
-        let told = self.marks.records.range(from..until.max(from)).next().copied();
-        let until = told.unwrap_or(until);
+        let stated = self.marks.records.range(from..until.max(from)).next().copied();
+        let until = stated.unwrap_or(until);
         let mut block = from;
         while block < until {
             let bytes = self.source.read(block, BLOCK.min(until - block))?;
@@ -61,7 +61,7 @@ impl Judge<'_> {
             }
             block += BLOCK;
         }
-        Ok(told)
+        Ok(stated)
     }
 
     /// True if a record certainly begins there: by itself, or by what follows it.

@@ -21,23 +21,23 @@ pub fn header(body: &[u8]) -> Option<(ChunkHeader, usize)> {
 /// Reads a chunk's body. If fields are wrong but the checksum fits, corrects them and the body. None if it
 /// does not fit. The uncompressed bytes are left in `plain`, which is reused for all chunks.
 pub fn open(body: &mut Vec<u8>, plain: &mut Vec<u8>) -> Option<(ChunkHeader, Opened)> {
-    let (told, used) = header(body)?;
+    let (stated, used) = header(body)?;
     let data = body.get(used..)?;
-    let named = [told.compression.as_str(), LZ4, ""];
+    let named = [stated.compression.as_str(), LZ4, ""];
     let (compression, inside) = named.into_iter().find_map(|compression| {
-        unpack(data, compression, told.uncompressed_size, plain)?;
-        Some((compression.to_string(), checked(&told, plain)?))
+        unpack(data, compression, stated.uncompressed_size, plain)?;
+        Some((compression.to_string(), checked(&stated, plain)?))
     })?;
     let times = || inside.index.values().flatten().map(|entry| entry.log_time);
     let right = ChunkHeader {
-        message_start_time: times().min().unwrap_or(told.message_start_time),
-        message_end_time: times().max().unwrap_or(told.message_end_time),
+        message_start_time: times().min().unwrap_or(stated.message_start_time),
+        message_end_time: times().max().unwrap_or(stated.message_end_time),
         uncompressed_size: plain.len() as u64,
         compressed_size: data.len() as u64,
         compression,
-        ..told
+        ..stated
     };
-    if right != told {
+    if right != stated {
         let mut corrected = Vec::with_capacity(body.len());
         write(&mut corrected, &right).ok()?;
         corrected.extend_from_slice(data);
@@ -47,18 +47,18 @@ pub fn open(body: &mut Vec<u8>, plain: &mut Vec<u8>) -> Option<(ChunkHeader, Ope
 }
 
 /// Records of a chunk, if they fit its checksum; without a checksum, if they fill its stated size.
-fn checked(told: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
-    let sum = told.uncompressed_crc;
+fn checked(stated: &ChunkHeader, plain: &[u8]) -> Option<Opened> {
+    let sum = stated.uncompressed_crc;
     if sum != 0 && sum != crc32fast::hash(plain) {
         return None;
     }
     let (inside, is_whole) = records(plain);
-    let fits = sum != 0 || (is_whole && told.uncompressed_size == plain.len() as u64);
+    let fits = sum != 0 || (is_whole && stated.uncompressed_size == plain.len() as u64);
     fits.then_some(inside)
 }
 
 /// Decompresses a chunk with this stated size into `plain`.
-fn unpack(data: &[u8], compression: &str, told: u64, plain: &mut Vec<u8>) -> Option<()> {
+fn unpack(data: &[u8], compression: &str, stated: u64, plain: &mut Vec<u8>) -> Option<()> {
     let most = LARGEST.min(data.len() as u64 * MOST);
     match compression {
         "" => {
@@ -66,8 +66,8 @@ fn unpack(data: &[u8], compression: &str, told: u64, plain: &mut Vec<u8>) -> Opt
             plain.extend_from_slice(data);
         }
         // The usual case: the chunk is as stated.
-        LZ4 if told <= most && lz4::is_ours(data) => {
-            plain.resize(told as usize, 0);
+        LZ4 if stated <= most && lz4::is_ours(data) => {
+            plain.resize(stated as usize, 0);
             if !lz4::decode(data, plain) {
                 decode(data, most, plain)?;
             }

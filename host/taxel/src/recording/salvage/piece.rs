@@ -69,7 +69,7 @@ pub struct Opened {
 /// Chunks are parsed by `opened::open`.
 pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
     let exact = |used: usize| used == body.len();
-    let told = |used: usize| Some((Kind::Summary, exact(used)));
+    let stated = |used: usize| Some((Kind::Summary, exact(used)));
     Some(match number {
         op::HEADER => fields(number, body).map(|(header, used)| (Kind::Header(header), exact(used)))?,
         op::SCHEMA => schema(body)?,
@@ -79,12 +79,12 @@ pub fn parse(number: u8, body: &[u8]) -> Option<(Kind, bool)> {
         op::ATTACHMENT => attachment(body)?,
         op::METADATA => fields(number, body).map(|(words, used)| (Kind::Metadata(words), exact(used)))?,
         op::FOOTER => fields(number, body).map(|(_, used): (Footer, _)| (Kind::Footer, exact(used)))?,
-        op::CHUNK_INDEX => fields::<ChunkIndex>(number, body).and_then(|(_, used)| told(used))?,
-        op::ATTACHMENT_INDEX => fields::<AttachmentIndex>(number, body).and_then(|(_, used)| told(used))?,
-        op::METADATA_INDEX => fields::<MetadataIndex>(number, body).and_then(|(_, used)| told(used))?,
-        op::STATISTICS => fields::<Statistics>(number, body).and_then(|(_, used)| told(used))?,
-        op::SUMMARY_OFFSET => fields::<SummaryOffset>(number, body).and_then(|(_, used)| told(used))?,
-        op::DATA_END => fields::<DataEnd>(number, body).and_then(|(_, used)| told(used))?,
+        op::CHUNK_INDEX => fields::<ChunkIndex>(number, body).and_then(|(_, used)| stated(used))?,
+        op::ATTACHMENT_INDEX => fields::<AttachmentIndex>(number, body).and_then(|(_, used)| stated(used))?,
+        op::METADATA_INDEX => fields::<MetadataIndex>(number, body).and_then(|(_, used)| stated(used))?,
+        op::STATISTICS => fields::<Statistics>(number, body).and_then(|(_, used)| stated(used))?,
+        op::SUMMARY_OFFSET => fields::<SummaryOffset>(number, body).and_then(|(_, used)| stated(used))?,
+        op::DATA_END => fields::<DataEnd>(number, body).and_then(|(_, used)| stated(used))?,
         // Zeros, which a power cut can leave, are not a record.
         0 | op::CHUNK => return None,
         _ => (Kind::Unknown, false),

@@ -128,9 +128,9 @@ impl Walk {
 
     fn damage(&mut self, offset: u64) -> io::Result<Unreadable> {
         self.index.clear();
-        let told = self.marks.chunks.range(offset..self.at).count();
+        let stated = self.marks.chunks.range(offset..self.at).count();
         let is_chunk = self.source.head(offset)?.is_some_and(|head| head.op == op::CHUNK);
-        let chunks = if self.marks.chunks.is_empty() { usize::from(is_chunk) } else { told };
+        let chunks = if self.marks.chunks.is_empty() { usize::from(is_chunk) } else { stated };
         Ok(Unreadable { offset, length: self.at - offset, chunks })
     }
 
@@ -172,13 +172,13 @@ impl Walk {
             return Ok(None);
         }
         let (from, behind) = (at + HEAD as u64, self.source.behind(at));
-        let Some((told, used)) = opened::header(&self.source.read(from, behind.min(256))?) else {
+        let Some((stated, used)) = opened::header(&self.source.read(from, behind.min(256))?) else {
             return Ok(None);
         };
-        let by_fields = (used as u64).saturating_add(told.compressed_size);
+        let by_fields = (used as u64).saturating_add(stated.compressed_size);
         let piece = |length, body, kind| {
             let is_corrected = match &kind {
-                Kind::Chunk(header, _) => *header != told || head != RawHead { op: op::CHUNK, length },
+                Kind::Chunk(header, _) => *header != stated || head != RawHead { op: op::CHUNK, length },
                 _ => false,
             };
             Some(Piece { offset: at, end: from + length, op: op::CHUNK, body, kind, is_corrected })
@@ -198,8 +198,8 @@ impl Walk {
             return Ok(None);
         }
         // Unsupported here, but possibly intact.
-        Ok(if !is_known(&told.compression) || told.uncompressed_size > LARGEST {
-            piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(told.clone(), None))
+        Ok(if !is_known(&stated.compression) || stated.uncompressed_size > LARGEST {
+            piece(head.length, self.source.read(from, head.length)?, Kind::Chunk(stated.clone(), None))
         } else {
             piece(head.length, Vec::new(), Kind::BadChunk)
         })

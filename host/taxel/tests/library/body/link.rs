@@ -75,7 +75,7 @@ fn a_mesh_is_sought_scaled_and_placed_as_the_urdf_says() {
 }
 
 #[test]
-fn meshes_that_are_not_there_are_told_with_file_line_and_link() {
+fn meshes_that_are_not_there_are_reported_with_file_line_and_link() {
     let why = |link: &str, name: &str| {
         let tree = Packages::new("wrong", link);
         let error = of_link(&tree.urdf(), name, LinkShape::Visual, &[]).unwrap_err();

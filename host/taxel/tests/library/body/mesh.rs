@@ -101,7 +101,7 @@ fn a_cube_is_read_from_its_squares() {
 }
 
 #[test]
-fn what_is_no_mesh_is_told() {
+fn what_is_no_mesh_is_reported() {
     let why = |file: &str, bytes: &[u8]| parse(file, bytes).unwrap_err().to_string();
     let cut = &binary(&sphere(3))[..400];
     let mut bent = binary(&sphere(3));

@@ -418,7 +418,7 @@ fn readings_that_cannot_be_are_refused_and_nothing_of_them_is_taken() {
     assert!(motion(f64::INFINITY).is_err() && motion(0.0).is_ok());
 }
 
-/// Nobody tells the joints that are not needed: they rest, and nothing is known of them.
+/// Nobody sends the joints that are not needed: they rest, and nothing is known of them.
 #[test]
 fn joints_that_are_not_needed_are_not_waited_for() {
     let robot = arm();
@@ -433,7 +433,7 @@ fn joints_that_are_not_needed_are_not_waited_for() {
     // At a reading one joint is exact, and the way of another not known.
     let exact = history.aligned(Micros(0), Micros(0)).unwrap();
     assert_eq!(robot.displacement((3, 0), 0.1, &exact.posture, &exact.errors), f64::INFINITY);
-    // Fixed joints and those that mimic are told by everybody, and passed over.
+    // Fixed joints and those that mimic are sent by everybody, and passed over.
     let text = ARM
         .replace("<origin xyz=\"0.2 0 0\"/><limit", "<origin xyz=\"0.2 0 0\"/><mimic joint=\"turn\"/><limit");
     let mut history =

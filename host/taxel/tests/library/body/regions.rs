@@ -18,7 +18,7 @@ link = \"torso\"
 within.box = { from = [0, 0, 0.2], to = [0.1, 0.05, 0.3] }
 ";
 
-fn worn(regions: &str) -> Result<(Surface, Layout)> {
+fn surfaced(regions: &str) -> Result<(Surface, Layout)> {
     let garment = Garment::reference();
     let layout = Layout::build(&garment, 2048, 4095).unwrap();
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(
@@ -35,7 +35,7 @@ fn worn(regions: &str) -> Result<(Surface, Layout)> {
 /// Each taxel is in the region in whose solid its place is, by the solid's own formula here.
 #[test]
 fn a_region_holds_the_taxels_of_its_solid() {
-    let (surface, _) = worn(&format!("{OUTER}{HEART}")).unwrap();
+    let (surface, _) = surfaced(&format!("{OUTER}{HEART}")).unwrap();
     assert_eq!(surface.regions(), ["left upper arm, outer", "heart"]);
     let mut counts = [0; 3];
     for place in surface.places().iter().flatten() {
@@ -57,13 +57,13 @@ fn a_region_holds_the_taxels_of_its_solid() {
 #[test]
 fn angles_run_as_columns_do() {
     let right = OUTER.replace("[-60, 60]", "[0, 60]");
-    let (surface, layout) = worn(&right).unwrap();
+    let (surface, layout) = surfaced(&right).unwrap();
     let base = usize::from(layout.areas()[2].base);
     let columns: Vec<usize> = surface.of_region(0).iter().map(|taxel| (taxel - base) % 16).collect();
     assert!(!columns.is_empty() && columns.iter().all(|column| *column >= 8), "{columns:?}");
     // A turn further is the same.
     for other in ["[360, 420]", "[-360, -300]"] {
-        let Ok((again, _)) = worn(&right.replace("[0, 60]", other)) else { continue };
+        let Ok((again, _)) = surfaced(&right.replace("[0, 60]", other)) else { continue };
         assert_eq!(again.of_region(0), surface.of_region(0), "{other}");
     }
 }
@@ -71,7 +71,7 @@ fn angles_run_as_columns_do() {
 /// A contact has the region of the taxel that is nearest, in the frame of any link.
 #[test]
 fn a_contact_has_the_name_of_its_region() {
-    let (surface, layout) = worn(&format!("{OUTER}{HEART}")).unwrap();
+    let (surface, layout) = surfaced(&format!("{OUTER}{HEART}")).unwrap();
     for panel in 0..4 {
         for (x, y) in [(3.4, 20.7), (7.6, 10.2), (8.0, 3.0), (9.5, 12.9)] {
             let place = surface.at(&layout, panel, x, y).unwrap();
@@ -86,19 +86,19 @@ fn a_contact_has_the_name_of_its_region() {
     let body: Body =
         toml::from_str(&(include_str!("../../../bodies/reference.toml").to_string() + "\n" + OUTER)).unwrap();
     let robot = Arc::new(robot::read("reference").unwrap());
-    let worn = body::RobotSurface::build(&body, &Garment::reference(), &layout, robot.clone()).unwrap();
+    let surfaced = body::RobotSurface::build(&body, &Garment::reference(), &layout, robot.clone()).unwrap();
     let posture = robot.posture_of("left_shoulder_roll=90deg").unwrap();
-    let seen = worn.seen_from(&posture, 0).unwrap();
-    assert_eq!(seen.of_region(0), worn.surface().of_region(0));
+    let seen = surfaced.seen_from(&posture, 0).unwrap();
+    assert_eq!(seen.of_region(0), surfaced.surface().of_region(0));
     let contact = seen.at(&layout, 2, 7.6, 10.2).unwrap();
     assert_eq!(seen.region(&contact), Some("left upper arm, outer"));
 }
 
 #[test]
-fn regions_that_cannot_be_are_told_with_file_line_and_name() {
+fn regions_that_cannot_be_are_reported_with_file_line_and_name() {
     let why = |regions: &str| {
-        let told = format!("{:#}", worn(regions).err().unwrap());
-        told.split_once(".toml, ").unwrap().1.to_string()
+        let reported = format!("{:#}", surfaced(regions).err().unwrap());
+        reported.split_once(".toml, ").unwrap().1.to_string()
     };
     // The reference body has 20 lines.
     for (regions, what) in [

@@ -104,7 +104,7 @@ fn on_a_cone_every_taxel_lies_on_it_and_distances_are_kept() {
 }
 
 #[test]
-fn what_does_not_fit_is_told_with_its_key() {
+fn what_does_not_fit_is_reported_with_its_key() {
     let why = |on: &str| mat_on(on).unwrap_err();
     let cone =
         why("on.cone = { at = [0, 0, 0], axis = [0, 0, 1], radius = 0.05, facing = [1, 0, 0], angle = 20 }");
@@ -234,7 +234,7 @@ fn the_reference_garment_lies_on_its_robot() {
 }
 
 #[test]
-fn panels_that_lie_on_each_other_are_told() {
+fn panels_that_lie_on_each_other_are_reported() {
     let text = "[[patches]]\npanel = \"chest\"\non.plane = { at = [0, 0, 0], normal = [1, 0, 0], down = [0, 0, -1] }\n";
     let both = text.to_string() + &text.replace("chest", "back").replace("0, 0, 0]", "0, 0.1, 0]");
     let garment = Garment::reference();

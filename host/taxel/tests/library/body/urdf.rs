@@ -50,7 +50,7 @@ fn the_reference_robot_has_the_links_of_its_body() {
 }
 
 #[test]
-fn what_is_no_urdf_is_told_with_its_line() {
+fn what_is_no_urdf_is_reported_with_its_line() {
     for (text, sentence) in [
         ("", "r.urdf, line 1: not XML: the document does not have a root node"),
         ("\n\nhello", "r.urdf, line 3: not XML: unknown token"),
@@ -76,7 +76,7 @@ fn what_is_no_urdf_is_told_with_its_line() {
 }
 
 #[test]
-fn a_joint_that_is_wrong_is_told_with_its_name_and_line() {
+fn a_joint_that_is_wrong_is_reported_with_its_name_and_line() {
     let of = |what: &str| format!("r.urdf, line {what}");
     let limit = "<limit lower=\"0\" upper=\"1\"/>";
     for (text, sentence) in [
@@ -150,7 +150,7 @@ fn a_joint_that_is_wrong_is_told_with_its_name_and_line() {
 }
 
 #[test]
-fn links_that_are_no_tree_are_told() {
+fn links_that_are_no_tree_are_reported() {
     let joint = |name: &str, parent: &str, child: &str| {
         format!(
             "<joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/></joint>\n"
@@ -208,7 +208,7 @@ fn what_does_not_matter_is_passed_over() {
 }
 
 #[test]
-fn files_that_are_missing_or_unknown_are_told() {
+fn files_that_are_missing_or_unknown_are_reported() {
     let error = read("/no/such/arm.urdf").unwrap_err();
     assert!(matches!(error.kind(), ErrorKind::File(FileError::Missing { .. })), "{error:#}");
     let error = read("refrence").unwrap_err();

@@ -66,7 +66,7 @@ fn a_patch_is_followed_at_a_count_per_second() {
     }
 }
 
-/// A palm of 5 N that comes within ten seconds shows the same codes: the two cannot be told apart.
+/// A palm of 5 N that comes within ten seconds shows the same codes: the two cannot be distinguished.
 #[test]
 fn a_patch_at_five_counts_per_second_is_unsure_and_means_nothing() {
     for (name, felt) in patched(5.0) {

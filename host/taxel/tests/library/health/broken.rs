@@ -1,7 +1,7 @@
 //! Lines and inputs that break at run time: the board finds and reports them as at the start.
 
 use super::scripts::varied;
-use super::worn::{FRAME_S, TAXELS};
+use super::watched::{FRAME_S, TAXELS};
 use crate::faults::pin_faults;
 use taxel::sim::{PINS, Script, SimBoard, SimClock};
 use taxel_core::acquire::{Clock, MuxScan};
@@ -102,7 +102,7 @@ impl Platform for Until {
 }
 
 /// Runs a board for this many frames of a script.
-fn told(garment: &Garment, script: &Script, frames: u32) -> Host {
+fn reported(garment: &Garment, script: &Script, frames: u32) -> Host {
     let info =
         BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let mut board = Box::new(Shipped::new(info, garment.clone(), Scene::shipped()).unwrap());
@@ -131,13 +131,13 @@ fn breaking(faults: &[PinFault], seed: u64) -> Script {
 /// Each is identified and reported once, without an earlier report about a taxel. There was no fault at the
 /// start.
 #[test]
-fn every_line_and_input_that_breaks_in_use_is_told_as_itself_within_100_frames() {
+fn every_line_and_input_that_breaks_in_use_is_reported_as_itself_within_100_frames() {
     let garment = Garment::reference();
     let seeds = if super::is_campaign() { 10 } else { 1 };
     let (mut count, mut latest) = (0, 0);
     for (seed, fault) in (1..=seeds).flat_map(|seed| pin_faults(&garment).into_iter().map(move |f| (seed, f)))
     {
-        let host = told(&garment, &breaking(&[fault], seed), BROKEN + SOON);
+        let host = reported(&garment, &breaking(&[fault], seed), BROKEN + SOON);
         let [whole, broken] = &host.self_tests[..] else { panic!("{fault:?}: {:?}", host.self_tests) };
         assert_eq!(whole.findings, Findings { lines: 9, inputs: 4, faults: Default::default() });
         assert_eq!(broken.findings.faults, [fault]);
@@ -149,23 +149,23 @@ fn every_line_and_input_that_breaks_in_use_is_told_as_itself_within_100_frames()
         (count, latest) = (count + 1, latest.max(found - BROKEN));
     }
     println!(
-        "{count} lines and inputs broke in use: each told as itself, the last one after {latest} frames"
+        "{count} lines and inputs broke in use: each reported as itself, the last one after {latest} frames"
     );
 }
 
 /// Nothing touches the garment. Not detectable then: an input at ground of a garment that rests there.
 #[test]
-fn what_breaks_at_rest_is_told_where_codes_can_show_it() {
+fn what_breaks_at_rest_is_reported_where_codes_can_show_it() {
     let garment = Garment::reference();
     for fault in pin_faults(&garment) {
         let mut script = breaking(&[fault], 2);
         script.touches.clear();
-        let host = told(&garment, &script, BROKEN + SOON);
+        let host = reported(&garment, &script, BROKEN + SOON);
         assert_eq!(host.self_tests.last().unwrap().findings.faults, [fault]);
         assert_eq!(host.maps.iter().map(|map| map.taxels.len()).sum::<usize>(), 0, "{fault:?}");
         if fault.fault == Fault::Grounded {
             (script.idle.base_code, script.idle.spread_counts) = (0.0, 0.0);
-            let host = told(&garment, &script, BROKEN + SOON);
+            let host = reported(&garment, &script, BROKEN + SOON);
             assert_eq!(host.self_tests.len(), 1);
         }
     }
@@ -173,10 +173,10 @@ fn what_breaks_at_rest_is_told_where_codes_can_show_it() {
 
 /// Two faults in sequence: the second is reported ten seconds after the first at the latest.
 #[test]
-fn a_second_fault_is_told_beside_the_first() {
+fn a_second_fault_is_reported_beside_the_first() {
     let garment = Garment::reference();
     let faults = [(2, Fault::StuckHigh), (27, Fault::Supplied)].map(|(pin, fault)| PinFault { pin, fault });
-    let host = told(&garment, &breaking(&faults, 3), BROKEN + SOON);
+    let host = reported(&garment, &breaking(&faults, 3), BROKEN + SOON);
     assert_eq!(host.self_tests.last().unwrap().findings.faults, faults);
     assert_eq!(host.self_tests.len(), 2);
 }
@@ -188,11 +188,11 @@ fn pressure_everywhere_is_no_fault() {
     let garment = Garment::reference();
     let mut script = super::scripts::all_pressed(f64::from(BROKEN) * FRAME_S);
     script.touches.iter_mut().for_each(|touch| touch.force_n *= 10.0);
-    let host = told(&garment, &script, BROKEN + 4 * SOON);
+    let host = reported(&garment, &script, BROKEN + 4 * SOON);
     assert_eq!(host.self_tests.len(), 1);
     assert!(host.maps.iter().all(|map| map.taxels.is_empty()));
     assert!(host.overruns <= 1, "{}", host.overruns);
     // A stream of touches costs no frame.
-    let host = told(&garment, &varied(1000.0 * FRAME_S, 4), 1000);
+    let host = reported(&garment, &varied(1000.0 * FRAME_S, 4), 1000);
     assert_eq!((host.self_tests.len(), host.overruns), (1, 0));
 }

@@ -1,7 +1,7 @@
 //! Faulty lines and inputs, and the results of a self-test.
 
 use super::scripts::all_pressed;
-use super::worn::Worn;
+use super::watched::WatchedBoard;
 use crate::faults::{examine, pin_faults};
 use taxel::files::scripts;
 use taxel::sim::{Stuck, rewire};
@@ -13,7 +13,7 @@ use taxel_core::selftest::{Fault, Findings, PinFault};
 use taxel_core::wire::{Receiver, Report, Request, decode, encode};
 
 #[test]
-fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
+fn every_fault_of_a_line_or_an_input_is_reported_as_itself() {
     let mut rng = fastrand::Rng::with_seed(7);
     // Inverted lines, exchanged inputs and turned blocks do not affect the self-test.
     for garment in [Garment::reference(), Garment::mat(), rewire(&Garment::reference(), &mut rng)] {
@@ -30,7 +30,7 @@ fn every_fault_of_a_line_or_an_input_is_told_as_itself() {
 }
 
 #[test]
-fn several_faults_are_told_side_by_side() {
+fn several_faults_are_reported_side_by_side() {
     let mut script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
     let faults = [
         (2, Fault::Bridged(12)),
@@ -47,64 +47,64 @@ fn several_faults_are_told_side_by_side() {
 fn a_self_test_reports_its_findings_and_gives_every_taxel_another_chance() {
     let mut script = all_pressed(0.1);
     script.faults.stuck = vec![Stuck { taxel: 77, code: 300 }];
-    let mut worn = Worn::new();
-    assert_eq!(worn.play(&script, 100).len(), 1);
-    let gain = |worn: &Worn| worn.board.state().condition.gain()[77];
-    assert_eq!(gain(&worn), 0);
+    let mut watched = WatchedBoard::new();
+    assert_eq!(watched.play(&script, 100).len(), 1);
+    let gain = |watched: &WatchedBoard| watched.board.state().condition.gain()[77];
+    assert_eq!(gain(&watched), 0);
     let mut wire = [0; 64];
     let frame = encode(&Request::SelfTest, &mut wire).unwrap();
-    worn.board.step(Micros(0), Input::Received(frame), &mut ());
-    let jobs = std::iter::from_fn(|| worn.board.step(Micros(0), Input::Tick, &mut ()));
+    watched.board.step(Micros(0), Input::Received(frame), &mut ());
+    let jobs = std::iter::from_fn(|| watched.board.step(Micros(0), Input::Tick, &mut ()));
     assert!(jobs.take(9).any(|job| job == Job::Examine));
     script.faults.pins = vec![PinFault { pin: 9, fault: Fault::Bridged(10) }];
-    let findings = examine(&worn.garment, &script);
-    let lost = worn.board.health().overruns;
-    worn.board.step(Micros(20_480), Input::Examined(Ok(findings.clone())), &mut ());
-    assert_eq!(worn.board.health().overruns - lost, 4, "of 5.12 ms each");
-    assert_eq!((worn.board.health_of(77), gain(&worn)), (TaxelHealth::Good, 4096));
-    assert_eq!(told(&mut worn), [Ok((Micros(20_480), findings)), Err(true)]);
+    let findings = examine(&watched.garment, &script);
+    let lost = watched.board.health().overruns;
+    watched.board.step(Micros(20_480), Input::Examined(Ok(findings.clone())), &mut ());
+    assert_eq!(watched.board.health().overruns - lost, 4, "of 5.12 ms each");
+    assert_eq!((watched.board.health_of(77), gain(&watched)), (TaxelHealth::Good, 4096));
+    assert_eq!(reported(&mut watched), [Ok((Micros(20_480), findings)), Err(true)]);
     script.faults.pins.clear();
-    assert_eq!(worn.play(&script, 100).keys().copied().collect::<Vec<_>>(), [77], "it is found again");
+    assert_eq!(watched.play(&script, 100).keys().copied().collect::<Vec<_>>(), [77], "it is found again");
 }
 
 #[test]
-fn a_garment_that_is_put_on_is_examined_and_told_of() {
-    let mut worn = Worn::new();
+fn a_garment_that_is_put_on_is_examined_and_reported() {
+    let mut watched = WatchedBoard::new();
     let (mut wire, mut bytes) = ([0; 2048], [0; 2048]);
-    worn.garment.wiring.column.lines.swap(0, 3);
-    let garment = postcard::to_slice(&worn.garment, &mut bytes).unwrap();
+    watched.garment.wiring.column.lines.swap(0, 3);
+    let garment = postcard::to_slice(&watched.garment, &mut bytes).unwrap();
     for request in [Request::Start, Request::SetGarment(garment)] {
         let frame = encode(&request, &mut wire).unwrap();
-        worn.board.step(Micros(0), Input::Received(frame), &mut ());
+        watched.board.step(Micros(0), Input::Received(frame), &mut ());
     }
-    let jobs = |worn: &mut Worn| -> Vec<Job> {
-        let jobs = std::iter::from_fn(|| worn.board.step(Micros(0), Input::Tick, &mut ()));
+    let jobs = |watched: &mut WatchedBoard| -> Vec<Job> {
+        let jobs = std::iter::from_fn(|| watched.board.step(Micros(0), Input::Tick, &mut ()));
         jobs.take(9).filter(|job| !matches!(job, Job::Drive(..))).collect()
     };
-    assert_eq!(jobs(&mut worn)[0], Job::Examine);
+    assert_eq!(jobs(&mut watched)[0], Job::Examine);
     let mut script = scripts::parse("duration_s = 1", "rest.toml").unwrap();
     script.faults.pins = vec![PinFault { pin: 12, fault: Fault::StuckLow }];
-    let findings = examine(&worn.garment, &script);
+    let findings = examine(&watched.garment, &script);
     assert_eq!(findings.faults[..], script.faults.pins[..]);
-    worn.board.step(Micros(9), Input::Examined(Ok(findings.clone())), &mut ());
-    assert!(!jobs(&mut worn).contains(&Job::Examine), "once is enough");
-    assert_eq!(told(&mut worn), [Ok((Micros(9), findings))]);
+    watched.board.step(Micros(9), Input::Examined(Ok(findings.clone())), &mut ());
+    assert!(!jobs(&mut watched).contains(&Job::Examine), "once is enough");
+    assert_eq!(reported(&mut watched), [Ok((Micros(9), findings))]);
 }
 
 /// Self-test reports of a board, and its answers.
-fn told(worn: &mut Worn) -> Vec<Result<(Micros, Findings), bool>> {
-    let (mut told, mut receiver) = (Vec::new(), Box::new(Receiver::<8192>::new()));
-    while let [byte, ..] = worn.board.pending(Micros(20_480), &mut ()) {
+fn reported(watched: &mut WatchedBoard) -> Vec<Result<(Micros, Findings), bool>> {
+    let (mut reported, mut receiver) = (Vec::new(), Box::new(Receiver::<8192>::new()));
+    while let [byte, ..] = watched.board.pending(Micros(20_480), &mut ()) {
         if let Some(Ok(body)) = receiver.push(*byte) {
             match decode(body).unwrap() {
-                (_, Report::SelfTest(report)) => told.push(Ok((report.time, report.findings))),
+                (_, Report::SelfTest(report)) => reported.push(Ok((report.time, report.findings))),
                 (_, Report::Answer(answer)) if answer.request == Request::SelfTest.number() => {
-                    told.push(Err(answer.refusal.is_none()))
+                    reported.push(Err(answer.refusal.is_none()))
                 }
                 (0u32.., _) => {}
             }
         }
-        worn.board.sent(1);
+        watched.board.sent(1);
     }
-    told
+    reported
 }

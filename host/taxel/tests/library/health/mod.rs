@@ -8,7 +8,7 @@ mod lines;
 mod rings;
 mod said;
 mod scripts;
-mod worn;
+mod watched;
 
 fn is_campaign() -> bool {
     std::env::var_os("TAXEL_CAMPAIGN").is_some()

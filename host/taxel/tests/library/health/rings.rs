@@ -1,7 +1,7 @@
 //! Pressure around a taxel but not on it is no fault of that taxel; if the taxel is dead, it is reported
 //! soon.
 
-use super::worn::{TARE, Worn};
+use super::watched::{TARE, WatchedBoard};
 use taxel_core::format::Code;
 use taxel_core::health::TaxelHealth;
 
@@ -26,10 +26,14 @@ fn from_middle(taxel: usize) -> Option<(usize, usize)> {
 }
 
 /// Faults found, with the frame after the tare, if these taxels are pressed for a while.
-fn found(worn: &mut Worn, frames: u32, is_pressed: impl Fn(usize) -> bool) -> Vec<(usize, u32, TaxelHealth)> {
+fn found(
+    watched: &mut WatchedBoard,
+    frames: u32,
+    is_pressed: impl Fn(usize) -> bool,
+) -> Vec<(usize, u32, TaxelHealth)> {
     let mut rng = fastrand::Rng::with_seed(5);
-    worn.tare();
-    let found = worn.show(u32::from(TARE) + frames, |frame| {
+    watched.tare();
+    let found = watched.show(u32::from(TARE) + frames, |frame| {
         codes(&mut rng, |taxel| frame >= u32::from(TARE) && is_pressed(taxel))
     });
     found.into_iter().map(|(taxel, (frame, health))| (taxel, frame - u32::from(TARE), health)).collect()
@@ -48,17 +52,18 @@ fn a_ring_accuses_no_taxel() {
         ("wide", &wide),
         ("cup", &cup),
     ] {
-        let found = found(&mut Worn::new(), 3 * FRAMES, |taxel| from_middle(taxel).is_some_and(ring));
+        let found = found(&mut WatchedBoard::new(), 3 * FRAMES, |taxel| from_middle(taxel).is_some_and(ring));
         assert!(found.is_empty(), "{name}: {found:?}");
     }
 }
 
 /// Three rows and columns around it, then two: an object that presses those would press it, too.
 #[test]
-fn a_dead_taxel_under_what_presses_all_around_is_told_within_100_frames() {
+fn a_dead_taxel_under_what_presses_all_around_is_reported_within_100_frames() {
     for (height, width) in [(2, 2), (2, 3), (5, 5)] {
         let box_around = |(y, x): (usize, usize)| y <= height && x <= width && y + x > 0;
-        let found = found(&mut Worn::new(), FRAMES + 11, |taxel| from_middle(taxel).is_some_and(box_around));
+        let found =
+            found(&mut WatchedBoard::new(), FRAMES + 11, |taxel| from_middle(taxel).is_some_and(box_around));
         let [(taxel, frame, TaxelHealth::Dead)] = found[..] else { panic!("{found:?}") };
         assert_eq!(taxel, MIDDLE.0 * COLUMNS + MIDDLE.1);
         assert!(frame < FRAMES, "frame {frame}");
@@ -67,13 +72,13 @@ fn a_dead_taxel_under_what_presses_all_around_is_told_within_100_frames() {
 
 /// At an edge of the garment, and in its corner.
 #[test]
-fn a_dead_taxel_at_the_edge_is_told_within_100_frames() {
+fn a_dead_taxel_at_the_edge_is_reported_within_100_frames() {
     for (row, column) in [(0, 8), (16, 0), (0, 0), (31, 15)] {
         let pressed = |taxel: usize| {
             let (y, x) = ((taxel / COLUMNS).abs_diff(row), (taxel % COLUMNS).abs_diff(column));
             taxel < 32 * COLUMNS && y.max(x) <= 3 && y + x > 0
         };
-        let found = found(&mut Worn::new(), FRAMES + 11, pressed);
+        let found = found(&mut WatchedBoard::new(), FRAMES + 11, pressed);
         let [(taxel, frame, TaxelHealth::Dead)] = found[..] else { panic!("{found:?}") };
         assert_eq!((taxel / COLUMNS, taxel % COLUMNS), (row, column));
         assert!(frame < FRAMES, "frame {frame}");
@@ -83,13 +88,13 @@ fn a_dead_taxel_at_the_edge_is_told_within_100_frames() {
 /// A thick ring looks like a cover over a dead taxel, until that taxel is pressed itself.
 #[test]
 fn a_dead_taxel_that_answers_is_taken_back() {
-    let mut worn = Worn::new();
+    let mut watched = WatchedBoard::new();
     let middle = MIDDLE.0 * COLUMNS + MIDDLE.1;
     let thick = |(y, x): (usize, usize)| y.max(x) <= 3 && y + x > 0;
-    assert_eq!(found(&mut worn, FRAMES + 11, |taxel| from_middle(taxel).is_some_and(thick)).len(), 1);
-    assert_eq!(worn.board.state().condition.gain()[middle], 0);
+    assert_eq!(found(&mut watched, FRAMES + 11, |taxel| from_middle(taxel).is_some_and(thick)).len(), 1);
+    assert_eq!(watched.board.state().condition.gain()[middle], 0);
     let mut rng = fastrand::Rng::with_seed(6);
-    worn.show(4, |_| codes(&mut rng, |taxel| taxel == middle));
-    assert_eq!(worn.board.health_of(middle), TaxelHealth::Good);
-    assert_eq!(worn.board.state().condition.gain()[middle], 4096);
+    watched.show(4, |_| codes(&mut rng, |taxel| taxel == middle));
+    assert_eq!(watched.board.health_of(middle), TaxelHealth::Good);
+    assert_eq!(watched.board.state().condition.gain()[middle], 4096);
 }

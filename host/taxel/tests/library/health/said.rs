@@ -1,6 +1,6 @@
 //! Intentions announced because of faulty taxels before they are silenced.
 
-use super::worn::{FRAME_S, TARE, TAXELS, Worn};
+use super::watched::{FRAME_S, TARE, TAXELS, WatchedBoard};
 use std::collections::BTreeSet;
 use taxel::files::scripts;
 use taxel::sim::{Noisy, Script, Stuck};
@@ -14,9 +14,9 @@ fn said(count: u32, from_s: f64, seed: u64, fault: impl Fn(u16, &mut Script)) ->
     (script.seed, script.faults.from_s) = (seed, from_s);
     let mut rng = fastrand::Rng::with_seed(seed);
     (0..count).for_each(|_| fault(rng.u16(..TAXELS as u16), &mut script));
-    let mut worn = Worn::new();
-    worn.play(&script, FRAMES);
-    worn.said
+    let mut watched = WatchedBoard::new();
+    watched.play(&script, FRAMES);
+    watched.said
 }
 
 fn nothing() -> BTreeSet<&'static str> {

@@ -79,7 +79,7 @@ fn soft_is_kind_and_hard_is_a_threat() {
 }
 
 #[test]
-fn a_map_that_does_not_ask_is_not_told() {
+fn a_map_that_does_not_ask_is_not_reported() {
     let shipped = taxel_core::intent::Intent::<64>::build(&Scene::shipped().intent.unwrap()).unwrap();
     let asks = taxel_core::intent::Intent::<64>::build(&scene().intent.unwrap()).unwrap();
     assert_eq!((shipped.feels(), asks.feels()), (false, true));

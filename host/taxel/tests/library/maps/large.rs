@@ -34,7 +34,7 @@ impl Bench {
     }
 
     /// Passes on everything that the board sends at `now`.
-    fn told(&mut self, now: Micros, mut take: impl FnMut(Report<'_>)) {
+    fn reported(&mut self, now: Micros, mut take: impl FnMut(Report<'_>)) {
         while let [byte, ..] = self.board.pending(now, &mut ()) {
             if let Some(body) = self.receiver.push(*byte) {
                 take(decode::<(u32, Report<'_>)>(body.unwrap()).unwrap().1);
@@ -49,7 +49,7 @@ impl Bench {
         let frame = encode(request, &mut wire).unwrap().to_vec();
         self.board.step(Micros(0), Input::Received(&frame), &mut ());
         let mut refusal = None;
-        self.told(Micros(0), |report| {
+        self.reported(Micros(0), |report| {
             if let Report::Answer(answer) = report {
                 refusal = answer.refusal.map(String::from);
             }
@@ -75,7 +75,7 @@ impl Bench {
         let mut reports = Vec::new();
         for frame in 0..60u16 {
             self.scan(if (10..50).contains(&frame) { 40 * (frame - 9) } else { 0 });
-            self.told(self.now(), |report| {
+            self.reported(self.now(), |report| {
                 if let Report::Intent(report) = report {
                     reports.push(report);
                 }
@@ -119,7 +119,7 @@ fn scene(map: MapConfig) -> Scene {
 
 #[test]
 fn a_board_infers_maps_of_64_concepts_as_the_host_does() {
-    let mut told = 0;
+    let mut reported = 0;
     for (rule, transfer) in [
         (Rule::Kosko, Transfer::Tanh),
         (Rule::Mkosko, Transfer::Sigmoid),
@@ -144,10 +144,10 @@ fn a_board_infers_maps_of_64_concepts_as_the_host_does() {
             let wanted: Vec<i32> = run.state[..CONCEPTS].iter().map(|x| host.map.q15(*x).0).collect();
             assert_eq!(report.concepts.iter().map(|value| value.0).collect::<Vec<_>>(), wanted);
             assert_eq!((report.steps, report.outcome), (run.steps, run.outcome), "{rule:?} {transfer:?}");
-            told += usize::from(value(0) > 0);
+            reported += usize::from(value(0) > 0);
         }
     }
-    assert!(told > 15, "{told} reports of a touch");
+    assert!(reported > 15, "{reported} reports of a touch");
 }
 
 /// Encoded scene with a map, after an edit.
@@ -207,7 +207,7 @@ fn a_bad_map_is_refused_in_one_sentence_and_changes_nothing() {
 }
 
 #[test]
-fn what_the_old_map_meant_is_not_told_as_the_new_one_s() {
+fn what_the_old_map_meant_is_not_reported_as_the_new_one_s() {
     let mut bench = Bench::new();
     bench.start();
     bench.touch();
@@ -220,7 +220,7 @@ fn what_the_old_map_meant_is_not_told_as_the_new_one_s() {
     bench.board.step(bench.now(), Input::Received(&frame), &mut ());
     (0..9).for_each(|_| bench.scan(3000));
     let mut concepts = Vec::new();
-    bench.told(bench.now(), |report| {
+    bench.reported(bench.now(), |report| {
         if let Report::Intent(report) = report {
             concepts.push(report.concepts.len());
         }

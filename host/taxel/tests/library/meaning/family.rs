@@ -5,7 +5,7 @@ use taxel_core::intent::Leading;
 
 /// Judgement of a touch by a person.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
+pub enum Expected {
     /// Kind: kindness is announced, and nothing worse.
     Kind,
     /// Friendly or meaningless: kindness or nothing is announced.
@@ -26,7 +26,7 @@ pub struct Family {
     /// Name.
     pub name: &'static str,
     /// Judgement of a person.
-    pub wish: Wish,
+    pub expected: Expected,
 }
 
 /// Fills in the codes of the scan that starts at a time (us).
@@ -49,28 +49,28 @@ pub struct Act {
 }
 
 /// Announcements, with the time since the begin of the force (ms).
-pub type Told = Vec<(Leading, i64)>;
+pub type Announced = Vec<(Leading, i64)>;
 
-impl Wish {
+impl Expected {
     /// True if a person would not want it.
     pub fn is_harmful(self) -> bool {
-        matches!(self, Wish::Harmful | Wish::Attack)
+        matches!(self, Expected::Harmful | Expected::Attack)
     }
 
     /// True if a person would agree with the announcements for a touch of this duration.
-    pub fn agrees(self, told: &Told, lasts_ms: i64) -> bool {
-        let any = |of: Leading| told.iter().any(|(leading, _)| *leading == of);
+    pub fn agrees(self, announced: &Announced, lasts_ms: i64) -> bool {
+        let any = |of: Leading| announced.iter().any(|(leading, _)| *leading == of);
         let harm = any(Leading::Threat) || any(Leading::Attack);
         match self {
-            Wish::Kind | Wish::Friendly => !harm,
-            Wish::Nothing => !harm && !any(Leading::Kindness),
-            Wish::Once => {
-                let said = told.iter().filter(|(leading, _)| *leading != Leading::None).count();
+            Expected::Kind | Expected::Friendly => !harm,
+            Expected::Nothing => !harm && !any(Leading::Kindness),
+            Expected::Once => {
+                let said = announced.iter().filter(|(leading, _)| *leading != Leading::None).count();
                 let over = |last: &(Leading, i64)| last.0 == Leading::None && last.1 < lasts_ms;
-                said <= 1 && told.last().is_none_or(over)
+                said <= 1 && announced.last().is_none_or(over)
             }
-            Wish::Harmful => harm,
-            Wish::Attack => any(Leading::Attack),
+            Expected::Harmful => harm,
+            Expected::Attack => any(Leading::Attack),
         }
     }
 }

@@ -254,8 +254,8 @@ impl Pair {
 
 /// Perception of touch `number` of a family.
 fn touch(family: usize, number: u64, garment: Garment, period_us: u64, landing: usize) -> Heard {
-    let (wearing, landing) = ((garment, Make::Even), Landing::nth(landing));
-    Heard::of(strangers::landed(family, number, wearing, Some(period_us), landing))
+    let (on, landing) = ((garment, Make::Even), Landing::nth(landing));
+    Heard::of(strangers::landed(family, number, on, Some(period_us), landing))
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Runs every touch through the pipeline with the shipped scene, and tabulates the announcements by family.
 
-use crate::meaning::family::{Act, Family, Told, Wish};
+use crate::meaning::family::{Act, Announced, Expected, Family};
 use crate::meaning::{scripted, strangers};
 use taxel_core::capacity::TAXELS;
 use taxel_core::format::{Code, Micros};
@@ -18,7 +18,7 @@ const JITTER: f64 = 0.05;
 
 /// Result of one touch.
 pub struct Verdict {
-    pub told: Told,
+    pub announced: Announced,
     /// True if a person would agree.
     pub agreed: bool,
     /// Number of pins driven because of an attack.
@@ -46,16 +46,16 @@ pub fn play(act: &mut Act, mut see: impl FnMut(u64, &Percept<'_>)) {
 
 /// Result of one touch.
 pub fn hear(mut act: Act) -> Verdict {
-    let (mut told, mut flinches, begin) = (Told::new(), 0, act.span.0);
+    let (mut announced, mut flinches, begin) = (Announced::new(), 0, act.span.0);
     play(&mut act, |now, percept| {
         if let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed) {
-            told.push((meaning.leading, (now as i64 - begin as i64) / 1000));
+            announced.push((meaning.leading, (now as i64 - begin as i64) / 1000));
         }
         let pin = |name: &str, active: bool| active && name == "flinch";
         flinches += percept.reactions.changes().iter().filter(|it| pin(&it.name, it.active)).count();
     });
     let lasts_ms = ((act.span.1 - act.span.0) / 1000) as i64;
-    Verdict { agreed: act.family.wish.agrees(&told, lasts_ms), told, flinches, note: act.note }
+    Verdict { agreed: act.family.expected.agrees(&announced, lasts_ms), announced, flinches, note: act.note }
 }
 
 /// A row of the table.
@@ -75,9 +75,10 @@ pub struct Row {
 impl Row {
     pub fn of(family: Family, verdicts: &[Verdict]) -> Row {
         let any = |of: Leading| {
-            verdicts.iter().filter(|v| v.told.iter().any(|(leading, _)| *leading == of)).count()
+            verdicts.iter().filter(|v| v.announced.iter().any(|(leading, _)| *leading == of)).count()
         };
-        let first = |v: &Verdict| v.told.iter().find(|(leading, _)| *leading != Leading::None).map(|it| it.1);
+        let first =
+            |v: &Verdict| v.announced.iter().find(|(leading, _)| *leading != Leading::None).map(|it| it.1);
         let mut delays: Vec<i64> = verdicts.iter().filter_map(first).collect();
         delays.sort_unstable();
         let wrong = verdicts.iter().filter(|v| !v.agreed);
@@ -90,13 +91,13 @@ impl Row {
             attack: any(Leading::Attack),
             flinches: verdicts.iter().map(|v| v.flinches).sum(),
             delays,
-            wrong: wrong.map(|v| format!("  {}: {:?}: {}", family.name, v.told, v.note)).collect(),
+            wrong: wrong.map(|v| format!("  {}: {:?}: {}", family.name, v.announced, v.note)).collect(),
         }
     }
 
     /// Pins driven although a person would not have called it an attack.
     pub fn false_reflexes(&self) -> usize {
-        let harmless = !matches!(self.family.wish, Wish::Harmful | Wish::Attack);
+        let harmless = !matches!(self.family.expected, Expected::Harmful | Expected::Attack);
         if harmless { self.flinches } else { 0 }
     }
 
@@ -105,7 +106,7 @@ impl Row {
         println!(
             "{:18} {:9} {:5} {:6} {:8} {:6} {:6} {:9} {:8}",
             self.family.name,
-            format!("{:?}", self.family.wish).to_lowercase(),
+            format!("{:?}", self.family.expected).to_lowercase(),
             self.count,
             self.agreed,
             self.kind,
@@ -126,20 +127,28 @@ fn share(rows: &[Row], of: impl Fn(&Row) -> bool, right: impl Fn(&Row) -> usize)
 
 /// Checks a table against the required figures.
 pub fn judge(rows: &[Row]) {
-    let friendly = |row: &Row| matches!(row.family.wish, Wish::Kind | Wish::Friendly);
-    let harmful = |row: &Row| matches!(row.family.wish, Wish::Harmful | Wish::Attack);
+    let friendly = |row: &Row| matches!(row.family.expected, Expected::Kind | Expected::Friendly);
+    let harmful = |row: &Row| matches!(row.family.expected, Expected::Harmful | Expected::Attack);
     let shares = [
         ("friendly families without an attack", 0.98, share(rows, friendly, |row| row.count - row.attack)),
         ("friendly families: kindness or nothing", 0.95, share(rows, friendly, |row| row.agreed)),
-        ("kindness told", 0.90, share(rows, |row| row.family.wish == Wish::Kind, |row| row.kind)),
-        ("attacks told", 0.95, share(rows, |row| row.family.wish == Wish::Attack, |row| row.attack)),
+        ("kindness reported", 0.90, share(rows, |row| row.family.expected == Expected::Kind, |row| row.kind)),
+        (
+            "attacks reported",
+            0.95,
+            share(rows, |row| row.family.expected == Expected::Attack, |row| row.attack),
+        ),
         ("harmful families: threat or attack", 0.99, share(rows, harmful, |row| row.agreed)),
         ("harmful families never called kind", 0.95, share(rows, harmful, |row| row.count - row.kind)),
-        ("nothing from nothing", 1.0, share(rows, |row| row.family.wish == Wish::Nothing, |row| row.agreed)),
+        (
+            "nothing from nothing",
+            1.0,
+            share(rows, |row| row.family.expected == Expected::Nothing, |row| row.agreed),
+        ),
         (
             "at most once from what falls and lies",
             0.95,
-            share(rows, |row| row.family.wish == Wish::Once, |row| row.agreed),
+            share(rows, |row| row.family.expected == Expected::Once, |row| row.agreed),
         ),
     ];
     for (what, bar, have) in shares {
@@ -150,7 +159,7 @@ pub fn judge(rows: &[Row]) {
 
 /// Rows of both authors, with `each` touches of each family.
 pub fn table(each: u64) -> Vec<Row> {
-    println!("family             wish      count agreed kindness threat attack first, ms false reflexes");
+    println!("family             expected  count agreed kindness threat attack first, ms false reflexes");
     let mut rows = Vec::new();
     for (families, act) in
         [(scripted::FAMILIES, scripted::act as fn(usize, u64) -> Act), (strangers::FAMILIES, strangers::act)]

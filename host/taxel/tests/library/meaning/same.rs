@@ -9,8 +9,8 @@ use taxel_core::garment::Garment;
 
 /// Intentions announced for a touch, in any order, except for "none".
 fn said(act: Act) -> BTreeSet<&'static str> {
-    let told = hear(act).told;
-    told.iter().map(|(leading, _)| leading.as_str()).filter(|word| *word != "none").collect()
+    let announced = hear(act).announced;
+    announced.iter().map(|(leading, _)| leading.as_str()).filter(|word| *word != "none").collect()
 }
 
 /// Frame periods in us, for 25 to 1,562 frames per second.
@@ -35,10 +35,11 @@ fn one_touch_has_one_meaning_on_every_garment_at_every_rate() {
             }
             _ => continue,
         };
-        let wanted = said(strangers::worn(family, 0, (Garment::reference(), Make::Worn), Some(5_128)));
+        let wanted = said(strangers::touch_on(family, 0, (Garment::reference(), Make::Uneven), Some(5_128)));
         for garment in garments {
             for period_us in PERIODS_US.into_iter().filter(|period_us| is_resolved(of.name, *period_us)) {
-                let have = said(strangers::worn(family, 0, (garment.clone(), Make::Worn), Some(period_us)));
+                let have =
+                    said(strangers::touch_on(family, 0, (garment.clone(), Make::Uneven), Some(period_us)));
                 count += 1;
                 if have != wanted {
                     let name = garment.name.clone();

@@ -4,7 +4,7 @@
 //! Forces are newtons, lengths mm, times seconds. Places, sizes and tempo are random; every second touch is
 //! on the mat; the spread of gains, the hysteresis and the noise of the taxels differ between touches.
 
-use crate::meaning::family::{Act, Family, Wish};
+use crate::meaning::family::{Act, Expected, Family};
 use fastrand::Rng;
 use taxel::files::scripts;
 use taxel::sim::{Player, Script, Shape, Size, Touch};
@@ -12,26 +12,26 @@ use taxel_core::garment::Garment;
 
 /// The families, in the order of the table.
 pub const FAMILIES: [Family; 20] = [
-    Family { name: "hug", wish: Wish::Kind },
-    Family { name: "handshake", wish: Wish::Kind },
-    Family { name: "hearty pat", wish: Wish::Friendly },
-    Family { name: "caress", wish: Wish::Kind },
-    Family { name: "tickle", wish: Wish::Friendly },
-    Family { name: "pat", wish: Wish::Kind },
-    Family { name: "rucksack", wish: Wish::Friendly },
-    Family { name: "massage", wish: Wish::Friendly },
-    Family { name: "leaning", wish: Wish::Friendly },
-    Family { name: "clap", wish: Wish::Friendly },
-    Family { name: "cushion", wish: Wish::Friendly },
-    Family { name: "gentle chest", wish: Wish::Friendly },
-    Family { name: "palm held", wish: Wish::Friendly },
-    Family { name: "stab", wish: Wish::Attack },
-    Family { name: "poke", wish: Wish::Harmful },
-    Family { name: "pen", wish: Wish::Harmful },
-    Family { name: "needle", wish: Wish::Harmful },
-    Family { name: "slap of 30 N", wish: Wish::Harmful },
-    Family { name: "slap of 80 N", wish: Wish::Attack },
-    Family { name: "punch", wish: Wish::Attack },
+    Family { name: "hug", expected: Expected::Kind },
+    Family { name: "handshake", expected: Expected::Kind },
+    Family { name: "hearty pat", expected: Expected::Friendly },
+    Family { name: "caress", expected: Expected::Kind },
+    Family { name: "tickle", expected: Expected::Friendly },
+    Family { name: "pat", expected: Expected::Kind },
+    Family { name: "rucksack", expected: Expected::Friendly },
+    Family { name: "massage", expected: Expected::Friendly },
+    Family { name: "leaning", expected: Expected::Friendly },
+    Family { name: "clap", expected: Expected::Friendly },
+    Family { name: "cushion", expected: Expected::Friendly },
+    Family { name: "gentle chest", expected: Expected::Friendly },
+    Family { name: "palm held", expected: Expected::Friendly },
+    Family { name: "stab", expected: Expected::Attack },
+    Family { name: "poke", expected: Expected::Harmful },
+    Family { name: "pen", expected: Expected::Harmful },
+    Family { name: "needle", expected: Expected::Harmful },
+    Family { name: "slap of 30 N", expected: Expected::Harmful },
+    Family { name: "slap of 80 N", expected: Expected::Attack },
+    Family { name: "punch", expected: Expected::Attack },
 ];
 
 /// Begin of the first touch, after the tare, s.

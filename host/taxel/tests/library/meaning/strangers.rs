@@ -5,32 +5,32 @@
 //! A taxel samples the pressure at four points; it saturates, creeps and hums by its own laws. The garments
 //! are the reference garment and a sheet of 27 columns with a pitch of 9 x 11 mm.
 
-use crate::meaning::family::{Act, Family, Wish};
+use crate::meaning::family::{Act, Expected, Family};
 use fastrand::Rng;
 use taxel_core::garment::{Garment, Layout};
 
 /// The families, in the order of the table.
 pub const FAMILIES: [Family; 20] = [
-    Family { name: "hug", wish: Wish::Kind },
-    Family { name: "handshake", wish: Wish::Kind },
-    Family { name: "hearty pat", wish: Wish::Friendly },
-    Family { name: "caress", wish: Wish::Kind },
-    Family { name: "pat", wish: Wish::Kind },
-    Family { name: "massage", wish: Wish::Friendly },
-    Family { name: "leaning", wish: Wish::Friendly },
-    Family { name: "tap", wish: Wish::Friendly },
-    Family { name: "stroke by fingers", wish: Wish::Friendly },
-    Family { name: "falls and lies", wish: Wish::Once },
-    Family { name: "drops", wish: Wish::Nothing },
-    Family { name: "breath", wish: Wish::Nothing },
-    Family { name: "drift", wish: Wish::Nothing },
-    Family { name: "stab", wish: Wish::Attack },
-    Family { name: "poke", wish: Wish::Harmful },
-    Family { name: "slap of 30 N", wish: Wish::Harmful },
-    Family { name: "slap of 80 N", wish: Wish::Attack },
-    Family { name: "punch", wish: Wish::Attack },
-    Family { name: "lash", wish: Wish::Attack },
-    Family { name: "push", wish: Wish::Harmful },
+    Family { name: "hug", expected: Expected::Kind },
+    Family { name: "handshake", expected: Expected::Kind },
+    Family { name: "hearty pat", expected: Expected::Friendly },
+    Family { name: "caress", expected: Expected::Kind },
+    Family { name: "pat", expected: Expected::Kind },
+    Family { name: "massage", expected: Expected::Friendly },
+    Family { name: "leaning", expected: Expected::Friendly },
+    Family { name: "tap", expected: Expected::Friendly },
+    Family { name: "stroke by fingers", expected: Expected::Friendly },
+    Family { name: "falls and lies", expected: Expected::Once },
+    Family { name: "drops", expected: Expected::Nothing },
+    Family { name: "breath", expected: Expected::Nothing },
+    Family { name: "drift", expected: Expected::Nothing },
+    Family { name: "stab", expected: Expected::Attack },
+    Family { name: "poke", expected: Expected::Harmful },
+    Family { name: "slap of 30 N", expected: Expected::Harmful },
+    Family { name: "slap of 80 N", expected: Expected::Attack },
+    Family { name: "punch", expected: Expected::Attack },
+    Family { name: "lash", expected: Expected::Attack },
+    Family { name: "push", expected: Expected::Harmful },
 ];
 
 /// Begin of the first force, s.
@@ -89,7 +89,7 @@ pub enum Make {
     /// Equal, without memory.
     Even,
     /// Of unequal gain, with creep under load.
-    Worn,
+    Uneven,
 }
 
 /// Where a touch lands between the taxels, when between two frames, and in which noise: what nobody chooses.
@@ -115,12 +115,12 @@ impl Landing {
 /// Touch `number` of a family.
 pub fn act(family: usize, number: u64) -> Act {
     let garment = if number.is_multiple_of(2) { Garment::reference() } else { sheet() };
-    worn(family, number, (garment, Make::Worn), None)
+    touch_on(family, number, (garment, Make::Uneven), None)
 }
 
 /// The touch on any garment, with this frame period (us).
-pub fn worn(family: usize, number: u64, wearing: (Garment, Make), period_us: Option<u64>) -> Act {
-    landed(family, number, wearing, period_us, Landing::default())
+pub fn touch_on(family: usize, number: u64, on: (Garment, Make), period_us: Option<u64>) -> Act {
+    landed(family, number, on, period_us, Landing::default())
 }
 
 /// The touch on any garment, with this frame period (us), as it lands.
@@ -135,7 +135,7 @@ pub fn landed(
     let Family { name, .. } = FAMILIES[family];
     let patches = Stranger { rng: rng.fork() }.does(name);
     let note =
-        patches.first().map(|patch| format!("half axes {:.0?} mm, {}", patch.half, told(&patch.force)));
+        patches.first().map(|patch| format!("half axes {:.0?} mm, {}", patch.half, announced(&patch.force)));
     let drift = if name == "drift" { 1.5 } else { 0.0 };
     let mut noise = rng.fork();
     let period_us = period_us.unwrap_or([5_128, 4_000, 12_500][rng.usize(..3)]);
@@ -157,7 +157,7 @@ pub fn landed(
     }
 }
 
-fn told(force: &Force) -> String {
+fn announced(force: &Force) -> String {
     match force {
         Force::Plateau { newtons, up, wave, .. } => {
             format!("{newtons:.1} N, edge {:.0} ms, wave {wave:.1?}", 1e3 * up[1])
@@ -363,8 +363,8 @@ impl Cloth {
             (first - columns * rows, columns, rows, panel.pitch_um.map(|um| f64::from(um) / 1e3))
         });
         let panels = panels.collect();
-        let worn = if make == Make::Worn { 1.0 } else { 0.0 };
-        let (count, spread) = (layout.taxels(), worn * 0.2 * rng.f64());
+        let uneven = if make == Make::Uneven { 1.0 } else { 0.0 };
+        let (count, spread) = (layout.taxels(), uneven * 0.2 * rng.f64());
         let mut many = |middle: f64, width: f64| -> Vec<f64> {
             (0..count).map(|_| middle + width * (rng.f64() - 0.5)).collect()
         };
@@ -374,7 +374,7 @@ impl Cloth {
             rest,
             gain,
             creep,
-            memory: worn * 0.04,
+            memory: uneven * 0.04,
             drift,
             landing: [0.0; 2],
             newtons: vec![0.0; count],

@@ -1,12 +1,14 @@
 //! Each source of the mind dropped in turn: the default that the map states counts, and nothing contradicts
 //! itself.
 
-use super::worn::robot;
+use super::touched::robot;
 use fastrand::Rng;
 use std::sync::Arc;
 use taxel::fcm::robot_source::RobotSource;
 use taxel::fcm::{load, map::MapFile};
-use taxel::mind::{BoardSense, BodyPlace, FeltContact, RobotMeaning, RobotMind, ToldLine, WornMind};
+use taxel::mind::{
+    BoardPlacement, BoardSense, BodyPlace, FeltContact, HostInputLine, RobotMeaning, RobotMind,
+};
 use taxel_core::format::{Micros, Q15};
 use taxel_core::intent::{Leading, Outcome};
 use taxel_core::wire::IntentReport;
@@ -23,7 +25,7 @@ fn places(board: usize) -> Vec<Arc<BodyPlace>> {
 #[derive(Clone)]
 enum Said {
     Board(usize, BoardSense),
-    Told(&'static str, f64),
+    HostInput(&'static str, f64),
     Joints(f64),
 }
 
@@ -59,7 +61,7 @@ fn sources(rng: &mut Rng) -> Vec<Vec<Said>> {
             at_mm: [rng.f64() * 100.0, rng.f64() * 100.0],
         });
         let contacts = BoardSense::Contacts(contacts.collect());
-        let begins = BoardSense::Begins(WornMind { places, map });
+        let begins = BoardSense::Begins(BoardPlacement { places, map });
         [begins, contacts, report(leading, rng.i32(16384..=32768))]
             .map(|sense| Said::Board(board, sense))
             .into()
@@ -67,9 +69,9 @@ fn sources(rng: &mut Rng) -> Vec<Vec<Said>> {
     vec![
         board(0, rng),
         board(1, rng),
-        vec![Said::Told("vision", rng.f64() * 2.0 - 1.0)],
-        vec![Said::Told("voice", rng.f64() * 2.0 - 1.0)],
-        vec![Said::Told("plan", rng.f64())],
+        vec![Said::HostInput("vision", rng.f64() * 2.0 - 1.0)],
+        vec![Said::HostInput("voice", rng.f64() * 2.0 - 1.0)],
+        vec![Said::HostInput("plan", rng.f64())],
         vec![Said::Joints(rng.f64() * 0.1)],
     ]
 }
@@ -79,15 +81,16 @@ fn say(mind: &mut RobotMind, said: &Said, host_us: u64) {
         Said::Board(board, sense) => {
             mind.board(*board, sense, host_us);
         }
-        Said::Told(name, value) => {
-            let line = ToldLine { told: [(name.to_string(), *value)].into(), ..ToldLine::default() };
-            mind.tell(&line, host_us).unwrap();
+        Said::HostInput(name, value) => {
+            let line =
+                HostInputLine { host_input: [(name.to_string(), *value)].into(), ..HostInputLine::default() };
+            mind.take_input(&line, host_us).unwrap();
         }
         Said::Joints(turned) => {
             for (at, us) in [(0.0, 20_000), (*turned, 0)] {
                 let positions = [("waist".to_string(), at)].into();
-                let line = ToldLine { positions, ..ToldLine::default() };
-                mind.tell(&line, host_us - us).unwrap();
+                let line = HostInputLine { positions, ..HostInputLine::default() };
+                mind.take_input(&line, host_us - us).unwrap();
             }
         }
     }
@@ -152,7 +155,7 @@ fn each_source_dropped_leaves_its_default_and_nothing_contradicts_itself() {
             // One board that speaks is enough.
             assert!(!is_default(RobotSource::Intent(Leading::Attack)));
             for (name, number) in [("vision", 2), ("voice", 3), ("plan", 4)] {
-                assert_eq!(is_default(RobotSource::Told(name.into())), dropped == number, "{name}");
+                assert_eq!(is_default(RobotSource::HostInput(name.into())), dropped == number, "{name}");
             }
             assert_eq!(is_default(RobotSource::Motion(Vec::new())), dropped == 5);
         }

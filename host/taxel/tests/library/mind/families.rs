@@ -6,14 +6,14 @@
 //! judges. `TAXEL_CAMPAIGN=1`: 40 touches of each family instead of 2, and others.
 
 use super::spread::{SpreadFamily, families};
-use super::worn::hear;
-use crate::meaning::family::{Told, Wish};
+use super::touched::hear;
+use crate::meaning::family::{Announced, Expected};
 use taxel_core::intent::Leading;
 
 /// True if the announcements are right: a person would agree, and who is kind is called so.
-fn is_right(wish: Wish, told: &Told, lasts_ms: i64) -> bool {
-    let is_kind = told.iter().any(|(leading, _)| *leading == Leading::Kindness);
-    wish.agrees(told, lasts_ms) && (wish != Wish::Kind || is_kind)
+fn is_right(expected: Expected, announced: &Announced, lasts_ms: i64) -> bool {
+    let is_kind = announced.iter().any(|(leading, _)| *leading == Leading::Kindness);
+    expected.agrees(announced, lasts_ms) && (expected != Expected::Kind || is_kind)
 }
 
 struct Row {
@@ -34,20 +34,20 @@ impl Row {
             Row { name: family.name.clone(), count, right: 0, judged: [[0; 3]; 5], wrong: Vec::new() };
         for number in numbers {
             let touch = (family.make)(number);
-            let (wish, note) = (touch.wish, touch.note.clone());
+            let (expected, note) = (touch.expected, touch.note.clone());
             let lasts_ms = ((touch.span.1 - touch.span.0) / 1000) as i64;
-            let told = hear(touch, number);
-            let ought = wish == Wish::Kind || wish.is_harmful();
-            let right = told.each_ref().map(|told| is_right(wish, told, lasts_ms));
+            let announced = hear(touch, number);
+            let ought = expected == Expected::Kind || expected.is_harmful();
+            let right = announced.each_ref().map(|announced| is_right(expected, announced, lasts_ms));
             for (at, judged) in row.judged.iter_mut().enumerate() {
-                if ought || !told[at].is_empty() {
+                if ought || !announced[at].is_empty() {
                     let added = [1, usize::from(right[at]), usize::from(right[5])];
                     judged.iter_mut().zip(added).for_each(|(sum, one)| *sum += one);
                 }
             }
             row.right += usize::from(right[5]);
             if !right[5] {
-                row.wrong.push(format!("  {} {number}: {told:?}: {note}", family.name));
+                row.wrong.push(format!("  {} {number}: {announced:?}: {note}", family.name));
             }
         }
         row

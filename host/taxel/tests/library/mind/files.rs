@@ -1,10 +1,10 @@
 //! Maps of a robot as files.
 
-use super::worn::robot;
+use super::touched::robot;
 use serde_json::json;
 use std::path::Path;
 use taxel::fcm::{load, scene};
-use taxel::mind::{RobotMind, Senses, ToldLine};
+use taxel::mind::{HostInputLine, RobotMind, Senses};
 use taxel::robot::ReadRobot;
 
 const MAP: &str = "name = \"m\"\n[[concept]]\nname = \"x\"\n[[concept]]\nname = \"kindness\"\n\
@@ -21,7 +21,7 @@ fn mistakes_in_a_map_of_a_robot_are_named() {
         ("rise = [0, 1]", "input x: source is missing"),
         ("source = \"press\"\nrise = [0, 1]", "input x is of one board"),
         (
-            "source = \"press\"\nrobot = { told = \"voice\" }\nrise = [0, 1]",
+            "source = \"press\"\nrobot = { host_input = \"voice\" }\nrise = [0, 1]",
             "input x: give either source or robot",
         ),
         (
@@ -34,10 +34,10 @@ fn mistakes_in_a_map_of_a_robot_are_named() {
             "source = \"press\"\ntimeout_ms = 3\nrise = [0, 1]",
             "timeout_ms and default are for what a robot knows",
         ),
-        ("robot = { told = \"voice\" }", "give exactly one of rise, fall, triangle and trapezoid"),
+        ("robot = { host_input = \"voice\" }", "give exactly one of rise, fall, triangle and trapezoid"),
     ] {
-        let told = refused(input);
-        assert!(told.contains(why), "{input}: {told}");
+        let reported = refused(input);
+        assert!(reported.contains(why), "{input}: {reported}");
     }
 }
 
@@ -47,8 +47,8 @@ fn a_map_of_a_robot_survives_being_read_and_written_and_no_board_takes_it() {
     assert_eq!(load::parse(&toml::to_string(&map).unwrap(), "robot.toml").unwrap(), map);
     assert!(map.concept.iter().all(|c| !c.note.is_empty()) && map.edge.iter().all(|e| !e.note.is_empty()));
     let mut board = json!({ "intent": { "map": "robot" } });
-    let told = scene::resolve(&mut board, Path::new(".")).unwrap_err().to_string();
-    assert_eq!(told, "intent.map: input board kindness is of a robot, which no board knows");
+    let reported = scene::resolve(&mut board, Path::new(".")).unwrap_err().to_string();
+    assert_eq!(reported, "intent.map: input board kindness is of a robot, which no board knows");
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn a_robot_s_file_names_its_map() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     std::fs::write(
         folder.join("own.toml"),
-        format!("{MAP}robot = {{ told = \"voice\" }}\nrise = [0, 32768]\n"),
+        format!("{MAP}robot = {{ host_input = \"voice\" }}\nrise = [0, 32768]\n"),
     )
     .unwrap();
     let text = |map: &str| {
@@ -75,30 +75,33 @@ fn a_robot_s_file_names_its_map() {
     assert_eq!(both.concept.len(), two - 4);
     std::fs::write(
         folder.join("other.toml"),
-        format!("{MAP}robot = {{ told = \"vision\" }}\nrise = [0, 9]\n"),
+        format!("{MAP}robot = {{ host_input = \"vision\" }}\nrise = [0, 9]\n"),
     )
     .unwrap();
-    let told = format!("{:#}", read("own.toml\", \"other.toml").unwrap_err());
-    assert!(told.contains("the input of x in m differs from that of the map before"), "{told}");
-    let told = format!("{:#}", read("robto").unwrap_err());
+    let reported = format!("{:#}", read("own.toml\", \"other.toml").unwrap_err());
+    assert!(reported.contains("the input of x in m differs from that of the map before"), "{reported}");
+    let reported = format!("{:#}", read("robto").unwrap_err());
     assert_eq!(
-        told,
+        reported,
         "r.toml, line 2, `maps`: the map of the robot: there is no map \"robto\": did you mean \"robot\"? \
          Known are tactile, shape, robot, probe, or give a .toml file"
     );
 }
 
 #[test]
-fn what_nobody_can_tell_is_named() {
+fn what_no_host_input_can_be_is_named() {
     let mut mind = RobotMind::new(&robot([None; 2])).unwrap();
-    let mut told = |line: &str| {
-        ToldLine::parse(line).and_then(|line| mind.tell(&line, 1).map(drop)).unwrap_err().to_string()
+    let mut reported = |line: &str| {
+        HostInputLine::parse(line)
+            .and_then(|line| mind.take_input(&line, 1).map(drop))
+            .unwrap_err()
+            .to_string()
     };
     assert_eq!(
-        told("{\"told\": {\"vison\": 0.8}}"),
-        "there is no name of what is told \"vison\": did you mean \"vision\"? Known are vision, voice, plan"
+        reported("{\"host_input\": {\"vison\": 0.8}}"),
+        "there is no name of a host input \"vison\": did you mean \"vision\"? Known are vision, voice, plan"
     );
-    assert_eq!(told("{\"told\": {\"vision\": 1.8}}"), "vision is 1.8, and must be -1 to 1");
-    assert!(told("{\"positions\": {\"elbow\": 1}}").contains("there is no joint \"elbow\""));
-    assert!(told("{\"tolled\": 3}").starts_with("nothing is told: unknown field `tolled`"));
+    assert_eq!(reported("{\"host_input\": {\"vision\": 1.8}}"), "vision is 1.8, and must be -1 to 1");
+    assert!(reported("{\"positions\": {\"elbow\": 1}}").contains("there is no joint \"elbow\""));
+    assert!(reported("{\"tolled\": 3}").starts_with("no host input: unknown field `tolled`"));
 }

@@ -9,4 +9,4 @@ mod probes;
 mod reasons;
 mod schemas;
 mod spread;
-mod worn;
+mod touched;

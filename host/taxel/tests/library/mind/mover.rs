@@ -1,11 +1,13 @@
-//! Whose motion has caused a touch, by the joints that are told. MuJoCo judges the same in `tests/physics`.
+//! Whose motion has caused a touch, by the joints that are sent. MuJoCo judges the same in `tests/physics`.
 
 use super::dropped::report;
-use super::worn::robot;
+use super::touched::robot;
 use std::sync::Arc;
 use taxel::body::DVec3;
 use taxel::fcm::load;
-use taxel::mind::{BoardSense, BodyPlace, FeltContact, Mover, RobotMind, SurfaceSpot, ToldLine, WornMind};
+use taxel::mind::{
+    BoardPlacement, BoardSense, BodyPlace, FeltContact, HostInputLine, Mover, RobotMind, SurfaceSpot,
+};
 use taxel_core::intent::Leading;
 
 const LINK: &str = "left_upper_arm";
@@ -31,7 +33,7 @@ fn contact(contact: u32, load: u32, spot: SurfaceSpot) -> FeltContact {
 fn begins() -> BoardSense {
     let place = Arc::new(BodyPlace { region: "left arm".into(), link: LINK.into() });
     let map = Some(Arc::new(load::map("tactile").unwrap()));
-    BoardSense::Begins(WornMind { places: vec![place], map })
+    BoardSense::Begins(BoardPlacement { places: vec![place], map })
 }
 
 /// A mind whose left arm swings about a joint at so many rad/s until `stop_us`; the time is then 1 s.
@@ -41,13 +43,13 @@ fn swinging(joint: &str, rate: f64, stop_us: u64) -> RobotMind {
     for us in (0..=1_000_000).step_by(10_000) {
         let at = rate * (us.min(stop_us) as f64 - 1e6) * 1e-6;
         let positions = [(joint.to_string(), at)].into();
-        mind.tell(&ToldLine { positions, ..ToldLine::default() }, us).unwrap();
+        mind.take_input(&HostInputLine { positions, ..HostInputLine::default() }, us).unwrap();
     }
     mind
 }
 
 /// Whose motion it is said to be that touches this spot at 1 s.
-fn told(mind: &mut RobotMind, spot: SurfaceSpot) -> Mover {
+fn reported(mind: &mut RobotMind, spot: SurfaceSpot) -> Mover {
     let touches = BoardSense::Contacts(vec![contact(1, 3000, spot)]);
     mind.board(0, &touches, 1_000_000);
     mind.senses().touches(0)[0].mover
@@ -62,19 +64,19 @@ fn the_surface_that_moves_into_something_has_caused_the_touch() {
     // 0.5 rad/s at 0.2 m are 0.1 m/s, forwards or backwards.
     let forwards = [0.5, -0.5]
         .into_iter()
-        .find(|rate| told(&mut swinging(joint, *rate, 1_000_000), front()) == Mover::Own);
+        .find(|rate| reported(&mut swinging(joint, *rate, 1_000_000), front()) == Mover::Own);
     let rate = forwards.expect("one of both is forwards");
-    assert_eq!(told(&mut swinging(joint, rate, 1_000_000), back()), Mover::Other);
-    assert_eq!(told(&mut swinging(joint, rate, 1_000_000), side()), Mover::Other);
-    assert_eq!(told(&mut swinging(joint, -rate, 1_000_000), back()), Mover::Own);
-    // It has stopped before; it is too slow to tell; nothing moves; nothing is known.
-    assert_eq!(told(&mut swinging(joint, rate, 900_000), front()), Mover::Other);
-    assert_eq!(told(&mut swinging(joint, 0.07 * rate.signum(), 1_000_000), front()), Mover::Unsure);
-    assert_eq!(told(&mut swinging(joint, 0.0, 0), front()), Mover::Other);
-    let mut untold = RobotMind::new(&robot([None; 2])).unwrap();
-    assert_eq!(told(&mut untold, front()), Mover::Unsure);
+    assert_eq!(reported(&mut swinging(joint, rate, 1_000_000), back()), Mover::Other);
+    assert_eq!(reported(&mut swinging(joint, rate, 1_000_000), side()), Mover::Other);
+    assert_eq!(reported(&mut swinging(joint, -rate, 1_000_000), back()), Mover::Own);
+    // It has stopped before; it is too slow to be sure; nothing moves; nothing is known.
+    assert_eq!(reported(&mut swinging(joint, rate, 900_000), front()), Mover::Other);
+    assert_eq!(reported(&mut swinging(joint, 0.07 * rate.signum(), 1_000_000), front()), Mover::Unsure);
+    assert_eq!(reported(&mut swinging(joint, 0.0, 0), front()), Mover::Other);
+    let mut unreported = RobotMind::new(&robot([None; 2])).unwrap();
+    assert_eq!(reported(&mut unreported, front()), Mover::Unsure);
     let other_link = spot("no_such_link", [0.0; 3], [1.0, 0.0, 0.0]);
-    assert_eq!(told(&mut swinging(joint, rate, 1_000_000), other_link), Mover::Unsure);
+    assert_eq!(reported(&mut swinging(joint, rate, 1_000_000), other_link), Mover::Unsure);
 }
 
 #[test]
@@ -82,7 +84,7 @@ fn what_the_robot_bumps_into_does_not_attack_it_and_excuses_no_other_board() {
     let front = || spot(LINK, [0.04, 0.0, -0.2], [1.0, 0.0, 0.0]);
     let back = || spot(LINK, [-0.04, 0.0, -0.2], [-1.0, 0.0, 0.0]);
     let joint = "left_shoulder_pitch";
-    let is_own = |rate: &f64| told(&mut swinging(joint, *rate, 1_000_000), front()) == Mover::Own;
+    let is_own = |rate: &f64| reported(&mut swinging(joint, *rate, 1_000_000), front()) == Mover::Own;
     let rate = [0.5, -0.5].into_iter().find(is_own).unwrap();
     let leads = |spots: Vec<(SurfaceSpot, u32)>, board: usize| {
         let mut mind = swinging(joint, rate, 1_000_000);
@@ -105,7 +107,7 @@ fn a_folded_arm_touches_itself_though_one_side_is_still() {
     (0..2).for_each(|board| _ = mind.board(board, &begins(), 0).map(|_| ()));
     for us in (0..=1_000_000).step_by(10_000) {
         let positions = [("left_elbow".to_string(), 1.0 + us as f64 * 1e-6)].into();
-        mind.tell(&ToldLine { positions, ..ToldLine::default() }, us).unwrap();
+        mind.take_input(&HostInputLine { positions, ..HostInputLine::default() }, us).unwrap();
     }
     // The same point of space on both links, whose surfaces face each other there.
     let speeds = |spot: &SurfaceSpot| {

@@ -5,13 +5,13 @@
 use fastrand::Rng;
 use std::path::Path;
 use taxel::body::{self, DVec3, TaxelPlace, robot};
-use taxel::mind::{ToldLine, VirtualRobot};
+use taxel::mind::{HostInputLine, VirtualRobot};
 use taxel::robot::ReadRobot;
 
 /// Time from scan to scan, and from reading to reading of the joints, us.
 const SCAN_US: u64 = 5_000;
 const JOINTS_US: u64 = 10_000;
-/// How late joints are told, ms, and how far they are off, rad.
+/// How late joints are sent, ms, and how far they are off, rad.
 const LATE_MS: u32 = 8;
 const READ_RAD: f64 = 5e-5;
 /// Time before the arm moves, and after it has stopped, us.
@@ -177,7 +177,7 @@ pub struct Found {
     pub note: String,
 }
 
-/// The robot of the probes, which wears the reference garment on its body.
+/// The robot of the probes, which carries the reference garment on its body.
 pub fn prober() -> ReadRobot {
     let text = "name = \"prober\"\nurdf = \"reference\"\n[[boards]]\nname = \"board\"\nsource = \"sim:idle\"\n\
                 garment = \"reference\"\nbody = \"reference\"\ntare = 32\n";
@@ -187,8 +187,9 @@ pub fn prober() -> ReadRobot {
 /// Lets the left arm swing into an object.
 pub fn probe(read: &ReadRobot, thing: &Thing, rng: &mut Rng) -> Found {
     let urdf = robot::read("reference").unwrap();
-    let worn = read.boards[0].garment.as_ref().unwrap();
-    let surface = body::read("reference").unwrap().surface(&worn.garment, &worn.layout).unwrap();
+    let board_garment = read.boards[0].garment.as_ref().unwrap();
+    let surface =
+        body::read("reference").unwrap().surface(&board_garment.garment, &board_garment.layout).unwrap();
     let link = urdf.link("left_upper_arm").unwrap();
     let seen = |angle: f64, place: &TaxelPlace| {
         let poses = urdf.poses(&urdf.posture([(JOINT, angle)]).unwrap());
@@ -263,8 +264,9 @@ pub fn probe(read: &ReadRobot, thing: &Thing, rng: &mut Rng) -> Found {
         while readings.first().is_some_and(|(at, _)| at + 1000 * u64::from(LATE_MS) <= now) {
             let (at, read) = readings.remove(0);
             let positions = [(JOINT.to_string(), read)].into();
-            let line = ToldLine { positions, age_ms: ((now - at) / 1000) as u32, ..ToldLine::default() };
-            stepped.mind().tell(&line, now).unwrap();
+            let line =
+                HostInputLine { positions, age_ms: ((now - at) / 1000) as u32, ..HostInputLine::default() };
+            stepped.mind().take_input(&line, now).unwrap();
         }
         stepped.step(0, &codes, now).unwrap();
         now += SCAN_US;

@@ -41,7 +41,7 @@ fn table(make: fn(Object, &mut Rng) -> Thing, seeds: std::ops::Range<u64>) -> [u
 }
 
 #[test]
-fn what_a_limb_meets_is_told_and_answered() {
+fn what_a_limb_meets_is_reported_and_answered() {
     let campaign = std::env::var_os("TAXEL_CAMPAIGN").is_some();
     if campaign {
         println!("objects on which the map was tuned:");
@@ -51,7 +51,7 @@ fn what_a_limb_meets_is_told_and_answered() {
     let [count, right, follows] = table(other, if campaign { 1000..1100 } else { 1000..1008 });
     println!("{right} of {count} right, {follows} followed as stated");
     assert!(right * 10 >= count * 9, "{right} of {count}");
-    // Whatever is told right is answered as stated.
+    // Whatever is reported right is answered as stated.
     assert_eq!(follows, right);
 }
 

@@ -1,7 +1,7 @@
 //! Why the mind decided, down to the contacts.
 
 use super::spread::families;
-use super::worn::{explained, robot};
+use super::touched::{explained, robot};
 
 #[test]
 fn a_hug_is_explained_down_to_the_contacts_of_both_boards() {
@@ -28,7 +28,7 @@ fn a_hug_is_explained_down_to_the_contacts_of_both_boards() {
         "chest: load of chest ",
         "board one: contact ",
         "on back (torso): ",
-        "voice: told as voice 0, the default",
+        "voice: host input voice 0, the default",
     ] {
         assert!(text.contains(part), "{part} in {text}");
     }

@@ -3,13 +3,13 @@
 use serde_json::Value;
 use std::path::Path;
 use taxel::mind::{
-    ROBOT_INTENT, ROBOT_INTENT_SCHEMA, ROBOT_TOLD, ROBOT_TOLD_SCHEMA, robot_intent_schema, robot_told_schema,
+    HOST_INPUT, HOST_INPUT_SCHEMA, ROBOT_INTENT, ROBOT_INTENT_SCHEMA, host_input_schema, robot_intent_schema,
 };
 
 /// Name, shipped and derived schema.
 fn all() -> [(&'static str, &'static str, Value); 2] {
-    let [[intent, _], [told, _]] = [robot_intent_schema(), robot_told_schema()];
-    [(ROBOT_INTENT, ROBOT_INTENT_SCHEMA, intent), (ROBOT_TOLD, ROBOT_TOLD_SCHEMA, told)]
+    let [[intent, _], [reported, _]] = [robot_intent_schema(), host_input_schema()];
+    [(ROBOT_INTENT, ROBOT_INTENT_SCHEMA, intent), (HOST_INPUT, HOST_INPUT_SCHEMA, reported)]
 }
 
 #[test]

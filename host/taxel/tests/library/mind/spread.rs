@@ -1,6 +1,6 @@
 //! Touches of the families of one board, spread over two boards: a front and a rear, or a hand and an arm.
 
-use crate::meaning::family::{Act, Scans, Wish};
+use crate::meaning::family::{Act, Expected, Scans};
 use crate::meaning::{scripted, strangers};
 use crate::people::kind::{Kind, Session};
 use crate::people::{hands, scripted as people};
@@ -17,7 +17,7 @@ const AFTER_US: u64 = 500_000;
 /// A touch of the robot.
 pub struct SpreadTouch {
     /// Judgement of a person.
-    pub wish: Wish,
+    pub expected: Expected,
     /// Begin and end of its force, us.
     pub span: (u64, u64),
     /// What the two boards scan.
@@ -29,7 +29,7 @@ pub struct SpreadTouch {
 /// A part of the touch, on one board.
 pub struct SpreadPart {
     pub garment: Garment,
-    /// Link that wears the whole garment; none if its panels say theirs.
+    /// Link that carries the whole garment; none if its panels say theirs.
     pub link: Option<&'static str>,
     pub period_us: u64,
     pub codes: Scans,
@@ -88,9 +88,9 @@ fn of_panels((garment, mut scans): (Garment, Scans), period_us: u64, panels: [us
 /// A touch of the reference garment whose chest and left arm are one board, back and right arm another.
 fn split(make: impl Fn() -> Act) -> SpreadTouch {
     let act = make();
-    let (wish, span, note) = (act.family.wish, act.span, act.note.clone());
+    let (expected, span, note) = (act.family.expected, act.span, act.note.clone());
     let parts = [some(act, [0, 2]), some(make(), [1, 3])];
-    SpreadTouch { wish, span, parts, note }
+    SpreadTouch { expected, span, parts, note }
 }
 
 /// What a person does once, from 0.8 s on, on the reference garment of two boards.
@@ -107,13 +107,13 @@ fn of_person(kind: Kind, person: impl Fn() -> Box<dyn Session>) -> SpreadTouch {
         of_panels((garment, codes), taxel::sim::FRAME_PERIOD_US, panels)
     };
     let act = person().acts().iter().find(|act| act.kind == kind).unwrap().clone();
-    let wish = match kind.meaning() {
-        Leading::Attack => Wish::Attack,
-        Leading::Threat => Wish::Harmful,
-        _ => Wish::Kind,
+    let expected = match kind.meaning() {
+        Leading::Attack => Expected::Attack,
+        Leading::Threat => Expected::Harmful,
+        _ => Expected::Kind,
     };
     let span = (BEFORE_US, BEFORE_US + act.span.1 - act.span.0);
-    SpreadTouch { wish, span, parts: [part([0, 2]), part([1, 3])], note: act.note }
+    SpreadTouch { expected, span, parts: [part([0, 2]), part([1, 3])], note: act.note }
 }
 
 /// A touch later by so many ms.
@@ -125,14 +125,14 @@ fn later(part: SpreadPart, ms: u64) -> SpreadPart {
 
 fn strange(name: &str, number: u64) -> Act {
     let family = strangers::FAMILIES.iter().position(|family| family.name == name).unwrap();
-    // Even numbers wear the reference garment.
+    // Even numbers have the reference garment.
     strangers::act(family, 2 * number)
 }
 
 /// A stranger's touch on a mat, which lies on this link.
 fn on_link(name: &str, number: u64, link: &'static str) -> (SpreadPart, (u64, u64), String) {
     let family = strangers::FAMILIES.iter().position(|family| family.name == name).unwrap();
-    let act = strangers::worn(family, number, (Garment::mat(), strangers::Make::Worn), None);
+    let act = strangers::touch_on(family, number, (Garment::mat(), strangers::Make::Uneven), None);
     let (span, note) = (act.span, act.note.clone());
     let part =
         SpreadPart { garment: act.garment, link: Some(link), period_us: act.period_us, codes: act.codes };
@@ -140,10 +140,10 @@ fn on_link(name: &str, number: u64, link: &'static str) -> (SpreadPart, (u64, u6
 }
 
 /// A hand's and an arm's touch at once.
-fn hand_and_arm(hand: &str, arm: &str, wish: Wish, number: u64) -> SpreadTouch {
+fn hand_and_arm(hand: &str, arm: &str, expected: Expected, number: u64) -> SpreadTouch {
     let (on_hand, span, note) = on_link(hand, number, "left_hand");
     let (on_arm, arm_span, _) = on_link(arm, number + 500, "left_forearm");
-    SpreadTouch { wish, span: (span.0, span.1.max(arm_span.1)), parts: [on_hand, on_arm], note }
+    SpreadTouch { expected, span: (span.0, span.1.max(arm_span.1)), parts: [on_hand, on_arm], note }
 }
 
 /// The panel of a garment on which a scan has most above another.
@@ -162,7 +162,7 @@ fn pressed_panel(garment: &Garment, scans: &mut Scans, [rest_us, pressed_us]: [u
 }
 
 /// What a chest meets while the back already leans on something.
-fn leaning_back(chest: &str, wish: Wish, number: u64) -> SpreadTouch {
+fn leaning_back(chest: &str, expected: Expected, number: u64) -> SpreadTouch {
     let on_panel = |name: &str, panel: usize| {
         // Another number until it lies on that panel.
         (0..).find_map(|more| {
@@ -176,7 +176,7 @@ fn leaning_back(chest: &str, wish: Wish, number: u64) -> SpreadTouch {
     let (front, rear) = (on_panel(chest, 0).unwrap(), on_panel("leaning", 1).unwrap());
     let (span, note) = (front.span, front.note.clone());
     let parts = [later(some(front, [0, 2]), 2000), some(rear, [1, 3])];
-    SpreadTouch { wish, span: (span.0, span.1 + 2_000 * MS), parts, note }
+    SpreadTouch { expected, span: (span.0, span.1 + 2_000 * MS), parts, note }
 }
 
 /// Two firm hands, one on the chest and one on the back, which let go within 0.4 s: each alone restrains.
@@ -203,7 +203,7 @@ fn firm_hug(number: u64) -> SpreadTouch {
     let span = (BEFORE_US, front.span.1.max(rear.span.1));
     let ([on_chest, _], [_, on_back]) = (front.parts, rear.parts);
     let note = format!("{}; {}", front.note, rear.note);
-    SpreadTouch { wish: Wish::Kind, span, parts: [on_chest, on_back], note }
+    SpreadTouch { expected: Expected::Kind, span, parts: [on_chest, on_back], note }
 }
 
 /// All families: those of both authors of the families of one board, and those that two boards need.
@@ -218,7 +218,7 @@ pub fn families() -> Vec<SpreadFamily> {
         all.push(SpreadFamily { name: family.name.into(), make: Box::new(make) });
     }
     for kind in Kind::ALL {
-        // Even numbers wear the reference garment.
+        // Even numbers have the reference garment.
         let tuned = move |number| of_person(kind, || Box::new(people::Person::new(2 * number, 1)));
         all.push(SpreadFamily { name: format!("{kind:?}, person").to_lowercase(), make: Box::new(tuned) });
         let others = move |number| of_person(kind, || Box::new(hands::Person::new(2 * number, 1)));
@@ -227,14 +227,14 @@ pub fn families() -> Vec<SpreadFamily> {
     let mut more = |name: &str, make: Box<dyn Fn(u64) -> SpreadTouch>| {
         all.push(SpreadFamily { name: name.into(), make });
     };
-    let pair = |hand, arm, wish| Box::new(move |number| hand_and_arm(hand, arm, wish, number));
-    more("handshake, both hands", pair("handshake", "caress", Wish::Kind));
-    more("pat on hand and arm", pair("pat", "pat", Wish::Kind));
-    more("push on hand and arm", pair("push", "push", Wish::Harmful));
-    more("blow on a held hand", pair("handshake", "slap of 80 N", Wish::Attack));
+    let pair = |hand, arm, expected| Box::new(move |number| hand_and_arm(hand, arm, expected, number));
+    more("handshake, both hands", pair("handshake", "caress", Expected::Kind));
+    more("pat on hand and arm", pair("pat", "pat", Expected::Kind));
+    more("push on hand and arm", pair("push", "push", Expected::Harmful));
+    more("blow on a held hand", pair("handshake", "slap of 80 N", Expected::Attack));
     more("firm hug", Box::new(firm_hug));
-    let leaning = |chest, wish| Box::new(move |number| leaning_back(chest, wish, number));
-    more("blow against a chair", leaning("slap of 80 N", Wish::Attack));
-    more("push against a chair", leaning("push", Wish::Harmful));
+    let leaning = |chest, expected| Box::new(move |number| leaning_back(chest, expected, number));
+    more("blow against a chair", leaning("slap of 80 N", Expected::Attack));
+    more("push against a chair", leaning("push", Expected::Harmful));
     all
 }

@@ -8,11 +8,11 @@
 mod course;
 pub mod hands;
 pub mod kind;
+mod played;
 mod print;
 pub mod scripted;
 mod skin;
 mod tally;
-mod worn;
 
 use tally::Tally;
 
@@ -26,7 +26,7 @@ fn is_campaign() -> bool {
 fn people_are_understood_who_tuned_the_map() {
     let mut tally = Tally::default();
     let of_each = if is_campaign() { 25 } else { 1 };
-    (0..PEOPLE).for_each(|person| tally.add(worn::wear(&mut scripted::Person::new(person, of_each))));
+    (0..PEOPLE).for_each(|person| tally.add(played::play(&mut scripted::Person::new(person, of_each))));
     println!("the family that the map was tuned on:");
     tally.print();
     tally.judge();
@@ -36,7 +36,7 @@ fn people_are_understood_who_tuned_the_map() {
 fn people_are_understood_who_did_not() {
     let mut tally = Tally::default();
     let of_each = if is_campaign() { 25 } else { 1 };
-    (0..PEOPLE).for_each(|person| tally.add(worn::wear(&mut hands::Person::new(person, of_each))));
+    (0..PEOPLE).for_each(|person| tally.add(played::play(&mut hands::Person::new(person, of_each))));
     println!("the second family:");
     tally.print();
     tally.judge();

@@ -1,7 +1,7 @@
 //! Statistics of the intentions announced for people's touches.
 
 use crate::people::kind::Kind;
-use crate::people::worn::Heard;
+use crate::people::played::Heard;
 use std::collections::BTreeMap;
 use taxel_core::intent::Leading;
 

@@ -137,6 +137,6 @@ fn what_is_not_the_stream_of_the_board_fails_and_says_why() {
         }
     }
     assert!(failed[0].ends_with("noise.mcap: no Hello of a taxel board in 1000 bytes"), "{}", failed[0]);
-    let why = "answers with another board: it wears the garment block-4x16, not reference";
+    let why = "answers with another board: it has the garment block-4x16, not reference";
     assert!(others == 1 && failed[1].ends_with(why), "{}", failed[1]);
 }

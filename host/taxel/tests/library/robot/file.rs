@@ -32,8 +32,8 @@ fn a_file_is_read_with_what_it_names() {
     let [torso, arm] = &robot.boards[..] else { panic!() };
     assert_eq!((&torso.source, torso.is_real()), (&SourceSpec::Sim("pat".into()), false));
     assert_eq!((arm.tare, arm.is_real(), arm.link.as_deref()), (Some(32), true, Some("left_forearm")));
-    let worn = |number: usize| robot.boards[number].garment.as_ref().unwrap().layout.taxels();
-    assert_eq!([worn(0), worn(1)], [2048, 64]);
+    let taxels = |number: usize| robot.boards[number].garment.as_ref().unwrap().layout.taxels();
+    assert_eq!([taxels(0), taxels(1)], [2048, 64]);
 }
 
 #[test]
@@ -174,17 +174,17 @@ const MISTAKES: [(&str, &str, &str); 25] = [
 ];
 
 #[test]
-fn mistakes_are_told_with_file_line_key_and_board() {
+fn mistakes_are_reported_with_file_line_key_and_board() {
     for (good, bad, want) in MISTAKES {
         assert!(GOOD.contains(good), "{good}");
         let error = read(&GOOD.replacen(good, bad, 1)).err().unwrap_or_else(|| panic!("{bad} is read"));
-        let told = taxel::tell::words::sentence(&error);
-        assert_eq!(told, want, "{bad}");
+        let reported = taxel::text::words::sentence(&error);
+        assert_eq!(reported, want, "{bad}");
     }
 }
 
 #[test]
-fn a_script_that_does_not_exist_is_told_before_anything_is_opened() {
+fn a_script_that_does_not_exist_is_reported_before_anything_is_opened() {
     let error = read(&GOOD.replacen("sim:pat", "sim:pta", 1)).unwrap_err();
     let why = "robot.toml, line 6, `boards[0].source`: board torso: there is no script of touches \"pta\": did you \
                mean \"pat\"?";

@@ -30,7 +30,7 @@ struct Bench {
 impl Bench {
     fn new() -> Arc<Bench> {
         let rig = |number: usize| {
-            let mut rig = Rig::wearing(Garment { name: name(NAMES[number]), ..Garment::block() });
+            let mut rig = Rig::with_garment(Garment { name: name(NAMES[number]), ..Garment::block() });
             rig.codes = [Code(100 + 100 * number as u16); 64];
             Arc::new(Mutex::new(rig))
         };
@@ -49,14 +49,14 @@ impl Bench {
         Ok(Source { label: format!("place {place}"), usb_serial, returns: Some(Box::new(again)), ..source })
     }
 
-    /// Follows the boards in threads of this name and their number; what is told is the first raw code, which
+    /// Follows the boards in threads of this name and their number; what is reported is the first raw code, which
     /// each board has of its own.
     fn robot(
         self: &Arc<Bench>,
         thread: &str,
         identity: impl Fn(usize) -> Identity,
         with_serial: bool,
-    ) -> RobotStream<Told> {
+    ) -> RobotStream<Coded> {
         let plan = |number: usize| {
             let bench = self.clone();
             let open = move || bench.clone().open(number, with_serial);
@@ -69,7 +69,8 @@ impl Bench {
             let plan = BoardPlan::of(format!("{thread}{number}"), open, begin);
             BoardPlan { identity: Some(identity(number)), ..plan }
         };
-        RobotStream::start([0, 1, 2].map(plan).into(), WhenFull::Wait, |_, queue| queue.make(tell)).unwrap()
+        RobotStream::start([0, 1, 2].map(plan).into(), WhenFull::Wait, |_, queue| queue.make(read_event))
+            .unwrap()
     }
 
     /// Plugs boards in: at each place the one of this number.
@@ -94,11 +95,11 @@ impl Bench {
 }
 
 /// The garment and the first raw code.
-type Told = (String, u16);
+type Coded = (String, u16);
 
-fn tell(client: &Client, event: &Event, _: Stamp) -> Option<Told> {
-    let worn = client.worn()?.garment.name.to_string();
-    matches!(event, Event::Raw { whole: true, .. }).then(|| (worn, client.raw()[0]))
+fn read_event(client: &Client, event: &Event, _: Stamp) -> Option<Coded> {
+    let garment = client.description()?.garment.name.to_string();
+    matches!(event, Event::Raw { whole: true, .. }).then(|| (garment, client.raw()[0]))
 }
 
 /// What the boards have said so far.
@@ -112,11 +113,11 @@ struct Seen {
 
 impl Seen {
     /// Takes an event. No board says what another one feels.
-    fn take(&mut self, event: RobotEvent<Told>) {
+    fn take(&mut self, event: RobotEvent<Coded>) {
         let board = event.board;
         match event.what {
-            BoardEvent::News((worn, code)) => {
-                assert_eq!((worn.as_str(), usize::from(code)), (NAMES[board], 100 + 100 * board));
+            BoardEvent::News((garment, code)) => {
+                assert_eq!((garment.as_str(), usize::from(code)), (NAMES[board], 100 + 100 * board));
                 self.news[board] += 1;
             }
             BoardEvent::State(BoardState::Lost { since_us, .. }) => {
@@ -134,7 +135,7 @@ impl Seen {
     }
 
     /// Takes events until the condition holds.
-    fn until(&mut self, robot: &mut RobotStream<Told>, what: &str, is_met: impl Fn(&Seen) -> bool) {
+    fn until(&mut self, robot: &mut RobotStream<Coded>, what: &str, is_met: impl Fn(&Seen) -> bool) {
         let begun = Instant::now();
         while !is_met(self) {
             robot.wait(Duration::from_millis(100)).into_iter().for_each(|event| self.take(event));
@@ -213,7 +214,7 @@ fn boards_come_back_in_any_order_and_no_wrong_one_has_a_name() {
 }
 
 #[test]
-fn boards_of_one_garment_are_told_apart_by_their_serial_numbers() {
+fn boards_of_one_garment_are_distinguished_by_their_serial_numbers() {
     let bench = Bench::new();
     // Nothing is stated: who is met first is known from then on.
     let mut robot = bench.robot("serial", |_| Identity::default(), true);
@@ -263,33 +264,33 @@ fn of_a_board_whose_events_are_not_taken_images_are_dropped_and_counted() {
             },
         )
     };
-    let tell = |_: &Client, event: &Event, _: Stamp| match event {
+    let read_event = |_: &Client, event: &Event, _: Stamp| match event {
         Event::Frame { frame, .. } => Some(("frame", *frame)),
         Event::Contacts { frame, .. } => Some(("contacts", *frame)),
         _ => None,
     };
     let mut robot =
-        RobotStream::start(vec![plan(0)], WhenFull::DropImages, |_, queue| queue.make(tell)).unwrap();
+        RobotStream::start(vec![plan(0)], WhenFull::DropImages, |_, queue| queue.make(read_event)).unwrap();
     let begun = Instant::now();
     while robot.dropped(0) < 20 {
         std::thread::sleep(Duration::from_millis(20));
         assert!(begun.elapsed() < Duration::from_secs(30));
     }
     // Taken as fast as they come from now on: each image either comes or is counted.
-    let (mut frames, mut contacts, mut told) = (Vec::new(), Vec::new(), 0);
+    let (mut frames, mut contacts, mut reported) = (Vec::new(), Vec::new(), 0);
     while frames.len() < 400 {
         match robot.wait(Duration::from_secs(5)).expect("a board streams").what {
             BoardEvent::News(("frame", frame)) => frames.push(frame),
             BoardEvent::News((_, frame)) => contacts.push(frame),
-            BoardEvent::State(BoardState::Dropped { images }) => told = images,
+            BoardEvent::State(BoardState::Dropped { images }) => reported = images,
             _ => {}
         }
     }
     let missing: u32 = frames.windows(2).map(|pair| pair[1] - pair[0] - 1).sum();
     let before = u64::from(frames[0] - contacts[0].min(frames[0]));
-    assert_eq!(told, robot.dropped(0));
-    assert_eq!(u64::from(missing) + before, told, "{frames:?}");
-    // What the start forgets is told with a list of its own, of a frame that may have had one.
+    assert_eq!(reported, robot.dropped(0));
+    assert_eq!(u64::from(missing) + before, reported, "{frames:?}");
+    // What the start forgets is reported with a list of its own, of a frame that may have had one.
     assert!(
         contacts.windows(2).all(|pair| pair[1] - pair[0] <= 1),
         "a list of contacts is missing: {contacts:?}"

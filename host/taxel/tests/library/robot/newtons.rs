@@ -54,24 +54,24 @@ fn read(calibrations: [Option<&str>; 2]) -> taxel::Result<ReadRobot> {
 }
 
 /// The contact of a board that is pressed on four taxels.
-fn told(robot: &ReadRobot, number: usize) -> BoardContact {
+fn reported(robot: &ReadRobot, number: usize) -> BoardContact {
     let of = &robot.boards[number];
     let reader = ContactReader::new(of);
     let mut board = VirtualBoard::new(Garment::block(), Scene::shipped()).unwrap();
     let requests = of.calibration.iter().flat_map(Calibration::requests);
     requests.chain([Request::Tare { frames: 8 }]).for_each(|it| board.client().request(&it).unwrap());
-    let (mut codes, mut told) = (vec![200; TAXELS], Vec::new());
+    let (mut codes, mut reported) = (vec![200; TAXELS], Vec::new());
     for scan in 0..40 {
         if scan == 20 {
             PRESSED.into_iter().for_each(|taxel| codes[taxel] += 700);
         }
         let mut hear = |client: &taxel::client::Client, event: &Event| {
-            told = reader.contacts(client, event).unwrap_or_else(|| std::mem::take(&mut told));
+            reported = reader.contacts(client, event).unwrap_or_else(|| std::mem::take(&mut reported));
             Ok(())
         };
         board.step(&codes, Micros(5_000 * scan), &mut hear).unwrap();
     }
-    let [contact] = &told[..] else { panic!("{told:?}") };
+    let [contact] = &reported[..] else { panic!("{reported:?}") };
     contact.clone()
 }
 
@@ -79,7 +79,7 @@ fn told(robot: &ReadRobot, number: usize) -> BoardContact {
 fn a_contact_has_the_force_that_its_boards_calibration_says() {
     let robot = read([Some("one-force.toml"), Some("two-force.toml")]).unwrap();
     for (number, (name, counts)) in BOARDS.into_iter().enumerate() {
-        let contact = told(&robot, number);
+        let contact = reported(&robot, number);
         let newtons = contact.newtons_per_count.unwrap() * f64::from(contact.total);
         let want = f64::from(contact.total) / f64::from(counts);
         assert!(contact.total > 2_000 && (newtons / want - 1.0).abs() < 0.01, "{name}: {newtons} {want}");
@@ -89,16 +89,18 @@ fn a_contact_has_the_force_that_its_boards_calibration_says() {
 #[test]
 fn without_a_calibration_of_its_board_a_contact_has_no_force() {
     let robot = read([Some("one-force.toml"), None]).unwrap();
-    assert!(told(&robot, 0).newtons_per_count.is_some() && told(&robot, 1).newtons_per_count.is_none());
+    assert!(
+        reported(&robot, 0).newtons_per_count.is_some() && reported(&robot, 1).newtons_per_count.is_none()
+    );
 }
 
 #[test]
 fn a_calibration_of_another_garment_is_refused() {
     let error = read([Some("one-force.toml"), Some("other-force.toml")]).unwrap_err();
-    let told = taxel::tell::words::sentence(&error);
+    let reported = taxel::text::words::sentence(&error);
     let why = "newtons.toml, line 10, `boards[1].calibration`: board two: the calibration ";
     assert!(
-        told.starts_with(why) && told.ends_with("is of a garment of 12 taxels, this one has 64"),
-        "{told}"
+        reported.starts_with(why) && reported.ends_with("is of a garment of 12 taxels, this one has 64"),
+        "{reported}"
     );
 }

@@ -12,13 +12,13 @@ use taxel::robot::{
 };
 use taxel::session::RunLimit;
 use taxel::source::{SceneFile, SourceOptions};
-use taxel::tell::words;
+use taxel::text::words;
 use taxel_core::wire::Request;
 
 /// Number of a request that was answered, and why it was refused.
 type Answered = (u8, Option<String>);
 
-fn tell(_: &Client, event: &Event, _: Stamp) -> Option<Answered> {
+fn read_event(_: &Client, event: &Event, _: Stamp) -> Option<Answered> {
     match event {
         Event::Answer { request, refusal } => Some((*request, refusal.clone())),
         _ => None,
@@ -43,7 +43,7 @@ fn three(names: [&str; 3]) -> ([Arc<Mutex<Rig>>; 3], RobotStream<Answered>) {
         })
     };
     let plans = [0, 1, 2].map(plan).into();
-    let session = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(tell)).unwrap();
+    let session = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(read_event)).unwrap();
     (rigs, session)
 }
 
@@ -119,15 +119,15 @@ fn all_boards_but_the_dead_one_do_what_is_ordered_and_it_follows_once_it_is_back
 #[test]
 fn who_cannot_be_ordered_is_named() {
     let (_rigs, robot) = three(["head", "hand", "heel"]);
-    let told = robot.order(Some("hadn"), &BoardOrder::SelfTest).unwrap_err().to_string();
-    assert_eq!(told, "there is no board \"hadn\": did you mean \"hand\"? Known are head, hand, heel");
+    let reported = robot.order(Some("hadn"), &BoardOrder::SelfTest).unwrap_err().to_string();
+    assert_eq!(reported, "there is no board \"hadn\": did you mean \"hand\"? Known are head, hand, heel");
     let text = "name = \"one\"\n[[boards]]\nname = \"old\"\nsource = \"replay:old.mcap\"\n\
                 [[boards]]\nname = \"new\"\nsource = \"sim:press\"\n";
     let read = ReadRobot::parse("one.toml".into(), text.into(), Path::new(".")).unwrap();
     let plans = read.plans(&SourceOptions::default(), &RunLimit::of(None, None));
-    let mut robot = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(tell)).unwrap();
-    let told = robot.order(Some("old"), &BoardOrder::Tare(8)).unwrap_err().to_string();
-    assert_eq!(told, "board old is a recording, whose board does not listen");
+    let mut robot = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(read_event)).unwrap();
+    let reported = robot.order(Some("old"), &BoardOrder::Tare(8)).unwrap_err().to_string();
+    assert_eq!(reported, "board old is a recording, whose board does not listen");
     while !robot.is_over() {
         robot.wait(Duration::from_secs(30));
     }

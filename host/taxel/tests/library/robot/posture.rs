@@ -1,4 +1,4 @@
-//! The posture of a robot, told to all of its boards.
+//! The posture of a robot, sent to all of its boards.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -29,7 +29,7 @@ name = "bare"
 source = "sim:five"
 "#;
 
-/// Joints that move the reference garment in the base: all must be told.
+/// Joints that move the reference garment in the base: all must be sent.
 const JOINTS: [&str; 7] = [
     "waist",
     "left_shoulder_pitch",
@@ -48,16 +48,16 @@ fn pressing(_: &Client, event: &Event, _: Stamp) -> Option<PressingReport> {
 }
 
 #[test]
-fn every_board_with_a_body_tells_where_its_contacts_are_on_a_robot_that_moves() {
+fn every_board_with_a_body_says_where_its_contacts_are_on_a_robot_that_moves() {
     let read = ReadRobot::parse("three.toml".into(), ROBOT.into(), Path::new(".")).unwrap();
     let options = SourceOptions { realtime: true, repeat: true, ..SourceOptions::default() };
     let plans = read.plans(&options, &RunLimit::of(None, None));
     let mut session = RobotStream::start(plans, WhenFull::Wait, |_, queue| queue.make(pressing)).unwrap();
     let posture = JOINTS.map(|joint| (joint, 0.4));
     let robot = robot::read("reference").unwrap();
-    let worn = read.boards[0].garment.as_ref().unwrap();
+    let board_garment = read.boards[0].garment.as_ref().unwrap();
     let surface = body::read("reference").unwrap();
-    let surface = surface.on_robot(&worn.garment, &worn.layout, robot.into()).unwrap();
+    let surface = surface.on_robot(&board_garment.garment, &board_garment.layout, robot.into()).unwrap();
     let stands = surface.robot().poses(&surface.robot().posture(posture).unwrap());
     let stands = surface.poses(&stands, 0).unwrap();
     let metres = |um: [i32; 3]| DVec3::from(um.map(|um| f64::from(um) * 1e-6));

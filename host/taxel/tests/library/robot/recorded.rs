@@ -61,8 +61,8 @@ fn each_board_is_read_back_as_it_is_alone() {
         let mut contacts = Messages::of_topic(&path, &format!("/taxel/{name}/contacts")).unwrap();
         let mut lines = alone.iter().filter(|line| line.contains("\"type\":\"contacts\""));
         while let Some(message) = contacts.next_message().unwrap() {
-            let told: Value = serde_json::from_slice(message.data).unwrap();
-            assert_eq!(told["host_time_us"].as_u64().unwrap() * 1000, message.header.log_time);
+            let reported: Value = serde_json::from_slice(message.data).unwrap();
+            assert_eq!(reported["host_time_us"].as_u64().unwrap() * 1000, message.header.log_time);
             let line: Value = serde_json::from_str(lines.next().unwrap()).unwrap();
             let totals = |all: &Value| -> Vec<(Value, Value)> {
                 all["contacts"]
@@ -72,7 +72,7 @@ fn each_board_is_read_back_as_it_is_alone() {
                     .map(|it| (it["id"].clone(), it["total"].clone()))
                     .collect()
             };
-            assert_eq!((&told["frame"], totals(&told)), (&line["frame"], totals(&line)));
+            assert_eq!((&reported["frame"], totals(&reported)), (&line["frame"], totals(&line)));
         }
         assert_eq!(lines.next(), None, "{name}");
     }

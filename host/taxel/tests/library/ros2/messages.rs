@@ -67,8 +67,8 @@ fn same_contact(read: &Value, line: &Value) {
         assert_eq!(read[key], line[key], "{key}");
     }
     let metres = |value: &Value, mm: &str| {
-        let (own, told) = (value.as_f64().unwrap(), line[mm].as_f64().unwrap() / 1000.0);
-        assert!((own - told).abs() <= 1e-12, "{mm}: {own} m");
+        let (own, reported) = (value.as_f64().unwrap(), line[mm].as_f64().unwrap() / 1000.0);
+        assert!((own - reported).abs() <= 1e-12, "{mm}: {own} m");
     };
     metres(&read["position"]["x"], "x_mm");
     metres(&read["position"]["y"], "y_mm");
@@ -105,10 +105,10 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
                 read["events"].as_array().unwrap().iter().zip(line["events"].as_array().unwrap())
             {
                 let words = &line["words"];
-                for (field, told) in
+                for (field, reported) in
                     [("strength", "strength"), ("extent", "extent"), ("span", "span"), ("shape", "shape")]
                 {
-                    assert_eq!(read[field], words[told]);
+                    assert_eq!(read[field], words[reported]);
                 }
                 assert_eq!(read["duration"], json!(line["duration_ms"].as_f64().unwrap() / 1000.0));
                 assert_eq!([&read["contact"], &read["peak_total"]], [&line["contact"], &line["peak_total"]]);
@@ -127,9 +127,9 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
             assert_eq!([&read["leading"], &read["outcome"]], [&line["leading"], &line["outcome"]]);
             let concepts =
                 read["concepts"].as_array().unwrap().iter().zip(read["activations"].as_array().unwrap());
-            let told = &line["concepts"];
+            let reported = &line["concepts"];
             assert!(concepts.clone().count() > 3);
-            concepts.for_each(|(name, value)| assert_eq!(*value, told[name.as_str().unwrap()]));
+            concepts.for_each(|(name, value)| assert_eq!(*value, reported[name.as_str().unwrap()]));
             Some("Intent")
         }
         Event::Health(health) => {
@@ -140,9 +140,9 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
                 assert_eq!(read[key], line[key], "{key}");
             }
             assert_eq!(read["scan"], json!(line["scan_us"].as_f64().unwrap() / 1e6));
-            let told = messages::diagnostics("", US, "x", DiagnosticState::Reports(health, 3));
-            let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &told);
-            assert_eq!(read["status"][0]["values"][9], json!({ "key": "ill_taxels", "value": "3" }));
+            let reported = messages::diagnostics("", US, "x", DiagnosticState::Reports(health, 3));
+            let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &reported);
+            assert_eq!(read["status"][0]["values"][9], json!({ "key": "faulty_taxels", "value": "3" }));
             Some("Health")
         }
         Event::Frame { .. } => {
@@ -174,8 +174,8 @@ fn same_panels(client: &Client) {
 
 /// Fails unless force and moment of a panel are those of its points.
 fn same_wrench(area: &Area, values: &[u16]) {
-    let told = messages::wrench("", US, area, values, SCALE);
-    let read = Definitions::of_text("W", schemas::WRENCH).read("W", &told);
+    let reported = messages::wrench("", US, area, values, SCALE);
+    let read = Definitions::of_text("W", schemas::WRENCH).read("W", &reported);
     let mut want = [DVec3::ZERO; 2];
     for (index, value) in (0u16..).zip(values) {
         let [x, y] = [index % area.columns, index / area.columns].map(f64::from);
@@ -197,13 +197,13 @@ fn frames_of_panels_lie_on_the_body() {
     let garment = Garment::reference();
     let layout = Layout::build(&garment, 2048, 4095).unwrap();
     let surface = body::read("reference").unwrap().surface(&garment, &layout).unwrap();
-    let told = messages::frames("", US, &layout, Some(&surface));
-    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &told);
+    let reported = messages::frames("", US, &layout, Some(&surface));
+    let read = Definitions::of_text("F", schemas::FRAMES).read("F", &reported);
     let transforms = read["transforms"].as_array().unwrap();
     assert_eq!(transforms.len(), layout.areas().len());
-    for ((panel, area), told) in (0..).zip(layout.areas()).zip(transforms) {
+    for ((panel, area), reported) in (0..).zip(layout.areas()).zip(transforms) {
         let parts = |key: &str, names: &[&str]| -> Vec<f64> {
-            names.iter().map(|name| told["transform"][key][name].as_f64().unwrap()).collect()
+            names.iter().map(|name| reported["transform"][key][name].as_f64().unwrap()).collect()
         };
         let at: [f64; 3] = parts("translation", &["x", "y", "z"]).try_into().unwrap();
         let turn: [f64; 4] = parts("rotation", &["x", "y", "z", "w"]).try_into().unwrap();
@@ -212,9 +212,12 @@ fn frames_of_panels_lie_on_the_body() {
         let [x, y] = [area.columns, area.rows].map(|count| f64::from(count - 1) / 2.0);
         let pitch = area.pitch_um.map(|um| f64::from(um) * 1e-6);
         let middle = surface.at(&layout, panel, x, y).unwrap();
-        assert_eq!(told["header"]["frame_id"], json!(surface.links()[middle.link]));
-        assert!(pose.point(DVec3::new(x * pitch[0], y * pitch[1], 0.0)).distance(middle.at) < 1e-9, "{told}");
-        assert!(pose.direction(DVec3::NEG_Z).distance(middle.normal) < 1e-3, "{told}");
+        assert_eq!(reported["header"]["frame_id"], json!(surface.links()[middle.link]));
+        assert!(
+            pose.point(DVec3::new(x * pitch[0], y * pitch[1], 0.0)).distance(middle.at) < 1e-9,
+            "{reported}"
+        );
+        assert!(pose.direction(DVec3::NEG_Z).distance(middle.normal) < 1e-3, "{reported}");
         // Taxels near the middle lie where the frame says: the body bends away by less than half a millimetre.
         for (dx, dy) in [(0.5, 0.0), (0.0, 0.5), (-0.5, -0.5)] {
             let near = surface.at(&layout, panel, x + dx, y + dy).unwrap();
@@ -237,9 +240,9 @@ fn every_message_is_as_its_definition_and_says_what_json_says() {
     let report = ReactionReport { frame: 5, time: Default::default(), reaction };
     let read = all.read("Reaction", &own::reaction(US, &report));
     let header = json!({ "stamp": stamp(), "frame_id": "" });
-    let told =
+    let reported =
         json!({ "header": header, "frame": 5, "index": 2, "name": "flinch", "active": true, "value": -7 });
-    assert_eq!(read, told);
+    assert_eq!(read, reported);
 }
 
 #[test]

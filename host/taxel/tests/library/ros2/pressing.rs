@@ -21,18 +21,18 @@ const REGION: &str = "\n[[regions]]\nname = \"torso\"\nlink = \"torso\"\n\
 /// Fails unless a point or vector has these parts.
 fn same(read: &Value, want: &Value, scale: f64) {
     for (axis, part) in ["x", "y", "z"].into_iter().zip(want.as_array().unwrap()) {
-        let (own, told) = (read[axis].as_f64().unwrap(), part.as_f64().unwrap() / scale);
-        assert!((own - told).abs() <= 1e-9 * told.abs().max(1e-3), "{read} is not {want} / {scale}");
+        let (own, reported) = (read[axis].as_f64().unwrap(), part.as_f64().unwrap() / scale);
+        assert!((own - reported).abs() <= 1e-9 * reported.abs().max(1e-3), "{read} is not {want} / {scale}");
     }
 }
 
-/// Fails unless a message tells of a contact or a link what its line leaves uncertain.
+/// Fails unless a message says of a contact or a link what its line leaves uncertain.
 fn same_uncertain(read: &Value, line: &Value, scale: f64) {
     let of = |key: &str| line["uncertain"][key].as_f64().unwrap_or(0.0);
-    let told = [of("saturated"), of("faulty"), of("less") / scale, of("more") / scale, of("off_m")];
+    let reported = [of("saturated"), of("faulty"), of("less") / scale, of("more") / scale, of("off_m")];
     let own =
         ["saturated", "faulty", "less", "more", "off"].map(|key| read["uncertain"][key].as_f64().unwrap());
-    assert_eq!(own, told, "{line}");
+    assert_eq!(own, reported, "{line}");
 }
 
 /// Fails unless the message of the surface's regions says what their line says.
@@ -42,13 +42,13 @@ fn same_regions(all: &Definitions, client: &Client, report: &RegionsReport) {
     let line = message(client, &Event::Regions(Box::new(report.clone())));
     let read = all.read("BodyRegions", &pressing::regions(US, client, report));
     assert_eq!(read["frame"], line["frame"]);
-    let [own, told] = [&read, &line].map(|of| of["regions"].as_array().unwrap());
-    assert_eq!(own.len(), told.len());
-    for (own, told) in own.iter().zip(told) {
+    let [own, reported] = [&read, &line].map(|of| of["regions"].as_array().unwrap());
+    assert_eq!(own.len(), reported.len());
+    for (own, reported) in own.iter().zip(reported) {
         let named = |key: &str, names: &[&str]| json!(names[own[key].as_u64().unwrap() as usize]);
         assert_eq!(
             [named("phase", &PHASES), named("way", &WAYS)],
-            [&told["phase"], &told["way"]].map(Value::clone)
+            [&reported["phase"], &reported["way"]].map(Value::clone)
         );
         for (key, other) in [
             ("region", "region"),
@@ -57,9 +57,9 @@ fn same_regions(all: &Definitions, client: &Client, report: &RegionsReport) {
             ("extent", "extent"),
             ("shape", "shape"),
         ] {
-            assert_eq!(own[key], told[other]);
+            assert_eq!(own[key], reported[other]);
         }
-        assert_eq!(own["since"], json!(told["since_us"].as_f64().unwrap() / 1e6));
+        assert_eq!(own["since"], json!(reported["since_us"].as_f64().unwrap() / 1e6));
     }
 }
 
@@ -73,9 +73,9 @@ fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_
     let age = line["pose_age_us"].as_i64().map(|us| us as f64 * 1e-6);
     assert_eq!((read["pose_age"].as_f64(), &read["pose_error"]), (age, &line["pose_error_m"]));
     let [contacts, links] = ["contacts", "links"].map(|key| {
-        let (own, told) = (read[key].as_array().unwrap(), line[key].as_array().unwrap());
-        assert_eq!(own.len(), told.len());
-        own.iter().cloned().zip(told.iter().cloned()).collect::<Vec<_>>()
+        let (own, reported) = (read[key].as_array().unwrap(), line[key].as_array().unwrap());
+        assert_eq!(own.len(), reported.len());
+        own.iter().cloned().zip(reported.iter().cloned()).collect::<Vec<_>>()
     });
     for (read, line) in contacts {
         assert_eq!([&read["id"], &read["link"]], [&line["id"], &line["link"]]);
@@ -96,11 +96,11 @@ fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_
         same_uncertain(read, line, scale);
         same(&read["center"], &line["center_m"], 1.0);
         assert_eq!(read["pressed"], json!(line["pressed"].as_f64().unwrap() / scale));
-        let told = pressing::wrench(US, &wrench.name, Some(wrench), per_newton);
-        let told = Definitions::of_text("W", schemas::WRENCH).read("W", &told);
-        assert_eq!(told["header"]["frame_id"], line["link"]);
+        let reported = pressing::wrench(US, &wrench.name, Some(wrench), per_newton);
+        let reported = Definitions::of_text("W", schemas::WRENCH).read("W", &reported);
+        assert_eq!(reported["header"]["frame_id"], line["link"]);
         for (own, other) in
-            [(&read["force"], &read["moment"]), (&told["wrench"]["force"], &told["wrench"]["torque"])]
+            [(&read["force"], &read["moment"]), (&reported["wrench"]["force"], &reported["wrench"]["torque"])]
         {
             same(own, &line["force"], scale);
             same(other, &line["moment"], scale);
@@ -137,8 +137,8 @@ fn same_points(client: &Client, surface: &Surface) {
     for area in client.layout().unwrap().areas() {
         let start = usize::from(area.base);
         let values = &image[start..start + usize::from(area.rows) * usize::from(area.columns)];
-        let told = pressing::points("", US, area, Some(surface), values);
-        let read = Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &told);
+        let reported = pressing::points("", US, area, Some(surface), values);
+        let read = Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &reported);
         let link = surface.places()[start].unwrap().link;
         assert_eq!(read["header"]["frame_id"], json!(surface.links()[link]));
         assert_eq!([&read["point_step"], &read["is_dense"]], [&json!(28), &json!(true)]);
@@ -169,15 +169,16 @@ fn places_and_forces_on_links_are_those_of_the_board() {
     while let Some(event) = session.wait().unwrap() {
         match &event {
             Event::Hello => {
-                let worn = session.client().worn().unwrap();
+                let description = session.client().description().unwrap();
                 let read = body::read("reference").unwrap();
-                surface = Some(read.surface(&worn.garment, &worn.layout).unwrap());
+                surface = Some(read.surface(&description.garment, &description.layout).unwrap());
             }
             Event::Pressing(report) => {
                 if reports == 20 {
                     let turn = [0.0, 0.0, 0.6, 0.8];
-                    let told = [("torso", [0.0, 0.1, 1.0], turn), ("left_upper_arm", [0.1, 0.0, 0.0], turn)];
-                    setting::set_poses(session.parts().0, told).unwrap();
+                    let reported =
+                        [("torso", [0.0, 0.1, 1.0], turn), ("left_upper_arm", [0.1, 0.0, 0.0], turn)];
+                    setting::set_poses(session.parts().0, reported).unwrap();
                 }
                 for per_newton in [None, Some(SCALE)] {
                     same_report(&all, session.client(), report, per_newton);
@@ -214,11 +215,11 @@ fn a_link_without_a_touch_has_no_force_and_a_panel_without_a_place_no_points() {
     let surface = Surface::build(&body, &garment, &layout).unwrap();
     let values = [0; 512];
     for (index, area) in layout.areas().iter().enumerate() {
-        let told = pressing::points("", US, area, Some(&surface), &values);
+        let reported = pressing::points("", US, area, Some(&surface), &values);
         // In the frame of the link, or of the panel.
-        let link =
-            Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &told)["header"]["frame_id"].clone();
+        let link = Definitions::of_text("P", schemas::POINT_CLOUD).read("P", &reported)["header"]["frame_id"]
+            .clone();
         assert_eq!(link, json!(["torso", "tactile/back", "tactile/left_arm", "tactile/right_arm"][index]));
-        assert_eq!(told == messages::points("", US, area, &values), index > 0);
+        assert_eq!(reported == messages::points("", US, area, &values), index > 0);
     }
 }

@@ -39,22 +39,22 @@ fn the_message_of_the_mind_says_what_its_line_says() {
         defaults: vec!["plan".into()],
         touches: vec![other, own],
     };
-    let told = Definitions::of_package().read("RobotIntent", &robot_intent_message(&robot, &line));
-    assert_eq!(told["header"]["stamp"], json!({ "sec": 1_700_000_000, "nanosec": 250_000_000 }));
+    let reported = Definitions::of_package().read("RobotIntent", &robot_intent_message(&robot, &line));
+    assert_eq!(reported["header"]["stamp"], json!({ "sec": 1_700_000_000, "nanosec": 250_000_000 }));
     let written = serde_json::to_value(&line).unwrap();
     for key in ["leading", "holding", "defaults"] {
-        assert_eq!(told[key], written[key], "{key}");
+        assert_eq!(reported[key], written[key], "{key}");
     }
-    let names = told["concepts"].as_array().unwrap();
+    let names = reported["concepts"].as_array().unwrap();
     assert_eq!(names.len(), 3);
-    for (name, value) in names.iter().zip(told["activations"].as_array().unwrap()) {
+    for (name, value) in names.iter().zip(reported["activations"].as_array().unwrap()) {
         assert_eq!(*value, written["concepts"][name.as_str().unwrap()]);
     }
     let common = json!({ "contact": 4, "region": "mat", "link": "left_hand", "load": 900 });
-    for touch in told["touches"].as_array().unwrap() {
+    for touch in reported["touches"].as_array().unwrap() {
         assert!(common.as_object().unwrap().iter().all(|(key, value)| touch[key] == *value), "{touch}");
     }
-    let [unsure, moved] = [&told["touches"][0], &told["touches"][1]];
+    let [unsure, moved] = [&reported["touches"][0], &reported["touches"][1]];
     assert_eq!((&unsure["board"], &unsure["mover"]), (&json!("hand"), &json!(2)));
     assert_eq!((&moved["board"], &moved["mover"]), (&json!("torso"), &json!(0)));
     let felt = [("approach_normal", 0.25), ("approach_speed", 0.5), ("hardness", 1.5e6), ("point", 0.4)];

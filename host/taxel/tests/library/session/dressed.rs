@@ -10,7 +10,7 @@ use taxel_core::wire::Request;
 
 #[test]
 fn a_contact_ends_with_its_garment_even_if_the_next_one_is_the_same() {
-    let rig = Arc::new(Mutex::new(Rig::wearing(garment())));
+    let rig = Arc::new(Mutex::new(Rig::with_garment(garment())));
     let mut session = Session::new(source(&rig), Returns::Always);
     session.parts().0.start(8).unwrap();
     let tare = Request::Tare { frames: 8 }.number();

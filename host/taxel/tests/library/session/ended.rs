@@ -1,6 +1,6 @@
 //! What touches a board when it is lost has ended for the host, once, and begins anew if the board still feels it.
 
-use super::restored::{told, until};
+use super::restored::{reported, until};
 use super::rig::{Rig, source};
 use crate::lines::pressing;
 use serde_json::{Value, json};
@@ -76,7 +76,7 @@ fn a_contact_that_outlasts_the_gap_begins_anew_with_its_id() {
     let (mut session, ids) = pressed(&rig);
     rig.lock().unwrap().cut();
     ends(&mut session);
-    assert!(told(&mut session, "is back").contains("kept running"));
+    assert!(reported(&mut session, "is back").contains("kept running"));
     let mut phases = Vec::new();
     until(&mut session, |event| {
         let is_list = matches!(event, Event::Contacts { .. });
@@ -170,7 +170,7 @@ fn regions_forces_intention_and_reactions_end_too() {
     assert!(pressing.links.is_empty() && pressing.contacts.is_empty());
     assert_eq!((reaction.reaction.index, reaction.reaction.active), (1, false));
     assert!(intent.leading == Leading::None && intent.concepts.iter().all(|value| *value == Q15(0)));
-    // It is told once.
+    // It is reported once.
     client.lost("it is gone".into(), 5);
     let own: Vec<_> = std::iter::from_fn(|| client.next_event(&[]).1).collect();
     assert!(matches!(own[..], [Event::Lost { .. }]), "{own:?}");
@@ -251,8 +251,8 @@ fn a_recording_has_a_last_wrench_of_zero_and_stale_diagnostics() {
         .collect();
     assert!(wrenches.iter().flatten().any(|wrench| !is_zero(wrench)));
     assert!(wrenches.iter().all(|of_panel| is_zero(of_panel.last().unwrap())));
-    let told = of("ended.ros2.mcap", "/diagnostics");
-    assert!(told.last().unwrap().windows(10).any(|words| words == b"it is gone"));
+    let reported = of("ended.ros2.mcap", "/diagnostics");
+    assert!(reported.last().unwrap().windows(10).any(|words| words == b"it is gone"));
     // Whoever reads the topics of contacts and intention sees them end.
     let contacts: Value =
         serde_json::from_slice(of("ended.mcap", "/taxel/contacts").last().unwrap()).unwrap();

@@ -1,6 +1,6 @@
 //! Settings that cannot be restored, and sources that do not come back: an error that blames the board.
 
-use super::restored::{garment, told, until};
+use super::restored::{garment, reported, until};
 use super::rig::{Rig, source};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -90,14 +90,14 @@ fn a_source_is_waited_for_as_long_as_it_takes() {
         rig.plugged = false;
         rig.cut();
     }
-    told(&mut session, "is gone");
+    reported(&mut session, "is gone");
     let begun = Instant::now();
     while begun.elapsed() < Duration::from_millis(1500) {
         session.poll().unwrap();
     }
     assert!(session.is_gone());
     rig.lock().unwrap().plugged = true;
-    let text = told(&mut session, "is back after");
+    let text = reported(&mut session, "is back after");
     let seconds: f64 =
         text.split("after ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
     assert!((1.5..4.0).contains(&seconds), "{text}");
@@ -109,9 +109,9 @@ fn a_board_that_is_lost_before_it_has_said_what_it_is_comes_back_like_any_other(
     let mut session = Session::new(source(&rig), Returns::Always);
     session.parts().0.start(8).unwrap();
     rig.lock().unwrap().cut();
-    told(&mut session, "is gone");
-    assert!(session.client().worn().is_none());
-    let text = told(&mut session, "is back after");
+    reported(&mut session, "is gone");
+    assert!(session.client().description().is_none());
+    let text = reported(&mut session, "is back after");
     assert!(text.ends_with("set again: start, tare"), "{text}");
     assert!(session.gap().is_none());
     until(&mut session, |event| matches!(event, Event::Frame { .. }));
@@ -157,7 +157,7 @@ fn a_tare_that_a_touched_board_refuses_when_it_is_back_ends_nothing() {
     // The link breaks before the request is read.
     session.parts().0.request(&TARE).unwrap();
     rig.lock().unwrap().cut();
-    let text = told(&mut session, "is back after");
+    let text = reported(&mut session, "is back after");
     assert!(text.ends_with("; set again: start; no new tare: something touches the garment"), "{text}");
     until(&mut session, |event| matches!(event, Event::Frame { .. }));
 }

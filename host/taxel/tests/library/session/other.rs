@@ -1,6 +1,7 @@
-//! Another board in the place of the one that was lost: told as another, and given nothing that was asked of that one.
+//! Another board in the place of the one that was lost: reported as another, and given nothing that was asked of that
+//! one.
 
-use super::restored::{scene, told, until};
+use super::restored::{reported, scene, until};
 use super::rig::{self, Rig};
 use std::sync::{Arc, Mutex};
 use taxel::client::{Event, Identity};
@@ -11,7 +12,7 @@ use taxel_core::format::name;
 use taxel_core::garment::Garment;
 use taxel_core::wire::{Request, encode};
 
-fn wears(called: &str) -> Garment {
+fn named(called: &str) -> Garment {
     Garment { name: name(called), ..Garment::block() }
 }
 
@@ -24,7 +25,7 @@ struct Socket {
 
 impl Socket {
     fn new(garments: [&str; 2], serials: [Option<&'static str>; 2]) -> Arc<Socket> {
-        let rigs = garments.map(|garment| Arc::new(Mutex::new(Rig::wearing(wears(garment)))));
+        let rigs = garments.map(|garment| Arc::new(Mutex::new(Rig::with_garment(named(garment)))));
         Arc::new(Socket { rigs, plugged: Mutex::new(0), serials })
     }
 
@@ -53,7 +54,7 @@ impl Socket {
     }
 }
 
-/// Names of what is told until an image comes.
+/// Names of what is reported until an image comes.
 fn words(session: &mut Session) -> Vec<&'static str> {
     let mut words = Vec::new();
     until(session, |event| {
@@ -72,23 +73,23 @@ fn words(session: &mut Session) -> Vec<&'static str> {
 }
 
 #[test]
-fn another_board_is_told_as_another_and_gets_no_setting() {
+fn another_board_is_reported_as_another_and_gets_no_setting() {
     let socket = Socket::new(["head", "hand"], [None; 2]);
     let mut session = socket.session();
     socket.exchange();
     let why = until(&mut session, |event| matches!(event, Event::Other { .. }));
-    let want = "rig answers with another board: it wears the garment hand, not head";
+    let want = "rig answers with another board: it has the garment hand, not head";
     assert_eq!(why.remark(), Some(want));
     assert_eq!(until(&mut session, |event| !matches!(event, Event::Lost { .. })), Event::Hello);
     until(&mut session, |event| matches!(event, Event::Frame { .. }));
-    assert_eq!(session.client().worn().unwrap().garment, wears("hand"));
+    assert_eq!(session.client().description().unwrap().garment, named("hand"));
     assert!(session.gap().is_none());
     // Whoever follows it is asked for no image, scene or baseline of the other.
     let asked = socket.rigs[1].lock().unwrap().asked.clone();
     assert_eq!(asked, [Request::Start.number()]);
     // From now on it is the one.
     socket.rigs[1].lock().unwrap().cut();
-    let after = told(&mut session, "is back after");
+    let after = reported(&mut session, "is back after");
     assert!(after.ends_with("kept running; set again: start"), "{after}");
     socket.exchange();
     assert_eq!(words(&mut session), ["lost", "other", "hello", "frame"]);
@@ -128,7 +129,7 @@ fn serial_numbers_decide_where_there_are_any() {
     let mut session = socket.session();
     socket.exchange();
     assert_eq!(words(&mut session)[..2], ["lost", "hello"]);
-    let after = told(&mut session, "is back after");
+    let after = reported(&mut session, "is back after");
     assert!(after.contains("set-scene"), "{after}");
 }
 
@@ -137,18 +138,18 @@ fn a_board_that_was_dressed_otherwise_is_the_same() {
     let socket = Socket::new(["head", "hand"], [None; 2]);
     let mut session = socket.session();
     // By another program, under our eyes.
-    let bytes = postcard::to_allocvec(&wears("sleeve")).unwrap();
+    let bytes = postcard::to_allocvec(&named("sleeve")).unwrap();
     let mut room = [0; 4096];
     let request = encode(&Request::SetGarment(&bytes), &mut room).unwrap().to_vec();
     socket.rigs[0].lock().unwrap().receive(&request);
     until(&mut session, |event| *event == Event::Hello);
-    assert_eq!(session.client().worn().unwrap().garment, wears("sleeve"));
+    assert_eq!(session.client().description().unwrap().garment, named("sleeve"));
     socket.rigs[0].lock().unwrap().cut();
-    assert!(told(&mut session, "is back after").contains("kept running"));
+    assert!(reported(&mut session, "is back after").contains("kept running"));
     // It forgets that with its power.
     socket.rigs[0].lock().unwrap().restart();
     socket.rigs[0].lock().unwrap().cut();
-    assert!(told(&mut session, "is back after").contains("restarted"));
+    assert!(reported(&mut session, "is back after").contains("restarted"));
 }
 
 #[test]
@@ -173,48 +174,48 @@ fn a_garment_that_was_sent_is_not_sent_to_another_board() {
     let socket = Socket::new(["head", "hand"], [None; 2]);
     let mut session = Session::new(socket.clone().open().unwrap(), Returns::Always);
     let (client, _) = session.parts();
-    client.request(&Request::SetGarment(&postcard::to_allocvec(&wears("mine")).unwrap())).unwrap();
+    client.request(&Request::SetGarment(&postcard::to_allocvec(&named("mine")).unwrap())).unwrap();
     client.start(0).unwrap();
     until(&mut session, |event| matches!(event, Event::Frame { .. }));
     // The board has forgotten it, and gets it again; the other one does not.
     socket.rigs[0].lock().unwrap().restart();
     socket.rigs[0].lock().unwrap().cut();
-    assert!(told(&mut session, "is back after").contains("set-garment"));
-    assert_eq!(*socket.rigs[0].lock().unwrap().garment(), wears("mine"));
+    assert!(reported(&mut session, "is back after").contains("set-garment"));
+    assert_eq!(*socket.rigs[0].lock().unwrap().garment(), named("mine"));
     socket.exchange();
     assert_eq!(words(&mut session), ["lost", "other", "hello", "frame"]);
-    assert_eq!(*socket.rigs[1].lock().unwrap().garment(), wears("hand"));
+    assert_eq!(*socket.rigs[1].lock().unwrap().garment(), named("hand"));
 }
 
 #[test]
 fn whoever_follows_one_board_waits_for_it() {
     let socket = Socket::new(["head", "hand"], [None; 2]);
     let mut session = Session::new(socket.clone().open().unwrap(), Returns::Always);
-    session.recognise(Identity::new(None, Some(wears("head"))));
+    session.recognise(Identity::new(None, Some(named("head"))));
     session.parts().0.start(0).unwrap();
     until(&mut session, |event| matches!(event, Event::Frame { .. }));
     socket.exchange();
-    let mut told = Vec::new();
-    // It is told once, however often the other one says what it is, and nothing else comes of it.
+    let mut reported = Vec::new();
+    // It is reported once, however often the other one says what it is, and nothing else comes of it.
     while socket.rigs[1].lock().unwrap().asked.len() < 3 {
         if let Poll::Event(event) = session.poll().unwrap() {
-            told.push(event);
+            reported.push(event);
         }
     }
-    let others = told.iter().filter(|event| matches!(event, Event::Other { .. })).count();
-    assert_eq!((others, matches!(told.last(), Some(Event::Other { .. }))), (1, true), "{told:?}");
+    let others = reported.iter().filter(|event| matches!(event, Event::Other { .. })).count();
+    assert_eq!((others, matches!(reported.last(), Some(Event::Other { .. }))), (1, true), "{reported:?}");
     assert!(session.gap().is_some());
     socket.exchange();
     assert_eq!(until(&mut session, |event| *event == Event::Hello), Event::Hello);
     until(&mut session, |event| matches!(event, Event::Back { .. }));
-    assert_eq!(session.client().worn().unwrap().garment, wears("head"));
+    assert_eq!(session.client().description().unwrap().garment, named("head"));
 }
 
 #[test]
 fn a_recording_of_another_board_is_refused_with_its_reason() {
-    let source = rig::open(&Arc::new(Mutex::new(Rig::wearing(wears("hand"))))).unwrap();
+    let source = rig::open(&Arc::new(Mutex::new(Rig::with_garment(named("hand"))))).unwrap();
     let mut session = Session::new(Source { returns: None, ..source }, Returns::Always);
-    session.recognise(Identity::new(None, Some(wears("head"))));
+    session.recognise(Identity::new(None, Some(named("head"))));
     session.parts().0.start(0).unwrap();
     let error = loop {
         if let Err(error) = session.poll() {

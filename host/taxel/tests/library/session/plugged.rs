@@ -1,4 +1,4 @@
-//! Ports that a test hands in: which board is opened, and what is told where none can be.
+//! Ports that a test hands in: which board is opened, and what is reported where none can be.
 
 use super::rig::{self, Rig};
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
@@ -68,7 +68,7 @@ fn board() -> Behind {
     let rig = Arc::new(Mutex::new(Rig::new()));
     let mut session = Session::new(rig::source(&rig), Returns::Never);
     session.parts().0.start(0).unwrap();
-    while session.client().worn().is_none() {
+    while session.client().description().is_none() {
         session.poll().unwrap();
     }
     Behind::Board(rig)
@@ -97,7 +97,7 @@ fn fault(spec: &str, ports: Vec<BenchPort>) -> (&'static str, String) {
 }
 
 #[test]
-fn a_board_that_cannot_be_used_is_told_by_its_fault_and_nothing_is_simulated() {
+fn a_board_that_cannot_be_used_is_reported_by_its_fault_and_nothing_is_simulated() {
     let none = fault("auto", vec![]);
     let ids = "no serial port has the USB id of a board, 1209:0001";
     assert_eq!(none, ("none", format!("no board is plugged in: {ids}, or of a probe")));
@@ -115,16 +115,16 @@ fn a_board_that_cannot_be_used_is_told_by_its_fault_and_nothing_is_simulated() {
         (PROBE, None, Behind::Nothing),
         (PROBE, None, Behind::Fault(SourceError::NotPermitted)),
     ];
-    let (kind, told) = fault("auto", probes);
+    let (kind, reported) = fault("auto", probes);
     assert_eq!(kind, "not permitted");
     assert!(
-        told.starts_with("serial:port0@921600 is silent: ") && told.ends_with(", port2 is at fault"),
-        "{told}"
+        reported.starts_with("serial:port0@921600 is silent: ") && reported.ends_with(", port2 is at fault"),
+        "{reported}"
     );
-    let (kind, told) = fault("auto", vec![(PROBE, None, Behind::Bytes(b"1 2 3\n"))]);
+    let (kind, reported) = fault("auto", vec![(PROBE, None, Behind::Bytes(b"1 2 3\n"))]);
     assert!(
-        kind == "foreign" && told.ends_with(" bytes of text lines of 3 numbers: no taxel board"),
-        "{told}"
+        kind == "foreign" && reported.ends_with(" bytes of text lines of 3 numbers: no taxel board"),
+        "{reported}"
     );
 }
 
@@ -150,9 +150,9 @@ fn of_several_boards_none_is_taken_unless_it_is_named_or_the_first_will_do() {
         vec![(PROBE, Some("P1"), board()), (PROBE, Some("P2"), board()), (PROBE, None, Behind::Nothing)];
     let several = "2 boards are plugged in: name one of usb:P1 (port0), usb:P2 (port1)";
     assert_eq!(fault("auto", probes), ("several", several.into()));
-    let (kind, told) = fault("usb:C3", two());
+    let (kind, reported) = fault("usb:C3", two());
     assert_eq!(
-        (kind, told.as_str()),
+        (kind, reported.as_str()),
         ("none", "no board on USB has the serial number C3: there are A1 on port0, B2 on port1, P3 on port2")
     );
 }

@@ -1,4 +1,4 @@
-//! A robot's posture, told to a board while it streams, against motions that are known exactly.
+//! A robot's posture, sent to a board while it streams, against motions that are known exactly.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ fn motion() -> Motion {
     Motion { angular: WAVE.0 * WAVE.1 * WAVE.1, ..Motion::default() }
 }
 
-/// A simulated board that wears the reference body, with a report of what presses in each frame.
+/// A simulated board with the reference body, with a report of what presses in each frame.
 fn open(scene: &str, realtime: bool, seconds: f64) -> Session {
     let options = SourceOptions {
         body: Some("reference".into()),
@@ -58,9 +58,9 @@ fn posing(hz: f64) -> Posing {
 /// Robot and surface, to compare with.
 fn judge(session: &Session) -> (Arc<Robot>, RobotSurface) {
     let robot = Arc::new(robot::read("reference").unwrap());
-    let worn = session.client().worn().unwrap();
+    let description = session.client().description().unwrap();
     let body = body::read("reference").unwrap();
-    let surface = body.on_robot(&worn.garment, &worn.layout, robot.clone()).unwrap();
+    let surface = body.on_robot(&description.garment, &description.layout, robot.clone()).unwrap();
     (robot, surface)
 }
 
@@ -74,14 +74,14 @@ fn metres(um: [i32; 3]) -> DVec3 {
 fn contacts_in_the_base_are_as_near_as_their_message_says() {
     let mut session = open("sim:five", true, 4.0);
     session.pose_by(posing(50.0));
-    let (mut told_us, mut judged, mut worst, mut widest) = (0, 0, 0.0f64, 0.0f64);
+    let (mut sent_us, mut judged, mut worst, mut widest) = (0, 0, 0.0f64, 0.0f64);
     let mut ages = Vec::new();
     let mut ends = None;
     loop {
         let now = session.posing().unwrap().1.now().map_or(0, |now| now.0);
-        while told_us + 20_000 <= now {
-            told_us += 10_000;
-            session.take_joints(JointTime::Board(Micros(told_us)), positions(told_us)).unwrap();
+        while sent_us + 20_000 <= now {
+            sent_us += 10_000;
+            session.take_joints(JointTime::Board(Micros(sent_us)), positions(sent_us)).unwrap();
         }
         match session.poll().unwrap() {
             Poll::Event(event @ Event::Pressing(_)) => {
@@ -120,7 +120,7 @@ fn contacts_in_the_base_are_as_near_as_their_message_says() {
 }
 
 #[test]
-fn without_positions_no_poses_are_told() {
+fn without_positions_no_poses_are_sent() {
     let mut session = open("sim:pat", false, 1.0);
     session.pose_by(posing(50.0));
     let (mut reports, mut asked) = (0, 0);
@@ -225,11 +225,11 @@ fn wrong_lines_are_named_by_file_and_number() {
     ] {
         let path = file("wrong.jsonl", &format!("{good}{bad}"));
         let error = played(&path, |_, _| ()).unwrap_err();
-        let error = taxel::tell::words::sentence(&error);
+        let error = taxel::text::words::sentence(&error);
         assert!(error.starts_with(&format!("{}, {why}", path.display())), "{error}");
     }
     let long = file("long.jsonl", &" ".repeat(1 << 20));
-    let error = taxel::tell::words::sentence(&played(&long, |_, _| ()).unwrap_err());
+    let error = taxel::text::words::sentence(&played(&long, |_, _| ()).unwrap_err());
     assert!(error.ends_with("line 1: the line is longer than 1048576 bytes"), "{error}");
     let error = JointStates::open(&file("none.jsonl", "").with_file_name("nowhere.jsonl")).err().unwrap();
     assert!(error.to_string().starts_with("cannot read "), "{error}");

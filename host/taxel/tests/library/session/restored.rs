@@ -77,7 +77,7 @@ pub fn until(session: &mut Session, mut is_it: impl FnMut(&Event) -> bool) -> Ev
 
 /// A remark of the host that holds these words.
 #[track_caller]
-pub fn told(session: &mut Session, words: &str) -> String {
+pub fn reported(session: &mut Session, words: &str) -> String {
     let holds =
         |event: &Event| event.remark().is_some_and(|text| text.starts_with("rig ") && text.contains(words));
     until(session, holds).remark().unwrap().to_string()
@@ -112,9 +112,9 @@ fn everything_is_set_again_whatever_breaks() {
             rig.asked.clear();
         }
         if breaks {
-            assert!(told(&mut session, "is gone").ends_with("waiting for it"));
+            assert!(reported(&mut session, "is gone").ends_with("waiting for it"));
         }
-        let text = told(&mut session, if restarts { "restarted" } else { "kept running" });
+        let text = reported(&mut session, if restarts { "restarted" } else { "kept running" });
         assert_eq!(text.contains("is back after"), breaks, "{text}");
         until(&mut session, |event| matches!(event, Event::Frame { .. }));
         let rig = rig.lock().unwrap();
@@ -125,8 +125,8 @@ fn everything_is_set_again_whatever_breaks() {
         assert_eq!(asked, expected, "round {round}");
         assert_eq!((rig.garment(), rig.scene()), (&garment(), &scene()), "round {round}");
         assert_eq!(rig.calibration(), (5000, Some(77)), "round {round}");
-        assert_eq!(session.client().worn().unwrap().garment, garment());
-        assert_eq!(session.client().worn().unwrap().scene, scene());
+        assert_eq!(session.client().description().unwrap().garment, garment());
+        assert_eq!(session.client().description().unwrap().scene, scene());
     }
     println!("memory: {0} restarts, disconnects and both; {0} times everything set again in order", rounds());
 }
@@ -150,7 +150,7 @@ fn what_was_replaced_or_taken_back_is_not_set_again() {
         answers == 7
     });
     rig.lock().unwrap().restart();
-    told(&mut session, "set again");
+    reported(&mut session, "set again");
     let rig = rig.lock().unwrap();
     assert_eq!(rig.asked, [5, 6, 0, 4]);
     assert_eq!((rig.garment(), rig.scene()), (&garment(), &scene()));
@@ -166,7 +166,7 @@ fn a_board_that_restarts_before_it_has_answered_is_asked_again() {
     client.start(0).unwrap();
     session.poll().unwrap();
     rig.lock().unwrap().restart();
-    told(&mut session, "set again");
+    reported(&mut session, "set again");
     let rig = rig.lock().unwrap();
     assert_eq!(rig.scene(), &scene());
 }

@@ -43,17 +43,17 @@ pub struct Rig {
     /// Codes of its converter.
     pub codes: [Code; 64],
     /// Garment at its start.
-    wears: Garment,
+    garment_at_start: Garment,
 }
 
 impl Rig {
     /// A board just after power-up.
     pub fn new() -> Rig {
-        Rig::wearing(Garment::block())
+        Rig::with_garment(Garment::block())
     }
 
     /// A board of 64 taxels that ships with this garment, just after power-up.
-    pub fn wearing(garment: Garment) -> Rig {
+    pub fn with_garment(garment: Garment) -> Rig {
         let now = Instant::now();
         Rig {
             board: board(Pins::ANY, "", &garment),
@@ -68,13 +68,13 @@ impl Rig {
             chip: "",
             deaf: false,
             codes: [Code(100); 64],
-            wears: garment,
+            garment_at_start: garment,
         }
     }
 
     /// Cycles the power.
     pub fn restart(&mut self) {
-        self.board = board(self.pins, self.chip, &self.wears);
+        self.board = board(self.pins, self.chip, &self.garment_at_start);
         self.booted = Instant::now();
         self.to_host.clear();
         self.receiver = Receiver::new();

@@ -12,7 +12,7 @@ use taxel::client::Buses;
 use taxel::error::{ErrorKind, SourceError};
 use taxel::robot::ReadRobot;
 use taxel::source::{Source, SourceOptions, SourceSpec};
-use taxel::tell::date;
+use taxel::text::date;
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:

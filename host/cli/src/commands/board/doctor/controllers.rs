@@ -20,13 +20,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boards_are_told_who_shares_their_controller() {
+    fn boards_are_shown_who_shares_their_controller() {
         let boards =
             [("a", Some(0)), ("b", Some(1)), ("c", None), ("d", Some(0)), ("e", Some(0)), ("f", None)];
-        let told = |at| controller(&boards, at).map(|found| found.what);
-        let ends = |at, end: &str| told(at).is_some_and(|what| what.ends_with(end));
+        let reported = |at| controller(&boards, at).map(|found| found.what);
+        let ends = |at, end: &str| reported(at).is_some_and(|what| what.ends_with(end));
         assert!(ends(0, "with d, e") && ends(3, "with a, e") && ends(4, "with a, d"));
-        assert!(told(1).unwrap().starts_with("no other board"));
-        assert_eq!([told(2), told(5), told(6)], [None, None, None]);
+        assert!(reported(1).unwrap().starts_with("no other board"));
+        assert_eq!([reported(2), reported(5), reported(6)], [None, None, None]);
     }
 }

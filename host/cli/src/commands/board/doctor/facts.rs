@@ -1,6 +1,6 @@
 //! Observations of a board over some seconds.
 
-use taxel::client::{Buses, Client, Event, Stamp, Worn};
+use taxel::client::{BoardDescription, Buses, Client, Event, Stamp};
 use taxel::session::Observer;
 use taxel_core::boot::Boot;
 use taxel_core::garment::Garment;
@@ -31,7 +31,7 @@ pub struct Facts {
     /// The board's counters, first and last report.
     pub health: Option<[Health; 2]>,
     /// Number of faulty taxels.
-    pub ill: usize,
+    pub faulty: usize,
     /// Uncertainty of the host's time of a frame, us; none if the board is not real-time, or has not
     /// answered.
     pub clock_us: Option<u64>,
@@ -40,12 +40,12 @@ pub struct Facts {
     /// Lines and inputs of a garment, and what the last self-test found of them.
     pub pins: Option<(Garment, Findings)>,
     /// Errors that the board has logged, and losses of its link.
-    pub told: Vec<String>,
+    pub logged: Vec<String>,
     /// A self-test was requested.
     pub asked: bool,
     /// USB host controllers that the board may share with others.
     pub buses: Buses,
-    /// Number of the one that it is on; none if it has told no start of a frame.
+    /// Number of the one that it is on; none if it has reported no start of a frame.
     pub bus: Option<usize>,
 }
 
@@ -60,8 +60,8 @@ impl Observer for Facts {
     fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
         match event {
             Event::Hello => {
-                self.firmware = client.worn().map(|worn| worn.firmware.clone());
-                self.simulated = client.worn().is_some_and(Worn::is_simulated);
+                self.firmware = client.description().map(|description| description.firmware.clone());
+                self.simulated = client.description().is_some_and(BoardDescription::is_simulated);
                 self.boot = client.boot();
             }
             Event::Unusable(why) => self.unusable = Some(why.clone()),
@@ -73,15 +73,15 @@ impl Observer for Facts {
                 self.health = Some([self.health.map_or(*health, |[first, _]| first), *health]);
             }
             Event::SelfTest(report) => {
-                let worn = client.worn().map(|worn| worn.garment.clone());
-                self.pins = worn.map(|garment| (garment, report.findings.clone()));
+                let description = client.description().map(|description| description.garment.clone());
+                self.pins = description.map(|garment| (garment, report.findings.clone()));
             }
             Event::Answer { request, refusal } if *request == Request::SelfTest.number() => {
                 self.self_test = Some(refusal.clone().map_or(Ok(()), Err));
             }
             Event::Log { level: taxel_core::wire::Level::Error, text, .. }
             | Event::Lost { why: text, .. } => {
-                self.told.push(text.clone());
+                self.logged.push(text.clone());
             }
             _ => {}
         }
@@ -89,7 +89,7 @@ impl Observer for Facts {
     }
 
     fn idle(&mut self, client: &mut Client) -> taxel::Result<()> {
-        if client.worn().is_some() && !std::mem::replace(&mut self.asked, true) {
+        if client.description().is_some() && !std::mem::replace(&mut self.asked, true) {
             client.share(self.buses.clone());
             client.request(&Request::SelfTest)?;
         }
@@ -100,10 +100,10 @@ impl Observer for Facts {
         let counts = client.counts();
         self.images = [counts.frames, counts.thinned, counts.undecoded];
         self.lost = [counts.lost, counts.refused()];
-        self.ill = client.ill().len();
+        self.faulty = client.faulty().len();
         self.bus = client.bus();
-        if let Some(worn) = client.worn() {
-            (self.taxels, self.calibration) = (worn.layout.taxels(), worn.calibration.clone());
+        if let Some(description) = client.description() {
+            (self.taxels, self.calibration) = (description.layout.taxels(), description.calibration.clone());
         }
         let last = self.frames.map(|[_, (_, time)]| taxel_core::format::Micros(time));
         self.clock_us = last.and_then(|time| client.host_time(time)).map(|time| time.uncertainty_us);

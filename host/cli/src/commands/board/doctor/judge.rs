@@ -3,13 +3,13 @@
 use super::facts::Facts;
 use super::finding::Finding;
 use taxel::json::pins;
-use taxel::tell::date::days_between;
-use taxel::tell::starts;
+use taxel::text::date::days_between;
+use taxel::text::starts;
 use taxel_core::boot::{Aside, Boot};
 use taxel_core::wire::Health;
 
 /// Share of taxels that may be faulty before the garment counts as faulty.
-const ILL: f64 = 0.05;
+const FAULTY_SHARE: f64 = 0.05;
 /// Days after which a calibration is old.
 const OLD: u64 = 180;
 /// Tolerated uncertainty of the host's time, us.
@@ -52,8 +52,8 @@ pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
     found.extend(facts.clock_us.map(clock));
     found.push(calibration(&facts.calibration, today));
     found.extend(self_test(facts));
-    let told = |text: &String| Finding::weak("board", text.clone(), "see docs/troubleshooting.md");
-    found.extend(facts.told.iter().map(told));
+    let reported = |text: &String| Finding::weak("board", text.clone(), "see docs/troubleshooting.md");
+    found.extend(facts.logged.iter().map(reported));
     found
 }
 
@@ -155,10 +155,10 @@ fn scans(first: &Health, last: &Health) -> Finding {
 }
 
 fn taxels(facts: &Facts) -> Finding {
-    let what = format!("{} of {} taxels are faulty", facts.ill, facts.taxels);
-    match facts.ill {
+    let what = format!("{} of {} taxels are faulty", facts.faulty, facts.taxels);
+    match facts.faulty {
         0 => Finding::good("taxels", what),
-        ill if (ill as f64) < ILL * facts.taxels as f64 => {
+        faulty if (faulty as f64) < FAULTY_SHARE * facts.taxels as f64 => {
             Finding::weak("taxels", what, "`taxel health` lists them; the filter bridges single ones")
         }
         _ => {
@@ -177,22 +177,22 @@ fn clock(uncertainty_us: u64) -> Finding {
     }
 }
 
-fn calibration(told: &str, today: &str) -> Finding {
-    if told.is_empty() {
+fn calibration(reported: &str, today: &str) -> Finding {
+    if reported.is_empty() {
         return Finding::weak(
             "calibration",
             "none: pressure is in counts",
             "`taxel calibrate`, if forces are wanted",
         );
     }
-    let days = told.split(", ").nth(1).and_then(|date| days_between(date, today));
+    let days = reported.split(", ").nth(1).and_then(|date| days_between(date, today));
     match days {
         Some(days) if days > OLD => Finding::weak(
             "calibration",
-            format!("{told}: {days} days old"),
+            format!("{reported}: {days} days old"),
             "`taxel calibrate check FILE` checks whether it still holds",
         ),
-        _ => Finding::good("calibration", told),
+        _ => Finding::good("calibration", reported),
     }
 }
 
@@ -287,14 +287,14 @@ mod tests {
             (Facts { frames: Some([(1, 0), (26, 1_000_000)]), ..well() }, "images", Grade::Weak),
             (Facts { health: Some([Health::default(), failed]), ..well() }, "scan", Grade::Bad),
             (Facts { health: Some([Health::default(), overrun]), ..well() }, "scan", Grade::Weak),
-            (Facts { ill: 1, ..well() }, "taxels", Grade::Weak),
-            (Facts { ill: 512, ..well() }, "taxels", Grade::Bad),
+            (Facts { faulty: 1, ..well() }, "taxels", Grade::Weak),
+            (Facts { faulty: 512, ..well() }, "taxels", Grade::Bad),
             (Facts { clock_us: Some(50_000), ..well() }, "clock", Grade::Weak),
             (Facts { calibration: String::new(), ..well() }, "calibration", Grade::Weak),
             (Facts { calibration: "id 0, 2025-11-21, 1 %".into(), ..well() }, "calibration", Grade::Weak),
             (Facts { pins: examined(&[stuck]), ..well() }, "self-test", Grade::Bad),
             (Facts { pins: None, self_test: Some(Err("busy".into())), ..well() }, "self-test", Grade::Weak),
-            (Facts { told: vec!["scan: no signal".into()], ..well() }, "board", Grade::Weak),
+            (Facts { logged: vec!["scan: no signal".into()], ..well() }, "board", Grade::Weak),
         ];
         for (facts, of, want) in cases {
             assert_eq!(grade(&facts, of), want, "{of}: {facts:?}");

@@ -10,7 +10,7 @@ use std::thread;
 use taxel::client::Buses;
 use taxel::robot::{ReadRobot, RobotBoard};
 use taxel::source::SourceOptions;
-use taxel::tell::words;
+use taxel::text::words;
 
 /// Runs the command: all boards at once. Error if one does not work.
 pub fn run(args: &DoctorArgs, robot: &ReadRobot) -> Result<()> {
@@ -18,15 +18,15 @@ pub fn run(args: &DoctorArgs, robot: &ReadRobot) -> Result<()> {
     let worst_of_all = all.iter().map(|found| worst(found)).max().unwrap_or(Grade::Good);
     let boards = || robot.boards.iter().zip(&all);
     if args.json {
-        let told = boards().map(|(board, found)| {
+        let reported = boards().map(|(board, found)| {
             json!({
                 "board": board.name, "source": board.source.to_string(), "verdict": worst(found), "findings": found,
             })
         });
-        let told: Value = told.collect();
+        let reported: Value = reported.collect();
         println!(
             "{}",
-            json!({ "type": "doctor", "robot": robot.name, "verdict": worst_of_all, "boards": told })
+            json!({ "type": "doctor", "robot": robot.name, "verdict": worst_of_all, "boards": reported })
         );
     } else {
         for (board, found) in boards() {

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 use taxel::files::calibrate::{Calibration, Over, Plate, Reading, Reason, Seen, judge, plates};
 use taxel::source::SourceSpec;
-use taxel::tell::date;
+use taxel::text::date;
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;
 
@@ -49,19 +49,19 @@ pub fn run(args: &CalibrationCheckArgs) -> Result<()> {
     let calibration = Calibration::read(&args.file)?;
     let Some(every) = args.every else {
         let reasons = reasons(args, &calibration)?;
-        tell(args, &calibration, &reasons);
+        print(args, &calibration, &reasons);
         ensure!(reasons.is_empty(), "calibration {} does not hold", calibration.id);
         return Ok(());
     };
     let pause = Duration::try_from_secs_f64(every).context("--every").usage()?;
-    let mut told = None;
+    let mut reported = None;
     loop {
         let now = reasons(args, &calibration)?;
         // The numbers in a reason change all the time; only a change of the kinds of reasons is reported.
         let kinds: Vec<_> = now.iter().map(std::mem::discriminant).collect();
-        if told.as_ref() != Some(&kinds) {
-            tell(args, &calibration, &now);
-            told = Some(kinds);
+        if reported.as_ref() != Some(&kinds) {
+            print(args, &calibration, &now);
+            reported = Some(kinds);
         }
         std::thread::sleep(pause);
     }
@@ -70,8 +70,8 @@ pub fn run(args: &CalibrationCheckArgs) -> Result<()> {
 /// Checks the garment once.
 fn reasons(args: &CalibrationCheckArgs, calibration: &Calibration) -> Result<Vec<Reason>> {
     let mut board = RawBoard::open(&args.source)?;
-    let worn = board.worn().context("the board has not sent its garment").board()?;
-    let (garment, told) = (worn.garment.clone(), worn.calibration.clone());
+    let description = board.description().context("the board has not sent its garment").board()?;
+    let (garment, reported) = (description.garment.clone(), description.calibration.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let mut dialogue = Dialogue::new(&mut board, garment.wiring.falling, args.wait, args.json);
     if args.every.is_none() {
@@ -87,13 +87,14 @@ fn reasons(args: &CalibrationCheckArgs, calibration: &Calibration) -> Result<Vec
         press = Some((newtons, felt(calibration, &plates[0], reading)?));
     }
     let celsius = board.celsius();
-    let ill = board.ill().keys().copied().collect();
+    let faulty = board.faulty().keys().copied().collect();
     board.give_back()?;
-    let seen = Seen { told, rest: rest.codes, ill, today: date::today(), days: args.days, press, celsius };
+    let seen =
+        Seen { reported, rest: rest.codes, faulty, today: date::today(), days: args.days, press, celsius };
     Ok(judge(calibration, &seen))
 }
 
-fn tell(args: &CalibrationCheckArgs, calibration: &Calibration, reasons: &[Reason]) {
+fn print(args: &CalibrationCheckArgs, calibration: &Calibration, reasons: &[Reason]) {
     if args.json {
         let why: Vec<String> = reasons.iter().map(ToString::to_string).collect();
         let line = json!({ "type": "check", "id": calibration.id, "holds": why.is_empty(), "why": why });

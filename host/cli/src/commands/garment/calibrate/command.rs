@@ -127,7 +127,7 @@ pub fn run(args: CalibrateArgs) -> Result<()> {
     let output = Output::stream(&args.output, args.force, inputs)?;
     let mut board = open(&args, &weights)?;
     if let (Some(garment), None) = (&args.garment, args.simulate) {
-        board.wear(&taxel::files::garments::load(garment)?)?;
+        board.use_garment(&taxel::files::garments::load(garment)?)?;
     }
     let task = CalibrationTask {
         over: Over::from(args.over),
@@ -143,7 +143,7 @@ pub fn run(args: CalibrateArgs) -> Result<()> {
         board.ask(&Request::Save)?;
     }
     board.give_back()?;
-    tell(&args, &made);
+    print(&args, &made);
     Ok(())
 }
 
@@ -184,7 +184,7 @@ fn by(args: &CalibrateArgs) -> String {
     args.by.clone().or_else(user).unwrap_or_else(|| "unknown".into())
 }
 
-fn tell(args: &CalibrateArgs, made: &Calibration) {
+fn print(args: &CalibrateArgs, made: &Calibration) {
     let fit = &made.fit;
     if args.json {
         let file = args.output.display().to_string();

@@ -113,7 +113,7 @@ impl<'a> Dialogue<'a> {
             if let Some(held) = steady.take(counts) {
                 let (counts, noise) = (held.counts, held.noise);
                 let reading = Reading { plate: index, newtons, going, counts, noise };
-                self.tell(&reading);
+                self.show(&reading);
                 return Ok(Some(reading));
             }
             if now - *began.get_or_insert(now) > self.wait {
@@ -156,7 +156,7 @@ impl<'a> Dialogue<'a> {
         Ok((self.seen, plate.taxels.iter().map(above).collect()))
     }
 
-    fn tell(&self, reading: &Reading) {
+    fn show(&self, reading: &Reading) {
         let (counts, noise) = (mean(reading.counts.iter().copied()), mean(reading.noise.iter().copied()));
         let line = json!({
             "type": "reading", "plate": reading.plate, "newtons": reading.newtons, "going": reading.going,

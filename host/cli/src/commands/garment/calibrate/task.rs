@@ -28,8 +28,8 @@ pub struct CalibrationTask {
 
 /// Tares the board, asks for the weights and fits. The board's own calibration is not changed.
 pub fn calibrate(board: &mut RawBoard, task: &CalibrationTask) -> Result<Calibration> {
-    let worn = board.worn().context("the board has not sent its garment").board()?;
-    let (garment, firmware) = (worn.garment.clone(), worn.firmware.clone());
+    let description = board.description().context("the board has not sent its garment").board()?;
+    let (garment, firmware) = (description.garment.clone(), description.firmware.clone());
     let layout = Layout::build(&garment, usize::from(u16::MAX), 4095)?;
     let plates = plates(&garment, &layout, task.over)?;
     let mut dialogue = Dialogue::new(board, garment.wiring.falling, task.wait, task.json);

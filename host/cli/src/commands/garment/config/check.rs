@@ -30,7 +30,7 @@ pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
         None => String::new(),
         Some(file) => {
             let file = SceneFile::read(file)?;
-            let slow = wears_slowly(garment, &file.scene);
+            let slow = scans_slowly(garment, &file.scene);
             let mut scene = file.scene.clone();
             setup.change_scene(&BOARD, &mut scene).map_err(|error| match error {
                 SetupError::Scene(error) => file.error(&scene_key(&error), error),
@@ -49,7 +49,7 @@ fn bare() -> Scene {
 }
 
 /// True if a frame of the scene takes too long even without averaging.
-fn wears_slowly(garment: &Garment, scene: &Scene) -> bool {
+fn scans_slowly(garment: &Garment, scene: &Scene) -> bool {
     let mut plain = Scene { plan: scene.plan, ..bare() };
     plain.plan.depth = Depth::Twelve;
     matches!(Setup::build(&BOARD, garment.clone(), plain, TAXELS), Err(SetupError::Slow(_)))

@@ -44,8 +44,8 @@ fn row(board: &RobotBoard) -> [String; 9] {
     [
         name.clone(),
         source.to_string(),
-        garment.as_ref().map_or("any".into(), |worn| worn.garment.name.to_string()),
-        garment.as_ref().map_or("-".into(), |worn| worn.layout.taxels().to_string()),
+        garment.as_ref().map_or("any".into(), |board_garment| board_garment.garment.name.to_string()),
+        garment.as_ref().map_or("-".into(), |board_garment| board_garment.layout.taxels().to_string()),
         match (body, link) {
             (Some(body), _) => format!("body {body}"),
             (None, Some(link)) => link.clone(),
@@ -75,14 +75,14 @@ fn also(board: &RobotBoard) -> Vec<&'static str> {
 
 fn report(robot: &ReadRobot) -> Value {
     let board = |board: &RobotBoard| {
-        let worn = board.garment.as_ref();
-        let areas = worn.map(|worn| worn.layout.areas());
+        let board_garment = board.garment.as_ref();
+        let areas = board_garment.map(|board_garment| board_garment.layout.areas());
         let panels = areas.map(|areas| areas.iter().map(|area| area.name.as_str()).collect::<Vec<_>>());
         json!({
             "name": board.name,
             "source": board.source.to_string(),
-            "garment": worn.map(|worn| worn.garment.name.as_str()),
-            "taxels": worn.map(|worn| worn.layout.taxels()),
+            "garment": board_garment.map(|board_garment| board_garment.garment.name.as_str()),
+            "taxels": board_garment.map(|board_garment| board_garment.layout.taxels()),
             "panels": panels,
             "scene": board.scene.as_ref().map(|scene| scene.scene.name.as_str()),
             "calibration": board.calibration.as_ref().map(|calibration| calibration.id.as_str()),

@@ -100,7 +100,7 @@ impl Places {
 }
 
 /// Checks the distance from the requested place on a panel whose last index is `last`. The tolerance is small
-/// enough to tell the two sides of a panel apart.
+/// enough to distinguish the two sides of a panel.
 fn near(off: f64, last: f64) -> Result<f64, String> {
     if off.abs() <= OFF.min(last / 2.0 - 0.01).max(0.5) {
         Ok(off.abs())

@@ -123,7 +123,7 @@ fn on_a_board(args: &SetupArgs) -> Result<Found> {
     let mut board = RawBoard::open(&args.source)?;
     let template = given.unwrap_or_else(|| board.garment().clone());
     let mut solver = solver(&template)?;
-    board.wear(&solver.bundle().probe(&template))?;
+    board.use_garment(&solver.bundle().probe(&template))?;
     if !args.json {
         println!("{}: hands off for a moment.", board.label());
     }

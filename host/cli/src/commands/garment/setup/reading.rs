@@ -136,7 +136,7 @@ fn ranked(gaps: &[Gap], fine: usize) -> Result<(Vec<usize>, f64), String> {
         margin = margin.min(still.max(farther));
     }
     if margin < 0.1 {
-        return Err("the stroke was too uneven to tell the address lines apart".into());
+        return Err("the stroke was too uneven to distinguish the address lines".into());
     }
     Ok((lines, margin))
 }

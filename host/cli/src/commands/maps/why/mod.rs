@@ -2,13 +2,13 @@
 
 mod robot;
 
-use crate::commands::maps::told::ToldArgs;
+use crate::commands::maps::reported::ReportedArgs;
 use anyhow::Result;
 use serde_json::json;
 use taxel::fcm::decimal::Decimal;
 use taxel::fcm::load;
-use taxel::fcm::told::Told;
-use taxel::fcm::why::{explain, explain_told, report, text, what_if};
+use taxel::fcm::reported::ReportedIntent;
+use taxel::fcm::why::{explain, explain_reported, report, text, what_if};
 
 /// Arguments of `taxel fcm why`.
 #[derive(Debug, Clone, clap::Args)]
@@ -21,7 +21,7 @@ pub struct WhyArgs {
     pub input: Vec<(String, Decimal)>,
     /// Alternatively a source.
     #[command(flatten)]
-    pub told: ToldArgs,
+    pub reported: ReportedArgs,
     /// Concept to explain [default: the announced or the strongest intention, else the strongest concept that
     /// has causes]
     #[arg(long)]
@@ -39,29 +39,29 @@ pub struct WhyArgs {
 
 /// Runs the command.
 pub fn run(args: WhyArgs) -> Result<()> {
-    if let Some(robot) = args.told.robot()? {
+    if let Some(robot) = args.reported.robot()? {
         return robot::run(&args, &robot);
     }
-    let told = args.told.listen()?;
-    let (file, inputs) = match (&told, &args.map) {
-        (Some(told), _) => (told.map.clone(), told.inputs()),
+    let reported = args.reported.listen()?;
+    let (file, inputs) = match (&reported, &args.map) {
+        (Some(reported), _) => (reported.map.clone(), reported.inputs()),
         (None, map) => (load::map(map.as_deref().unwrap_or_default())?, args.input.clone()),
     };
-    let explained = match &told {
-        Some(told) => explain_told(told, args.of.as_deref())?,
+    let explained = match &reported {
+        Some(reported) => explain_reported(reported, args.of.as_deref())?,
         None => explain(&file, &inputs, args.of.as_deref())?,
     };
     let changed = if args.set.is_empty() { None } else { Some(what_if(&file, &inputs, &args.set)?) };
     if args.json {
         let mut value = report(&explained, changed.as_ref());
-        if let Some(Told { report, seconds, .. }) = &told {
+        if let Some(ReportedIntent { report, seconds, .. }) = &reported {
             value["leading"] = json!(report.leading.as_str());
             value["frame"] = json!(report.frame);
             value["seconds"] = json!(seconds);
         }
         println!("{value}");
     } else {
-        print!("{}", told.as_ref().map_or_else(String::new, Told::text));
+        print!("{}", reported.as_ref().map_or_else(String::new, ReportedIntent::text));
         print!("{}", text(&file, &explained, changed.as_ref(), args.paths));
     }
     Ok(())

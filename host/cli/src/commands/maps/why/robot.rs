@@ -1,7 +1,7 @@
 //! `taxel fcm why` of a robot: explains what touches mean to the robot, down to the contacts of its boards.
 
 use super::WhyArgs;
-use crate::watch::{RequestLines, RobotObserver, Told, run_limit, watch_robot};
+use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::time::Duration;
 use taxel::mind::{BoardSense, MindReader, RobotMeaning, RobotMind, RobotReasons};
@@ -14,14 +14,14 @@ const LOOK: Duration = Duration::from_millis(20);
 
 /// Runs the command: simulations are played at real time. Error if no intention is announced.
 pub fn run(args: &WhyArgs, robot: &ReadRobot) -> Result<()> {
-    let requests = RequestLines::of(args.told.requests.as_deref())?;
+    let requests = RequestLines::of(args.reported.requests.as_deref())?;
     let options = SourceOptions { realtime: true, ..SourceOptions::default() };
     let plans = robot.plans(&options, &run_limit(None, None));
     let session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
         let mut reader = MindReader::new(robot, number);
         queue.make(move |client, event, _| reader.sense(client, event))
     })?;
-    let (at, begun_us) = (args.told.at, session.now_us());
+    let (at, begun_us) = (args.reported.at, session.now_us());
     let mut ear = RobotEar { mind: RobotMind::new(robot)?, at, begun_us, found: None };
     watch_robot(robot, session, requests, &mut ear)?;
     let reasons = match (ear.found, at) {
@@ -60,12 +60,12 @@ impl RobotObserver<BoardSense> for RobotEar {
     fn event(
         &mut self,
         session: &RobotStream<BoardSense>,
-        told: &[Told],
+        inputs: &[HostInput],
         event: Option<&RobotEvent<BoardSense>>,
     ) -> Result<()> {
         let seconds = session.now_us().saturating_sub(self.begun_us) as f64 / 1e6;
         let is_found = |meaning: &RobotMeaning| self.at.is_none() && meaning.leading != Leading::None;
-        let mut is_now = told.iter().filter_map(|told| told.news.as_ref()).any(is_found)
+        let mut is_now = inputs.iter().filter_map(|input| input.news.as_ref()).any(is_found)
             || self.at.is_some_and(|at| seconds >= at);
         // What is to be explained stays as it is.
         if let Some(event) = event.filter(|_| !is_now) {

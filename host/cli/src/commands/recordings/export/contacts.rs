@@ -25,12 +25,12 @@ pub fn write(frames: &Frames<'_>, out: &mut impl Write) -> Result<u64> {
 
 fn row(frame: &Frame, placed: &Placed, out: &mut impl Write) -> Result<()> {
     let contact = &placed.contact;
-    let area = frame.worn.layout.areas().get(usize::from(contact.panel));
+    let area = frame.recorded.layout.areas().get(usize::from(contact.panel));
     let (name, link) = area.map_or(Default::default(), |area| (quoted(&area.name), quoted(&area.link)));
     let [column, row] = [contact.x.to_f64(), contact.y.to_f64()];
     let pitch = area.map_or([0.0; 2], |area| area.pitch_um.map(|um| f64::from(um) / 1000.0));
     let mm = |at: f64, pitch: f64| (pitch > 0.0).then(|| format!("{:.3}", at * pitch));
-    let force = frame.worn.units.newtons(contact.total).map(|newtons| format!("{newtons:.4}"));
+    let force = frame.recorded.units.newtons(contact.total).map(|newtons| format!("{newtons:.4}"));
     let azimuth = contact.azimuth.map(|turn| format!("{:.4}", turn.to_radians()));
     Ok(writeln!(
         out,

@@ -49,8 +49,8 @@ impl ContactTable {
 
     fn frame(&self, frame: &Frame, texts: &mut Texts, out: &mut impl Write) -> Result<()> {
         let time = time(frame.board_us);
-        let worn = &frame.worn;
-        for (panel, area) in worn.layout.areas().iter().enumerate() {
+        let recorded = &frame.recorded;
+        for (panel, area) in recorded.layout.areas().iter().enumerate() {
             let values = frames::panel(area, &frame.values);
             let codes = frames::panel(area, &frame.codes);
             if texts.panels.len() == panel {
@@ -69,7 +69,7 @@ impl ContactTable {
                         format!("{:.4}", f64::from(*code) * self.reference / GREATEST)
                     });
                 }
-                tails.put(*counts, buffer, || tail(worn, panel, *counts));
+                tails.put(*counts, buffer, || tail(recorded, panel, *counts));
             }
             if buffer.len() >= PIECE {
                 out.write_all(buffer)?;
@@ -81,8 +81,8 @@ impl ContactTable {
 }
 
 /// End of a row: pressure and unit.
-fn tail(worn: &Rc<RecordedGarment>, panel: usize, counts: u16) -> String {
-    let (unit, value) = (worn.units.name(panel), worn.units.value(panel, counts));
+fn tail(recorded: &Rc<RecordedGarment>, panel: usize, counts: u16) -> String {
+    let (unit, value) = (recorded.units.name(panel), recorded.units.value(panel, counts));
     let pressure = if unit == "counts" { value.to_string() } else { format!("{value:.4}") };
     format!(",{pressure},{unit}\n")
 }

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use taxel::client::{Client, Event, ImageNews};
 use taxel::record::Play;
 use taxel::recording::{BoardRecording, Skipped};
-use taxel::tell::progress::{Progress, Unit};
+use taxel::text::progress::{Progress, Unit};
 use taxel_core::body::Placed;
 use taxel_core::format::{Name, Q15};
 use taxel_core::garment::{Area, Layout};
@@ -47,7 +47,7 @@ pub struct Frame {
     /// Host time of the start, us since 1970.
     pub host_us: u64,
     /// Properties of the board.
-    pub worn: Rc<RecordedGarment>,
+    pub recorded: Rc<RecordedGarment>,
     /// Pressure by taxel number, counts.
     pub values: Vec<u16>,
     /// Raw code by taxel number; empty if none were recorded for this scan.
@@ -97,13 +97,15 @@ impl<'a> Frames<'a> {
                 }
                 Event::Frame { frame, time, image: ImageNews::Whole, .. } => {
                     current.give(&mut take)?;
-                    let Some(worn) = self.worn(client, current.worn(), frame).with_context(place)? else {
+                    let Some(recorded) =
+                        self.recorded(client, current.recorded(), frame).with_context(place)?
+                    else {
                         continue;
                     };
                     seen += 1;
                     if (seen - 1) % self.every == 0 {
                         count += 1;
-                        current.put(client, worn, frame, [time.0, header.log_time / 1000]);
+                        current.put(client, recorded, frame, [time.0, header.log_time / 1000]);
                         progress.at(play.passed()[0]);
                     }
                 }
@@ -118,13 +120,13 @@ impl<'a> Frames<'a> {
         Ok(count)
     }
 
-    fn worn(
+    fn recorded(
         &self,
         client: &Client,
         known: Option<&Rc<RecordedGarment>>,
         frame: u32,
     ) -> Result<Option<Rc<RecordedGarment>>> {
-        let Some(now) = client.worn() else { return Ok(None) };
+        let Some(now) = client.description() else { return Ok(None) };
         match known {
             Some(known) if known.layout != now.layout => bail!("the garment changes at frame {frame}"),
             Some(known) if known.concepts != client.concepts() => bail!("the map changes at frame {frame}"),
@@ -152,8 +154,8 @@ struct Current {
 }
 
 impl Current {
-    fn worn(&self) -> Option<&Rc<RecordedGarment>> {
-        self.image.as_ref().map(|image| &image.worn)
+    fn recorded(&self) -> Option<&Rc<RecordedGarment>> {
+        self.image.as_ref().map(|image| &image.recorded)
     }
 
     /// The image whose raw codes may follow.
@@ -169,7 +171,7 @@ impl Current {
     fn put(
         &mut self,
         client: &Client,
-        worn: Rc<RecordedGarment>,
+        recorded: Rc<RecordedGarment>,
         number: u32,
         [board_us, host_us]: [u64; 2],
     ) {
@@ -177,7 +179,7 @@ impl Current {
             number,
             board_us,
             host_us,
-            worn,
+            recorded,
             values: Vec::new(),
             codes: Vec::new(),
             contacts: Vec::new(),

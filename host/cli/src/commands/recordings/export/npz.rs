@@ -45,14 +45,14 @@ const OWN: [&str; 6] = ["frame", "time_us", "host_time_us", "intent", "concepts"
 /// Writes the archive to `out`, which is at `output`. Returns the number of frames. Reads the recording
 /// twice, because arrays begin with their sizes.
 pub fn write(frames: &Frames<'_>, output: &Path, out: impl Write + Seek) -> Result<u64> {
-    let (mut contacts, mut worn) = (0, None);
+    let (mut contacts, mut recorded) = (0, None);
     let count = frames.each("counting", |frame| {
         contacts += frame.contacts.len() as u64;
-        worn.get_or_insert_with(|| frame.worn.clone());
+        recorded.get_or_insert_with(|| frame.recorded.clone());
         Ok(())
     })?;
-    let worn = worn.context("it holds no image")?;
-    let mut arrays = Arrays::begin(output, &worn, [count, contacts])?;
+    let recorded = recorded.context("it holds no image")?;
+    let mut arrays = Arrays::begin(output, &recorded, [count, contacts])?;
     frames.each("exporting", |frame| arrays.take(frame))?;
     let mut archive = Archive::new(out);
     arrays.finish(&mut archive)?;
@@ -75,7 +75,7 @@ struct Arrays {
 
 impl Arrays {
     /// Arrays for this many frames and contacts.
-    fn begin(output: &Path, worn: &Rc<RecordedGarment>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
+    fn begin(output: &Path, recorded: &Rc<RecordedGarment>, [count, contacts]: [u64; 2]) -> Result<Arrays> {
         let list = |name: &str, kind: &str, size: u64| Array::begin(output, name, kind, &[size]);
         let mut taken =
             Entries::of(OWN.into_iter().chain(WHOLE.map(|(name, _)| name)).chain(REAL.map(|(name, _)| name)));
@@ -83,13 +83,13 @@ impl Arrays {
             let shape = [count, area.rows.into(), area.columns.into()];
             Array::begin(output, &taken.add(&area.name), u16::KIND, &shape)
         };
-        let concepts = worn.concepts.len() as u64;
+        let concepts = recorded.concepts.len() as u64;
         let intent = || -> Result<[Array; 2]> {
             let activations = Array::begin(output, "intent", f64::KIND, &[count, concepts])?;
-            Ok([activations, names(output, worn)?])
+            Ok([activations, names(output, recorded)?])
         };
         Ok(Arrays {
-            panels: worn.layout.areas().iter().map(panel).collect::<Result<_>>()?,
+            panels: recorded.layout.areas().iter().map(panel).collect::<Result<_>>()?,
             numbers: list("frame", u32::KIND, count)?,
             times: list("time_us", u64::KIND, count)?,
             host_times: list("host_time_us", u64::KIND, count)?,
@@ -101,7 +101,7 @@ impl Arrays {
     }
 
     fn take(&mut self, frame: &Frame) -> Result<()> {
-        for (array, area) in self.panels.iter_mut().zip(frame.worn.layout.areas()) {
+        for (array, area) in self.panels.iter_mut().zip(frame.recorded.layout.areas()) {
             array.put(frames::panel(area, &frame.values).iter().copied())?;
         }
         self.numbers.put([frame.number])?;
@@ -129,10 +129,11 @@ impl Arrays {
 }
 
 /// Names of the concepts as NumPy texts: all of one length, four bytes per character.
-fn names(output: &Path, worn: &RecordedGarment) -> Result<Array> {
-    let names = worn.concepts.iter().map(|name| name.chars().map(u32::from).collect::<Vec<_>>());
+fn names(output: &Path, recorded: &RecordedGarment) -> Result<Array> {
+    let names = recorded.concepts.iter().map(|name| name.chars().map(u32::from).collect::<Vec<_>>());
     let longest = names.clone().map(|name| name.len()).max().unwrap_or(0).max(1);
-    let mut array = Array::begin(output, "concepts", &format!("<U{longest}"), &[worn.concepts.len() as u64])?;
+    let mut array =
+        Array::begin(output, "concepts", &format!("<U{longest}"), &[recorded.concepts.len() as u64])?;
     for mut name in names {
         name.resize(longest, 0);
         array.put(name)?;

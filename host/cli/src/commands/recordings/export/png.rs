@@ -34,7 +34,7 @@ pub fn write(frames: &Frames<'_>, counts: bool, folder: &Folder) -> Result<u64> 
     frames.each("measuring", |frame| {
         greatest = frame.values.iter().copied().fold(greatest, u16::max);
         if areas.is_empty() {
-            areas = frame.worn.layout.areas().to_vec();
+            areas = frame.recorded.layout.areas().to_vec();
         }
         Ok(())
     })?;

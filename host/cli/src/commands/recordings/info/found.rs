@@ -1,13 +1,13 @@
 //! Contents of a recording, as reported by `taxel info`.
 
-use crate::commands::recordings::repair::found as told;
+use crate::commands::recordings::repair::found as reported;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::path::Path;
 use taxel::record::{COUNTS, Play, Tally};
 use taxel::recording::{BoardRecording, ChannelInfo, Overview, Scan, Skipped, footer, scan};
-use taxel::tell::progress::{Progress, Unit};
-use taxel::tell::words::printable;
+use taxel::text::progress::{Progress, Unit};
+use taxel::text::words::printable;
 
 /// Largest file that is always read to its end, bytes: it takes a moment.
 const SMALL: u64 = 8 << 20;
@@ -37,7 +37,7 @@ struct RecordedCounts {
 
 impl RecordedCounts {
     /// By the file's summary.
-    fn told(overview: &Overview, recording: BoardRecording) -> RecordedCounts {
+    fn reported(overview: &Overview, recording: BoardRecording) -> RecordedCounts {
         RecordedCounts {
             frames: overview.messages(&recording.topic(FRAMES)),
             line: overview.words(&recording.attachment(COUNTS)).and_then(Tally::read),
@@ -69,7 +69,7 @@ impl Contents<'_> {
             // A file of another program.
             recordings.push(BoardRecording { path: file.into(), board: None });
         }
-        let counted = recordings.into_iter().map(|one| RecordedCounts::told(&overview, one));
+        let counted = recordings.into_iter().map(|one| RecordedCounts::reported(&overview, one));
         let mut found =
             Contents { file, bytes, boards: counted.collect(), checked: None, repaired, overview };
         if let Some(scan) = scan {
@@ -77,7 +77,7 @@ impl Contents<'_> {
             for board in &mut found.boards {
                 let (line, passed_over) = played(&board.recording)?;
                 (board.frames, board.line) = (line.frames, Some(line));
-                // Each reader passes over the damage of its own board's chunks: the worst is told.
+                // Each reader passes over the damage of its own board's chunks: the worst is reported.
                 if passed_over.time >= skipped.time {
                     skipped = passed_over;
                 }
@@ -141,9 +141,9 @@ impl Contents<'_> {
         let board = |counted: &RecordedCounts| {
             let RecordedCounts { recording, frames, line } = counted;
             let name = recording.board.clone()?;
-            let mut told = line.map_or(json!({}), |line| json!(line.words(Tally::default())));
-            told["frames"] = json!(frames);
-            Some((name, told))
+            let mut reported = line.map_or(json!({}), |line| json!(line.words(Tally::default())));
+            reported["frames"] = json!(frames);
+            Some((name, reported))
         };
         let boards: serde_json::Map<_, _> = self.boards.iter().filter_map(board).collect();
         let scan = self.checked.as_ref().map(|(scan, _)| scan);
@@ -180,13 +180,15 @@ impl Contents<'_> {
     fn state(&self) -> String {
         match &self.checked {
             None => "whole by its summary (--check reads all of it)".into(),
-            Some((scan, _)) if scan.whole => told(scan),
-            Some((scan, _)) => format!("{}: --repair writes what can be read to another file", told(scan)),
+            Some((scan, _)) if scan.whole => reported(scan),
+            Some((scan, _)) => {
+                format!("{}: --repair writes what can be read to another file", reported(scan))
+            }
         }
     }
 
     /// Metadata for people, of a robot board by board.
-    fn told(&self) -> String {
+    fn reported(&self) -> String {
         let mut text = String::new();
         let is_counts = |name: &str| name == COUNTS || name.ends_with("/counts");
         for metadata in self.overview.metadata.iter().filter(|words| !is_counts(&words.name)) {
@@ -207,7 +209,7 @@ impl Contents<'_> {
         if let Some((_, skipped)) = self.checked.as_ref().filter(|(_, skipped)| !skipped.is_none()) {
             text += &format!("  {:<18} {skipped}\n", "readers");
         }
-        text += &self.told();
+        text += &self.reported();
         text += &format!("  {:<18} {}\n\n", "attached", printable(&self.attached().join(", ")));
         text += &format!("{:.2} s", self.seconds());
         for board in &self.boards {

@@ -7,7 +7,7 @@ use anyhow::Result;
 use clap::Args;
 use found::Contents;
 use std::path::PathBuf;
-use taxel::tell::words::printable_json;
+use taxel::text::words::printable_json;
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:

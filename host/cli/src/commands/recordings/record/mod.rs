@@ -2,9 +2,9 @@
 
 mod robot;
 
-use crate::commands::views::view::{announce, bind, wearer};
+use crate::commands::views::view::{announce, bind, shown_robot};
 use crate::folding::Folding;
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use crate::view::{PageHub, Viewer};
 use crate::watch::{self, BoardArgs, Overwrite, WatchOptions, stop};
 use anyhow::{Error, Result};
@@ -68,7 +68,7 @@ pub struct RecordArgs {
 /// What the pages show beside the board's stream.
 struct Pages {
     listener: TcpListener,
-    wearer: Option<Wearer>,
+    shown_robot: Option<ShownRobot>,
     folding: Option<Folding>,
 }
 
@@ -76,7 +76,7 @@ impl Pages {
     fn prepare(args: &RecordArgs) -> Result<Pages> {
         Ok(Pages {
             listener: bind(args.port)?,
-            wearer: wearer(&args.board, "")?,
+            shown_robot: shown_robot(&args.board, "")?,
             folding: args.board.config.folds.as_deref().map(Folding::read).transpose()?,
         })
     }
@@ -84,7 +84,7 @@ impl Pages {
     /// Serves them, and shows them what is recorded of this source.
     fn open(self, label: &str, calibration: Option<Calibration>, open: bool) -> Result<Viewer> {
         let hub = Arc::new(PageHub::default());
-        self.wearer.into_iter().for_each(|wearer| hub.wear(wearer));
+        self.shown_robot.into_iter().for_each(|shown_robot| hub.show_robot(shown_robot));
         announce(label, self.listener, hub.clone(), open)?;
         Ok(Viewer::new(hub, calibration).folding(self.folding).beside_recording())
     }

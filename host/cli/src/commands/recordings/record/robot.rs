@@ -3,7 +3,7 @@
 use super::RecordArgs;
 use crate::commands::views::view::{announce, bind, pages, viewer};
 use crate::view::RobotPages;
-use crate::watch::{Remarks, RequestLines, RobotObserver, Told, run_limit, stop, watch_robot};
+use crate::watch::{HostInput, Remarks, RequestLines, RobotObserver, run_limit, stop, watch_robot};
 use anyhow::Result;
 use std::thread;
 use std::time::Duration;
@@ -96,14 +96,14 @@ impl RobotObserver<BoardSense> for Recording<'_> {
     fn event(
         &mut self,
         session: &RobotStream<BoardSense>,
-        told: &[Told],
+        inputs: &[HostInput],
         event: Option<&RobotEvent<BoardSense>>,
     ) -> Result<()> {
         if let Some(mind) = &mut self.mind {
-            write_mind(&self.recorder, mind, told, event, session.now_us())?;
+            write_mind(&self.recorder, mind, inputs, event, session.now_us())?;
         }
         if let Some(pages) = &mut self.pages {
-            told.iter().for_each(|told| pages.told(&told.line));
+            inputs.iter().for_each(|input| pages.take_input(&input.line));
             event.into_iter().for_each(|event| pages.event(event, |sense| Some(sense)));
             pages.turn(self.mind.as_mut().map(|mind| &*mind.mind()));
         }
@@ -112,16 +112,16 @@ impl RobotObserver<BoardSense> for Recording<'_> {
     }
 }
 
-/// Writes what the mind was told, and what an event means to it; without one, that the time passes.
+/// Writes what the mind was given, and what an event means to it; without one, that the time passes.
 fn write_mind(
     recorder: &Recorder,
     mind: &mut RecordedMind,
-    told: &[Told],
+    inputs: &[HostInput],
     event: Option<&RobotEvent<BoardSense>>,
     now_us: u64,
 ) -> taxel::Result<()> {
-    for Told { host_us, line, news } in told {
-        mind.told(recorder, line, *host_us, news.as_ref())?;
+    for HostInput { host_us, line, news } in inputs {
+        mind.take_input(recorder, line, *host_us, news.as_ref())?;
     }
     match event {
         Some(event) => mind.hear(recorder, event),

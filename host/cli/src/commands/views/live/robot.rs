@@ -3,7 +3,7 @@
 use super::LiveArgs;
 use super::lines::{BoardNews, JsonLines, TextLines};
 use crate::fault::Fault;
-use crate::watch::{RequestLines, RobotObserver, Told, run_limit, watch_robot};
+use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::io::{BufWriter, Stdout, Write, stdout};
 use taxel::mind::{MindReader, RobotMeaning, RobotMeaningLine, RobotMind};
@@ -12,7 +12,7 @@ use taxel::robot::{
 };
 use taxel::session::Observer;
 use taxel::source::SourceOptions;
-use taxel::tell::words;
+use taxel::text::words;
 
 /// What precedes lines about the whole robot.
 const ROBOT: &str = "robot";
@@ -71,10 +71,10 @@ impl RobotObserver<BoardNews> for RobotLines<'_> {
     fn event(
         &mut self,
         session: &RobotStream<BoardNews>,
-        told: &[Told],
+        inputs: &[HostInput],
         event: Option<&RobotEvent<BoardNews>>,
     ) -> Result<()> {
-        for meaning in told.iter().filter_map(|told| told.news.as_ref()) {
+        for meaning in inputs.iter().filter_map(|input| input.news.as_ref()) {
             self.write_meaning(meaning)?;
         }
         event.map_or(Ok(()), |event| self.write(event))?;

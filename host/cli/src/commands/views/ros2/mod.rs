@@ -26,7 +26,7 @@ pub struct Ros2Args {
     /// The node.
     #[command(flatten)]
     pub node: RosNodeArgs,
-    /// Stamp messages with the board's time, and tell it on /clock: other nodes set use_sim_time
+    /// Stamp messages with the board's time, and report it on /clock: other nodes set use_sim_time
     #[arg(long)]
     pub clock: bool,
     /// Stop after this time of the board, such as 2s or 10min [default: never; simulated scenes are repeated]

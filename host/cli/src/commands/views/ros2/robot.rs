@@ -3,7 +3,7 @@
 use super::Ros2Args;
 use crate::fault::Fault;
 use crate::ros2::{RobotNode, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::{RequestLines, RobotObserver, Told, run_limit, stop, watch_robot};
+use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, stop, watch_robot};
 use anyhow::{Result, ensure};
 use taxel::body;
 use taxel::mind::{BoardSense, MindReader, RobotMind};
@@ -50,10 +50,10 @@ impl RobotObserver<BoardSense> for RobotNode<'_> {
     fn event(
         &mut self,
         session: &RobotStream<BoardSense>,
-        told: &[Told],
+        inputs: &[HostInput],
         event: Option<&RobotEvent<BoardSense>>,
     ) -> Result<()> {
-        told.iter().filter_map(|told| told.news.as_ref()).try_for_each(|meaning| self.mean(meaning))?;
+        inputs.iter().filter_map(|input| input.news.as_ref()).try_for_each(|meaning| self.mean(meaning))?;
         self.turn(session, event.is_none())?;
         event.map_or(Ok(()), |event| RobotNode::event(self, event))?;
         Ok(())

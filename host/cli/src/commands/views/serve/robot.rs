@@ -2,7 +2,7 @@
 
 use super::ServeArgs;
 use crate::fault::Fault;
-use crate::watch::{RequestLines, RobotObserver, Told, run_limit, stop, watch_robot};
+use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, stop, watch_robot};
 use anyhow::Result;
 use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
@@ -34,7 +34,7 @@ pub fn run(args: &ServeArgs, robot: &ReadRobot) -> Result<()> {
 struct Unheard;
 
 impl RobotObserver<()> for Unheard {
-    fn event(&mut self, _: &RobotStream<()>, _: &[Told], _: Option<&RobotEvent<()>>) -> Result<()> {
+    fn event(&mut self, _: &RobotStream<()>, _: &[HostInput], _: Option<&RobotEvent<()>>) -> Result<()> {
         Ok(())
     }
 }

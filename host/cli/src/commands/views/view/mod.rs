@@ -6,7 +6,7 @@ pub use robot::{pages, viewer};
 
 use crate::fault::Fault;
 use crate::folding::Folding;
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use crate::view::{PageHub, PageHubs, Player, Viewer, browser, serve};
 use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result, ensure};
@@ -22,7 +22,7 @@ use taxel::source::{SourceOptions, SourceSpec, Speed};
 /// Default port, unless it is taken: T, A, X, L on a telephone keypad.
 const PORT: u16 = 8295;
 
-/// Preset of a garment's body, and of the robot that wears it.
+/// Preset of a garment's body, and of the robot that carries it.
 const REFERENCE: &str = "reference";
 
 /// Shown below the help.
@@ -41,7 +41,7 @@ pub struct ViewArgs {
     /// The board.
     #[command(flatten)]
     pub board: BoardArgs,
-    /// Positions of joints in which the robot is shown, until others are told, deg, rad or m:
+    /// Positions of joints in which the robot is shown, until others are sent, deg, rad or m:
     /// elbow=30deg,wrist=-0.5rad; the others rest
     #[arg(long, value_name = "JOINTS", requires = "robot")]
     pub joints: Option<String>,
@@ -72,15 +72,15 @@ impl ViewArgs {
         }
     }
 
-    /// The robot that wears the garment; none without a body.
-    fn wearer(&self) -> Result<Option<Wearer>> {
-        wearer(&self.board, self.joints.as_deref().unwrap_or_default())
+    /// The robot that carries the garment; none without a body.
+    fn shown_robot(&self) -> Result<Option<ShownRobot>> {
+        shown_robot(&self.board, self.joints.as_deref().unwrap_or_default())
     }
 }
 
-/// The robot that wears a board's garment, with its joints at these positions; none without a body.
-pub fn wearer(board: &BoardArgs, joints: &str) -> Result<Option<Wearer>> {
-    let read = |body: &String| Wearer::read(body, board.robot.as_deref(), joints);
+/// The robot that carries a board's garment, with its joints at these positions; none without a body.
+pub fn shown_robot(board: &BoardArgs, joints: &str) -> Result<Option<ShownRobot>> {
+    let read = |body: &String| ShownRobot::read(body, board.robot.as_deref(), joints);
     board.config.body.as_ref().map(read).transpose()
 }
 
@@ -92,18 +92,18 @@ pub fn run(args: ViewArgs) -> Result<()> {
     if let Some((file, speed)) = args.recording() {
         return play(&args, &file, speed);
     }
-    let wearer = args.wearer()?;
+    let shown_robot = args.shown_robot()?;
     let listener = bind(args.port)?;
     // Who came to press is not disturbed, unless a script was asked for.
     let waits = args.board.named().is_none();
     let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
     let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
-    // The garment that is played where nothing was named is worn by a robot, too.
+    // The garment that is played where nothing was named is on a robot, too.
     let unnamed = waits && source.hand.is_some() && args.board.config.garment.is_none();
-    let reference = || Wearer::read(REFERENCE, Some(REFERENCE), "");
-    let wearer = if unnamed && wearer.is_none() { Some(reference()?) } else { wearer };
-    wearer.into_iter().for_each(|wearer| hub.wear(wearer));
+    let reference = || ShownRobot::read(REFERENCE, Some(REFERENCE), "");
+    let shown_robot = if unnamed && shown_robot.is_none() { Some(reference()?) } else { shown_robot };
+    shown_robot.into_iter().for_each(|shown_robot| hub.show_robot(shown_robot));
     announce(&source.label, listener, hub.clone(), args.open)?;
     let folding = args.board.config.folds.as_deref().map(Folding::read).transpose()?;
     let mut viewer = Viewer::new(hub, calibration).folding(folding);
@@ -134,7 +134,7 @@ fn play(args: &ViewArgs, recording: &BoardRecording, speed: f64) -> Result<()> {
     );
     let calibration = args.board.config.calibration.as_deref().map(Calibration::read).transpose()?;
     let hub = Arc::new(PageHub::default());
-    args.wearer()?.into_iter().for_each(|wearer| hub.wear(wearer));
+    args.shown_robot()?.into_iter().for_each(|shown_robot| hub.show_robot(shown_robot));
     let folding =
         args.board.config.folds.as_deref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
     let player = Player::open(recording, speed, calibration, folding, hub.clone())?;

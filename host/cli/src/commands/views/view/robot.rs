@@ -2,9 +2,9 @@
 
 use super::{ViewArgs, announce, bind};
 use crate::fault::Fault;
-use crate::on_robot::Wearer;
+use crate::on_robot::ShownRobot;
 use crate::view::{RobotPages, Viewer};
-use crate::watch::{RequestLines, RobotObserver, Told, run_limit, watch_robot};
+use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::thread;
 use std::time::Duration;
@@ -12,13 +12,13 @@ use taxel::mind::{BoardSense, MindReader, RobotMind};
 use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
 use taxel::session::Observer;
 
-/// Longest wait before pages are told what is new.
+/// Longest wait before pages get what is new.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Runs the command. Error if a board cannot be followed, once all are over.
 pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
     if args.joints.is_some() {
-        bail!(Fault::usage("--joints is for a board: --requests tells a robot's joints"));
+        bail!(Fault::usage("--joints is for a board: --requests sends a robot's joints"));
     }
     let requests = RequestLines::of(args.board.requests.as_deref())?;
     let mind = RobotMind::new(robot)?;
@@ -59,10 +59,10 @@ impl RobotObserver<BoardSense> for RobotView<'_> {
     fn event(
         &mut self,
         session: &RobotStream<BoardSense>,
-        told: &[Told],
+        inputs: &[HostInput],
         event: Option<&RobotEvent<BoardSense>>,
     ) -> Result<()> {
-        told.iter().for_each(|told| self.pages.told(&told.line));
+        inputs.iter().for_each(|input| self.pages.take_input(&input.line));
         match event {
             Some(event) => {
                 self.mind.event(event, |sense| Some(sense));
@@ -79,7 +79,9 @@ impl RobotObserver<BoardSense> for RobotView<'_> {
 pub fn pages(robot: &ReadRobot) -> Result<RobotPages<'_>> {
     let pages = RobotPages::new(robot);
     for number in 0..robot.boards.len() {
-        wearer(robot, number)?.into_iter().for_each(|wearer| pages.hub(number).wear(wearer));
+        shown_robot(robot, number)?
+            .into_iter()
+            .for_each(|shown_robot| pages.hub(number).show_robot(shown_robot));
     }
     Ok(pages)
 }
@@ -89,9 +91,9 @@ pub fn viewer(pages: &RobotPages<'_>, robot: &ReadRobot, number: usize) -> Viewe
     Viewer::new(pages.hub(number), robot.boards[number].calibration.clone())
 }
 
-/// The robot that wears the garment of a board; none without a body.
-fn wearer(robot: &ReadRobot, number: usize) -> Result<Option<Wearer>> {
+/// The robot that carries the garment of a board; none without a body.
+fn shown_robot(robot: &ReadRobot, number: usize) -> Result<Option<ShownRobot>> {
     let urdf = robot.robot.as_ref().map(|described| described.file());
     let body = robot.boards[number].body.as_deref();
-    body.map(|body| Wearer::read(body, urdf, "")).transpose()
+    body.map(|body| ShownRobot::read(body, urdf, "")).transpose()
 }

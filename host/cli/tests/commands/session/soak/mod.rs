@@ -32,7 +32,7 @@ fn program(args: &[&str], words: &Path) -> Child {
 }
 
 /// Seconds of a recording by the recorder's last line: `FILE: 12.3 s, ...`.
-fn told_seconds(words: &str) -> f64 {
+fn printed_seconds(words: &str) -> f64 {
     let line = words.lines().last().unwrap();
     let seconds = line.split(' ').zip(line.split(' ').skip(1)).find(|(_, unit)| *unit == "s,");
     seconds.unwrap().0.parse().unwrap()
@@ -45,19 +45,19 @@ fn nothing_grows_and_nothing_is_lost_unexplained() {
     let file = folder.join("soak.mcap");
     let path = file.to_str().unwrap();
     let words = ["record", "view", "live"].map(|name| folder.join(name));
-    let [recorded, viewed, told, set] = [1, 2, 3, 4].map(Served::begin);
+    let [recorded, viewed, printed, set] = [1, 2, 3, 4].map(Served::begin);
     let mut recorder = program(&["record", "--source", &recorded.spec(), "-o", path], &words[0]);
     let mut viewer = program(&["view", "--source", &viewed.spec(), "--port", "0"], &words[1]);
-    let mut teller = program(&["live", "--source", &told.spec(), "--json", "--pixels"], &words[2]);
+    let mut printer = program(&["live", "--source", &printed.spec(), "--json", "--pixels"], &words[2]);
     let page = visitors::Page::visit(&mut viewer);
-    let lines = visitors::listen(&mut teller);
+    let lines = visitors::listen(&mut printer);
     let setter = visitors::Setter::begin(&set);
-    let mut watched = [("record", &recorder), ("view", &viewer), ("live", &teller)]
+    let mut watched = [("record", &recorder), ("view", &viewer), ("live", &printer)]
         .map(|(name, child)| Watched::of(name, child.id()));
     let begun = Instant::now();
     while begun.elapsed() < length() {
         std::thread::sleep(Duration::from_secs(1));
-        for (program, words) in [&mut recorder, &mut viewer, &mut teller].into_iter().zip(&words) {
+        for (program, words) in [&mut recorder, &mut viewer, &mut printer].into_iter().zip(&words) {
             let words = || std::fs::read_to_string(words).unwrap();
             assert!(program.try_wait().unwrap().is_none(), "it has ended: {}", words());
         }
@@ -66,7 +66,7 @@ fn nothing_grows_and_nothing_is_lost_unexplained() {
     let (messages, sets) = (page.leave(), setter.end());
     assert!(Command::new("kill").args(["-INT", &recorder.id().to_string()]).status().unwrap().success());
     assert!(recorder.wait().unwrap().success());
-    for child in [&mut viewer, &mut teller] {
+    for child in [&mut viewer, &mut printer] {
         child.kill().unwrap();
         child.wait().unwrap();
     }
@@ -87,12 +87,12 @@ fn nothing_grows_and_nothing_is_lost_unexplained() {
     );
     println!("recorded: {loss}");
     println!("viewed: {messages} messages of the page");
-    println!("told: {lines} lines of JSON");
+    println!("reported: {lines} lines of JSON");
     println!("set: {sets} times something new, each answered");
     for watched in &watched {
         println!("{watched}");
     }
-    let seconds = told_seconds(&std::fs::read_to_string(&words[0]).unwrap());
+    let seconds = printed_seconds(&std::fs::read_to_string(&words[0]).unwrap());
     std::fs::remove_dir_all(&folder).unwrap();
     // No time is recorded during the start and while waiting for a link.
     assert!(seconds > 0.8 * length().as_secs_f64() - 2.0, "{seconds} s are said to be recorded");

@@ -48,15 +48,15 @@ impl Served {
         let address = listener.local_addr().unwrap().to_string();
         let rig = Arc::new(Mutex::new(Rig::new()));
         let history = Arc::new(Mutex::new(Vec::new()));
-        let (served, told) = (rig.clone(), history.clone());
+        let (served, shared) = (rig.clone(), history.clone());
         std::thread::spawn(move || {
             let mut random = fastrand::Rng::with_seed(seed);
             for stream in listener.incoming() {
-                pass(stream.unwrap(), &served, &told, &mut random);
+                pass(stream.unwrap(), &served, &shared, &mut random);
             }
         });
-        let told = history.clone();
-        std::thread::spawn(move || trouble(&rig, &told, fastrand::Rng::with_seed(!seed)));
+        let shared = history.clone();
+        std::thread::spawn(move || trouble(&rig, &shared, fastrand::Rng::with_seed(!seed)));
         Served { history, address }
     }
 

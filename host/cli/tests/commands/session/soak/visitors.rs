@@ -27,8 +27,8 @@ struct Visitor {
 impl Visitor {
     fn begin(visit: impl FnOnce(&AtomicBool) -> usize + Send + 'static) -> Visitor {
         let ends = Arc::new(AtomicBool::new(false));
-        let told = ends.clone();
-        Visitor { ends, thread: std::thread::spawn(move || visit(&told)) }
+        let shared = ends.clone();
+        Visitor { ends, thread: std::thread::spawn(move || visit(&shared)) }
     }
 
     fn end(self) -> usize {
@@ -80,13 +80,13 @@ fn look(host: &str, random: &mut fastrand::Rng, ends: &AtomicBool) -> usize {
     while Instant::now() < leaves && !ends.load(Ordering::Relaxed) {
         page.read().unwrap();
         count += 1;
-        let wish = match random.u16(..1000) {
+        let request = match random.u16(..1000) {
             0..=9 => format!(r#"{{"hover": {}}}"#, random.u8(..64)),
             10..=14 => r#"{"hover": null}"#.into(),
             15 => r#"{"tare": 16}"#.into(),
             _ => continue,
         };
-        page.send(Message::text(wish)).unwrap();
+        page.send(Message::text(request)).unwrap();
     }
     _ = page.close(None);
     count

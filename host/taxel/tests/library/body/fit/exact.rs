@@ -1,23 +1,23 @@
 //! Exact touches.
 
-use super::worn_case::{cases, known, read, read_again, surface_of, worn_at_random, worst};
+use super::displaced::{cases, displaced_at_random, known, read, read_again, surface_of, worst};
 use crate::random::Noise;
 use proptest::prelude::*;
 use taxel::body::fit::FeltTouch;
-use taxel::body::{DVec3, WornShift};
+use taxel::body::{DVec3, PatchOffset};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Exact touches give the exact placing, whatever a twentieth of them says, and whatever was worn before.
+    /// Exact touches give the exact placing, whatever a twentieth of them says, and whatever the offsets were before.
     #[test]
     fn the_placing_of_exact_touches_is_exact(seed in any::<u64>(), kind in 0..6usize) {
         let mut random = Noise(seed | 1);
         let case = &cases()[kind];
         let layout = case.layout();
         let patches = case.patches();
-        let worn: Vec<WornShift> = (0..patches).map(|_| worn_at_random(&mut random)).collect();
-        let truly = read_again(case, &worn);
+        let offsets: Vec<PatchOffset> = (0..patches).map(|_| displaced_at_random(&mut random)).collect();
+        let truly = read_again(case, &offsets);
         let mut touches = Vec::new();
         for panel in 0..patches {
             let area = &layout.areas()[panel];
@@ -31,7 +31,7 @@ proptest! {
                 touches.push(known(&truly, &layout, felt, at));
             }
         }
-        let before: Vec<WornShift> = (0..patches).map(|_| worn_at_random(&mut random)).collect();
+        let before: Vec<PatchOffset> = (0..patches).map(|_| displaced_at_random(&mut random)).collect();
         let run = format!("exact-{seed}");
         let read = read(case, &run, &before);
         let fit = read.fit(&case.garment, &layout, &touches).unwrap();

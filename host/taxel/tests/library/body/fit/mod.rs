@@ -1,6 +1,6 @@
-//! How a garment is worn, found again from touches.
+//! How a garment sits, found again from touches.
 
+mod displaced;
 mod exact;
 mod simulated;
-mod worn_case;
 mod wrong;

@@ -1,9 +1,9 @@
 //! Touches that the simulated garment and the board feel.
 
-use super::worn_case::{Case, cases, known, read, read_again, surface_of, worn_at_random, worst};
+use super::displaced::{Case, cases, displaced_at_random, known, read, read_again, surface_of, worst};
 use crate::random::Noise;
 use taxel::body::fit::{FeltTouch, TouchGatherer};
-use taxel::body::{DVec3, WornShift};
+use taxel::body::{DVec3, PatchOffset};
 use taxel::client::Event;
 use taxel::sim::{Player, Script};
 use taxel::virtual_board::VirtualBoard;
@@ -54,10 +54,10 @@ fn felt(case: &Case, presses: &[(usize, f64, f64)], seed: u64) -> Vec<Option<Fel
     all
 }
 
-/// A garment worn up to 20 mm and 5 degrees otherwise is found again from 100 touches that a board has felt,
+/// A garment displaced by up to 20 mm and 5 degrees is found again from 100 touches that a board has felt,
 /// of which a twentieth were somewhere else and others fall beside the garment.
 #[test]
-fn a_garment_that_is_worn_otherwise_is_found_again_by_a_hundred_touches() {
+fn a_garment_that_is_displaced_is_found_again_by_a_hundred_touches() {
     let runs = if std::env::var_os("TAXEL_CAMPAIGN").is_some() { 40 } else { 1 };
     println!("Distance of the taxel that is farthest from where it truly is, mm");
     println!(
@@ -71,8 +71,8 @@ fn a_garment_that_is_worn_otherwise_is_found_again_by_a_hundred_touches() {
         let mut offs = Vec::new();
         for run in 0..runs {
             let mut random = Noise(1 + 7919 * (run + 1000));
-            let worn: Vec<WornShift> = (0..patches).map(|_| worn_at_random(&mut random)).collect();
-            let truly = read_again(&case, &worn);
+            let offsets: Vec<PatchOffset> = (0..patches).map(|_| displaced_at_random(&mut random)).collect();
+            let truly = read_again(&case, &offsets);
             // Beside the edge, too: there a finger is felt in part, or not at all.
             let presses: Vec<(usize, f64, f64)> = (0..100)
                 .map(|number| {
@@ -98,7 +98,7 @@ fn a_garment_that_is_worn_otherwise_is_found_again_by_a_hundred_touches() {
                 }
                 touches.push(known(&truly, &layout, felt, place));
             }
-            let read = read(&case, &format!("sim-{run}"), &vec![WornShift::default(); patches]);
+            let read = read(&case, &format!("sim-{run}"), &vec![PatchOffset::default(); patches]);
             let fit = read.fit(&case.garment, &layout, &touches).unwrap();
             let found = surface_of(&fit, &case);
             let off = (0..patches).map(|panel| worst(&found, &truly, &layout, panel)).fold(0.0, f64::max);

@@ -1,13 +1,13 @@
-//! Touches that do not say how a garment is worn, files that are wrong, and the file that is written.
+//! Touches that do not say how a garment sits, files that are wrong, and the file that is written.
 
-use super::worn_case::{Case, cases, known, read, read_again};
+use super::displaced::{Case, cases, known, read, read_again};
 use taxel::body::fit::{FeltTouch, KnownTouch, Mark, known_touches, marks, picked};
-use taxel::body::{DVec3, Surface, WornShift};
+use taxel::body::{DVec3, PatchOffset, Surface};
 
-/// Places of a mat, (column, row), touched on a body of this name that is worn 7 mm farther to the right.
+/// Places of a mat, (column, row), touched on a body of this name that sits 7 mm farther to the right.
 fn touched(name: &str, at: &[(f64, f64)]) -> (Case, Surface, Vec<KnownTouch>) {
     let case = cases().into_iter().find(|case| case.name == name).unwrap();
-    let truly = read_again(&case, &[WornShift { right: 0.007, down: 0.0, turn: 2.0 }]);
+    let truly = read_again(&case, &[PatchOffset { right: 0.007, down: 0.0, turn: 2.0 }]);
     let layout = case.layout();
     let touch = |(x, y): &(f64, f64)| {
         let felt = FeltTouch { panel: 0, x: *x, y: *y };
@@ -23,8 +23,11 @@ fn touches_on_one_line_say_all_three() {
     for name in ["plane", "cylinder", "grid", "list"] {
         let (case, _, touches) = touched(name, &[(3.0, 10.0), (9.0, 10.0), (15.0, 10.0), (22.0, 10.0)]);
         let fit = read(&case, "line", &[]).fit(&case.garment, &case.layout(), &touches).unwrap();
-        let worn = fit.panels[0].worn;
-        assert!((worn.right - 0.007).abs() < 1e-5 && (worn.turn - 2.0).abs() < 1e-2, "{name}: {worn:?}");
+        let offsets = fit.panels[0].offset;
+        assert!(
+            (offsets.right - 0.007).abs() < 1e-5 && (offsets.turn - 2.0).abs() < 1e-2,
+            "{name}: {offsets:?}"
+        );
     }
 }
 
@@ -33,17 +36,17 @@ fn touches_on_one_line_say_all_three() {
 fn touches_on_one_spot_do_not_say_the_turn() {
     let spot = [(15.0, 31.0), (15.5, 31.5), (16.0, 32.0), (15.2, 31.9)];
     let (case, _, touches) = touched("plane", &spot);
-    let turned = WornShift { turn: 2.0, ..WornShift::default() };
-    for (before, right) in [(turned, 7.0), (WornShift::default(), 7.0)] {
+    let turned = PatchOffset { turn: 2.0, ..PatchOffset::default() };
+    for (before, right) in [(turned, 7.0), (PatchOffset::default(), 7.0)] {
         let fit = read(&case, "spot", &[before]).fit(&case.garment, &case.layout(), &touches).unwrap();
         let panel = &fit.panels[0];
-        assert_eq!((panel.turn_sd, panel.worn.turn), (None, before.turn));
-        assert!((panel.worn.right * 1e3 - right).abs() < 0.3, "{panel:?}");
+        assert_eq!((panel.turn_sd, panel.offset.turn), (None, before.turn));
+        assert!((panel.offset.right * 1e3 - right).abs() < 0.3, "{panel:?}");
     }
 }
 
 #[test]
-fn touches_that_say_nothing_are_told() {
+fn touches_that_say_nothing_are_reported() {
     let corners = [(3.0, 10.0), (9.0, 50.0), (15.0, 33.0), (22.0, 10.0), (28.0, 60.0), (5.0, 40.0)];
     let (case, _, touches) = touched("plane", &corners);
     let (read, layout) = (read(&case, "nothing", &[]), case.layout());
@@ -73,7 +76,7 @@ fn touches_that_say_nothing_are_told() {
 }
 
 #[test]
-fn files_of_touches_and_marks_are_read_or_told() {
+fn files_of_touches_and_marks_are_read_or_reported() {
     let head = "panel,column,row,link,x,y,z\n";
     let one = known_touches("t.csv", &format!("{head}left arm, 3.5, 7, torso, 0.1, 0, -0.2\n")).unwrap();
     assert_eq!(
@@ -120,7 +123,7 @@ fn marks_are_picked_where_a_finger_is_felt_as_a_whole() {
     assert_eq!(picked(&surface, &case.layout(), 10_000).len(), 4 * 28 * 12);
 }
 
-/// The file that is written has the author's comments, and says how the panel is worn.
+/// The file that is written has the author's comments, and says how the panel sits.
 #[test]
 fn the_body_file_keeps_its_comments() {
     let (mut case, truly, touches) =
@@ -128,8 +131,8 @@ fn the_body_file_keeps_its_comments() {
     case.body = format!("# mine\n{}# the end\n", case.body.replace("\non", "   # flat\non"));
     let body = read(&case, "comments", &[]);
     let fit = body.fit(&case.garment, &case.layout(), &touches).unwrap();
-    let text = body.worn(&fit.panels).unwrap();
-    let line = "\nworn = { right = 0.007, down = 0.0, turn = 2.0 }\n";
+    let text = body.with_offsets(&fit.panels).unwrap();
+    let line = "\noffset = { right = 0.007, down = 0.0, turn = 2.0 }\n";
     assert_eq!(text.replace(line, "\n"), case.body);
     case.body = text;
     let written = read_again(&case, &[]);
@@ -138,19 +141,19 @@ fn the_body_file_keeps_its_comments() {
     }
     // Patches may be written as a list.
     case.body = "patches = [{ panel = \"mat\", on.plane = { at = [0.4, -0.2, 1.1], normal = [1, 2, 3], down = [0, -3, 2] } }]".into();
-    let text = read(&case, "list", &[]).worn(&fit.panels).unwrap();
-    assert!(text.contains("worn = { right = 0.007, down = 0.0, turn = 2.0 }"), "{text}");
+    let text = read(&case, "list", &[]).with_offsets(&fit.panels).unwrap();
+    assert!(text.contains("offset = { right = 0.007, down = 0.0, turn = 2.0 }"), "{text}");
 }
 
 #[test]
-fn what_is_worn_must_be_numbers_and_on_one_side() {
-    let why = |name: &str, worn: WornShift| {
+fn offsets_must_be_numbers_and_on_one_side() {
+    let why = |name: &str, offsets: PatchOffset| {
         let case = cases().into_iter().find(|case| case.name == name).unwrap();
-        let surface = read(&case, "numbers", &[worn]).surface(&case.garment, &case.layout());
+        let surface = read(&case, "numbers", &[offsets]).surface(&case.garment, &case.layout());
         format!("{:#}", surface.unwrap_err()).split("body.toml").last().unwrap().to_string()
     };
-    let nan = WornShift { down: f64::INFINITY, ..WornShift::default() };
-    assert_eq!(why("plane", nan), ", line 2, `patches[0].worn.down`: must be a number");
+    let nan = PatchOffset { down: f64::INFINITY, ..PatchOffset::default() };
+    assert_eq!(why("plane", nan), ", line 2, `patches[0].offset.down`: must be a number");
     let mut around = cases().into_iter().find(|case| case.name == "grid").unwrap();
     let point = |z: f64, angle: f64| format!("[{:.3}, {:.3}, {z}]", 0.1 * angle.cos(), 0.1 * angle.sin());
     let row = |z: f64| {
@@ -159,8 +162,8 @@ fn what_is_worn_must_be_numbers_and_on_one_side() {
     around.body =
         format!("[[patches]]\npanel = \"mat\"\non.grid = {{ points = [{}, {}] }}\n", row(0.6), row(0.0));
     assert!(read(&around, "round", &[]).surface(&around.garment, &around.layout()).is_ok());
-    let shifted = read(&around, "round", &[WornShift { right: 0.01, ..WornShift::default() }]);
+    let shifted = read(&around, "round", &[PatchOffset { right: 0.01, ..PatchOffset::default() }]);
     let why = format!("{:#}", shifted.surface(&around.garment, &around.layout()).unwrap_err());
-    let end = ", line 2, `patches[0].worn`: needs taxels on one side of the robot: these have no plane that touches them";
+    let end = ", line 2, `patches[0].offset`: needs taxels on one side of the robot: these have no plane that touches them";
     assert!(why.ends_with(end), "{why}");
 }

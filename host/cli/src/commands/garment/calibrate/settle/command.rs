@@ -55,7 +55,7 @@ struct SettledBoard<'a> {
 impl Scanner for SettledBoard<'_> {
     fn scan(&mut self, settle_ns: u32, frames: u32) -> Result<Vec<f64>> {
         self.garment.wiring.settle_ns = settle_ns;
-        self.board.wear(&self.garment)?;
+        self.board.use_garment(&self.garment)?;
         for _ in 0..OLD {
             self.board.frame()?;
         }
@@ -94,7 +94,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
     if args.save {
         board.ask(&Request::Save)?;
     }
-    tell(args, before_ns, &settled, &garment)?;
+    print(args, before_ns, &settled, &garment)?;
     if args.json && output.is_none() {
         return Ok(());
     }
@@ -106,7 +106,7 @@ pub fn run(args: &SettleArgs) -> Result<()> {
 }
 
 /// Prints the result; `garment` has the settling time that was found.
-fn tell(args: &SettleArgs, before_ns: u32, settled: &Settled, garment: &Garment) -> Result<()> {
+fn print(args: &SettleArgs, before_ns: u32, settled: &Settled, garment: &Garment) -> Result<()> {
     let layout = Layout::build(garment, usize::from(u16::MAX), FULL_SCALE)?;
     let circuit = Circuit::build(garment, &layout, Pins::ANY)?;
     let inputs: BTreeSet<u8> = circuit.sites().iter().map(|site| site.input).collect();

@@ -17,8 +17,9 @@ fn layout(garment: &Garment) -> Layout {
 fn reference() -> (Arc<Robot>, RobotSurface) {
     let robot = Arc::new(robot::read("reference").unwrap());
     let garment = Garment::reference();
-    let worn = body::read("reference").unwrap().on_robot(&garment, &layout(&garment), robot.clone()).unwrap();
-    (robot, worn)
+    let on_robot =
+        body::read("reference").unwrap().on_robot(&garment, &layout(&garment), robot.clone()).unwrap();
+    (robot, on_robot)
 }
 
 const POSTURES: [&str; 3] = [
@@ -31,25 +32,25 @@ const POSTURES: [&str; 3] = [
 /// the same in all frames.
 #[test]
 fn a_wrench_is_that_of_the_moved_taxels() {
-    let (robot, worn) = reference();
+    let (robot, on_robot) = reference();
     let newtons: Vec<f64> = (0..2048u32).map(|taxel| f64::from(taxel * 7919 % 13) / 4.0).collect();
     for posture in POSTURES {
         let posture = robot.posture_of(posture).unwrap();
         let poses = robot.poses(&posture);
         for frame in 0..robot.links().len() {
-            let moved = wrenches(&worn.seen_from(&posture, frame).unwrap(), &newtons);
-            let by_link = worn.poses(&poses, frame).unwrap();
-            for own in wrenches(worn.surface(), &newtons) {
+            let moved = wrenches(&on_robot.seen_from(&posture, frame).unwrap(), &newtons);
+            let by_link = on_robot.poses(&poses, frame).unwrap();
+            for own in wrenches(on_robot.surface(), &newtons) {
                 let (seen, exact) = (own.seen_from(&by_link[own.link]), moved[own.link]);
                 assert!(seen.force.abs_diff_eq(exact.force, 1e-9), "{seen:?} {exact:?}");
                 assert!(seen.moment.abs_diff_eq(exact.moment, 1e-9) && seen.pressed == exact.pressed);
                 assert!(seen.center.abs_diff_eq(exact.center, 1e-12));
             }
         }
-        let error = worn.seen_from(&posture, 99).unwrap_err().to_string();
+        let error = on_robot.seen_from(&posture, 99).unwrap_err().to_string();
         assert_eq!(error, "reference: there is no link of number 99");
     }
-    let nothing = wrenches(worn.surface(), &[])[0];
+    let nothing = wrenches(on_robot.surface(), &[])[0];
     let poses = robot.poses(&robot.rest());
     let seen = nothing.seen_from(&poses.of(robot.link("left_upper_arm").unwrap(), 0).unwrap());
     assert_eq!((seen.center, seen.force), (DVec3::ZERO, DVec3::ZERO));
@@ -58,15 +59,15 @@ fn a_wrench_is_that_of_the_moved_taxels() {
 /// A contact between taxels is seen where the surface, once moved, has it.
 #[test]
 fn contacts_move_with_their_link() {
-    let (robot, worn) = reference();
+    let (robot, on_robot) = reference();
     let layout = layout(&Garment::reference());
     let posture = robot.posture_of(POSTURES[1]).unwrap();
     let poses = robot.poses(&posture);
-    let (hand, by_link) = (robot.link("right_hand").unwrap(), |frame| worn.poses(&poses, frame).unwrap());
+    let (hand, by_link) = (robot.link("right_hand").unwrap(), |frame| on_robot.poses(&poses, frame).unwrap());
     for frame in [0, hand] {
-        let moved = worn.seen_from(&posture, frame).unwrap();
+        let moved = on_robot.seen_from(&posture, frame).unwrap();
         for panel in 0..4 {
-            let place = worn.surface().at(&layout, panel, 3.4, 20.7).unwrap();
+            let place = on_robot.surface().at(&layout, panel, 3.4, 20.7).unwrap();
             let seen = place.seen_from(&by_link(frame)[place.link]);
             let exact = moved.at(&layout, panel, 3.4, 20.7).unwrap();
             assert!(seen.at.abs_diff_eq(exact.at, 1e-12) && seen.normal.abs_diff_eq(exact.normal, 1e-12));
@@ -78,22 +79,22 @@ fn contacts_move_with_their_link() {
 /// Of the joints those alone that carry patches: the waist and the shoulders, in the base.
 #[test]
 fn joints_that_move_the_garment_are_known() {
-    let (robot, worn) = reference();
+    let (robot, on_robot) = reference();
     let names = |free: Vec<usize>| {
         let name = |free: &usize| robot.joints()[robot.free()[*free]].name.clone();
         free.iter().map(name).collect::<Vec<_>>().join(" ")
     };
     let shoulders = ["left", "right"]
         .map(|side| ["pitch", "roll", "yaw"].map(|way| format!("{side}_shoulder_{way}")).join(" "));
-    assert_eq!(names(worn.moving(0)), format!("waist {}", shoulders.join(" ")));
+    assert_eq!(names(on_robot.moving(0)), format!("waist {}", shoulders.join(" ")));
     let torso = robot.link("torso").unwrap();
-    assert_eq!(names(worn.moving(torso)), shoulders.join(" "));
+    assert_eq!(names(on_robot.moving(torso)), shoulders.join(" "));
     let forearm = robot.link("right_forearm").unwrap();
-    assert_eq!(names(worn.moving(forearm)), shoulders.join(" ") + " right_elbow");
+    assert_eq!(names(on_robot.moving(forearm)), shoulders.join(" ") + " right_elbow");
 }
 
 #[test]
-fn a_link_that_the_robot_lacks_is_told_with_file_line_and_key() {
+fn a_link_that_the_robot_lacks_is_reported_with_file_line_and_key() {
     let robot = |text: &str| Arc::new(robot::parse("r.urdf", text).unwrap());
     let garment = Garment::reference();
     let why = |name: &str, urdf: &str| {
@@ -105,7 +106,7 @@ fn a_link_that_the_robot_lacks_is_told_with_file_line_and_key() {
         why("reference", "<robot><link name=\"trso\"/></robot>"),
         "reference, line 6, `patches[0].panel`: r.urdf: there is no link \"torso\": did you mean \"trso\"? Known are trso"
     );
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("worn-{}.toml", std::process::id()));
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("on-robot-{}.toml", std::process::id()));
     let text = "[[patches]]\npanel = \"chest\"\non.plane = { at = [0, 0, 0], normal = [1, 0, 0], down = [0, 0, -1] }\n\n\
                 [[patches]]\npanel = \"back\"\nlink = \"trunk\"\non.plane = { at = [0, 0, 0], normal = [-1, 0, 0], down = [0, 0, -1] }\n";
     std::fs::write(&path, text).unwrap();
@@ -140,16 +141,16 @@ fn sliding(slides: [&str; 4]) -> Result<RobotSurface, taxel::Error> {
 /// cone, and nothing stretches.
 #[test]
 fn cloth_slides_over_its_surface_with_the_joint() {
-    let worn = sliding([
+    let on_robot = sliding([
         "{ joint = \"waist\", right = 0.02, down = -0.01 }",
         "",
         "{ joint = \"left_elbow\", down = 0.01 }",
         "",
     ]);
-    let worn = worn.unwrap();
-    let robot = worn.robot();
+    let on_robot = on_robot.unwrap();
+    let robot = on_robot.robot();
     let posture = robot.posture_of("waist=0.5rad,left_elbow=2rad").unwrap();
-    let (slid, still) = (worn.slid(&posture).unwrap(), worn.surface());
+    let (slid, still) = (on_robot.slid(&posture).unwrap(), on_robot.surface());
     let of = |surface: &Surface, taxel: usize| surface.places()[taxel].unwrap();
     let turn = DQuat::from_rotation_z(0.01 / 0.06112);
     for taxel in 0..512 {
@@ -167,7 +168,7 @@ fn cloth_slides_over_its_surface_with_the_joint() {
         let way = slid.at.distance(still.at);
         assert!(way < 0.02 + 1e-12 && way > 0.0199 && slid.at.z < still.at.z, "{way}");
     }
-    assert_eq!(*worn.slid(&robot.rest()).unwrap(), *still);
+    assert_eq!(*on_robot.slid(&robot.rest()).unwrap(), *still);
     // In its own frame the chest is off by its way over the skin alone.
     let mut errors = vec![0.0; 9];
     errors[0] = 0.1;
@@ -178,14 +179,14 @@ fn cloth_slides_over_its_surface_with_the_joint() {
     assert!((off - 0.005).abs() < 1e-15, "{off}");
     // In the base the whole is moved once more; of the joints, the elbow is needed now.
     let turn = DQuat::from_rotation_z(0.5);
-    let seen = worn.seen_from(&posture, 0).unwrap();
+    let seen = on_robot.seen_from(&posture, 0).unwrap();
     assert!(of(&seen, 7).at.abs_diff_eq(turn * of(&slid, 7).at, 1e-12));
-    assert_eq!(worn.moving(0), [0, 1, 2, 3, 4, 5, 6, 7]);
-    assert_eq!(worn.moving(robot.link("left_upper_arm").unwrap()), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(on_robot.moving(0), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(on_robot.moving(robot.link("left_upper_arm").unwrap()), [0, 1, 2, 3, 4, 5, 6, 7]);
 }
 
 #[test]
-fn slides_that_cannot_be_are_told() {
+fn slides_that_cannot_be_are_reported() {
     let why = |slides: &str| sliding(["", "", slides, ""]).unwrap_err().to_string();
     assert!(
         why("{ joint = \"left_elbov\" }").starts_with(
@@ -232,14 +233,14 @@ proptest! {
         size in prop::sample::select(vec![1e-3, 0.03, 0.3]),
         frame in 0usize..12,
     ) {
-        let worn = sliding([
+        let on_robot = sliding([
             "{ joint = \"waist\", right = 0.03, down = -0.01 }",
             "",
             "{ joint = \"left_elbow\", down = 0.02, right = 0.01 }, { joint = \"left_shoulder_yaw\", right = 0.02 }",
             "",
         ]);
-        let worn = worn.unwrap();
-        let robot = worn.robot();
+        let on_robot = on_robot.unwrap();
+        let robot = on_robot.robot();
         let at = |(free, share): (&usize, &f64)| {
             let limits = robot.joints()[*free].limits.clone().unwrap();
             limits.start() + (limits.end() - limits.start()) * share
@@ -247,8 +248,8 @@ proptest! {
         let posture: Vec<f64> = robot.free().iter().zip(&shares).map(at).collect();
         let truth: Vec<f64> = posture.iter().zip(&offs).map(|(position, off)| position + off * size).collect();
         let estimate = Estimate { posture, errors: vec![size; 9], age: Duration::ZERO };
-        let bound = worn.displacement(&estimate, frame);
-        let [seen, exact] = [&estimate.posture, &truth].map(|posture| worn.seen_from(posture, frame).unwrap());
+        let bound = on_robot.displacement(&estimate, frame);
+        let [seen, exact] = [&estimate.posture, &truth].map(|posture| on_robot.seen_from(posture, frame).unwrap());
         for (seen, exact) in seen.places().iter().flatten().zip(exact.places().iter().flatten()) {
             let off = seen.at.distance(exact.at);
             prop_assert!(off <= bound + 1e-12, "{off} > {bound}");

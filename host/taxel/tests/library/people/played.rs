@@ -45,7 +45,7 @@ impl Heard {
 }
 
 /// Results of all acts of a session, and the number of attacks announced without a touch.
-pub fn wear(session: &mut impl Session) -> (Vec<Heard>, usize) {
+pub fn play(session: &mut impl Session) -> (Vec<Heard>, usize) {
     let info =
         BoardInfo { firmware: "", chip: "", pins: Pins::ANY, full_scale: 4095, link_bytes_per_s: 1_000_000 };
     let board = Shipped::new(info, session.garment(), Scene::shipped());

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
 use taxel::client::{Client, Event, Stamp};
 use taxel::fcm::map::MapFile;
-use taxel::fcm::told::Told;
+use taxel::fcm::reported::ReportedIntent;
 use taxel::robot::{BoardConfig, ReadRobot, feed};
 use taxel::session::Observer;
 use taxel::source::{SourceOptions, SourceSpec};
@@ -17,7 +17,7 @@ use taxel_core::wire::IntentReport;
 
 /// Arguments of commands that show a map in the state of a board.
 #[derive(Debug, Clone, clap::Args)]
-pub struct ToldArgs {
+pub struct ReportedArgs {
     /// Instead of a map: a board or a recording, whose first announced intention is shown: `sim[:TOUCHES]`,
     /// `usb`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD` or
     /// `replay:FILE[@SPEED]`
@@ -32,12 +32,12 @@ pub struct ToldArgs {
     /// With --source: set a concept, as in `taxel live`
     #[arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = feed, requires = "source")]
     pub feed: Vec<Feed>,
-    /// With --source of a robot's file: ask its boards and tell its map, as in `taxel live`
+    /// With --source of a robot's file: send requests to its boards and host input to its map, as in `taxel live`
     #[arg(long, value_name = "FILE", requires = "source")]
     pub requests: Option<PathBuf>,
 }
 
-impl ToldArgs {
+impl ReportedArgs {
     /// Paths of the input files.
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.iter().filter_map(SourceSpec::file).chain(self.scene.clone()).collect()
@@ -52,7 +52,7 @@ impl ToldArgs {
     }
 
     /// Report of the source, if one is given.
-    pub fn listen(self) -> Result<Option<Told>> {
+    pub fn listen(self) -> Result<Option<ReportedIntent>> {
         let Some(source) = self.source else { return Ok(None) };
         let config = BoardConfig { scene: self.scene, feed: self.feed, ..BoardConfig::of(source) };
         listen(BoardArgs { config, ..BoardArgs::default() }, self.at).map(Some)
@@ -60,7 +60,7 @@ impl ToldArgs {
 }
 
 /// Listens until an intention is announced; with `at` for this many seconds, and returns the last report.
-pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
+pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<ReportedIntent> {
     let (source, _) = board.open(SourceOptions { seconds: at, ..SourceOptions::default() })?;
     let label = source.label.clone();
     if source.real_time {
@@ -71,7 +71,7 @@ pub fn listen(board: BoardArgs, at: Option<f64>) -> Result<Told> {
     let seconds = at.map(|at| at + 1.0);
     watch::watch(&WatchOptions { seconds, ..WatchOptions::on(board) }, source, &mut ear)?;
     match (ear.found, at) {
-        (Some(told), _) => Ok(told),
+        (Some(reported), _) => Ok(reported),
         (None, None) => {
             bail!("{label}: no intention was announced; --at TIME explains the state at that time")
         }
@@ -86,7 +86,7 @@ struct Ear {
     began: Option<Micros>,
     now: Micros,
     leading: Leading,
-    found: Option<Told>,
+    found: Option<ReportedIntent>,
     done: bool,
 }
 
@@ -108,9 +108,9 @@ impl Ear {
         if self.at.is_none() && !announced {
             return Ok(());
         }
-        let intent = client.worn().and_then(|worn| worn.scene.intent.as_ref());
+        let intent = client.description().and_then(|description| description.scene.intent.as_ref());
         let map = MapFile::from_config(&intent.context("the board's scene has no map")?.map);
-        self.found = Some(Told { map, report: report.clone(), seconds: self.seconds() });
+        self.found = Some(ReportedIntent { map, report: report.clone(), seconds: self.seconds() });
         self.done = self.at.is_none();
         Ok(())
     }

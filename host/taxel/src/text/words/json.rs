@@ -7,7 +7,9 @@ pub fn json(error: &serde_json::Error, text: &str, file: &str) -> String {
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or("");
     let before = line.get(..error.column().min(line.len())).unwrap_or(line);
     match key(before) {
-        Some(key) if error.is_data() => format!("{file}, line {}, `{key}`: {}", error.line(), told(error)),
+        Some(key) if error.is_data() => {
+            format!("{file}, line {}, `{key}`: {}", error.line(), reported(error))
+        }
         _ => format!("{file}, {}", without_text(error)),
     }
 }
@@ -21,13 +23,13 @@ fn key(before: &str) -> Option<&str> {
 /// Formats an error without a file, or without its text.
 pub(super) fn without_text(error: &serde_json::Error) -> String {
     match (error.line(), error.column()) {
-        (0, _) => told(error),
-        (line, column) => format!("line {line}, character {column}: {}", told(error)),
+        (0, _) => reported(error),
+        (line, column) => format!("line {line}, character {column}: {}", reported(error)),
     }
 }
 
 /// The message without its place.
-fn told(error: &serde_json::Error) -> String {
+fn reported(error: &serde_json::Error) -> String {
     let whole = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let message = whole.strip_suffix(&place).unwrap_or(&whole);

@@ -1,7 +1,7 @@
 //! Contents of a board's `Hello`.
 
 use super::cleaned;
-use crate::tell::words::printable;
+use crate::text::words::printable;
 use std::cmp::Ordering;
 use taxel_core::boot::Boot;
 use taxel_core::format::{Micros, Name};
@@ -20,7 +20,7 @@ pub fn is_simulated(firmware: &str) -> bool {
 
 /// Garment, scene and firmware of a board.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Worn {
+pub struct BoardDescription {
     /// Name and version of the firmware.
     pub firmware: String,
     /// Unique id of the board's chip; empty if it has none, as a simulated board.
@@ -39,7 +39,7 @@ pub struct Worn {
     pub boot: Option<Boot>,
 }
 
-impl Worn {
+impl BoardDescription {
     /// True if the board is simulated, by the name of its firmware: also over a network, and in a recording.
     pub fn is_simulated(&self) -> bool {
         is_simulated(&self.firmware)
@@ -61,11 +61,11 @@ impl Worn {
     }
 
     /// Decodes a `Hello`, or says why not.
-    pub fn read(hello: &Hello<'_>) -> Result<Worn, String> {
+    pub fn read(hello: &Hello<'_>) -> Result<BoardDescription, String> {
         if hello.magic != MAGIC {
             return Err("the Hello of something that is not a taxel board".into());
         }
-        Worn::speaks(hello.protocol)?;
+        BoardDescription::speaks(hello.protocol)?;
         let text = |bytes: &[u8]| printable(&String::from_utf8_lossy(bytes)).into_owned();
         let mut garment: Garment = decode(hello.garment).map_err(|e| format!("garment in Hello: {e}"))?;
         cleaned::garment(&mut garment);
@@ -76,7 +76,7 @@ impl Worn {
         cleaned::scene(&mut scene);
         // The board has checked its scene like this; the display relies on it.
         Pipeline::build(&scene, &layout).map_err(|e| format!("scene in Hello: {e}"))?;
-        Ok(Worn {
+        Ok(BoardDescription {
             firmware: text(hello.firmware),
             chip: text(hello.chip),
             layout,

@@ -18,7 +18,7 @@ pub fn is_on() -> bool {
 }
 
 /// Prints a step: `garment block-4x16 sent`.
-pub fn tell(step: impl Display) {
+pub fn print(step: impl Display) {
     if ON.load(Ordering::Relaxed) {
         // Steps quote boards and files.
         eprintln!("taxel: {}", words::printable(&step.to_string()));
@@ -27,5 +27,5 @@ pub fn tell(step: impl Display) {
 
 /// Prints that a file is about to be read.
 pub fn reads(file: impl AsRef<Path>) {
-    tell(format_args!("reads {}", file.as_ref().display()));
+    print(format_args!("reads {}", file.as_ref().display()));
 }

@@ -6,7 +6,7 @@ use taxel_core::wire::IntentReport;
 
 /// A report of an intention, and the map that produced it.
 #[derive(Debug, Clone)]
-pub struct Told {
+pub struct ReportedIntent {
     /// The map of the board's scene.
     pub map: MapFile,
     /// The board's report.
@@ -15,7 +15,7 @@ pub struct Told {
     pub seconds: f64,
 }
 
-impl Told {
+impl ReportedIntent {
     /// Concepts set by the touch or the host, with their activations.
     pub fn inputs(&self) -> Vec<(String, Decimal)> {
         let value = |at: usize| self.report.concepts.get(at).and_then(|v| Decimal::from_f64(v.to_f64()));

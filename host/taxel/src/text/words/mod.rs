@@ -75,7 +75,7 @@ mod tests {
     use crate::error::Context;
 
     #[test]
-    fn causes_are_told_without_numbers_of_the_system() {
+    fn causes_are_reported_without_numbers_of_the_system() {
         let missing = std::io::Error::from_raw_os_error(2);
         let flat = crate::Error::other(format!("tcp:a:1 cannot be reached: {missing}"));
         assert_eq!(sentence(&flat), "tcp:a:1 cannot be reached: no such file or directory");

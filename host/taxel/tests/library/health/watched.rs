@@ -18,20 +18,20 @@ pub const TARE: u16 = 16;
 pub const FRAME_S: f64 = 5.128e-3;
 
 /// A simulated board and its findings.
-pub struct Worn {
+pub struct WatchedBoard {
     pub garment: Garment,
     pub board: Box<Shipped>,
     /// Intentions announced so far.
     pub said: BTreeSet<&'static str>,
 }
 
-impl Worn {
-    pub fn new() -> Worn {
-        Worn::at(Depth::Twelve)
+impl WatchedBoard {
+    pub fn new() -> WatchedBoard {
+        WatchedBoard::at(Depth::Twelve)
     }
 
     /// A board with codes of this depth.
-    pub fn at(depth: Depth) -> Worn {
+    pub fn at(depth: Depth) -> WatchedBoard {
         let mut scene = Scene::shipped();
         scene.plan.depth = depth;
         let info = BoardInfo {
@@ -43,7 +43,7 @@ impl Worn {
         };
         let garment = Garment::reference();
         let board = Box::new(Shipped::new(info, garment.clone(), scene).unwrap());
-        Worn { garment, board, said: BTreeSet::new() }
+        WatchedBoard { garment, board, said: BTreeSet::new() }
     }
 
     /// Plays this many frames of a script after a tare. Returns the faulty taxels with the frame of the

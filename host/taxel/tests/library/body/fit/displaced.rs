@@ -1,11 +1,11 @@
-//! Garments on bodies of each kind, worn otherwise than their files say.
+//! Garments on bodies of each kind, displaced from where their files say.
 
 use crate::random::Noise;
 use taxel::body::fit::{BodyFit, FeltTouch, KnownTouch};
-use taxel::body::{self, DVec3, ReadBody, Surface, WornShift};
+use taxel::body::{self, DVec3, PatchOffset, ReadBody, Surface};
 use taxel_core::garment::{Garment, Layout};
 
-/// What is worn: the garment, and the body file, without `worn`.
+/// The garment, and the body file, without `offset`.
 pub struct Case {
     pub name: &'static str,
     pub garment: Garment,
@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
 const BODY: &str = include_str!("../../../../bodies/reference.toml");
 
 /// A body file and its list, in a folder of its own.
-pub fn read(case: &Case, run: &str, worn: &[WornShift]) -> ReadBody {
+pub fn read(case: &Case, run: &str, offsets: &[PatchOffset]) -> ReadBody {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!(
         "fit-{}-{}-{run}",
         std::process::id(),
@@ -70,10 +70,10 @@ pub fn read(case: &Case, run: &str, worn: &[WornShift]) -> ReadBody {
         (0..2048).map(|taxel| ((taxel % 32) as f64 * 0.01 - 0.155, 0.315 - (taxel / 32) as f64 * 0.01));
     std::fs::write(folder.join("list.txt"), places.map(|(y, z)| listed(y, z)).collect::<String>()).unwrap();
     let mut text = case.body.clone();
-    for (number, worn) in worn.iter().enumerate() {
-        let WornShift { right, down, turn } = worn;
+    for (number, offsets) in offsets.iter().enumerate() {
+        let PatchOffset { right, down, turn } = offsets;
         let at = text.match_indices("panel = ").nth(number).unwrap().0;
-        text.insert_str(at, &format!("worn = {{ right = {right:?}, down = {down:?}, turn = {turn:?} }}\n"));
+        text.insert_str(at, &format!("offset = {{ right = {right:?}, down = {down:?}, turn = {turn:?} }}\n"));
     }
     let path = folder.join("body.toml");
     std::fs::write(&path, text).unwrap();
@@ -82,10 +82,10 @@ pub fn read(case: &Case, run: &str, worn: &[WornShift]) -> ReadBody {
     read
 }
 
-/// Worn up to 20 mm and 5 degrees otherwise than it should be.
-pub fn worn_at_random(random: &mut Noise) -> WornShift {
+/// Displaced by up to 20 mm and 5 degrees.
+pub fn displaced_at_random(random: &mut Noise) -> PatchOffset {
     let mut within = |most: f64| random.range(-most, most);
-    WornShift { right: within(0.014), down: within(0.014), turn: within(5.0) }
+    PatchOffset { right: within(0.014), down: within(0.014), turn: within(5.0) }
 }
 
 /// Distance of each taxel of a panel from where it truly is: the greatest.
@@ -102,15 +102,15 @@ pub fn worst(found: &Surface, truly: &Surface, layout: &Layout, panel: usize) ->
 
 /// The surface with what was found.
 pub fn surface_of(fit: &BodyFit, case: &Case) -> Surface {
-    let worn: Vec<WornShift> = fit.panels.iter().map(|panel| panel.worn).collect();
+    let offsets: Vec<PatchOffset> = fit.panels.iter().map(|panel| panel.offset).collect();
     let all = case.patches();
-    assert_eq!(worn.len(), all, "{}: {:?}", case.name, fit.few);
-    read_again(case, &worn)
+    assert_eq!(offsets.len(), all, "{}: {:?}", case.name, fit.few);
+    read_again(case, &offsets)
 }
 
-pub fn read_again(case: &Case, worn: &[WornShift]) -> Surface {
+pub fn read_again(case: &Case, offsets: &[PatchOffset]) -> Surface {
     let run = format!("{:?}", std::thread::current().id()).replace(['(', ')'], "-");
-    read(case, &run, worn).surface(&case.garment, &case.layout()).unwrap()
+    read(case, &run, offsets).surface(&case.garment, &case.layout()).unwrap()
 }
 
 /// A touch at a place that is truly there, but for errors of the mark, m.

@@ -1,4 +1,4 @@
-//! A body and the garment that it wears.
+//! A body and its garment.
 
 use anyhow::Result;
 use clap::Args;
@@ -8,15 +8,15 @@ use taxel_core::garment::{Garment, Layout};
 
 /// A body and its garment.
 #[derive(Debug, Clone, Args)]
-pub struct WornArgs {
+pub struct DressedArgs {
     /// The body: a TOML file or `reference`
     pub body: String,
-    /// The garment that it wears: a TOML file or a preset
+    /// Its garment: a TOML file or a preset
     #[arg(long, value_name = "G", default_value = "reference")]
     pub garment: String,
 }
 
-impl WornArgs {
+impl DressedArgs {
     /// Reads the garment.
     pub fn garment(&self) -> Result<(Garment, Layout)> {
         let garment = garments::read(&self.garment)?;

@@ -1,4 +1,4 @@
-//! What a user is told: errors in plain words, steps of the program, progress.
+//! What a user reads: errors in plain words, steps of the program, progress.
 
 pub mod date;
 pub mod progress;

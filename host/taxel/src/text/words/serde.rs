@@ -18,7 +18,7 @@ pub fn plain(message: &str) -> String {
         .or_else(|| range(&message))
         .or_else(|| length(&message))
         .or_else(|| name(&message))
-        .unwrap_or_else(|| crate::tell::words::io(&message))
+        .unwrap_or_else(|| crate::text::words::io(&message))
 }
 
 /// `invalid type: FOUND, expected WANTED`, and `invalid value: ...`
@@ -74,7 +74,7 @@ fn name(message: &str) -> Option<String> {
     Some(match known.map(|known| known.replace("` or `", "`, `")) {
         Some(known) => {
             let names = known.split(", ").map(|name| name.trim_matches('`'));
-            match crate::tell::words::meant(unknown.trim_matches('`'), names) {
+            match crate::text::words::meant(unknown.trim_matches('`'), names) {
                 Some(name) => {
                     format!("{unknown} is not a known {what}, did you mean `{name}`? Known are {known}")
                 }
@@ -204,11 +204,11 @@ mod tests {
                 let key = line.split_once(" =").unwrap().0;
                 let text = whole.replace(line, &format!("{key} = {wrong}"));
                 let Err(error) = toml::from_str::<Stuck>(&text) else { continue };
-                let told = plain(error.message());
+                let reported = plain(error.message());
                 for word in
                     ["struct", "u16", "u8", "i8", "f32", "tuple", "array of", "invalid", "enum", "variant"]
                 {
-                    assert!(!told.contains(word), "{key} = {wrong}: {told}");
+                    assert!(!reported.contains(word), "{key} = {wrong}: {reported}");
                 }
             }
         }

@@ -1,10 +1,10 @@
 //! Two boards that a touch of the robot meets, and minds that hear all of it or a part.
 
 use super::spread::SpreadTouch;
-use crate::meaning::family::Told;
+use crate::meaning::family::Announced;
 use fastrand::Rng;
 use std::path::Path;
-use taxel::mind::{BoardSense, MindReader, RobotMind, RobotReasons, ToldLine};
+use taxel::mind::{BoardSense, HostInputLine, MindReader, RobotMind, RobotReasons};
 use taxel::robot::ReadRobot;
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
@@ -17,8 +17,8 @@ const TARE_US: u64 = 200_000;
 /// Time after the end of its force in which announcements still belong to a touch, us.
 const AFTER_US: u64 = 1_500_000;
 /// Time between two values of vision and voice, us, and the greatest age of one, ms.
-const TOLD_US: u64 = 100_000;
-const TOLD_AGE_MS: u32 = 120;
+const SENT_US: u64 = 100_000;
+const SENT_AGE_MS: u32 = 120;
 
 /// A robot of two boards of these links.
 pub fn robot(links: [Option<&str>; 2]) -> ReadRobot {
@@ -27,8 +27,8 @@ pub fn robot(links: [Option<&str>; 2]) -> ReadRobot {
         format!("[[boards]]\nname = \"{name}\"\nsource = \"sim:idle\"\n{link}")
     };
     let boards: String = ["one", "two"].into_iter().zip(links).map(board).collect();
-    let text = format!("name = \"worn\"\nurdf = \"reference\"\n{boards}");
-    ReadRobot::parse("worn.toml".into(), text, Path::new(".")).unwrap()
+    let text = format!("name = \"touched\"\nurdf = \"reference\"\n{boards}");
+    ReadRobot::parse("touched.toml".into(), text, Path::new(".")).unwrap()
 }
 
 /// A source of the mind.
@@ -64,10 +64,10 @@ impl Heard {
 
 /// Plays a touch. Returns the announcements by each source of [`Heard::ALL`]. What is seen is right in 3 of 4
 /// touches, what is heard in 7 of 8 of those at which anything is said, which is every second.
-pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
+pub fn hear(mut touch: SpreadTouch, number: u64) -> [Announced; 6] {
     let robot = robot([touch.parts[0].link, touch.parts[1].link]);
     let mut rng = Rng::with_seed(0x3a1d ^ touch.span.1 ^ number << 40);
-    let friendly = if touch.wish.is_harmful() { -0.8 } else { 0.8 };
+    let friendly = if touch.expected.is_harmful() { -0.8 } else { 0.8 };
     let flipped = |is_right: bool| if is_right { friendly } else { -friendly };
     let vision = flipped(rng.u32(..4) > 0);
     let voice = rng.bool().then(|| flipped(rng.u32(..8) > 0));
@@ -78,14 +78,14 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
         boards.push((board, MindReader::new(&robot, number), rng.u64(..part.period_us)));
     }
     let mut minds = Heard::ALL.map(|heard| (heard, RobotMind::new(&robot).unwrap()));
-    let mut told: [Told; 6] = Default::default();
+    let mut announced: [Announced; 6] = Default::default();
     let mut leading = [Leading::None; 6];
     let (mut next_us, end_us) = (touch.span.0, touch.span.1 + AFTER_US);
     loop {
         let board = usize::from(boards[0].2 > boards[1].2);
         let now = boards[board].2;
         if now >= end_us {
-            return told;
+            return announced;
         }
         let (stepped, reader, due) = &mut boards[board];
         let part = &mut touch.parts[board];
@@ -101,7 +101,7 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
         let at_ms = (now as i64 - touch.span.0 as i64) / 1000;
         let mut says = |at: usize, said: Leading| {
             if std::mem::replace(&mut leading[at], said) != said {
-                told[at].push((said, at_ms));
+                announced[at].push((said, at_ms));
             }
         };
         for sense in &senses {
@@ -116,18 +116,18 @@ pub fn hear(mut touch: SpreadTouch, number: u64) -> [Told; 6] {
             }
         }
         if now >= next_us && now < touch.span.1 {
-            next_us += TOLD_US;
-            let age_ms = rng.u32(40..TOLD_AGE_MS);
-            let line = |name: &str, value: f64| ToldLine {
-                told: [(name.to_string(), value)].into(),
+            next_us += SENT_US;
+            let age_ms = rng.u32(40..SENT_AGE_MS);
+            let line = |name: &str, value: f64| HostInputLine {
+                host_input: [(name.to_string(), value)].into(),
                 age_ms,
-                ..ToldLine::default()
+                ..HostInputLine::default()
             };
             let known = [("vision", Some(vision), Heard::Vision), ("voice", voice, Heard::Voice)];
             for (at, (heard, mind)) in minds.iter_mut().enumerate() {
                 for (name, value, of) in &known {
                     let Some(value) = value.filter(|_| [*of, Heard::All].contains(heard)) else { continue };
-                    if let Some(meaning) = mind.tell(&line(name, value), now).unwrap() {
+                    if let Some(meaning) = mind.take_input(&line(name, value), now).unwrap() {
                         says(at, meaning.leading);
                     }
                 }

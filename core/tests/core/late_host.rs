@@ -1,4 +1,4 @@
-//! What a host is told of reactions when it comes late or reads slowly, and what its silence means to the
+//! What a host hears of reactions when it comes late or reads slowly, and what its silence means to the
 //! board.
 
 use crate::board::{BoardAndHost, FINGER};
@@ -35,38 +35,42 @@ fn press(bench: &mut BoardAndHost, code: u16) {
     (0..4).for_each(|_| bench.scan());
 }
 
-fn told(bench: &mut BoardAndHost) -> Vec<bool> {
-    let mut told = Vec::new();
+fn reported(bench: &mut BoardAndHost) -> Vec<bool> {
+    let mut reported = Vec::new();
     bench.drain(usize::MAX, |report| {
         if let Report::Reaction(report) = report {
-            told.push(report.reaction.active);
+            reported.push(report.reaction.active);
         }
     });
-    told
+    reported
 }
 
 #[test]
-fn a_host_that_connects_late_is_told_what_lasts() {
+fn a_host_that_connects_late_is_sent_what_lasts() {
     let mut bench = guarding();
     press(&mut bench, 900);
-    assert!(told(&mut bench).is_empty(), "nobody listens");
+    assert!(reported(&mut bench).is_empty(), "nobody listens");
     bench.ask(&Request::Start);
-    assert_eq!(told(&mut bench), [true]);
+    assert_eq!(reported(&mut bench), [true]);
     press(&mut bench, 0);
-    assert_eq!(told(&mut bench), [false]);
+    assert_eq!(reported(&mut bench), [false]);
 }
 
 #[test]
-fn a_host_that_reads_slowly_is_told_how_each_reaction_stands() {
+fn a_host_that_reads_slowly_is_sent_how_each_reaction_stands() {
     for times in [20, 21] {
         let mut bench = guarding();
         bench.ask(&Request::Start);
-        told(&mut bench);
+        reported(&mut bench);
         (0..times).for_each(|at| press(&mut bench, if at % 2 == 0 { 900 } else { 0 }));
         let lost = bench.board.health().lost;
-        let told = told(&mut bench);
-        assert_eq!((told.last(), told.len() < times), (Some(&(times % 2 == 1)), true), "{told:?}");
-        assert!(lost as usize >= times - told.len());
+        let reported = reported(&mut bench);
+        assert_eq!(
+            (reported.last(), reported.len() < times),
+            (Some(&(times % 2 == 1)), true),
+            "{reported:?}"
+        );
+        assert!(lost as usize >= times - reported.len());
     }
 }
 
@@ -94,7 +98,7 @@ fn what_a_host_fed_holds_until_it_says_nothing_for_three_seconds() {
 fn raw_codes_that_are_asked_for_change_nothing_else() {
     let mut bench = guarding();
     bench.ask(&Request::Start);
-    told(&mut bench);
+    reported(&mut bench);
     let before = bench.board.setup().scene.clone();
     let mut rates = Vec::new();
     for hz in [10, 0] {

@@ -8,7 +8,7 @@ use taxel::body::fit::{BodyFit, FittedTouch, KnownTouch, PatchFit};
 pub fn table(fit: &BodyFit, touches: &[KnownTouch]) -> String {
     let mut text = String::new();
     for panel in &fit.panels {
-        panel_told(&mut text, panel, touches);
+        panel_text(&mut text, panel, touches);
     }
     for (panel, count) in &fit.few {
         let _ = writeln!(text, "{panel}: {count} of the 3 touches that it needs: it stays as it was");
@@ -16,21 +16,21 @@ pub fn table(fit: &BodyFit, touches: &[KnownTouch]) -> String {
     text
 }
 
-fn panel_told(text: &mut String, fit: &PatchFit, touches: &[KnownTouch]) {
+fn panel_text(text: &mut String, fit: &PatchFit, touches: &[KnownTouch]) {
     let millimetres = fit.shift_sd.map(|sd| sd * 1e3);
     let _ = writeln!(
         text,
         "{}: {:.1} mm to the right (sd {:.1}), {:.1} mm down (sd {:.1}), {}",
         fit.panel,
-        fit.worn.right * 1e3,
+        fit.offset.right * 1e3,
         millimetres[0],
-        fit.worn.down * 1e3,
+        fit.offset.down * 1e3,
         millimetres[1],
         match fit.turn_sd {
-            Some(sd) => format!("turned by {:.2} degrees (sd {sd:.2})", fit.worn.turn),
+            Some(sd) => format!("turned by {:.2} degrees (sd {sd:.2})", fit.offset.turn),
             None => format!(
-                "turned by {:.2} degrees as before: the touches are too near each other to tell",
-                fit.worn.turn
+                "turned by {:.2} degrees as before: the touches are too near each other to say",
+                fit.offset.turn
             ),
         }
     );
@@ -51,7 +51,7 @@ fn panel_told(text: &mut String, fit: &PatchFit, touches: &[KnownTouch]) {
             known.x,
             known.y,
             known.z,
-            touch_told(touch)
+            touch_text(touch)
         );
     }
     let distance = |touch: &&FittedTouch| touch.distance().unwrap_or(0.0);
@@ -60,7 +60,7 @@ fn panel_told(text: &mut String, fit: &PatchFit, touches: &[KnownTouch]) {
     }
 }
 
-fn touch_told(touch: &FittedTouch) -> String {
+fn touch_text(touch: &FittedTouch) -> String {
     match (touch.off, touch.is_kept) {
         (Some([right, down]), is_kept) => {
             let left_out = if is_kept { "" } else { ", left out" };
@@ -80,7 +80,7 @@ pub fn json(fit: &BodyFit) -> String {
     let touch = |touch: &FittedTouch| json!({ "number": touch.number + 1, "off": touch.off, "height": touch.height, "kept": touch.is_kept });
     let panel = |fit: &PatchFit| {
         json!({
-            "panel": fit.panel, "worn": fit.worn, "shift_sd": fit.shift_sd, "turn_sd": fit.turn_sd, "rms": fit.rms(),
+            "panel": fit.panel, "offset": fit.offset, "shift_sd": fit.shift_sd, "turn_sd": fit.turn_sd, "rms": fit.rms(),
             "height": fit.height(), "touches": fit.touches.iter().map(touch).collect::<Value>(),
         })
     };

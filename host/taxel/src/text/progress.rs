@@ -26,7 +26,7 @@ pub enum Unit {
 
 impl Unit {
     /// Formats a count with its unit.
-    fn told(self, count: f64) -> String {
+    fn text_of(self, count: f64) -> String {
         match self {
             Unit::Bytes => format!("{:.1} MB", count / 1e6),
             Unit::Frames => format!("{count:.0} frames"),
@@ -40,7 +40,7 @@ impl Unit {
         match self {
             Unit::BoardTime => format!("{:.1} x real time", rate / 1e6),
             Unit::Steps(_) if rate < 10.0 => format!("{rate:.1}/s"),
-            _ => format!("{}/s", self.told(rate)),
+            _ => format!("{}/s", self.text_of(rate)),
         }
     }
 }
@@ -70,12 +70,12 @@ impl Progress {
     /// Updates the count.
     pub fn at(&mut self, done: u64) {
         if self.due.is_some() {
-            self.say(|progress, passed| progress.line(&progress.unit.told(done as f64), done, passed));
+            self.say(|progress, passed| progress.line(&progress.unit.text_of(done as f64), done, passed));
         }
     }
 
     /// Updates the count, and shows this text with it.
-    pub fn told(&mut self, done: u64, text: impl FnOnce() -> String) {
+    pub fn show(&mut self, done: u64, text: impl FnOnce() -> String) {
         self.say(|progress, passed| progress.line(&text(), done, passed));
     }
 
@@ -142,11 +142,11 @@ mod tests {
 
     /// Formats the line of a progress.
     fn line(progress: &Progress, done: u64) -> String {
-        progress.line(&progress.unit.told(done as f64), done, Duration::from_secs(4))
+        progress.line(&progress.unit.text_of(done as f64), done, Duration::from_secs(4))
     }
 
     #[test]
-    fn rate_and_remaining_time_are_told() {
+    fn rate_and_remaining_time_are_reported() {
         let bytes = progress(Unit::Bytes, Some(45_000_000));
         assert_eq!(line(&bytes, 9_000_000), "reading a.mcap: 20 %, 9.0 MB, 2.2 MB/s, 16 s left");
         assert_eq!(line(&bytes, 0), "reading a.mcap: 0 %, 0.0 MB, 0.0 MB/s, ? left");
@@ -167,7 +167,7 @@ mod tests {
         unseen.at(1);
         assert!(!unseen.shown);
         unseen.due = Some(QUIET);
-        unseen.told(1, || "one".into());
+        unseen.show(1, || "one".into());
         assert!(unseen.shown && unseen.due > Some(Duration::from_secs(60)));
         unseen.shown = false;
         unseen.at(2);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use taxel::body::mesh::{self, Figure};
 use taxel::body::robot::{self, Robot, RobotLink};
 use taxel::body::{self, Pose, ReadBody, RobotSurface, Surface, TaxelPlace};
-use taxel::client::{Client, Worn};
+use taxel::client::{BoardDescription, Client};
 use taxel::json::{computed_pressing, lines::PressingLine, pressing};
 use taxel_core::format::Micros;
 use taxel_core::garment::{Garment, Layout};
@@ -17,18 +17,18 @@ use taxel_core::wire::PressingReport;
 /// Age up to which a report of the board belongs to a frame, us; a board may report ten times a second.
 const FRESH: u64 = 150_000;
 
-/// Wears a garment, once that is known.
+/// The robot, and its garment once that is known.
 #[derive(Debug)]
-pub struct Wearer {
+pub struct ShownRobot {
     body: ReadBody,
     robot: Option<Arc<Robot>>,
     /// What the robot looks like.
     figure: Figure,
     /// Positions of the robot's joints, rad or m; empty without a robot.
     posture: Vec<f64>,
-    worn: Option<GarmentOn>,
+    garment: Option<GarmentOn>,
     /// Last report of the board.
-    told: Option<Box<PressingReport>>,
+    reported: Option<Box<PressingReport>>,
 }
 
 /// A garment on the body.
@@ -44,14 +44,21 @@ struct GarmentOn {
     links: Vec<usize>,
 }
 
-impl Wearer {
+impl ShownRobot {
     /// Reads a body, and a robot and the positions of its joints (`elbow=30deg`); the others rest.
-    pub fn read(body: &str, robot: Option<&str>, joints: &str) -> Result<Wearer> {
+    pub fn read(body: &str, robot: Option<&str>, joints: &str) -> Result<ShownRobot> {
         let body = body::read(body)?;
         let figure = robot.map(|robot| mesh::figure(robot, &[])).transpose()?.unwrap_or_default();
         let robot = robot.map(robot::read).transpose()?.map(Arc::new);
         let posture = robot.as_ref().map(|robot| robot.posture_of(joints)).transpose().usage()?;
-        Ok(Wearer { body, robot, figure, posture: posture.unwrap_or_default(), worn: None, told: None })
+        Ok(ShownRobot {
+            body,
+            robot,
+            figure,
+            posture: posture.unwrap_or_default(),
+            garment: None,
+            reported: None,
+        })
     }
 
     /// The posture in which these joints have moved, rad or m, and the others not; none without a robot. Joints
@@ -73,17 +80,17 @@ impl Wearer {
         self.body.lists()
     }
 
-    /// True if it wears this garment already.
-    pub fn wears(&self, worn: &Worn) -> bool {
-        self.worn.as_ref().is_some_and(|on| on.garment == worn.garment)
+    /// True if it has this garment already.
+    pub fn has(&self, description: &BoardDescription) -> bool {
+        self.garment.as_ref().is_some_and(|on| on.garment == description.garment)
     }
 
-    /// Puts a garment on. Errors name the body's file, line and key; then nothing is worn.
-    pub fn wear(&mut self, worn: &Worn) -> Result<()> {
-        self.worn = None;
-        self.told = None;
-        let (garment, layout) = (worn.garment.clone(), worn.layout.clone());
-        self.worn = Some(match &self.robot {
+    /// Puts a garment on. Errors name the body's file, line and key; then no garment is on.
+    pub fn put_on(&mut self, description: &BoardDescription) -> Result<()> {
+        self.garment = None;
+        self.reported = None;
+        let (garment, layout) = (description.garment.clone(), description.layout.clone());
+        self.garment = Some(match &self.robot {
             Some(robot) => {
                 let on_robot = self.body.on_robot(&garment, &layout, robot.clone())?;
                 let surface = on_robot.slid(&self.posture)?.into_owned();
@@ -104,22 +111,22 @@ impl Wearer {
     /// cloth has slid over the skin, so that the places are others. The error names a panel that has slid off.
     pub fn pose(&mut self, posture: Vec<f64>) -> Result<bool> {
         let mut has_slid = false;
-        if let Some(worn) = &mut self.worn
-            && let Some(on_robot) = &worn.on_robot
+        if let Some(on) = &mut self.garment
+            && let Some(on_robot) = &on.on_robot
         {
             let slid = on_robot.slid(&posture)?;
-            has_slid = *slid != worn.surface;
+            has_slid = *slid != on.surface;
             if has_slid {
-                worn.surface = slid.into_owned();
+                on.surface = slid.into_owned();
             }
         }
         self.posture = posture;
         Ok(has_slid)
     }
 
-    /// Where the taxels lie; none before a garment is worn.
+    /// Where the taxels lie; none before a garment is on.
     pub fn body(&self) -> Option<BodyLine<'_>> {
-        let worn = self.worn.as_ref()?;
+        let on = self.garment.as_ref()?;
         let links = match &self.robot {
             Some(robot) => {
                 let parent = |link: usize| Some(robot.joints().get(link.checked_sub(1)?)?.parent);
@@ -127,15 +134,15 @@ impl Wearer {
                 links.map(|(at, link)| BodyLink { name: &link.name, parent: parent(at) }).collect()
             }
             None => {
-                let names = worn.surface.links().iter();
+                let names = on.surface.links().iter();
                 names.map(|name| BodyLink { name, parent: None }).collect()
             }
         };
         let taxel = |place: &Option<TaxelPlace>| {
             let place = place.as_ref()?;
-            Some((*worn.links.get(place.link)?, rounded(place.at), rounded(place.normal)))
+            Some((*on.links.get(place.link)?, rounded(place.at), rounded(place.normal)))
         };
-        let taxels = worn.surface.places().iter().map(taxel).collect();
+        let taxels = on.surface.places().iter().map(taxel).collect();
         Some(BodyLine { name: &self.body.name, links, taxels })
     }
 
@@ -171,16 +178,16 @@ impl Wearer {
 
     /// Takes a report of the board.
     pub fn take(&mut self, report: &PressingReport) {
-        self.told = Some(Box::new(report.clone()));
+        self.reported = Some(Box::new(report.clone()));
     }
 
     /// What presses on the robot in the client's newest frame, of this time: by the board's report, if there is one of
-    /// that time, else computed. None before a garment is worn.
+    /// that time, else computed. None before a garment is on.
     pub fn pressing<'a>(&'a self, client: &Client, time: Micros) -> Option<PressingLine<'a>> {
-        let worn = self.worn.as_ref()?;
-        match &self.told {
+        let on = self.garment.as_ref()?;
+        match &self.reported {
             Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(report)),
-            _ => computed_pressing(client, time, &worn.layout, &worn.surface),
+            _ => computed_pressing(client, time, &on.layout, &on.surface),
         }
     }
 }

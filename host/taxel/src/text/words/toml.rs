@@ -32,31 +32,32 @@ mod tests {
         pins: Vec<Fault>,
     }
 
-    fn told(text: &str) -> String {
+    fn reported(text: &str) -> String {
         super::toml(&toml::from_str::<File>(text).unwrap_err(), text, "a.toml")
     }
 
     #[test]
     fn line_and_key_are_named() {
         assert_eq!(
-            told("pins = []\nrow = \"a\""),
+            reported("pins = []\nrow = \"a\""),
             "a.toml, line 2, `row`: must be a whole number from 0 to 255, not \"a\""
         );
-        assert_eq!(told("pins = []"), "a.toml, line 1: `row` is missing");
-        let inner = told("row = 1\npins = [\n  { pin = 8, kind = \"open\" },\n  { pin = 8, kind = 3 },\n]");
+        assert_eq!(reported("pins = []"), "a.toml, line 1: `row` is missing");
+        let inner =
+            reported("row = 1\npins = [\n  { pin = 8, kind = \"open\" },\n  { pin = 8, kind = 3 },\n]");
         assert_eq!(inner, "a.toml, line 4, `kind`: must be a text, not 3");
-        let listed = told("row = 1\n[[pins]]\nkind = \"open\"\npin = 300\n");
+        let listed = reported("row = 1\n[[pins]]\nkind = \"open\"\npin = 300\n");
         assert_eq!(listed, "a.toml, line 4, `pin`: must be a whole number from 0 to 255, not 300");
-        let missing = told("row = 1\n[[pins]]\npin = 3\n");
+        let missing = reported("row = 1\n[[pins]]\npin = 3\n");
         assert!(
             missing.starts_with("a.toml, line 2") && missing.ends_with(": `kind` is missing"),
             "{missing}"
         );
-        let unknown = told("row = 1\n[[pins]]\npin = 3\nkinds = 3\n");
+        let unknown = reported("row = 1\n[[pins]]\npin = 3\nkinds = 3\n");
         assert_eq!(
             unknown,
             "a.toml, line 4: `kinds` is not a known key, did you mean `kind`? Known are `pin`, `kind`"
         );
-        assert!(told("row = = 1").starts_with("a.toml, line 1"));
+        assert!(reported("row = = 1").starts_with("a.toml, line 1"));
     }
 }
