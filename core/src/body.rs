@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct Placed {
     /// The contact.
     pub contact: Contact,
-    /// Its shape.
+    /// Shape of the contact.
     pub shape: Shape,
     /// Index into [`Layout::regions`].
     pub region: u8,

@@ -16,7 +16,7 @@ use crate::shape::Shapes;
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 
-/// Of each type: the file that states its RAM, bytes on the board, bytes on a host.
+/// Asserts the RAM of types; given for each: the file that states it, bytes on the board, bytes on a host.
 macro_rules! states {
     ($($state:ty, $file:literal, $board:literal, $host:literal;)*) => {
                 #[cfg(target_arch = "arm")]

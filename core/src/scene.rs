@@ -15,7 +15,7 @@ use crate::symbol::SymbolConfig;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-/// How friendly a touch of a region is.
+/// Friendliness of a touch of a region.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Friendliness {

@@ -58,7 +58,7 @@ pub struct ScanReport {
     pub temperature: Option<Celsius>,
 }
 
-/// Why a scan failed. Only its frame is dropped.
+/// Reason why a scan failed. Only its frame is dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScanError {
     /// A pin with this GPIO number could not be driven or read.

@@ -1,4 +1,4 @@
-//! Why a plan cannot be read by a free-running converter.
+//! Reasons why a plan cannot be read by a free-running converter.
 
 use crate::format::LEFT_OUT;
 use core::fmt;
@@ -6,7 +6,7 @@ use core::fmt;
 /// Most converter inputs of a sweep.
 pub const SWEEP_INPUTS: usize = 4;
 
-/// Why a plan cannot be read in one sweep.
+/// Reason why a plan cannot be read in one sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unfit {
     /// The plan reads fewer than two addresses.

@@ -1,4 +1,4 @@
-//! Where contacts lie, to be asked of many taxels.
+//! Places of the contacts, to be asked of many taxels.
 
 use super::feedback::{Feedback, Pressed};
 use crate::capacity::TAXELS;

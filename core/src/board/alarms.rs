@@ -22,7 +22,7 @@ pub(super) struct Alarms {
     frames: u32,
 }
 
-/// What is wrong with the board.
+/// Faults of the board.
 pub(super) struct Faults<'a> {
     /// Number of lines and inputs with a fault, and 1 if scans fail.
     pub lines: i32,

@@ -9,7 +9,7 @@ use crate::wire::{Report, Request};
 /// Number of `Tare`, which is answered when it is done.
 const TARE: u8 = Request::Tare { frames: 0 }.number();
 
-/// What is known of baseline and gains.
+/// State of baseline and gains.
 pub(super) struct Calibration {
     is_taring: bool,
     /// True if the garment has a baseline of its own, by tare or restored.

@@ -1,4 +1,4 @@
-//! What follows from an input: reports and answers to send, pins to drive, counters.
+//! Effects of an input: reports and answers to send, pins to drive, counters.
 
 use super::outbox::Outbox;
 use super::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! What comes to the board, and what it gives to its loop.
+//! Inputs of the board, and outputs to its loop.
 
 use super::settings::Saved;
 use crate::acquire::{Plan, Scan, ScanError};
@@ -27,8 +27,8 @@ pub enum Input<'a> {
     Misled,
     /// A reaction began by reflex, within the frame being scanned or scanned last.
     Reflex(Early),
-    /// When the frame of the USB began that
-    /// [`Board::asks_start_of_frame`](super::Board::asks_start_of_frame) has asked for.
+    /// Start of the frame of the USB that [`Board::asks_start_of_frame`](super::Board::asks_start_of_frame) has
+    /// asked for.
     StartOfFrame(StartOfFrame),
     /// Asks for the next job.
     Tick,

@@ -7,7 +7,7 @@ use crate::format::Micros;
 use crate::selftest::Findings;
 use crate::wire::SelfTestReport;
 
-/// What is known of lines and inputs, and whether they are to be tested.
+/// Findings on lines and inputs, and whether they are to be tested.
 pub(super) struct LineTests {
     /// The last test with the present garment.
     report: Option<SelfTestReport>,
@@ -16,11 +16,11 @@ pub(super) struct LineTests {
     is_rewired: bool,
 }
 
-/// How a test ended.
+/// Result of a test.
 pub(super) enum Tested {
-    /// It was made on evidence; true: its findings are new.
+    /// Test made on evidence; true: its findings are new.
     OnEvidence(bool),
-    /// It was made for any other reason; the refusal if it failed.
+    /// Test made for any other reason; the refusal if it failed.
     Else(Option<Refusal>),
 }
 

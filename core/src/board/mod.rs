@@ -97,7 +97,7 @@ const UNREADABLE: u8 = 255;
 /// The whole state of the board, for garments of up to TAXELS taxels; RUNS and PARTS as in
 /// [`ContactState`](crate::contact::ContactState).
 pub struct Board<const TAXELS: usize, const RUNS: usize, const PARTS: usize = RUNS> {
-    /// How the board started; none until [`Board::booted`].
+    /// Start of the board; none until [`Board::booted`].
     boot: Option<Boot>,
     /// True once the stages were reset for the first garment.
     begun: bool,
@@ -847,7 +847,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
     }
 }
 
-/// What the loop needs to know.
+/// Queries of the loop.
 impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, RUNS, PARTS> {
     /// Time of the next scan. Until then only bytes need moving.
     pub fn wake(&self) -> Micros {

@@ -8,7 +8,7 @@ use crate::garment::Garment;
 use crate::pipeline::PipelineState;
 use crate::scene::Scene;
 
-/// What perceives: owners get it with their inputs.
+/// Parts that perceive: owners get them with their inputs.
 pub(super) struct Perception<'a, const TAXELS: usize, const RUNS: usize, const PARTS: usize> {
     pub info: &'a BoardInfo,
     pub setup: &'a mut Setup,

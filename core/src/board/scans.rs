@@ -1,4 +1,4 @@
-//! When to scan, and which scans are missed: those that fail, and those that other work leaves no time for.
+//! Times of the scans, and the scans missed: those that fail, and those that other work leaves no time for.
 
 use super::pace::Pace;
 use crate::format::Micros;

@@ -20,7 +20,7 @@ pub(super) struct Surface {
     table: Option<&'static [u8]>,
     fits: bool,
     poses: SurfaceState,
-    /// What the regions feel: without the feature there is no room for it.
+    /// Reports of the regions: without the feature there is no room for them.
     regions: [RegionReports; USED],
     hz: u16,
     rate: Pace,

@@ -44,7 +44,7 @@ const ROOM: usize = if TABLES { TABLE_PIECE } else { 0 };
 /// A piece of a table, to be stored.
 #[derive(Debug, Clone, Copy)]
 pub struct PieceToStore<'a> {
-    /// What the table holds.
+    /// Content of the table.
     pub kind: TableKind,
     /// Length of the whole table.
     pub length: u32,
@@ -73,7 +73,7 @@ pub(super) struct Uploads {
     piece: Vec<u8, ROOM>,
 }
 
-/// What follows from a piece that was taken, or stored.
+/// Step that follows a piece that was taken, or stored.
 pub(super) enum UploadStep {
     /// The piece is to be stored.
     Store,

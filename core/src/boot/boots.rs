@@ -56,7 +56,7 @@ impl<R: Remains> Boots<R> {
         self.remains.keep(self.kept.word());
     }
 
-    /// How the board started.
+    /// Returns how the board started.
     pub fn boot(&self) -> Boot {
         self.boot
     }

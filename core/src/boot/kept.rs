@@ -5,13 +5,13 @@ const MAGIC: u32 = 0x7ac5;
 /// Value of `saves` if their number is unknown.
 const UNKNOWN: u8 = 15;
 
-/// How a run of the board ended, if it was noted.
+/// End of a run of the board, if it was noted.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// It has not ended yet, or its end was not noted.
+    /// No end yet, or none that was noted.
     #[default]
     Running = 0,
-    /// It panicked.
+    /// Panic.
     Panic = 1,
     /// A host requested a restart.
     Request = 2,
@@ -28,7 +28,7 @@ pub(super) enum Ending {
 /// | 7..0 | `resets` |
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kept {
-    /// How the run ended.
+    /// End of the run.
     pub ending: Ending,
     /// The stored settings stay out of use until power-off, or until settings are saved.
     pub aside: bool,

@@ -1,5 +1,4 @@
-//! How a board starts: cause of the reset, number of resets in a row, and whether the stored settings are
-//! used.
+//! Start of a board: cause of the reset, number of resets in a row, and whether the stored settings are used.
 //!
 //! A board that resets by itself [`RESETS`] times without a minute between starts with the shipped settings,
 //! so that a host can reach it: the stored settings may be the cause. They are not erased.
@@ -32,7 +31,7 @@ pub enum Reset {
     Other,
 }
 
-/// What survives a reset: a word, which is lost with the power, and the cause of the reset.
+/// Remains of a run after a reset: a word, which is lost with the power, and the cause of the reset.
 pub trait Remains {
     /// Cause of the reset.
     fn reset(&self) -> Reset;
@@ -42,7 +41,7 @@ pub trait Remains {
     fn keep(&mut self, word: u32);
 }
 
-/// Why the board started. Variants are only appended.
+/// Cause of the board's start. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BootCause {
@@ -61,7 +60,7 @@ pub enum BootCause {
     Other,
 }
 
-/// Why the stored settings are not in use. Variants are only appended.
+/// Reason why the stored settings are not in use. Variants are only appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Aside {
@@ -76,13 +75,13 @@ pub enum Aside {
     Request,
 }
 
-/// How the board started.
+/// Start of the board.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Boot {
     /// Cause of the start.
     pub cause: BootCause,
     /// Resets by watchdog or panic up to this one, each less than a minute after the one before.
     pub resets: u8,
-    /// Why the stored settings are not in use.
+    /// Reason why the stored settings are not in use.
     pub aside: Aside,
 }

@@ -1,4 +1,4 @@
-//! What the calibration of a panel reads and writes.
+//! Input and output of the calibration of a panel.
 
 use crate::format::Code;
 

@@ -24,7 +24,7 @@ impl LimitTerms {
         LimitTerms { floor, direction: if falling { Direction::Falling } else { Direction::Rising } }
     }
 
-    /// The same beyond a level, counts.
+    /// Returns these terms beyond a level, counts.
     pub fn beyond(&self, level: u16) -> LimitTerms {
         LimitTerms { floor: self.floor.saturating_add(level), ..*self }
     }

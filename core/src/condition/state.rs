@@ -21,7 +21,7 @@ pub struct ConditionState<const TAXELS: usize> {
     /// Taxels that stand out from their neighbours.
     pub(super) points: Points,
     pub(super) tracking: Tracking,
-    /// What the garment's folds press.
+    /// Pressure of the garment's folds.
     pub(super) folds: FoldState,
 }
 
@@ -52,7 +52,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.folds.forget();
     }
 
-    /// What the garment's folds are expected to press.
+    /// Returns the expected pressure of the garment's folds.
     pub fn folds(&self) -> &FoldState {
         &self.folds
     }
@@ -123,8 +123,8 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.calibration.inactive_code(taxel, level, falling)
     }
 
-    /// What folds are expected to press on a taxel and its doubt, counts; none where nothing is expected. A bit
-    /// says so sooner than the search for the taxel.
+    /// Returns the expected pressure of folds on a taxel and its doubt, counts; none where nothing is expected.
+    /// A bit says so sooner than the search for the taxel.
     fn folded(&self, taxel: usize) -> Option<[u16; 2]> {
         let taxel = u16::try_from(taxel).ok().filter(|_| self.folds.holds(taxel))?;
         self.folds.of(taxel)

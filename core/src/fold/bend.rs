@@ -1,12 +1,12 @@
-//! Where the joints of a fold stand between its knots.
+//! Place of a fold's joints between its knots.
 
 use super::lanes::WHOLE;
 use super::record::{FoldRecord, NO_JOINT};
 
 /// Share of the way to the next knot within which a posture counts as at a knot.
 const NEAR: u16 = WHOLE / 4;
-/// How much more another knot must count than the one whose doubts are in force: an arm that trembles midway
-/// between two knots then does not change them with each posture.
+/// Margin by which another knot must count more than the one whose doubts are in force: an arm that trembles
+/// midway between two knots then does not change them with each posture.
 const NEARER: u16 = WHOLE / 8;
 
 /// A knot beside the present posture, and how much it counts, of [`WHOLE`].
@@ -33,22 +33,22 @@ pub(super) struct Bend {
     pub has_certain: bool,
     /// The knot that the posture was at last.
     pub knot: Option<u16>,
-    /// What is yet to be compared there, each four taxels.
+    /// Taxels yet to be compared there, in fours.
     pub left: u16,
     /// Taxels that were compared there.
     pub compared: u16,
     /// Fours, of those whose turn was last, that are expected as at these knots; at most all. Counted from 0
     /// up: an image does not hold a state of zeros.
     found: u16,
-    /// Those that are doubted as near this knot.
+    /// Fours that are doubted as near this knot.
     doubted: u16,
-    /// Those that are expected as here between the knots.
+    /// Fours that are expected as here between the knots.
     placed: u16,
-    /// Those whose levels are set, while nothing has touched them.
+    /// Fours whose levels are set, while nothing has touched them.
     set: u16,
 }
 
-/// What there is to do with the taxels of a fold whose turn it is.
+/// Work due on the taxels of a fold whose turn it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Due {
     /// The knots around are others, or they have other corrections.
@@ -57,7 +57,7 @@ pub(super) struct Due {
     pub doubt: bool,
     /// The posture is another between the knots.
     pub posture: bool,
-    /// What touches them is another.
+    /// True if what touches them is another.
     pub touch: bool,
 }
 
@@ -93,7 +93,7 @@ impl Bend {
         rest.into_iter().fold(first, |most, next| if next.weight > most.weight { next } else { most }).knot
     }
 
-    /// How much a knot counts.
+    /// Returns how much a knot counts.
     fn weight(&self, knot: u16) -> u16 {
         self.corners.iter().filter(|corner| corner.knot == knot).map(|corner| corner.weight).sum()
     }
@@ -114,7 +114,8 @@ impl Bend {
         self.set = 0;
     }
 
-    /// What is due with the next `count` fours, which then is done; `touched`: something touches taxels.
+    /// Returns what is due with the next `count` fours, which then is done; `touched`: something touches
+    /// taxels.
     pub fn due(&mut self, fold: &FoldRecord, count: usize, touched: bool) -> Due {
         let (all, count) = (fold.quads() as u16, count as u16);
         let was_due = |done: &mut u16| {

@@ -1,4 +1,4 @@
-//! What the taxels of a fold are expected to feel between the knots around its posture.
+//! Expected pressure on the taxels of a fold between the knots around its posture.
 
 use super::lanes::{LaneSums, WHOLE, both, whole_bytes, zeros};
 use super::lesson::MOST_PASSES;
@@ -6,7 +6,7 @@ use super::lesson::MOST_PASSES;
 /// Quads that are renewed at once: those of a frame, if the most that fold are renewed at 195 frames a second.
 pub(super) const AT_ONCE: usize = 36;
 
-/// What is left of the doubt of days after so many comparisons, whose mean is nearer to the day's own:
+/// Share of the doubt of days that is left after so many comparisons, whose mean is nearer to the day's own:
 /// `1 / (1 + n)`, of [`WHOLE`].
 const SHARES: [u16; MOST_PASSES as usize + 1] = [128, 64, 43, 32, 26, 22, 19, 16];
 
@@ -17,7 +17,7 @@ pub(super) struct Around<'a> {
     pub cells: &'a [[u32; 3]],
     /// Corrections of four taxels each.
     pub corrections: &'a [u32],
-    /// How much it counts, of [`WHOLE`].
+    /// Weight of the knot, of [`WHOLE`].
     pub weight: u32,
 }
 

@@ -6,7 +6,7 @@ pub(crate) fn consecutive([first, _, _, last]: &[u16; 4]) -> Option<usize> {
     (last.wrapping_sub(*first) == 3).then_some((*first).into())
 }
 
-/// Of fours of taxels from `start` on, whose numbers ascend, the number of those that follow each other.
+/// Returns the number of fours of taxels from `start` on, whose numbers ascend, that follow each other.
 pub(crate) fn in_a_row(taxels: &[[u16; 4]], start: usize) -> usize {
     if let Some([.., last]) = taxels.last()
         && usize::from(*last) == start + 4 * taxels.len() - 1

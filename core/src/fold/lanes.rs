@@ -13,7 +13,7 @@ pub(super) const WHOLE: u16 = 128;
 /// log2 of [`WHOLE`].
 const SHIFT: u32 = 7;
 
-/// What a byte of a correction is more than the correction: 0 stands for none yet.
+/// Excess of a correction's byte over the correction: 0 stands for none yet.
 pub(super) const ZERO: u32 = 128;
 
 /// Levels of four taxels, counts, two in a word.
@@ -36,7 +36,7 @@ impl LaneSums {
     /// Nothing yet: almost a unit, so that [`LaneSums::lanes`] rounds up.
     pub const ALMOST: LaneSums = LaneSums { even: ONE * (WHOLE as u32 - 1), odd: ONE * (WHOLE as u32 - 1) };
 
-    /// What is expected at a knot: means and corrections together, within 0 and 255.
+    /// Returns the expected pressure at a knot: means and corrections together, within 0 and 255.
     #[inline(always)]
     pub fn at_knot(means: u32, corrections: u32) -> LaneSums {
         // 128 stands for a correction of 0, as 0 does for none yet.

@@ -1,4 +1,4 @@
-//! What a comparison teaches: by how much a knot's mean is off today.
+//! Lesson of a comparison: by how much a knot's mean is off today.
 
 use super::lanes::ZERO;
 
@@ -13,7 +13,7 @@ const BITS: u32 = 20;
 /// `2^16 / 2n`, rounded up, for n comparisons from 1 on: exact for numerators up to `2 * FAR + 8`.
 const SHARES: [u16; MOST_PASSES as usize + 1] = [32_768, 16_384, 10_923, 8_192, 6_554, 5_462, 4_682, 4_096];
 
-/// How a knot's corrections move.
+/// Rule by which a knot's corrections move.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lesson {
     /// Unit of the table, counts.
@@ -46,7 +46,8 @@ impl Lesson {
         to.clamp(1, 255) as u8
     }
 
-    /// What is felt less what is expected, in units, rounded, at most [`FAR`]. M0+: a division takes longer.
+    /// Returns the felt less the expected pressure, in units, rounded, at most [`FAR`]. M0+: a division takes
+    /// longer.
     #[inline(always)]
     fn off(&self, felt: u16, expected: u8) -> i32 {
         let felt = (u32::from(felt) + self.unit / 2).min(FAR * self.unit);

@@ -1,10 +1,10 @@
-//! What is kept of the taxels that fold, four at a time: how it is renewed, subtracted and corrected.
+//! State of the taxels that fold, four at a time: how it is renewed, subtracted and corrected.
 
 use super::fours::{consecutive, in_a_row};
 use super::lanes::{LaneSums, LevelPairs, byte, summed, times, zeros};
 use super::lesson::Lesson;
 
-/// What four taxels are expected to feel, in units of the table.
+/// Expected pressure on four taxels, in units of the table.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quad {
     pub expected: u32,
@@ -73,7 +73,7 @@ pub(super) fn sum_levels(quads: &[Quad], unit: u32, levels: &mut [LevelPairs]) {
     }
 }
 
-/// How values change.
+/// Change of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Change {
     /// They become less by what is expected, at least 0.
@@ -83,7 +83,7 @@ pub(super) enum Change {
 }
 
 impl Change {
-    /// What a value becomes by so many counts.
+    /// Returns what a value becomes by so many counts.
     #[inline(never)] // seldom
     fn one(self, value: u16, by: u16) -> u16 {
         match self {
@@ -93,7 +93,7 @@ impl Change {
         }
     }
 
-    /// What the halves of a word become, which are below 2^15, as `by` is.
+    /// Returns what the halves of a word become, which are below 2^15, as `by` is.
     #[inline(always)]
     fn two(self, values: u32, by: u32) -> u32 {
         /// All bits below those that are set, of the highest ones of halves.

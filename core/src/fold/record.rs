@@ -31,7 +31,7 @@ pub struct FoldRecord {
     pub zero: u16,
 }
 
-/// What a taxel feels at a knot, in units of the table.
+/// Pressure on a taxel at a knot, in units of the table.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct FoldCell {
     /// Expected pressure.

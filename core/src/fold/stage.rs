@@ -1,4 +1,4 @@
-//! What the taxels that fold are expected to feel, and its corrections.
+//! Expected pressure on the taxels that fold, and its corrections.
 
 use super::bend::{Bend, Corner, Due};
 use super::corners::{AT_ONCE, Around, add_means, find_doubts, find_ends};
@@ -62,7 +62,7 @@ pub struct FoldState {
     corrections: [u32; CELLS / 4],
     /// Comparisons so far at each knot, at most [`MOST_PASSES`].
     passes: [u8; KNOTS],
-    /// What is expected around the posture, see [`LaneSums::ends`]: from knot to knot of a fold of one joint,
+    /// Expected pressure around the posture, see [`LaneSums::ends`]: from knot to knot of a fold of one joint,
     /// all together, without a step, of one of two.
     ends: [[LaneSums; 2]; FOLDED / 4],
     /// Expectations and doubts of four taxels each.
@@ -75,8 +75,8 @@ pub struct FoldState {
 #[derive(Debug, Clone, Copy)]
 struct InForce {
     table: Option<FoldTable<'static>>,
-    /// What was renewed in the last frame, each four taxels of the table's list: from the first to before the
-    /// second, which follows.
+    /// Taxels renewed in the last frame, each four of the table's list: from the first to before the second,
+    /// which follows.
     turn: [u16; 2],
     renewed: Option<Micros>,
     is_posed: bool,

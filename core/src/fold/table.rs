@@ -61,7 +61,7 @@ pub struct FoldTable<'a> {
     unit: u16,
 }
 
-/// What a table is made of.
+/// Parts of a table.
 #[derive(Debug, Clone, Copy)]
 pub struct FoldTableParts<'a> {
     /// Names of the joints.
@@ -70,7 +70,7 @@ pub struct FoldTableParts<'a> {
     pub folds: &'a [FoldRecord],
     /// Numbers of the taxels of each fold, ascending.
     pub taxels: &'a [u16],
-    /// What they feel at each knot, taxel by taxel.
+    /// Pressure on the taxels at each knot, taxel by taxel.
     pub cells: &'a [FoldCell],
     /// Unit of the cells, counts.
     pub unit: u16,
@@ -196,7 +196,7 @@ impl<'a> FoldTable<'a> {
         })
     }
 
-    /// What a taxel feels at a knot of its fold. None if it does not fold, or has no such knot.
+    /// Returns the pressure on a taxel at a knot of its fold. None if it does not fold, or has no such knot.
     pub fn cell(&self, taxel: u16, knot: usize) -> Option<FoldCell> {
         let mut start = FoldStart::FIRST;
         self.folds.iter().find_map(|fold| {
@@ -249,7 +249,7 @@ fn most_of(cells: impl Iterator<Item = FoldCell>) -> u8 {
         .unwrap_or(0)
 }
 
-/// Where the entries of a fold begin.
+/// Start of the entries of a fold.
 #[derive(Clone, Copy)]
 pub(super) struct FoldStart {
     /// Number of its first four taxels.

@@ -11,7 +11,7 @@ pub struct Invalid {
     pub must: &'static str,
 }
 
-/// What an [`Invalid`] says of a part that this build leaves out: a feature of the crate.
+/// Text of an [`Invalid`] about a part that this build leaves out: a feature of the crate.
 pub const LEFT_OUT: &str = "is left out of this firmware";
 
 impl fmt::Display for Invalid {

@@ -1,4 +1,4 @@
-//! When a decision is announced: a debounce, so that a touch between two classes does not flicker.
+//! Announcement of decisions: a debounce, so that a touch between two classes does not flicker.
 
 use super::certainty::Certainty;
 use super::stage::Decision;

@@ -67,7 +67,7 @@ impl Default for GestureConfig {
     }
 }
 
-/// Why settings are refused.
+/// Reason why settings are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GestureError {
     /// A parameter is out of its range.

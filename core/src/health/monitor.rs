@@ -53,7 +53,7 @@ impl ReadGarment<'_> {
 /// Health of the taxels of a garment.
 #[derive(Debug, Clone)]
 pub struct Monitor {
-    /// In the order of their numbers.
+    /// Faulty taxels, in the order of their numbers.
     faulty: Vec<FaultyTaxel, FAULTY_TAXELS>,
     watch: Watch,
     /// Median travel of a code while it is watched, eighths of a count.

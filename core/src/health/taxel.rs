@@ -18,7 +18,7 @@ pub enum TaxelHealth {
     Open = 3,
     /// Short circuit: full signal.
     Shorted = 4,
-    /// Its noise is many times that of the others.
+    /// Noise many times that of the others.
     Noisy = 5,
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct Images<const TAXELS: usize> {
     pub calibrated: [u16; TAXELS],
     /// Image after the filter. During a tare: zeros.
     pub filtered: [u16; TAXELS],
-    /// Where one of the images may be non-zero.
+    /// Rows in which one of the images may be non-zero.
     pub rows: Rows,
     /// Panels that may be non-zero.
     pub active: u8,

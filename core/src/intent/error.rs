@@ -3,7 +3,7 @@
 use crate::format::Name;
 use core::fmt;
 
-/// Why [`super::map::Map::build`] refused a configuration.
+/// Reason why [`super::map::Map::build`] refused a configuration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[allow(missing_docs)] // the fields are the words of the messages below
 pub enum MapError {

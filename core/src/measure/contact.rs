@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Phase {
-    /// Its first frame.
+    /// First frame of the contact.
     #[default]
     Onset,
-    /// It was there in the previous frame.
+    /// Contact that was there in the previous frame.
     Held,
-    /// It is gone: the values are the last ones, the total is 0. Reported once.
+    /// Contact that is gone: the values are the last ones, the total is 0. Reported once.
     Released,
 }
 

@@ -1,7 +1,7 @@
 //! Number of forms measured in a frame.
 
-/// How many held contacts have their form measured in a frame, in turn; new contacts always have. A scene has
-/// one by default: a form costs as much as all the rest of a contact.
+/// Number of held contacts whose form is measured in a frame, in turn; that of new contacts always is. A scene
+/// has one by default: a form costs as much as all the rest of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Forms(u8);
 
@@ -9,7 +9,7 @@ impl Forms {
     /// All contacts in each frame.
     pub const ALL: Forms = Forms(0);
 
-    /// That many contacts in a frame; 0 stands for all.
+    /// Makes a number of `in_frame` contacts in a frame; 0 stands for all.
     pub const fn of(in_frame: u8) -> Forms {
         Forms(in_frame)
     }

@@ -50,8 +50,8 @@ const SQUARE: u32 = 8;
 /// Half of what is cut from a product.
 const HALF: u32 = 1 << (PRODUCT - 1);
 
-/// What turns taxels into coordinates from the centroid, in units that the contact's extent fills, and their
-/// pressure into few bits.
+/// Conversion of taxels into coordinates from the centroid, in units that the contact's extent fills, and of
+/// their pressure into few bits.
 ///
 /// About the centroid, the mean of x^4 is at most 1/12 of the fourth power of the extent. With a mass below
 /// 2^16, all sums of a contact therefore fit in 32 bits.

@@ -1,4 +1,4 @@
-//! What a form is measured on.
+//! Input of the measurement of forms.
 
 use crate::garment::Layout;
 use crate::image::view::Image;

@@ -55,7 +55,7 @@ pub struct ReactionConfig {
     pub region: Name,
     /// Value at which it begins, in the unit of the cause.
     pub level: i32,
-    /// It can end when the value is below `level - hysteresis`.
+    /// Hysteresis: it can end when the value is below `level - hysteresis`.
     #[serde(default)]
     pub hysteresis: i32,
     /// Shortest duration, and time for which the value must stay below before it ends, ms.

@@ -31,7 +31,7 @@ use serde::{Deserialize, Serialize};
 pub struct Reaction {
     /// Row of the scene's table.
     pub index: u8,
-    /// Its name.
+    /// Name of the reaction.
     pub name: Name,
     /// True if it began, false if it ended.
     pub active: bool,

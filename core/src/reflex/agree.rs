@@ -1,4 +1,4 @@
-//! How many taxels must agree before a reflex begins.
+//! Number of taxels that must agree before a reflex begins.
 
 use super::spot::Spot;
 use heapless::Vec;

@@ -11,7 +11,7 @@ pub struct Early {
     pub time: Micros,
     /// Number of the taxel that triggered it.
     pub taxel: u16,
-    /// Its code.
+    /// Code of the taxel.
     pub code: Code,
     /// Number of the taxel that agreed, if two must.
     pub other: Option<u16>,

@@ -1,4 +1,4 @@
-//! What the loop needs of a board besides its scan: a link to the host, and services.
+//! Parts of a board that the loop needs besides its scan: a link to the host, and services.
 
 use crate::acquire::Clock;
 use crate::board::{PieceToStore, Saved, Settings, TableKind};
@@ -16,8 +16,8 @@ pub trait Link {
     fn try_read(&mut self, buffer: &mut [u8]) -> usize;
     /// Queues bytes to send; returns how many were accepted.
     fn try_write(&mut self, bytes: &[u8]) -> usize;
-    /// When the first frame of the USB after the last `true` began; none before it has, once it was returned,
-    /// and on other links.
+    /// Returns when the first frame of the USB after the last `true` began; none before it has, once it was
+    /// returned, and on other links.
     fn start_of_frame(&mut self, _next: bool) -> Option<StartOfFrame> {
         None
     }

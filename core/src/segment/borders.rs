@@ -109,7 +109,7 @@ fn seek(runs: &[Run], mut near: usize, word: u32) -> usize {
 struct BorderColumn {
     /// First column of its word.
     column: u16,
-    /// Its bit in the word.
+    /// Bit of the column in the word.
     taxel: u32,
 }
 

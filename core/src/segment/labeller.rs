@@ -10,9 +10,9 @@ use heapless::Vec;
 /// The labels and runs of a frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Labeller<const RUNS: usize, const LABELS: usize> {
-    /// In the order of rows, then words.
+    /// Runs in the order of rows, then words.
     pub runs: Vec<Run, RUNS>,
-    /// In the order of their first taxels.
+    /// Labels in the order of their first taxels.
     pub labels: Vec<Label, LABELS>,
     /// Sides of panels that a run touches, four bits for each panel.
     sides: u32,

@@ -52,12 +52,12 @@ impl Run {
         self.taxels >> (column % WORD) & 1 == 1
     }
 
-    /// Its taxels, with bit 0 for column `left`.
+    /// Returns its taxels, with bit 0 for column `left`.
     pub const fn rebased(&self) -> u32 {
         self.taxels >> (self.left % WORD)
     }
 
-    /// Its taxels in the columns `first ..= last`.
+    /// Returns its taxels in the columns `first ..= last`.
     pub const fn within(&self, first: u16, last: u16) -> u32 {
         self.taxels & columns(self.column(), first, last)
     }

@@ -43,11 +43,11 @@ impl fmt::Display for Fault {
 pub struct PinFault {
     /// GPIO number.
     pub pin: u8,
-    /// Its fault.
+    /// Fault of the pin.
     pub fault: Fault,
 }
 
-/// What was examined, and the faults found.
+/// Lines and inputs that were examined, and the faults found.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Findings {
     /// Select lines that were examined.

@@ -26,7 +26,7 @@ pub fn features(nmi: &Nmi, quartic: &Quartic, contact: &Contact) -> ShapeFeature
     [form(nmi.s2_sheppard), anisotropy as i16, size(contact.area), kurtosis, two, four]
 }
 
-/// In 1/2048.
+/// Returns the value in 1/2048.
 fn form(value: Fixed24) -> i16 {
     (value.0 >> 13).min(i16::MAX as u32) as i16
 }

@@ -20,7 +20,7 @@ const VOTERS: usize = 9;
 pub struct Exemplar {
     /// Index of its class.
     pub class: u8,
-    /// Its position in the space.
+    /// Position in the space.
     pub at: Point,
 }
 

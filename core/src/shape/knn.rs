@@ -25,7 +25,7 @@ impl Class {
 pub struct Prototype {
     /// Class that it is an example of.
     pub class: Class,
-    /// Its features, see [`features`](super::features).
+    /// Features of the example, see [`features`](super::features).
     pub features: ShapeFeatures,
 }
 

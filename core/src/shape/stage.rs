@@ -19,8 +19,8 @@ pub struct Shape {
     pub nmi_s2: Fixed24,
     /// Class in the base of shapes.
     pub class: Class,
-    /// For a known class, its share of the neighbours' votes, weighted by nearness. For an unknown one, the
-    /// excess over the limit, from 0 at the limit to 1.
+    /// Share of a known class in the neighbours' votes, weighted by nearness. For an unknown one, the excess
+    /// over the limit, from 0 at the limit to 1.
     pub confidence: Q15,
 }
 

@@ -1,4 +1,4 @@
-//! Where the links are in the frame in which contacts are reported, as the host says.
+//! Poses of the links in the frame in which contacts are reported, as the host says.
 
 use super::motion::{LinkMotion, between};
 use super::pose::{Pose, Rigid};
@@ -51,7 +51,7 @@ impl SurfaceState {
         self.updated
     }
 
-    /// Where the links are at a time: carried on by their motion, if it is known.
+    /// Returns the frames of the links at a time: carried on by their motion, if it is known.
     #[inline(never)] // M0+: out of line
     pub fn at(&self, time: Micros) -> LinkFrames {
         let us = self.updated.and_then(|updated| between(updated, time));

@@ -1,4 +1,4 @@
-//! Where the garment lies on the robot: place and normal of each taxel on a link, and what follows from them:
+//! Place of the garment on the robot: place and normal of each taxel on a link, and what follows from them:
 //! place and force of a contact, and the force and moment on each link.
 //!
 //! | | |

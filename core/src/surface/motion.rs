@@ -52,8 +52,8 @@ impl LinkMotion {
         if is_sane { Ok(()) } else { Err(Invalid { parameter: "pose.motion", must }) }
     }
 
-    /// Where a link is `us` after its pose, at most [`CARRIED_US`] before or after it, and the most by which
-    /// a place on it is off, um. None if it turns by more than 1 rad in that time.
+    /// Returns where a link is `us` after its pose, at most [`CARRIED_US`] before or after it, and the most by
+    /// which a place on it is off, um. None if it turns by more than 1 rad in that time.
     #[inline(never)] // M0+: out of line
     pub(crate) fn carry(&self, pose: &Pose, us: i32) -> Option<(Rigid, u32)> {
         // Seconds in units of 2^-24.

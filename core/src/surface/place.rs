@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct SurfacePoint {
     /// Index of the link in the table.
     pub link: u8,
-    /// Its place in the frame of the link; at most 55 um from the mean of the taxels' exact places.
+    /// Place in the frame of the link; at most 55 um from the mean of the taxels' exact places.
     pub at: Micrometres,
     /// Direction away from the robot.
     pub normal: UnitVector,

@@ -30,14 +30,14 @@ pub(super) const BATCH: usize = 64;
 /// The record of no taxel.
 pub(super) const NO_RECORD: &RecordWords = &[0; 5];
 
-/// What taxels press on their link: sums over values in counts, and records in units of 2^-14.
+/// Force and moment of taxels on their link: sums over values in counts, and records in units of 2^-14.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PressSums {
     /// Sums of value times normal, and of value times arm, of taxels that press `held` counts together: sums
     /// of 64 bits take longer than a taxel, and most contacts need none.
     near: [i32; 6],
     held: u32,
-    /// The same of all other taxels, which press `settled` counts.
+    /// Such sums of all other taxels, which press `settled` counts.
     wide: [i64; 6],
     settled: u32,
 }

@@ -37,7 +37,7 @@ pub enum RegionPhase {
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BodyDirection {
-    /// It does not move.
+    /// No motion.
     #[default]
     None,
     /// Along +x.
@@ -54,10 +54,10 @@ pub enum BodyDirection {
     Down,
 }
 
-/// What a region feels.
+/// Touch state of a region.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegionSymbol {
-    /// Its phase.
+    /// Phase of the touch.
     pub phase: RegionPhase,
     /// Direction of the contact that presses most.
     pub way: BodyDirection,
@@ -65,9 +65,9 @@ pub struct RegionSymbol {
     pub contacts: u8,
     /// Level: strength of the contact that presses most, or that pressed last.
     pub strength: Strength,
-    /// Its extent.
+    /// Extent of the touch.
     pub extent: Extent,
-    /// Its shape.
+    /// Shape of the touch.
     pub class: Class,
     /// Time since which the region is in its phase.
     pub since: Micros,
@@ -193,7 +193,7 @@ impl<const CONTACTS: usize> Default for RegionStates<CONTACTS> {
     }
 }
 
-/// What touches a region in a frame.
+/// Contacts on a region in a frame.
 #[derive(Debug, Default, Clone, Copy)]
 struct RegionInput {
     contacts: u8,

@@ -20,31 +20,31 @@ use serde::{Deserialize, Serialize};
 pub struct Landed {
     /// Id of the contact.
     pub id: u32,
-    /// Its centroid on the surface, in the frame of the link.
+    /// Centroid on the surface, in the frame of the link.
     pub spot: SurfacePoint,
     /// Force of its taxels on that link, counts; those of other links count there.
     pub force: [i32; 3],
-    /// The same in the frame of the poses, if the host has sent one for this link.
+    /// Contact in the frame of the poses, if the host has sent one for this link.
     pub base: Option<InBase>,
 }
 
 /// A contact in the frame of the poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InBase {
-    /// Its centroid.
+    /// Centroid of the contact.
     pub at: Micrometres,
     /// Direction away from the robot.
     pub normal: UnitVector,
-    /// Its force, counts.
+    /// Force of the contact, counts.
     pub force: [i32; 3],
 }
 
-/// What presses on a link, in its frame.
+/// Force and moment on a link, in its frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Wrench<Called = LinkName> {
     /// Index of the link in the table.
     pub link: u8,
-    /// Its name.
+    /// Name of the link.
     pub name: Called,
     /// Sum of the taxels' forces, counts.
     pub force: [i32; 3],
@@ -56,7 +56,7 @@ pub struct Wrench<Called = LinkName> {
     pub center: Micrometres,
 }
 
-/// What presses on the robot in a frame.
+/// Contacts and forces on the robot in a frame.
 #[derive(Debug)]
 pub struct Pressing<const CONTACTS: usize> {
     /// The contacts with a place, in the order of their onset.
@@ -70,7 +70,7 @@ pub struct Pressing<const CONTACTS: usize> {
     saturated: [u16; CONTACTS],
 }
 
-/// What is known of the taxels beside their pressure.
+/// Limits of the taxels, beside their pressure.
 pub struct TaxelLimits<'a, Ceiling> {
     /// Taxels that feel nothing.
     pub faulty: &'a [FaultyTaxel],
@@ -82,11 +82,11 @@ pub struct TaxelLimits<'a, Ceiling> {
 #[derive(Debug, Clone, Copy)]
 struct Landing {
     id: u32,
-    /// Its index among the present contacts.
+    /// Index among the present contacts.
     contact: u8,
     spot: SurfacePoint,
     total: u32,
-    /// Of its taxels on the link of its place.
+    /// Sums of its taxels on the link of its place.
     sums: PressSums,
 }
 
@@ -237,7 +237,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         !self.blind.is_empty() || self.sums.iter().any(|sums| sums.saturated > 0)
     }
 
-    /// What is unknown of contacts, by id: of those where something is. Needs the sums.
+    /// Returns the uncertainty of contacts, by id: of those that have some. Needs the sums.
     pub fn doubts_of_contacts<'a>(
         &'a self,
         table: &'a Table<'_>,
@@ -252,7 +252,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         self.landings.iter().map(of).filter(|(_, of)| !of.is_none())
     }
 
-    /// What is unknown of links, by number: of those where something is. Needs the sums.
+    /// Returns the uncertainty of links, by number: of those that have some. Needs the sums.
     pub fn doubts_of_links<'a>(
         &'a self,
         table: &'a Table<'_>,

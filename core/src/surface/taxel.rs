@@ -18,7 +18,7 @@ pub struct TaxelRecord {
     pub link: u8,
     /// Index of its region in the table; [`NO_REGION`]: it is in none.
     pub region: u8,
-    /// Its centre in the frame of the link.
+    /// Centre in the frame of the link.
     pub at: [i16; 3],
     /// Direction away from the robot.
     pub normal: UnitVector,
@@ -35,7 +35,7 @@ impl TaxelRecord {
     pub const NOWHERE: TaxelRecord =
         TaxelRecord { link: NOWHERE, region: NO_REGION, at: [0; 3], normal: [0; 3], arm: [0; 3] };
 
-    /// Its centre in the frame of the link, um.
+    /// Returns its centre in the frame of the link, um.
     pub(super) fn at(&self) -> Micrometres {
         self.at.map(|x| micrometres(i32::from(x) << 16))
     }

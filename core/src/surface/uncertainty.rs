@@ -1,4 +1,4 @@
-//! What saturated and faulty taxels leave unknown of a force and of its place.
+//! Uncertainty of a force and of its place, by saturated and faulty taxels.
 //!
 //! A saturated taxel presses at least what it says. What a faulty one presses is unknown: between nothing,
 //! and the most that its neighbours let expect, which is what the two next to it in a row or a column
@@ -39,7 +39,7 @@ pub(super) struct BlindTaxel {
     /// Number of the contact, and of the link on which the taxel lies.
     pub contact: u8,
     pub link: u8,
-    /// What is counted for it, counts.
+    /// Pressure that is counted for it, counts.
     pub counted: u16,
     /// The most that it presses.
     pub most: u16,

@@ -16,7 +16,7 @@ use crate::segment::config::ContactConfig;
 pub(crate) struct Trail {
     /// Index of its component in this frame, or [`NONE`](crate::segment::union_find::NONE).
     pub component: u16,
-    /// It has merged or split in this frame: the jump of its centroid is no motion.
+    /// True if it has merged or split in this frame: the jump of its centroid is no motion.
     pub leaps: bool,
     /// Greatest total at which its form was measured.
     pub looked: u32,
@@ -28,7 +28,7 @@ pub(crate) struct Trail {
 
 const SLIDING: usize = if cfg!(feature = "slip") { 1 } else { 0 };
 
-/// What shows that a contact slides.
+/// Evidence that a contact slides.
 #[derive(Debug, Clone)]
 struct Sliding {
     pattern: Pattern,

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Why bytes are not a valid message, or a message cannot be encoded.
+/// Reason why bytes are not a valid message, or a message cannot be encoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WireError {
     /// More bytes without a 0x00 than the receiver can hold.

@@ -51,7 +51,7 @@ reports! {
     HELLO = 0, Hello(Hello<'a>), "at the start, each second until `Start`, in answer to `Start`, and after a change";
     /// Answer to `Sync`.
     SYNC = 1, Sync(SyncReport), "in answer to `Sync`";
-    /// When a frame of the USB began.
+    /// Start of a frame of the USB.
     START_OF_FRAME = 2, StartOfFrame(StartOfFrame), "after each answer to `Sync`, by a board on USB";
     /// Findings about lines and inputs.
     SELF_TEST = 3, SelfTest(SelfTestReport), "in answer to `Start` and `SelfTest`, and when a line breaks in use";
@@ -85,11 +85,11 @@ reports! {
     TEMPERATURE = 16, Temperature(Temperature), "each second, by a board with a thermometer";
     /// Names of the surface's regions.
     REGION_NAMES = 17, RegionNames(RegionNames), "before the first `Regions` after a `Start` or of another surface";
-    /// What each region of the surface feels.
+    /// Touch state of each region of the surface.
     REGIONS = 18, Regions(RegionsReport), "when a region of the surface changes, and each second";
-    /// What presses on the robot.
+    /// Contacts and forces on the robot.
     PRESSING = 19, Pressing(PressingReport), "at the scene's rate while something touches, and once after";
-    /// What the garment's folds are expected to press.
+    /// Expected pressure of the garment's folds.
     FOLDS = 20, Folds(FoldsReport), "ten times per second while a table of folds is in force";
     /// A conditioned image.
     #[serde(borrow)]
@@ -118,7 +118,7 @@ pub struct Hello<'a> {
     pub calibration: &'a [u8],
     /// UTF-8: unique id of the board's chip; empty without one
     pub chip: &'a [u8],
-    /// How the board started; none if it does not know
+    /// Start of the board; none if it does not know
     pub boot: Option<Boot>,
 }
 
@@ -306,7 +306,7 @@ pub struct FaultyTaxels {
 pub struct SelfTestReport {
     /// The board's time at the end of the self-test.
     pub time: Micros,
-    /// Its findings.
+    /// Findings of the test.
     pub findings: Findings,
 }
 
@@ -337,8 +337,8 @@ pub struct GestureReport {
     pub confidence: Option<Q15>,
 }
 
-/// What presses on the robot, at the rate of the scene's stream while something touches, and once when nothing
-/// does any more. See [`surface`](crate::surface).
+/// Contacts and forces on the robot, at the rate of the scene's stream while something touches, and once when
+/// nothing does any more. See [`surface`](crate::surface).
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PressingReport {
     /// Number of the scan.
@@ -351,15 +351,15 @@ pub struct PressingReport {
     pub contacts: Vec<Landed, CONTACTS>,
     /// The links that something presses on.
     pub links: Vec<Wrench, LINKS>,
-    /// What is unknown of contacts, with their ids; of those of which something is.
+    /// Uncertainty of contacts, with their ids; of those that have some.
     pub contact_bounds: Vec<(u32, Uncertainty), CONTACTS>,
-    /// What is unknown of links, with their indices in the table; of those of which something is.
+    /// Uncertainty of links, with their indices in the table; of those that have some.
     pub link_bounds: Vec<(u8, Uncertainty), LINKS>,
     /// The most by which places on a link are off in the frame of the poses, um; of links whose poses say it.
     pub pose_errors: Vec<(u8, u32), LINKS>,
 }
 
-/// What each region of the surface feels: when one of them changes, and once a second; from a board whose
+/// Touch state of each region of the surface: when one of them changes, and once a second; from a board whose
 /// body has regions. See [`RegionStates`](crate::surface::RegionStates).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegionsReport {
@@ -375,12 +375,12 @@ pub struct RegionsReport {
 /// surface came into force.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegionNames {
-    /// In the order of the body.
+    /// Names in the order of the body.
     pub names: Vec<LinkName, REGIONS>,
 }
 
-/// What the garment's folds are expected to press, ten times per second while a table of folds is in force.
-/// See [`fold`](crate::fold).
+/// Expected pressure of the garment's folds, ten times per second while a table of folds is in force. See
+/// [`fold`](crate::fold).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FoldsReport {
     /// Number of the scan.
@@ -423,7 +423,7 @@ pub struct ReflexReport {
     pub index: u8,
     /// Number of the taxel that decided.
     pub taxel: u16,
-    /// Its pressure, counts.
+    /// Pressure of the taxel, counts.
     pub value: u16,
     /// Number of the taxel that agrees, if two must.
     pub other: Option<u16>,
@@ -432,7 +432,7 @@ pub struct ReflexReport {
 /// Severity of a log message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
-    /// For information.
+    /// Information.
     Info,
     /// Something does not work as requested.
     Warn,
@@ -462,8 +462,8 @@ pub struct SyncReport {
     pub sent: Micros,
 }
 
-/// When a frame of the USB began: all boards on one host controller see its starts, one each millisecond, at
-/// the same moments and with the same numbers (USB 2.0, 8.4.3).
+/// Start of a frame of the USB: all boards on one host controller see the starts, one each millisecond, at the
+/// same moments and with the same numbers (USB 2.0, 8.4.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StartOfFrame {
     /// Number of the frame, 0 to 2047.

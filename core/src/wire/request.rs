@@ -115,7 +115,7 @@ requests! {
 /// before it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TablePiece<'a> {
-    /// What the table holds.
+    /// Content of the table.
     pub kind: TableKind,
     /// Length of the whole table; 0: none is in force from now on.
     pub length: u32,
@@ -125,12 +125,12 @@ pub struct TablePiece<'a> {
     pub bytes: &'a [u8],
 }
 
-/// What a table in flash holds.
+/// Content of a table in flash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TableKind {
-    /// Where the taxels lie, see [`Table`](crate::surface::Table).
+    /// Places of the taxels, see [`Table`](crate::surface::Table).
     Surface,
-    /// What the garment's folds press, see [`FoldTable`](crate::fold::FoldTable).
+    /// Pressure of the garment's folds, see [`FoldTable`](crate::fold::FoldTable).
     Folds,
 }
 

@@ -6,7 +6,7 @@
 use postcard::de_flavors::Flavor;
 use postcard::{Error, Result};
 
-/// What of a message is still to be read.
+/// Part of a message that is still to be read.
 pub(super) struct Rest<'de>(pub &'de [u8]);
 
 impl<'de> Flavor<'de> for Rest<'de> {

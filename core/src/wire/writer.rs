@@ -18,7 +18,7 @@ pub(crate) fn write<T: Serialize + ?Sized>(value: &T, out: &mut [u8]) -> Result<
     }
 }
 
-/// Why a value was not written.
+/// Reason why a value was not written.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum WriteFault {
     NoRoom,

@@ -15,7 +15,7 @@ use crate::wire::SelfTestReport;
 #[derive(Clone, Copy)]
 pub(crate) struct About<'a> {
     pub info: &'a BoardInfo,
-    /// How the board started.
+    /// Start of the board.
     pub boot: Option<Boot>,
     pub setup: &'a Setup,
     pub monitor: &'a Monitor,

@@ -10,13 +10,13 @@ use crate::wire::{Each, Health, LISTED};
 use heapless::Vec;
 use serde::ser::{Serialize, SerializeSeq, SerializeStruct, Serializer};
 
-/// What is to be reported of the newest frame, and of what ended since the last list was sent.
+/// Reports due on the newest frame, and on what ended since the last list was sent.
 pub(super) struct ContactQueue {
     /// True if the list is to be sent.
     pub waits: bool,
     /// Number of the newest frame.
     pub frame: u32,
-    /// Its time.
+    /// Time of the frame.
     pub time: Micros,
     /// Number of contacts that had no room in that frame.
     pub dropped: u16,
