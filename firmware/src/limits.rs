@@ -1,4 +1,4 @@
-//! What the board can hold and connect.
+//! Limits of what the board can hold and connect.
 
 use taxel_core::board::BoardInfo;
 

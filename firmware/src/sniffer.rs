@@ -14,7 +14,7 @@ const SPARE_ROUNDS: usize = 64;
 /// Computes checksums. The only user of the sniffer and of its channel.
 pub struct Sniffer {
     _channel: Peri<'static, DMA_CH11>,
-    /// Where the channel writes each byte that it reads.
+    /// Place to which the channel writes each byte that it reads.
     sink: u8,
 }
 

@@ -19,7 +19,8 @@ const SECTORS: Range<u32> = BYTES as u32 - 64 * 1024..BYTES as u32;
 /// The two sectors before them, with the levels of outputs at start-up.
 pub const LEVELS: [u32; 2] = [SECTORS.start - 2 * ERASE_SIZE as u32, SECTORS.start - ERASE_SIZE as u32];
 
-/// Where tables of a kind lie: those of the surface before the levels, those of folds before them.
+/// Returns the start of the tables of a kind: those of the surface before the levels, those of folds before
+/// them.
 const fn tables_start(kind: TableKind) -> u32 {
     let surface = LEVELS[0] - tables_bytes(TableKind::Surface);
     match kind {

@@ -64,8 +64,8 @@ static TAXEL_MAILBOX: Mailbox = Mailbox {
 
 static CODES: ConstStaticCell<[Code; TAXELS]> = ConstStaticCell::new([Code(0); TAXELS]);
 
-/// What the board's perception needs of a platform: shows the harness when a stage begins, and computes
-/// checksums as the firmware does.
+/// Platform of the board's perception: shows the harness when a stage begins, and computes checksums as the
+/// firmware does.
 struct Measured {
     sniffer: Sniffer,
 }

@@ -17,8 +17,8 @@ use taxel_core::wire::StartOfFrame;
 const FRAME_US: u64 = 1_000;
 /// Numbers wrap after 11 bits.
 const NUMBERS: u16 = 0x7ff;
-/// How long before it is due the next start is watched for, us. The interrupt may have come late, and the task
-/// that watches may.
+/// Time before it is due at which the watch for the next start begins, us. The interrupt may have come late,
+/// and the task that watches may.
 const AHEAD_US: u64 = 60;
 /// Most by which a start may have been before it was seen, us. If it is more, another one is watched for.
 const MOST_US: u64 = 10;

@@ -13,7 +13,7 @@ pub const VERSION: u8 = 1;
 pub struct Entry {
     /// Number of the [`Part`].
     pub part: u8,
-    /// Its place, 0 or 1.
+    /// Place of the entry, 0 or 1.
     pub place: u8,
     /// Number of its bytes.
     pub length: u16,

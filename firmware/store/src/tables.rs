@@ -53,7 +53,7 @@ impl<F: NorFlash> Tables<F> {
         Ok(Tables { flash, start, kind })
     }
 
-    /// Where in the flash the table in force lies; none if there is none.
+    /// Returns the range of the table in force in the flash; none if there is none.
     pub fn in_force(&mut self) -> Result<Option<Range<u32>>, StoreError> {
         let seal = self.newest()?.filter(|seal| seal.length > 0);
         Ok(seal.map(|seal| self.table(seal.half, seal.length)))
