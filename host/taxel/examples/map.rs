@@ -1,4 +1,4 @@
-//! Why a map means what it means: `cargo run --example map -- press=0.8 time=-0.9`.
+//! Reasons why a map means what it means: `cargo run --example map -- press=0.8 time=-0.9`.
 
 use taxel::fcm::load;
 use taxel::fcm::why::{explain, text};

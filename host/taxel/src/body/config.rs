@@ -4,7 +4,7 @@ use super::form::Form;
 use super::solid::Solid;
 use serde::{Deserialize, Serialize};
 
-/// Where the panels of a garment lie.
+/// Places of a garment's panels.
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
@@ -29,16 +29,16 @@ pub struct Patch {
     /// Angle by which the panel is turned about its middle, clockwise as seen from outside, degrees.
     #[serde(default)]
     pub turn: f64,
-    /// How the panel sits otherwise than `on` and `turn` say.
+    /// Offset of the panel from the place that `on` and `turn` state.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offset: Option<PatchOffset>,
-    /// How the cloth moves over the skin with joints of the robot.
+    /// Motion of the cloth over the skin with joints of the robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub slides: Vec<Slide>,
 }
 
-/// How a panel sits beside its place: turned about its middle, then shifted over the surface. The lists
-/// and grids of measured points move as one rigid piece, in the plane that touches them at their middle.
+/// Offset of a panel from its place: turned about its middle, then shifted over the surface. The lists and grids of
+/// measured points move as one rigid piece, in the plane that touches them at their middle.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PatchOffset {
@@ -84,7 +84,7 @@ pub struct Slide {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyRegion {
-    /// Its name: left forearm, outer.
+    /// Name of the region: left forearm, outer.
     pub name: String,
     /// Link of the robot.
     pub link: String,

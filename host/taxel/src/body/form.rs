@@ -77,11 +77,11 @@ pub struct Grid {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Spot {
     pub at: DVec3,
-    /// Of length 1.
+    /// Normal, of length 1.
     pub normal: DVec3,
 }
 
-/// What is wrong with a surface: the key below it, and what it must be.
+/// Fault of a surface: the key below it, and what it must be.
 pub(super) type Unfit = (&'static str, &'static str);
 
 /// Directions of a patch: right, down, outwards.
@@ -194,7 +194,7 @@ fn spline([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
     (b * 2.0 + ((c - a) + (bend + twist * t) * t) * t) * 0.5
 }
 
-/// Its slope.
+/// Returns the slope of the spline.
 fn slope([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
     let (bend, twist) = (a * 2.0 - b * 5.0 + c * 4.0 - d, (b - c) * 3.0 + d - a);
     ((c - a) + (bend * 2.0 + twist * (3.0 * t)) * t) * 0.5
@@ -205,7 +205,7 @@ fn slope([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
 pub(super) struct PanelSpot {
     /// From its middle, m; x to the right, y down.
     pub from_middle: DVec2,
-    /// Where it has come to by the way of the panel over the surface, m, as `from_middle`.
+    /// Place to which the way of the panel over the surface has taken it, m, as `from_middle`.
     pub moved: DVec2,
     /// Share of the way from the first to the last taxel, along x and along y.
     pub share: DVec2,
@@ -250,7 +250,7 @@ impl<'a> Laid<'a> {
         }))
     }
 
-    /// Where a point of the panel lies; none where the panel does not fit on the surface. A panel that goes
+    /// Returns where a point of the panel lies; none where the panel does not fit on the surface. A panel that goes
     /// once around still does when it is shifted.
     pub fn spot(&self, at: &PanelSpot) -> Option<Spot> {
         let PanelSpot { from_middle, moved, share } = *at;

@@ -28,7 +28,7 @@ pub struct RobotSurface {
     farthest: Vec<f64>,
 }
 
-/// What the surface is made of.
+/// Parts of the surface.
 #[derive(Debug, Clone)]
 struct SurfaceParts {
     body: Body,

@@ -1,4 +1,4 @@
-//! Where a frame is in another.
+//! Pose of a frame in another.
 
 use glam::{DQuat, DVec3};
 use taxel_core::surface;

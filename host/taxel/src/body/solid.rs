@@ -87,7 +87,7 @@ impl Held {
         }
     }
 
-    /// Whether a point of the link lies in it, m.
+    /// True if a point of the link, m, lies in it.
     pub fn holds(&self, at: DVec3) -> bool {
         match self {
             Held::Box(it) => at.cmpge(it.from).all() && at.cmplt(it.to).all(),

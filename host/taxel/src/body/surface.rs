@@ -21,7 +21,7 @@ pub struct Surface {
     regions: Vec<String>,
 }
 
-/// How well a panel lies.
+/// Fit of a panel on the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     /// Name of the panel.
@@ -251,7 +251,7 @@ impl Surface {
         Surface { places: self.places.iter().map(place).collect(), ..self.clone() }
     }
 
-    /// How each panel lies.
+    /// Returns how well each panel lies.
     pub fn fits(&self, layout: &Layout) -> Vec<Fit> {
         let fit = |(panel, area): (usize, &Area)| {
             let place = |row, column| {

@@ -8,7 +8,7 @@ use glam::DVec3;
 pub struct TaxelPlace {
     /// Index into [`Surface::links`](super::Surface::links).
     pub link: usize,
-    /// Its centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
+    /// Centre, m, in the link's frame unless it is [seen from](TaxelPlace::seen_from) another.
     pub at: DVec3,
     /// Direction away from the robot there, of length 1.
     pub normal: DVec3,

@@ -4,7 +4,7 @@ use super::pose::Pose;
 use super::surface::Surface;
 use glam::DVec3;
 
-/// What presses on a link. Friction is not felt: forces are along the normals.
+/// Force and moment on a link. Friction is not felt: forces are along the normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench {
     /// Index into [`Surface::links`].
@@ -21,7 +21,7 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// The same force and centre in another frame, by the pose of this one in it, and the moment about the
+    /// Returns the same force and centre in another frame, by the pose of this one in it, and the moment about the
     /// other's origin.
     pub fn seen_from(&self, pose: &Pose) -> Wrench {
         let force = pose.direction(self.force);
@@ -31,7 +31,7 @@ impl Wrench {
     }
 }
 
-/// What presses on each link: `newtons` by taxel, those without a place are left out.
+/// Returns the force and moment on each link: `newtons` by taxel, those without a place are left out.
 pub fn wrenches(surface: &Surface, newtons: &[f64]) -> Vec<Wrench> {
     let none =
         |link| Wrench { link, force: DVec3::ZERO, moment: DVec3::ZERO, pressed: 0.0, center: DVec3::ZERO };

@@ -24,7 +24,7 @@ pub enum Restored {
     Done {
         /// Numbers of the requests, in order.
         set: Vec<u8>,
-        /// Why there is no new tare. The board refuses a tare only if it has had a baseline since its start.
+        /// Reason why there is no new tare. The board refuses a tare only if it has had a baseline since its start.
         untared: Option<String>,
     },
     /// The board refuses the request with this number, and why.

@@ -100,7 +100,7 @@ fn nearest(us: u64, number: u16) -> i64 {
     at + off
 }
 
-/// When a frame started, by the bus.
+/// Returns when a frame started, by the bus.
 fn time_of(frame: i64) -> Micros {
     Micros(frame.saturating_mul(FRAME_US).max(0) as u64)
 }

@@ -27,7 +27,7 @@ pub struct BoardDescription {
     pub chip: String,
     /// The garment.
     pub garment: Garment,
-    /// Its geometry.
+    /// Geometry of the garment.
     pub layout: Layout,
     /// The scene.
     pub scene: Scene,

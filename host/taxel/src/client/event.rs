@@ -47,11 +47,11 @@ pub enum Event {
     Intent(Box<IntentReport>),
     /// Gesture of a touch.
     Gesture(GestureReport),
-    /// What presses on the robot.
+    /// Contacts and forces on the robot.
     Pressing(Box<PressingReport>),
-    /// What the garment's folds are expected to press.
+    /// Expected pressure of the garment's folds.
     Folds(Box<FoldsReport>),
-    /// What each region of the robot's surface feels; the names are in the client.
+    /// Touch state of each region of the robot's surface; the names are in the client.
     Regions(Box<RegionsReport>),
     /// The base of shapes; the names are in the client, too.
     Shapes {
@@ -90,13 +90,13 @@ pub enum Event {
     },
     /// Answer to `Sync`.
     Sync(SyncReport),
-    /// When a frame of the USB began.
+    /// Start of a frame of the USB.
     StartOfFrame(StartOfFrame),
     /// Answer to another request.
     Answer {
         /// Number of the request; 255 if it was unreadable.
         request: u8,
-        /// Why it was refused; none if it was done.
+        /// Reason why it was refused; none if it was done.
         refusal: Option<String>,
     },
     /// Raw codes.
@@ -115,20 +115,20 @@ pub enum Event {
     Lost {
         /// The reason, a sentence.
         why: String,
-        /// When the board was last heard, the host's time, us since 1970.
+        /// Host time at which the board was last heard, us since 1970.
         since_us: u64,
     },
     /// The lost board is back, and its settings are restored.
     Back {
-        /// Whether it had restarted and what was set again, a sentence.
+        /// Sentence on whether it had restarted and what was set again.
         how: String,
-        /// How long it was lost.
+        /// Time for which it was lost.
         after: Duration,
     },
     /// Another board answers in its place; see [`Identity`](super::Identity). Unless it is refused, all that follows is
     /// of this one, and no setting of the other is sent to it.
     Other {
-        /// How it differs, a sentence.
+        /// Sentence on how it differs.
         why: String,
     },
     /// A remark of the host about the link.
@@ -160,7 +160,7 @@ impl Event {
 pub enum ImageNews {
     /// Decoded, with the board's checksum.
     Whole,
-    /// Its base image is missing.
+    /// Image whose base image is missing.
     NoBase,
     /// Code or checksum is wrong.
     Wrong,

@@ -1,4 +1,4 @@
-//! What waits to be asked of a board, and what is asked beside its scene.
+//! Requests that wait to be sent to a board, and streams beside its scene.
 
 use super::scene_change::SceneChange;
 use super::wanted::Sets;
@@ -6,7 +6,7 @@ use super::wanted::Sets;
 /// A request that is held back until the board has answered others.
 #[derive(Debug, Clone)]
 pub(super) enum HeldRequest {
-    /// Its frame of the wire, and what it sets.
+    /// Frame of the wire, and what it sets.
     Frame(Vec<u8>, Option<Sets>),
     /// A change of the scene that is in force then.
     Change(SceneChange),
@@ -19,7 +19,7 @@ impl HeldRequest {
     }
 }
 
-/// What is streamed beside a board's scene, until it restarts.
+/// Streams beside a board's scene, until it restarts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Beside {
     pub raw_hz: u16,

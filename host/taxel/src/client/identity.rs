@@ -6,7 +6,8 @@ use taxel_core::garment::Garment;
 /// Most garments that are remembered of a board.
 const GARMENTS: usize = 32;
 
-/// What a board is recognised by when it answers again: after its link was open anew, and after it has restarted.
+/// Marks by which a board is recognised when it answers again: after its link was open anew, and after it has
+/// restarted.
 ///
 /// - What is stated, a serial number on USB or a garment, must agree.
 /// - The id of its chip, which it says on every link, or else the serial number of its link on USB decides alone, where
@@ -46,7 +47,7 @@ impl Identity {
         self.garment.is_some()
     }
 
-    /// How a board differs, on a link with this serial number on USB; none if it is the one.
+    /// Returns how a board differs, on a link with this serial number on USB; none if it is the one.
     pub fn differs(&self, usb_serial: Option<&str>, description: &BoardDescription) -> Option<String> {
         let chips = self.chip.as_deref().zip(chip(description));
         let serials = chips.or(self.usb_serial.as_deref().zip(usb_serial));

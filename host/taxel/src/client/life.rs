@@ -1,4 +1,4 @@
-//! What a client remembers of its board between restarts.
+//! State that a client keeps of its board between restarts.
 
 use super::again::Again;
 use super::wanted::Wanted;
@@ -24,9 +24,9 @@ pub(super) struct Life {
     pub stepped_back: bool,
     /// The board has said which it is since the link was opened, and since its last restart.
     pub is_known: bool,
-    /// How the board that answers differs from the one that is waited for.
+    /// Difference of the board that answers from the one that is waited for.
     pub refused: Option<String>,
-    /// What was reported of it.
+    /// Difference that was reported.
     pub reported_other: Option<String>,
     /// The board has probably kept running when the link was last lost.
     pub lived_on: bool,

@@ -1,4 +1,4 @@
-//! What goes on until the board ends it, and its end if the board no longer can.
+//! State that goes on until the board ends it, and its end if the board no longer can.
 
 use super::event::Event;
 use taxel_core::body::Placed;
@@ -9,7 +9,7 @@ use taxel_core::surface::RegionPhase;
 use taxel_core::symbol::Symbol;
 use taxel_core::wire::{LISTED, PressingReport, ReactionReport, RegionsReport, SymbolList};
 
-/// What goes on, besides contacts and intention.
+/// Ongoing state, besides contacts and intention.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Ongoing {
     /// Words of the contacts that are present, as they were reported last.

@@ -16,7 +16,7 @@ impl Client {
         (self.identity, self.is_only) = (identity, true);
     }
 
-    /// Why the board that answers is refused, once: nothing that it says is taken.
+    /// Returns why the board that answers is refused, once: nothing that it says is taken.
     pub fn refused(&mut self) -> Option<String> {
         self.life.refused.take()
     }

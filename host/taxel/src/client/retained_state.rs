@@ -1,4 +1,4 @@
-//! What a board has said that is still valid, as frames of the wire: a file that continues another begins with them,
+//! Messages of a board that are still valid, as frames of the wire: a file that continues another begins with them,
 //! and a client that starts in the middle of a recording gets them first.
 
 use super::{BoardDescription, leads};
@@ -120,7 +120,7 @@ impl RetainedState {
         self.ordered(|_| true)
     }
 
-    /// Those in order that stay valid beyond the moment: without contacts, and what they mean.
+    /// Returns in order the frames that stay valid beyond the moment: without contacts, and what they mean.
     pub fn lasting(&self) -> Vec<Arc<[u8]>> {
         self.ordered(|number| LASTING.contains(&number))
     }

@@ -20,7 +20,7 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// As a recording has it: the host's time and the board's, ns.
+    /// Makes the stamp of a recording: of the host's time and the board's, ns.
     pub fn recorded(host_ns: u64, board_ns: u64) -> Stamp {
         Stamp { board_us: board_ns / NS, host_us: host_ns / NS, uncertainty_us: None }
     }

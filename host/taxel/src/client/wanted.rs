@@ -17,8 +17,8 @@ const WINDOW: usize = 4;
 /// Most unanswered requests remembered; beyond that, the oldest is assumed to be done.
 const OPEN: usize = 4096;
 
-/// What a request sets, in the order of restoring: the garment first, because it resets the gains; the start
-/// before the tare, whose answer takes a while.
+/// Setting of a request, in the order of restoring: the garment first, because it resets the gains; the start before
+/// the tare, whose answer takes a while.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     Garment,
@@ -30,10 +30,10 @@ enum Key {
     Shapes(usize),
     /// A piece of a table, which the board keeps.
     Table,
-    /// Of this concept.
+    /// Feed of this concept.
     Feed(Name),
     Start,
-    /// What is streamed beside the scene.
+    /// Streams beside the scene.
     Stream,
     Tare,
 }
@@ -46,7 +46,7 @@ struct Setting {
     frame: Vec<u8>,
     /// A feed, which ages, and when it was sent.
     feed: Option<(Feed, Instant)>,
-    /// It only undoes an earlier setting; nothing is to be restored.
+    /// True if it only undoes an earlier setting; nothing is to be restored.
     clears: bool,
     /// Encoded garment or scene.
     body: Vec<u8>,

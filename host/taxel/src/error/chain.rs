@@ -5,7 +5,7 @@ use std::error::Error as StdError;
 use std::fmt;
 use std::io;
 
-/// What functions of this library return.
+/// Result of functions of this library.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// An error of this library, see the [module](super).
@@ -18,7 +18,7 @@ enum Node {
 }
 
 impl Error {
-    /// What has happened, below all contexts.
+    /// Returns what has happened, below all contexts.
     pub fn kind(&self) -> &ErrorKind {
         match &*self.0 {
             Node::Kind(kind, _) => kind,

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a file cannot be read or written.
+/// Reason why a file cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
@@ -23,12 +23,12 @@ pub enum FileError {
         /// The system's words.
         why: io::Error,
     },
-    /// It is no file.
+    /// Something that is no file.
     #[error("it is {what}")]
     NoFile {
-        /// Its path.
+        /// Path of it.
         path: PathBuf,
-        /// What it is: a folder, a device, a FIFO, a socket.
+        /// Kind of it: a folder, a device, a FIFO, a socket.
         what: &'static str,
     },
     /// The output exists already, and may not be replaced.

@@ -6,7 +6,7 @@ use super::{
 };
 use std::io;
 
-/// What has happened, by concern.
+/// Kind of an error, by concern.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ErrorKind {

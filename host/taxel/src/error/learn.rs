@@ -2,7 +2,7 @@
 
 use taxel_core::gesture::ModelError;
 
-/// Why nothing can be trained, or something trained cannot be used.
+/// Reason why nothing can be trained, or something trained cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LearnError {

@@ -2,16 +2,16 @@
 
 use taxel_core::intent::MapError;
 
-/// Why a map, or what was asked of it, is invalid.
+/// Reason why a map, or what was asked of it, is invalid.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapFileError {
     /// The file is of another version of the format.
     #[error("{text}")]
     Version {
-        /// Its version.
+        /// Version of the file.
         found: u32,
-        /// What is wrong; with file and line if it was read from a file.
+        /// Fault; with file and line if it was read from a file.
         text: String,
     },
     /// A value is invalid.
@@ -19,7 +19,7 @@ pub enum MapFileError {
     Value {
         /// Path of its key: `concept[1].name`.
         key: String,
-        /// What is wrong; with file and line if it was read from a file.
+        /// Fault; with file and line if it was read from a file.
         text: String,
     },
     /// A concept is named that the map does not have.
@@ -27,7 +27,7 @@ pub enum MapFileError {
     NoConcept {
         /// Name of the map.
         map: String,
-        /// What names the concept: "an edge", "--of".
+        /// Part that names the concept: "an edge", "--of".
         user: String,
         /// The name.
         concept: String,
@@ -41,7 +41,7 @@ pub enum MapFileError {
     /// A number is out of its range, or has too many decimals.
     #[error("{0}")]
     Range(String),
-    /// It is too large or too fine for the board's arithmetic.
+    /// Map that is too large or too fine for the board's arithmetic.
     #[error("{0}")]
     TooLarge(String),
     /// A file of labelled touches does not fit the map.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Why a recording cannot be read.
+/// Reason why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
@@ -12,7 +12,7 @@ pub enum RecordingError {
         /// The file.
         path: PathBuf,
     },
-    /// It is a recording of another program.
+    /// Recording of another program.
     #[error("{} has no topic {topic}: it is not a recording of taxel", path.display())]
     NotTaxel {
         /// The file.
@@ -30,7 +30,7 @@ pub enum RecordingError {
     /// A record contradicts itself.
     #[error("{0}")]
     Record(String),
-    /// It is valid, and written in a way that this library does not read.
+    /// Valid recording, written in a way that this library does not read.
     #[error("{0}")]
     Unsupported(String),
 }

@@ -1,6 +1,6 @@
 //! Errors of robots.
 
-/// Why a robot's description is invalid, or does not fit what is asked of it.
+/// Reason why a robot's description is invalid, or does not fit what is asked of it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
@@ -10,7 +10,7 @@ pub enum RobotError {
     /// A link of the file is invalid.
     #[error("{text}")]
     Link {
-        /// Its name.
+        /// Name of the link.
         link: String,
         /// File, line, link, and what is wrong.
         text: String,
@@ -18,7 +18,7 @@ pub enum RobotError {
     /// A joint of the file is invalid.
     #[error("{text}")]
     Joint {
-        /// Its name.
+        /// Name of the joint.
         joint: String,
         /// File, line, joint, and what is wrong.
         text: String,

@@ -6,7 +6,7 @@ use taxel_core::gesture::GestureError;
 use taxel_core::pipeline::SceneError;
 use taxel_sim::ScriptError;
 
-/// Why a garment, a scene, a script, a calibration or a gesture's settings are invalid.
+/// Reason why a garment, a scene, a script, a calibration or a gesture's settings are invalid.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingError {
@@ -39,7 +39,7 @@ pub enum SettingError {
     /// A table of folds does not fit the garment.
     #[error("{0}")]
     Folds(String),
-    /// How a panel sits cannot be found from its touches.
+    /// Panel whose fit cannot be found from its touches.
     #[error("{0}")]
     Placing(String),
     /// Settings of gestures are invalid.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 use taxel_core::wire::WireError;
 
-/// Why there is no stream, or no more of it.
+/// Reason why there is no stream, or no more of it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
@@ -22,8 +22,7 @@ pub enum SourceError {
     /// The board is connected, and sends, reads or answers nothing.
     #[error("{0}")]
     Silent(String),
-    /// What is connected sends something else than this program understands: it is no board, or one of another
-    /// version.
+    /// Sender of something else than this program understands: it is no board, or one of another version.
     #[error("{0}")]
     Foreign(String),
     /// The board is gone, and is not waited for any longer. The [cause](super::Error::cause) says why it was
@@ -32,7 +31,7 @@ pub enum SourceError {
     Gone {
         /// Label of the source.
         label: String,
-        /// How long it was waited for; none if it was not.
+        /// Time for which it was waited for; none if it was not.
         patience: Option<Duration>,
     },
     /// Another board answers in place of the one that was followed.
@@ -43,7 +42,7 @@ pub enum SourceError {
     Refused {
         /// Name of the request, such as `set-garment`.
         request: &'static str,
-        /// What is refused, and when.
+        /// Words for what is refused, and when.
         what: String,
         /// The board's reason, as it has sent it.
         reason: String,

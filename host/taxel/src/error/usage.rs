@@ -2,7 +2,7 @@
 
 use super::setting::SettingError;
 
-/// Why an argument cannot be what is meant.
+/// Reason why an argument cannot be what is meant.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum UsageError {

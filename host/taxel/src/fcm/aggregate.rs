@@ -2,7 +2,7 @@
 
 use super::terms::Triangle;
 
-/// How memberships of several sets are aggregated.
+/// Aggregation of memberships of several sets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aggregation {
     /// Add memberships: repeated statements count.

@@ -15,7 +15,7 @@ use taxel_core::scene::Scene;
 pub struct Findings {
     /// Reasons why the board cannot use the map.
     pub faults: Vec<String>,
-    /// What is probably not intended.
+    /// Properties that are probably not intended.
     pub warnings: Vec<String>,
     /// Behaviour of the map.
     pub sweep: Sweep,

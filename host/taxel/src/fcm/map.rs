@@ -145,7 +145,7 @@ impl MapFile {
         names.filter(|name| !self.is_driven(name)).collect()
     }
 
-    /// What it hears of a robot, by the slots of its configuration.
+    /// Returns what it hears of a robot, by the slots of its configuration.
     pub fn robot_inputs(&self) -> Vec<RobotInput> {
         self.input.iter().filter_map(InputFile::of_robot).collect()
     }

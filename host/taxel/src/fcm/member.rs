@@ -85,7 +85,7 @@ impl InputFile {
         Ok(ramps.into_iter().map(input).collect())
     }
 
-    /// What it hears of a robot, if it does.
+    /// Returns what it hears of a robot, if it does.
     pub fn of_robot(&self) -> Option<RobotInput> {
         Some(RobotInput {
             concept: self.concept.clone(),

@@ -1,5 +1,5 @@
-//! What a map of a robot hears: the robot's boards as a whole, its own motion, and what others know. A board
-//! knows none of it.
+//! Sources of a map of a robot: the robot's boards as a whole, its own motion, and what others know. A board knows
+//! none of it.
 //!
 //! | `robot =` | unit | value |
 //! |---|---|---|
@@ -51,16 +51,16 @@ pub enum RobotSource {
     Slide(PartWords),
     /// Greatest change of its force while the part was still, percent.
     Stir(PartWords),
-    /// What somebody sent by a name, 2^-15.
+    /// Value that somebody sent by a name, 2^-15.
     HostInput(String),
 }
 
-/// What an input of a map of a robot hears, and what counts instead.
+/// Source of an input of a map of a robot, and what counts instead.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RobotInput {
     /// Name of the concept.
     pub concept: String,
-    /// Where its value comes from.
+    /// Source of its value.
     pub source: RobotSource,
     /// Age from which a value no longer counts, ms; none: never.
     pub timeout_ms: Option<u32>,

@@ -7,7 +7,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 pub struct CsvRow {
     /// Number of its first line, from 1.
     pub line: usize,
-    /// Its cells, without the space around them.
+    /// Cells, without the space around them.
     pub cells: StringRecord,
 }
 

@@ -67,7 +67,7 @@ pub fn fit(script: Script, layout: &Layout) -> Result<Script> {
 /// A script that says nothing but what it must.
 const PLAIN: &str =
     "duration_s = 1\n[[touch]]\npanel = \"\"\nshape = \"palm\"\nforce_n = 0\nat = [0, 0]\nstart_s = 0";
-/// What it must say.
+/// Keys that it must have.
 const SAID: [&str; 6] = ["duration_s", "panel", "shape", "force_n", "at", "start_s"];
 
 /// The text of a script's file, without what holds by default. Error for a number that TOML cannot hold.

@@ -28,7 +28,7 @@ pub struct Replay {
     falling: bool,
     /// The scene.
     pub pipeline: Pipeline,
-    /// What it remembers.
+    /// State of the pipeline.
     pub state: Box<ReplayState>,
     names: Vec<Name>,
     leading: Leading,

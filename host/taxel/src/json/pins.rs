@@ -4,7 +4,7 @@ use serde::Serialize;
 use taxel_core::garment::{Coding, Garment, Group};
 use taxel_core::selftest::{Fault, Findings, PinFault};
 
-/// What a self-test found.
+/// Result of a self-test.
 #[derive(Debug, Clone, Serialize)]
 pub struct PinReport {
     /// Select lines that were examined.
@@ -22,7 +22,7 @@ pub struct PinFaultReport {
     pub gpio: u8,
     /// The fault.
     pub what: String,
-    /// What the pin is for.
+    /// Use of the pin.
     #[serde(rename = "where")]
     pub place: String,
     /// The consequence for the garment.

@@ -115,7 +115,7 @@ pub fn pose_error(report: &PressingReport) -> Option<f64> {
     report.pose_errors.iter().map(|(_, um)| f64::from(*um) * 1e-6).reduce(f64::max)
 }
 
-/// What is unknown of a contact or of a link.
+/// Returns the uncertainty of a contact or of a link.
 fn uncertain<T: PartialEq>(all: &[(T, Uncertainty)], of: &T) -> Option<UncertainLine> {
     let (_, it) = all.iter().find(|(named, _)| named == of)?;
     let Uncertainty { saturated, faulty, less, more, off } = *it;

@@ -4,14 +4,14 @@ use super::place::BodyPlace;
 use crate::fcm::robot_source::{PartWords, RobotInput, RobotSource};
 use std::sync::Arc;
 
-/// Of which parts a place is, by their numbers.
+/// Parts of which a place is, by their numbers.
 pub type PartFlags = Arc<[bool]>;
 
 /// A part of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyPart<'a> {
     words: &'a [String],
-    /// Its number; none if it has none.
+    /// Number of the part; none if it has none.
     number: Option<usize>,
 }
 
@@ -29,7 +29,7 @@ impl BodyPart<'_> {
 }
 
 impl BodyPlace {
-    /// Of which of these parts it is.
+    /// Returns of which of these parts it is.
     pub(super) fn parts(&self, parts: &[PartWords]) -> PartFlags {
         parts.iter().map(|part| self.is_of(part)).collect()
     }

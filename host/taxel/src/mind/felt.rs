@@ -1,4 +1,4 @@
-//! What a board says of touches, for the mind of its robot.
+//! Touches that a board reports, for the mind of its robot.
 
 use super::mover::SurfaceSpot;
 use super::place::{BoardPlaces, BodyPlace};
@@ -14,19 +14,19 @@ use taxel_core::wire::IntentReport;
 pub struct FeltContact {
     /// Id of the board's contact.
     pub contact: u32,
-    /// Where it lies.
+    /// Place on the body.
     pub place: Arc<BodyPlace>,
     /// The point of the robot's surface; none unless the board has a body.
     pub spot: Option<SurfaceSpot>,
-    /// Its pressure, counts; with a calibration in force its force, thousandths of a newton.
+    /// Pressure, counts; with a calibration in force the force, thousandths of a newton.
     pub load: u32,
-    /// Its area, mm2.
+    /// Area, mm2.
     pub cover_mm2: u32,
-    /// Its greatest pressure on a taxel, in the unit of the load.
+    /// Greatest pressure on a taxel, in the unit of the load.
     pub peak: u32,
-    /// Its panel.
+    /// Number of the panel.
     pub panel: u8,
-    /// Its centroid there along columns and rows, mm.
+    /// Centroid on the panel along columns and rows, mm.
     pub at_mm: [f64; 2],
 }
 
@@ -39,16 +39,16 @@ pub struct BoardPlacement {
     pub map: Option<Arc<MapFile>>,
 }
 
-/// What a board's event says of touches.
+/// Content of a board's event about touches.
 #[derive(Debug, Clone)]
 pub enum BoardSense {
-    /// It begins, or has another garment or scene.
+    /// Start of the board, or another garment or scene of it.
     Begins(BoardPlacement),
-    /// Its contacts.
+    /// Contacts of the board.
     Contacts(Vec<FeltContact>),
-    /// Its intention.
+    /// Intention of the board.
     Intent(Box<IntentReport>),
-    /// It scans.
+    /// Sign that it scans.
     Alive,
 }
 
@@ -61,14 +61,14 @@ pub struct MindReader {
 }
 
 impl MindReader {
-    /// Of a board of a robot.
+    /// Makes the reader of a board of a robot.
     pub fn new(robot: &ReadRobot, board: usize) -> MindReader {
         let board = robot.boards[board].clone();
         let contacts = ContactReader::new(&board);
         MindReader { board, contacts, places: BoardPlaces::default() }
     }
 
-    /// What an event says, which the client already includes; none if it says nothing of touches.
+    /// Returns what an event says, which the client already includes; none if it says nothing of touches.
     pub fn sense(&mut self, client: &Client, event: &Event) -> Option<BoardSense> {
         match event {
             Event::Hello => Some(BoardSense::Begins(self.begin(client)?)),

@@ -1,4 +1,4 @@
-//! What others know: values that somebody sends a robot by name, and the positions of its joints, as lines.
+//! Values that others send a robot by name, and the positions of its joints, as lines.
 
 use crate::error::{Result, UsageError};
 #[cfg(feature = "schema")]
@@ -51,7 +51,7 @@ impl HostInputLine {
     }
 }
 
-/// What others have sent the robot.
+/// Input that others have sent the robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("host_input")))]

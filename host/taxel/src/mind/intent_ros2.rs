@@ -1,4 +1,4 @@
-//! What touches mean to the robot as a message of ROS 2.
+//! Meaning of touches to the robot as a message of ROS 2.
 
 use super::line::{RobotMeaningLine, RobotTouchLine};
 use super::mover::{Approach, Mover};

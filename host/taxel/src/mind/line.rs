@@ -1,4 +1,4 @@
-//! What touches mean to the robot, as JSON and in words.
+//! Meaning of touches to the robot, as JSON and in words.
 
 use super::mover::{Approach, Mover};
 use super::probe::Probe;
@@ -14,7 +14,7 @@ pub const ROBOT_INTENT: &str = "robot_intent";
 /// Their schema, as [`robot_intent_schema`] derives it.
 pub const ROBOT_INTENT_SCHEMA: &str = include_str!("../../schemas/messages/robot_intent.json");
 
-/// What the touches of all boards mean together.
+/// Meaning of the touches of all boards together.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("robot_intent")))]
@@ -32,7 +32,7 @@ pub struct RobotMeaningLine {
     /// Inputs of the map for which nothing is known that is young enough, so that its default counts: names
     /// of their concepts.
     pub defaults: Vec<String>,
-    /// What touches the robot, and whose motion has caused it.
+    /// Contacts on the robot, and whose motion has caused them.
     pub touches: Vec<RobotTouchLine>,
 }
 
@@ -48,16 +48,16 @@ pub struct RobotTouchLine {
     pub region: String,
     /// Link on which it lies.
     pub link: String,
-    /// Its pressure, counts; with a calibration in force its force, thousandths of a newton.
+    /// Pressure, counts; with a calibration in force the force, thousandths of a newton.
     pub load: u32,
     /// `own` if the robot's motion has caused it, `other` if that of what touches it, or `unsure`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub mover: Mover,
-    /// How the robot's surface moved before the onset; absent if it is not known.
+    /// Motion of the robot's surface before the onset; absent if it is not known.
     #[cfg_attr(feature = "schema", schemars(with = "Approach"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub approach: Option<Approach>,
-    /// What the robot feels of the object that it has moved into; absent of what touches it.
+    /// Properties of the object that the robot has moved into; absent of what touches it.
     #[cfg_attr(feature = "schema", schemars(with = "Probe"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub probe: Option<Probe>,
@@ -104,7 +104,7 @@ impl RobotMeaningLine {
         }
     }
 
-    /// In words: `kindness; hug 0.98, happiness 0.90`.
+    /// Returns it in words: `kindness; hug 0.98, happiness 0.90`.
     pub fn text(&self) -> String {
         let value = |name: &String| self.concepts.get(name).and_then(Value::as_f64).unwrap_or(0.0);
         let others = self.holding.iter().filter(|name| *name != self.leading);

@@ -1,4 +1,4 @@
-//! Whose motion has caused a touch: the robot's own, or that of what touches it.
+//! Cause of a touch: the robot's own motion, or that of what touches it.
 //!
 //! Before its onset, the touched surface moves along its normal if the robot bumps into something, and does
 //! not if it is touched. The velocity follows from the joints that are sent. If both move, the robot's motion
@@ -31,19 +31,19 @@ pub(super) const REACH_M: f64 = BESIDE_M;
 /// Cosine of the angle of their normals up to which they face each other.
 const FACING: f64 = -0.5;
 
-/// Whose motion has caused a touch.
+/// Motion that has caused a touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mover {
-    /// The robot's own.
+    /// Motion of the robot.
     Own,
-    /// That of what touches it.
+    /// Motion of what touches it.
     Other,
-    /// It moved too slowly to be sure, or nothing is known of its motion or of the surface.
+    /// Motion that was too slow to be sure, or nothing is known of it or of the surface.
     Unsure,
 }
 
-/// How the robot's surface moved shortly before a contact.
+/// Motion of the robot's surface shortly before a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Approach {
@@ -54,7 +54,7 @@ pub struct Approach {
 }
 
 impl Approach {
-    /// Whose motion it was.
+    /// Returns whose motion it was.
     pub fn mover(self) -> Mover {
         let Approach { normal_m_s, speed_m_s } = self;
         if normal_m_s >= OWN_M_S && normal_m_s >= INTO * speed_m_s {
@@ -75,7 +75,7 @@ pub type BasePlace = (DVec3, DVec3);
 pub struct SurfaceSpot {
     /// Name of its link.
     pub link: String,
-    /// Where it is in the link's frame, m.
+    /// Place in the link's frame, m.
     pub at: DVec3,
     /// Direction away from the robot there, of length 1.
     pub normal: DVec3,
@@ -95,7 +95,7 @@ impl SurfaceSpot {
         places.windows(2).filter_map(motion).max_by(|a, b| a.normal_m_s.total_cmp(&b.normal_m_s))
     }
 
-    /// Its place and its normal in the base; none if its link is unknown.
+    /// Returns its place and its normal in the base; none if its link is unknown.
     pub fn in_base(&self, links: &LinksAt<'_>) -> Option<BasePlace> {
         links.point(&self.link, self.at, self.normal)
     }

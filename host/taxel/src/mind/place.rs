@@ -1,4 +1,4 @@
-//! Where on the body a board's contacts lie.
+//! Places on the body of a board's contacts.
 
 use super::mover::SurfaceSpot;
 use crate::body::Surface;
@@ -35,7 +35,7 @@ pub struct BoardPlaces {
 }
 
 impl BoardPlaces {
-    /// Of a board with this garment; with a surface if the body of its file fits the garment.
+    /// Makes the places of a board with this garment; with a surface if the body of its file fits the garment.
     pub fn of(board: &RobotBoard, description: &BoardDescription) -> BoardPlaces {
         let layout = &description.layout;
         let place = |area: &taxel_core::garment::Area| {

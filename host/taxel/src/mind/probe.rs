@@ -1,4 +1,4 @@
-//! What a limb that moves into something feels of it: how it yields, how pointed it is, whether it moves.
+//! Properties of an object that a limb feels as it moves into it: how it yields, how pointed it is, whether it moves.
 
 use super::felt::FeltContact;
 use super::mover::SurfaceSpot;
@@ -23,7 +23,7 @@ const KEPT_US: u64 = 500_000;
 /// Shortest time of a still limb from which the change of the force counts, us.
 const QUIET_US: u64 = 100_000;
 
-/// What a limb feels of an object.
+/// Properties of an object that a limb feels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Probe {
@@ -110,7 +110,7 @@ impl ProbeCourse {
         self.probe.stir = self.probe.stir.max(self.stir(&moment));
     }
 
-    /// What is felt so far.
+    /// Returns what is felt so far.
     pub fn probe(&self) -> Probe {
         self.probe
     }

@@ -1,4 +1,4 @@
-//! Why the mind of a robot decided, down to the contacts of its boards.
+//! Reasons why the mind of a robot decided, down to the contacts of its boards.
 
 use super::robot_mind::{RobotMeaning, RobotMind};
 use super::senses::SenseCause;
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use taxel_core::format::Micros;
 use taxel_core::wire::IntentReport;
 
-/// Why a concept of a robot's map has its activation.
+/// Reasons why a concept of a robot's map has its activation.
 pub struct RobotReasons {
     /// The map's report, and the map.
     pub reported: ReportedIntent,
@@ -20,21 +20,21 @@ pub struct RobotReasons {
     pub explained: Explained,
     /// Each input: its concept, source, value, age (none: the default), and what it consists of.
     pub inputs: Vec<ReasonInput>,
-    /// Of each board that announces what counts: its name, its report and the explanation of that.
+    /// Name, report and its explanation of each board that announces what counts.
     pub boards: Vec<(String, ReportedIntent, Explained)>,
 }
 
-/// What an input of the map heard.
+/// Value that an input of the map heard.
 pub struct ReasonInput {
-    /// Its concept.
+    /// Concept of the input.
     pub concept: String,
-    /// Its source.
+    /// Source of the value.
     pub source: RobotSource,
-    /// Its value, in the unit of the source.
+    /// Value, in the unit of the source.
     pub value: i32,
-    /// Its age, ms; none if the default counts.
+    /// Age, ms; none if the default counts.
     pub age_ms: Option<u32>,
-    /// What it consists of.
+    /// Causes of which it consists.
     pub causes: Vec<SenseCause>,
 }
 
@@ -99,7 +99,7 @@ impl RobotReasons {
         format!("{board}{contact}{}, {} ms old", cause.value, cause.age_ms)
     }
 
-    /// As JSON: that of `taxel fcm why` with `leading`, `seconds`, `heard` and `boards`.
+    /// Returns it as JSON: that of `taxel fcm why` with `leading`, `seconds`, `heard` and `boards`.
     pub fn json(&self, robot: &ReadRobot) -> Value {
         let name = |number: usize| robot.boards.get(number).map_or("", |board| board.name.as_str());
         let cause = |cause: &SenseCause| {

@@ -37,7 +37,7 @@ impl RecordedMind {
         self.write(recorder, news.as_ref())
     }
 
-    /// It is this time of the host, us, and no board says anything. Error as of [`Recorder::line`].
+    /// Advances to this time of the host, us, at which no board says anything. Error as of [`Recorder::line`].
     pub fn pass(&mut self, recorder: &Recorder, host_us: u64) -> Result<()> {
         let news = self.mind.pass(host_us).cloned();
         self.write(recorder, news.as_ref())

@@ -22,7 +22,7 @@ const STEPS: u16 = 64;
 /// Activation from which a concept holds, thousandths; one that holds does so down to a tenth less.
 const LEVEL: [u16; 2] = [500, 400];
 
-/// What touches the robot as a whole means.
+/// Meaning of the touches on the robot as a whole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotMeaning {
     /// The host's time, us since 1970.
@@ -37,7 +37,7 @@ pub struct RobotMeaning {
     pub steps: u16,
     /// End of the inference.
     pub outcome: Outcome,
-    /// What it heard, by the inputs of the map.
+    /// Values that it heard, by the inputs of the map.
     pub heard: Vec<SensedValue>,
 }
 
@@ -98,27 +98,27 @@ impl RobotMind {
         })
     }
 
-    /// Its map.
+    /// Returns its map.
     pub fn map(&self) -> &MapFile {
         &self.map
     }
 
-    /// Its inputs.
+    /// Returns its inputs.
     pub fn inputs(&self) -> &[RobotInput] {
         &self.inputs
     }
 
-    /// What it senses.
+    /// Returns what it senses.
     pub fn senses(&self) -> &Senses {
         &self.senses
     }
 
-    /// What it meant at its last inference; none before the first.
+    /// Returns what it meant at its last inference; none before the first.
     pub fn meaning(&self) -> Option<&RobotMeaning> {
         self.meaning.as_ref()
     }
 
-    /// What it senses now, inferred anew; what leads and holds is that of the last inference.
+    /// Returns the meaning of what it senses now, inferred anew; what leads and holds is that of the last inference.
     pub fn meaning_now(&self) -> RobotMeaning {
         let heard = self.hear();
         let map = self.stage.map();
@@ -136,7 +136,7 @@ impl RobotMind {
         }
     }
 
-    /// What it hears now, by its inputs.
+    /// Returns what it hears now, by its inputs.
     fn hear(&self) -> Vec<SensedValue> {
         self.inputs.iter().map(|input| self.senses.value(input, self.now_us)).collect()
     }
@@ -203,7 +203,7 @@ impl RobotMind {
         Ok(self.pass(host_us))
     }
 
-    /// It is this time of the host, us: what is too old no longer counts. Returns what that means if it is
+    /// Advances to this time of the host, us: what is too old no longer counts. Returns what that means if it is
     /// news.
     pub fn pass(&mut self, host_us: u64) -> Option<&RobotMeaning> {
         // Boards report times that are not in order.

@@ -1,4 +1,4 @@
-//! What one board has said: its contacts, present and just ended, and what it announces.
+//! State that one board has reported: its contacts, present and just ended, and what it announces.
 
 use super::body_part::{BodyPart, PartFlags};
 use super::felt::{BoardPlacement, FeltContact};
@@ -28,19 +28,19 @@ pub struct SensedTouch {
     pub since_us: u64,
     /// Host time at which it was no longer reported, us; none while it is present.
     pub ended_us: Option<u64>,
-    /// Its greatest load so far.
+    /// Greatest load so far.
     pub most: u32,
-    /// Its greatest load within [`HELD_US`], and the host's time of that, us.
+    /// Greatest load within [`HELD_US`], and the host's time of that, us.
     pub(super) recent: (u32, u64),
-    /// How the robot's surface moved before the onset; none if it is not known.
+    /// Motion of the robot's surface before the onset; none if it is not known.
     pub approach: Option<Approach>,
-    /// Whose motion has caused it.
+    /// Motion that has caused it.
     pub mover: Mover,
-    /// What it says of the object, if the robot has moved into it.
+    /// Course of the touch on the object, if the robot has moved into it.
     pub course: ProbeCourse,
     /// Parts of the body of which its place is.
     parts: PartFlags,
-    /// Where it was in the base when it was reported last, and the host's time of that, us; none if it is not known.
+    /// Place in the base when it was reported last, and the host's time of that, us; none if it is not known.
     pub(super) in_base: Option<(BasePlace, u64)>,
     /// Number of times that joints had been sent when it was found whose motion has caused it.
     judged: Option<u64>,
@@ -80,25 +80,25 @@ impl SensedTouch {
     }
 }
 
-/// When contacts are reported, and what is known of the robot then.
+/// Time at which contacts are reported, and what is known of the robot then.
 pub(super) struct ListedAt<'a> {
     /// The host's time, us.
     pub(super) host_us: u64,
     /// The robot's motion; none without a description of it.
     pub(super) speeds: Option<&'a LinkSpeeds>,
-    /// Where its links are then; none if it is not known.
+    /// Places of its links then; none if it is not known.
     pub(super) links: Option<&'a LinksAt<'a>>,
     /// Parts of the body that have a number.
     pub(super) parts: &'a [PartWords],
 }
 
-/// What a board has said.
+/// State that a board has reported.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SensedBoard {
     /// Host time of what it said last, us; none while it is not there.
     pub(super) heard_us: Option<u64>,
     pub(super) placement: Option<BoardPlacement>,
-    /// Its places, and the parts of the body of which each is.
+    /// Places of the garment, and the parts of the body of which each is.
     places: Vec<(Arc<BodyPlace>, PartFlags)>,
     /// Present contacts, and those that have ended within [`HELD_US`].
     pub(super) contacts: Vec<SensedTouch>,
@@ -119,7 +119,7 @@ impl SensedBoard {
         SensedBoard { placement: Some(placement.clone()), places, ..SensedBoard::default() }
     }
 
-    /// The same board, lost: nothing that it said counts.
+    /// Forgets all that it said: the board is lost.
     pub(super) fn forget(&mut self) {
         let (placement, places) = (self.placement.take(), std::mem::take(&mut self.places));
         *self = SensedBoard { placement, places, ..SensedBoard::default() };

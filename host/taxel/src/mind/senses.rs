@@ -1,5 +1,4 @@
-//! What a robot senses now: the newest of each board, of its joints and of what others send, each with its
-//! age.
+//! Senses of a robot now: the newest of each board, of its joints and of what others send, each with its age.
 
 use super::body_part::{BodyPart, parts_of};
 use super::felt::{BoardPlacement, BoardSense};
@@ -23,7 +22,7 @@ const FASTEST_M_S: f64 = 10.0;
 pub struct SensedValue {
     /// The value, in the unit of its source.
     pub value: i32,
-    /// Its age, ms; none if it is the default that the map states.
+    /// Age, ms; none if it is the default that the map states.
     pub age_ms: Option<u32>,
 }
 
@@ -34,9 +33,9 @@ pub struct SenseCause {
     pub board: Option<usize>,
     /// Id of the board's contact, and where it lies; none if it is no contact.
     pub contact: Option<(u32, Arc<BodyPlace>)>,
-    /// What it adds, in the unit of the source.
+    /// Contribution, in the unit of the source.
     pub value: i32,
-    /// Its age, ms.
+    /// Age, ms.
     pub age_ms: u32,
 }
 
@@ -64,8 +63,8 @@ pub struct Senses {
 }
 
 impl Senses {
-    /// Of so many boards, of which nothing is known; without a description of the robot nothing is known of
-    /// its motion.
+    /// Makes the senses of so many boards, of which nothing is known; without a description of the robot nothing is
+    /// known of its motion.
     pub fn new(boards: usize, speeds: Option<LinkSpeeds>) -> Senses {
         Senses {
             boards: vec![SensedBoard::default(); boards],
@@ -217,7 +216,7 @@ impl Senses {
         boards.filter_map(|((number, age_ms), board)| Some((number, age_ms?, board)))
     }
 
-    /// Of what a part has moved into, the contact with the greatest force; its board, and the age of that, ms.
+    /// Returns the contact with the greatest force of what a part has moved into; its board, and the age of that, ms.
     fn met(&self, words: &[String], input: &RobotInput, now_us: u64) -> Option<(usize, u32, &SensedTouch)> {
         let part = self.part(words);
         let own = self.live(input, now_us).flat_map(|(number, age_ms, board)| {
@@ -227,7 +226,7 @@ impl Senses {
         own.max_by_key(|(.., touch)| touch.most)
     }
 
-    /// What a value consists of, down to contacts; nothing if it is the default or nothing touches. Of an
+    /// Returns what a value consists of, down to contacts; nothing if it is the default or nothing touches. Of an
     /// intention: the boards that announce it.
     pub fn causes(&self, input: &RobotInput, now_us: u64) -> Vec<SenseCause> {
         let boards = || self.live(input, now_us);
@@ -293,8 +292,8 @@ impl Senses {
     }
 }
 
-/// Where the robot's own surfaces face each other and both are pressed, the robot touches itself, and one of
-/// them may be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of a board,
+/// Pairs contacts: where the robot's own surfaces face each other and both are pressed, the robot touches itself, and
+/// one of them may be still. What begins beside the robot's own bump belongs to it. Looks at the contacts of a board,
 /// which has just sent them, and at all others; the links are there then, if that is known.
 fn pair(boards: &mut [SensedBoard], board: usize, links: Option<&LinksAt<'_>>, now_us: u64) {
     let mut own = Vec::new();

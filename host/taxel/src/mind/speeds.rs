@@ -1,4 +1,4 @@
-//! How fast the robot's own links move, by the positions of its joints.
+//! Speed of the robot's own links, by the positions of its joints.
 
 use crate::body::DVec3;
 use crate::body::posture::{JointHistory, Motion};
@@ -26,7 +26,7 @@ pub struct LinkSpeeds {
     taken: u64,
 }
 
-/// Where the links of a robot are at a time.
+/// Places of the links of a robot at a time.
 #[derive(Debug, Clone)]
 pub struct LinksAt<'a> {
     robot: &'a Robot,
@@ -71,7 +71,7 @@ impl LinkSpeeds {
         self.taken
     }
 
-    /// Where the links are at a time of the host, us; none if nothing is known of the joints at that time.
+    /// Returns where the links are at a time of the host, us; none if nothing is known of the joints at that time.
     pub fn at(&self, host_us: u64) -> Option<LinksAt<'_>> {
         if self.reported.is_empty() {
             return None;

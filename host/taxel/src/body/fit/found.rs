@@ -1,4 +1,4 @@
-//! How each panel sits.
+//! Fit of each panel.
 
 use super::registered::{LEAST, Pair, Registered, registered};
 use super::touch::KnownTouch;
@@ -13,7 +13,7 @@ use taxel_core::garment::{Area, Garment, Layout};
 /// link.
 const ABOVE: f64 = 0.03;
 
-/// How the panels sit.
+/// Fit of the panels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyFit {
     /// The panels that were found.
@@ -22,25 +22,25 @@ pub struct BodyFit {
     pub few: Vec<(String, usize)>,
 }
 
-/// How a panel sits.
+/// Fit of a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PatchFit {
     /// Number of its patch in the body.
     pub patch: usize,
-    /// Its name.
+    /// Name of the panel.
     pub panel: String,
-    /// How it sits.
+    /// Offset that was found.
     pub offset: PatchOffset,
     /// Standard deviation of the shift of the panel's middle, m: to the right and down.
     pub shift_sd: [f64; 2],
     /// Standard deviation of the turn, degrees. None if the touches are too near each other to find the turn:
     /// it is that of the body file then.
     pub turn_sd: Option<f64>,
-    /// Its touches.
+    /// Touches of the panel.
     pub touches: Vec<FittedTouch>,
 }
 
-/// How well a touch fits.
+/// Fit of a touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FittedTouch {
     /// Number among all touches, from 0.
@@ -51,7 +51,7 @@ pub struct FittedTouch {
     pub off: Option<[f64; 2]>,
     /// Height of the touch above the surface, m; 0 without `off`.
     pub height: f64,
-    /// It counts for the placing.
+    /// True if it counts for the placing.
     pub is_kept: bool,
 }
 

@@ -1,5 +1,4 @@
-//! How a garment sits: the place of each panel on its link, found by touches whose place on the robot is
-//! known.
+//! Fit of a garment: the place of each panel on its link, found by touches whose place on the robot is known.
 //!
 //! Along its surface a panel has three ways to be elsewhere than its body file says: to the right, down, and
 //! turned. Touches come from marks on the robot, one after the other, or from the robot's own hand, whose

@@ -53,7 +53,7 @@ impl Motion2 {
     }
 }
 
-/// What has been found.
+/// Result of the registration.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Registered {
     pub motion: Motion2,
@@ -140,7 +140,7 @@ fn by_two(one: &Pair, other: &Pair) -> Vec<Motion2> {
 
 struct Solved {
     motion: Motion2,
-    /// Of each coordinate, m.
+    /// Standard deviation of each coordinate, m.
     sd: f64,
     shift_sd: DVec2,
     turn_sd: Option<f64>,

@@ -48,7 +48,7 @@ pub fn known_touches(name: &str, text: &str) -> Result<Vec<KnownTouch>, SettingE
     Ok(touches)
 }
 
-/// What the reader of CSV finds wrong, with its line and the name of the column.
+/// Returns what the reader of CSV finds wrong, with its line and the name of the column.
 fn wrong(name: &str, heading: &csv::StringRecord, error: &csv::Error) -> SettingError {
     let line = error.position().map_or(1, csv::Position::line);
     let what = match error.kind() {

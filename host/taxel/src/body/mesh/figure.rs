@@ -1,4 +1,4 @@
-//! What a robot looks like: a mesh of each link, coarse enough to be drawn while it moves.
+//! Figure of a robot: a mesh of each link, coarse enough to be drawn while it moves.
 
 use super::link::of_file;
 use super::model::Mesh;
@@ -11,12 +11,12 @@ use std::path::PathBuf;
 /// Most triangles of a link.
 const MOST: usize = 1000;
 
-/// What a robot looks like.
+/// Figure of a robot.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Figure {
     /// Name and mesh (m, in the link's frame) of each link that has a shape.
     pub links: Vec<(String, Mesh)>,
-    /// Why links have none although the URDF gives them one: a sentence each.
+    /// Reasons why links have none although the URDF gives them one: a sentence each.
     pub lacks: Vec<String>,
 }
 

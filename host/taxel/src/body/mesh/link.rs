@@ -6,9 +6,9 @@ use crate::body::robot::{LinkMesh, LinkShape, meshes, text};
 use crate::error::{Context, Result, RobotError};
 use std::path::{Path, PathBuf};
 
-/// What begins the name of a file in a package of ROS.
+/// Prefix of the name of a file in a package of ROS.
 const PACKAGE: &str = "package://";
-/// What begins the name of a file by its whole path.
+/// Prefix of the name of a file by its whole path.
 const FILE: &str = "file://";
 
 /// The mesh of a link.

@@ -28,7 +28,7 @@ pub struct Nearest {
     pub normal: DVec3,
     /// Number of its triangle.
     pub triangle: usize,
-    /// Its distance, m.
+    /// Distance, m.
     pub distance: f64,
 }
 
@@ -55,12 +55,12 @@ impl Mesh {
         mesh
     }
 
-    /// Its corners, m.
+    /// Returns its corners, m.
     pub fn points(&self) -> &[DVec3] {
         &self.points
     }
 
-    /// Its triangles: numbers of their corners.
+    /// Returns its triangles: numbers of their corners.
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }

@@ -35,7 +35,7 @@ pub struct Estimate {
     pub age: Duration,
 }
 
-/// Why there is no posture of a time.
+/// Reason why there is no posture of a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Gap {
     /// A joint has no reading yet of that time or later: it may still come.

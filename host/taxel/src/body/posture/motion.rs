@@ -1,9 +1,9 @@
-//! What is known of how joints move and how they are read.
+//! Bounds on how joints move and how they are read.
 
 use crate::error::{Result, UsageError};
 use std::str::FromStr;
 
-/// What bounds the errors of postures: how joints move, and how exactly they are read.
+/// Bounds on the errors of postures: how joints move, and how exactly they are read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// Greatest acceleration of joints that turn, rad/s^2.

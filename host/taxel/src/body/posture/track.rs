@@ -25,7 +25,7 @@ pub(super) struct Bounded {
     pub error: f64,
 }
 
-/// Where a time lies among the readings.
+/// Place of a time among the readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum At {
     /// At or between readings.

@@ -19,7 +19,7 @@ pub struct Robot {
 /// A link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotLink {
-    /// Its name.
+    /// Name of the link.
     pub name: String,
     /// Line of the file.
     pub line: usize,
@@ -28,11 +28,11 @@ pub struct RobotLink {
 /// A joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotJoint {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
     /// Line of the file.
     pub line: usize,
-    /// How it moves.
+    /// Kind of its motion.
     pub kind: JointKind,
     /// Number of the link that it hangs on.
     pub parent: usize,
@@ -44,14 +44,14 @@ pub struct RobotJoint {
     pub limits: Option<RangeInclusive<f64>>,
     /// Greatest velocity, rad/s or m/s, if the file states one.
     pub velocity: Option<f64>,
-    /// Where its position comes from; none if it is fixed.
+    /// Source of its position; none if it is fixed.
     pub drive: Option<Drive>,
 }
 
-/// How a joint moves.
+/// Kind of a joint's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
-    /// Not at all.
+    /// No motion.
     Fixed,
     /// Turns between limits, rad.
     Revolute,
@@ -68,7 +68,7 @@ pub struct Drive {
     pub free: usize,
     /// 1 for a joint with a position of its own.
     pub multiplier: f64,
-    /// In the joint's unit, rad or m; 0 for a joint with a position of its own.
+    /// Offset in the joint's unit, rad or m; 0 for a joint with a position of its own.
     pub offset: f64,
 }
 
@@ -78,12 +78,12 @@ impl Robot {
         &self.file
     }
 
-    /// Its links; the first is the root, whose frame is the base.
+    /// Returns its links; the first is the root, whose frame is the base.
     pub fn links(&self) -> &[RobotLink] {
         &self.links
     }
 
-    /// Its joints: joint `i` carries link `i + 1`.
+    /// Returns its joints: joint `i` carries link `i + 1`.
     pub fn joints(&self) -> &[RobotJoint] {
         &self.joints
     }

@@ -1,4 +1,4 @@
-//! How far a point of a link is off if the positions of the joints are.
+//! Distance by which a point of a link is off if the positions of the joints are.
 
 use super::model::{JointKind, Robot, RobotJoint};
 

@@ -11,7 +11,7 @@ use roxmltree::Node;
 /// A mesh that a link names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkMesh {
-    /// Its file: `package://NAME/PATH`, `file://PATH` or a path, not looked for.
+    /// File of the mesh: `package://NAME/PATH`, `file://PATH` or a path, not looked for.
     pub file: String,
     /// Factors for its axes: metres of one unit.
     pub scale: DVec3,
@@ -37,17 +37,17 @@ pub enum LinkSolid {
 /// Name of a link, and its shapes; an error names file, line and link.
 pub type SolidsOf = (String, Result<Vec<LinkSolid>, RobotError>);
 
-/// What of a link has shapes.
+/// Kind of a link's shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkShape {
-    /// As it looks.
+    /// Shapes as the link looks.
     Visual,
-    /// As it collides with others, often simpler.
+    /// Shapes as it collides with others, often simpler.
     Collision,
 }
 
 impl LinkShape {
-    /// Its element.
+    /// Returns its element.
     fn tag(self) -> &'static str {
         match self {
             LinkShape::Visual => "visual",

@@ -153,7 +153,7 @@ fn order(
     Ok(order)
 }
 
-/// Where the position of a joint comes from, through any number of joints that mimic each other.
+/// Finds where the position of a joint comes from, through any number of joints that mimic each other.
 fn drive(
     file: &str,
     joints: &[UrdfJoint<'_>],

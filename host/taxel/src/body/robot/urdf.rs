@@ -129,7 +129,7 @@ fn kind(element: &Element<'_>) -> Result<JointKind, RobotError> {
     }
 }
 
-/// Its axis, (1, 0, 0) unless the file says otherwise.
+/// Reads its axis, (1, 0, 0) unless the file says otherwise.
 fn axis(element: &Element<'_>) -> Result<DVec3, RobotError> {
     let Some(axis) = element.child("axis")? else { return Ok(DVec3::X) };
     let direction = axis.vector("xyz")?.unwrap_or(DVec3::X);

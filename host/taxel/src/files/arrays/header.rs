@@ -1,4 +1,4 @@
-//! What stands before the values of a NumPy array: their type, order and shape.
+//! Header of a NumPy array, before its values: their type, order and shape.
 
 use crate::error::{ArrayError, Context, Error, Result};
 use std::fmt;
@@ -26,9 +26,9 @@ pub struct Header {
 /// Type of the values of an array.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Dtype {
-    /// As NumPy calls it, for example `<u2`.
+    /// Name in NumPy, for example `<u2`.
     name: String,
-    /// What a value is: `u` and `i` are integers, `f` floating-point numbers, `U` texts.
+    /// Class of a value: `u` and `i` are integers, `f` floating-point numbers, `U` texts.
     pub class: char,
     /// Bytes of a value; 0 if that is not stated.
     pub width: usize,

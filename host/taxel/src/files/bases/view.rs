@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use taxel_core::shape::{Descriptor, Patch, descriptor};
 
-/// What is known of a view before the images are.
+/// Settings of a view that are known before the images are.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
     /// Smallest value of a touched taxel, counts; none: that of the base, or 1/32 of the full scale.

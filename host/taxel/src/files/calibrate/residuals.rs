@@ -29,9 +29,9 @@ pub struct Residuals {
 pub struct OfWeight {
     /// The weight, N.
     pub newtons: f64,
-    /// Its value while loading, N, mean over the plates.
+    /// Value while loading, N, mean over the plates.
     pub coming: f64,
-    /// Its value while unloading, N; none for the heaviest.
+    /// Value while unloading, N; none for the heaviest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub going: Option<f64>,
     /// Error of both, rms over the plates, as a share of the weight.

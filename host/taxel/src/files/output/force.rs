@@ -1,6 +1,6 @@
-//! Whether an output may replace another.
+//! Permission to replace another output.
 
-/// Whether an existing output is replaced.
+/// Permission to replace an existing output.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Force {
     /// Replace the output if it exists.

@@ -9,16 +9,16 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// What an output is called, what that leads to, and whether it may be taken.
+/// Name of an output, what it leads to, and whether it may be taken.
 #[derive(Debug)]
 pub struct Named {
     /// Name as given by the user.
     pub name: PathBuf,
-    /// What it leads to.
+    /// Place to which it leads.
     pub place: Place,
     /// Files that the command reads.
     pub inputs: Vec<PathBuf>,
-    /// Whether an existing file is replaced.
+    /// Permission to replace an existing file.
     pub force: Force,
 }
 

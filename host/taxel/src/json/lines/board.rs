@@ -27,7 +27,7 @@ pub struct HelloLine<'a> {
     pub scene: &'a str,
     /// Id, date and fit of the calibration in force; empty without one: values are counts.
     pub calibration: &'a str,
-    /// Why the board has started; null if it does not know.
+    /// Start of the board; null if it does not know it.
     pub boot: Option<StartLine>,
     /// Number of taxels.
     pub taxels: usize,
@@ -55,7 +55,7 @@ pub struct HelloPanel<'a> {
     pub pitch_um: [u32; 2],
 }
 
-/// Why the board has started.
+/// Start of the board.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StartLine {
@@ -64,7 +64,7 @@ pub struct StartLine {
     pub cause: BootCause,
     /// Resets by watchdog or panic up to this one, each less than a minute after the one before.
     pub resets: u8,
-    /// Why the stored settings are not in use: `no` (they are), `resets`, `pin` or `request`.
+    /// Reason why the stored settings are not in use: `no` (they are), `resets`, `pin` or `request`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub aside: Aside,
 }
@@ -202,7 +202,7 @@ pub struct HealthMapLine {
 pub struct FaultyTaxel {
     /// Number of the taxel.
     pub taxel: u16,
-    /// Its fault, for people.
+    /// Fault, for people.
     pub health: String,
 }
 
@@ -253,7 +253,7 @@ pub struct LogLine<'a> {
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("lost")))]
 #[serde(tag = "type", rename = "lost")]
 pub struct LostLine<'a> {
-    /// When the board was last heard, the host's time, us since 1970.
+    /// Host time at which the board was last heard, us since 1970.
     pub since_us: u64,
     /// The reason, for people.
     pub why: &'a str,
@@ -265,9 +265,9 @@ pub struct LostLine<'a> {
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("back")))]
 #[serde(tag = "type", rename = "back")]
 pub struct BackLine<'a> {
-    /// How long it was lost, s.
+    /// Time for which it was lost, s.
     pub after_s: f64,
-    /// Whether it had restarted and what was set again, for people.
+    /// Words on whether it had restarted and what was set again, for people.
     pub how: &'a str,
 }
 
@@ -277,7 +277,7 @@ pub struct BackLine<'a> {
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("other")))]
 #[serde(tag = "type", rename = "other")]
 pub struct OtherLine<'a> {
-    /// How it differs, for people.
+    /// Difference, for people.
     pub why: &'a str,
 }
 
@@ -295,7 +295,7 @@ pub struct SyncLine {
     pub sent_us: u64,
 }
 
-/// When a frame of the USB began.
+/// Start of a frame of the USB.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("start_of_frame")))]
@@ -317,7 +317,7 @@ pub struct StartOfFrameLine {
 pub struct AnswerLine<'a> {
     /// Name of the request.
     pub request: &'static str,
-    /// Why it was refused; null if it was done.
+    /// Reason why it was refused; null if it was done.
     pub refusal: Option<&'a str>,
 }
 

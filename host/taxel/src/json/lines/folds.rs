@@ -1,10 +1,10 @@
-//! What the garment's folds are expected to press.
+//! Expected pressure of the garment's folds.
 
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;
 use serde::Serialize;
 
-/// What the garment's folds are expected to press.
+/// Expected pressure of the garment's folds.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("folds")))]

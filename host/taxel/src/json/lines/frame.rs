@@ -1,4 +1,4 @@
-//! What comes with every frame.
+//! Lines that come with every frame.
 
 use crate::json::contact::ContactLine;
 use crate::json::meaning::MeaningOfTouch;

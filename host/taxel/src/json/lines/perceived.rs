@@ -132,7 +132,7 @@ pub struct ReflexLine {
     pub index: u8,
     /// The taxel that decided.
     pub taxel: u16,
-    /// Its pressure, counts.
+    /// Pressure of the taxel, counts.
     pub value: u16,
     /// Time at which the deciding part of the scan had been read, us of the board.
     pub time_us: u64,

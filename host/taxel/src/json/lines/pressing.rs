@@ -1,10 +1,10 @@
-//! What presses on the robot.
+//! Contacts and forces on the robot.
 
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;
 use serde::Serialize;
 
-/// What presses on the robot.
+/// Contacts and forces on the robot.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("pressing")))]
@@ -36,16 +36,16 @@ pub struct LandedLine<'a> {
     pub id: u32,
     /// Name of the link.
     pub link: &'a str,
-    /// Its place in the frame of the link.
+    /// Place in the frame of the link.
     #[serde(flatten)]
     pub own: PushLine,
-    /// The same in the frame of the poses; null without a pose of the link.
+    /// Place in the frame of the poses; null without a pose of the link.
     pub base: Option<PushLine>,
-    /// What saturated and faulty taxels leave unknown; null if there is none.
+    /// Uncertainty by saturated and faulty taxels; null if there is none.
     pub uncertain: Option<UncertainLine>,
 }
 
-/// What saturated and faulty taxels leave unknown of a force and its place.
+/// Uncertainty of a force and its place by saturated and faulty taxels.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct UncertainLine {
@@ -73,7 +73,7 @@ pub struct PushLine {
     pub force: [i32; 3],
 }
 
-/// What presses on a link, in its frame.
+/// Force and moment on a link, in its frame.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WrenchLine<'a> {
@@ -87,6 +87,6 @@ pub struct WrenchLine<'a> {
     pub pressed: u32,
     /// Centre of pressure, m.
     pub center_m: [f64; 3],
-    /// What saturated and faulty taxels leave unknown; null if there is none.
+    /// Uncertainty by saturated and faulty taxels; null if there is none.
     pub uncertain: Option<UncertainLine>,
 }

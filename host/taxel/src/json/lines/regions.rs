@@ -1,4 +1,4 @@
-//! What the regions of the robot's surface feel.
+//! Touch state of the regions of the robot's surface.
 
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;
@@ -6,7 +6,7 @@ use serde::Serialize;
 use taxel_core::surface::{BodyDirection, RegionPhase};
 use taxel_core::symbol::{Extent, Strength};
 
-/// What each region of the robot's surface feels: when one of them changes, and once a second.
+/// Touch state of each region of the robot's surface: when one of them changes, and once a second.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("regions")))]
@@ -20,7 +20,7 @@ pub struct RegionsLine<'a> {
     pub regions: Vec<SurfaceRegionLine<'a>>,
 }
 
-/// What a region of the surface feels.
+/// Touch state of a region of the surface.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SurfaceRegionLine<'a> {
@@ -29,8 +29,8 @@ pub struct SurfaceRegionLine<'a> {
     /// `free`; `onset` for the first 150 ms of a touch; `held`; `moving`; `released` for 0.5 s.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub phase: RegionPhase,
-    /// Where it moves to: `forward`, `back`, `left`, `right`, `up`, `down` or `none`; x is forward, y to the left
-    /// and z up, in the frame of the poses or, without a pose, of the link.
+    /// Direction in which the touch moves: `forward`, `back`, `left`, `right`, `up`, `down` or `none`; x is forward,
+    /// y to the left and z up, in the frame of the poses or, without a pose, of the link.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub way: BodyDirection,
     /// Number of contacts in it.

@@ -1,4 +1,4 @@
-//! What is recognised: gestures, shapes, and how sure that is.
+//! Recognised gestures and shapes, and how sure they are.
 
 #[cfg(feature = "schema")]
 use crate::json::schema::TypeIs;

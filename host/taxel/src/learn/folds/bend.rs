@@ -1,4 +1,4 @@
-//! Where a fold's joints stood between its knots, frame by frame: as `taxel_core::fold` has it.
+//! Place of a fold's joints between its knots, frame by frame: as `taxel_core::fold` has it.
 
 use super::sweep::FoldSweep;
 use taxel_core::fold::{FoldRecord, NO_JOINT};
@@ -110,7 +110,7 @@ impl Knots {
         (0..self.count()).filter(is_near).collect()
     }
 
-    /// Its record, for the numbers of its joints in the table.
+    /// Makes its record, for the numbers of its joints in the table.
     pub fn record(&self, number: impl Fn(&str) -> u8, taxels: usize) -> FoldRecord {
         let mut record = FoldRecord {
             joints: [NO_JOINT; 2],

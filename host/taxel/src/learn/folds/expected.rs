@@ -1,4 +1,4 @@
-//! What a table expects at a posture.
+//! Expected pressure of a table at a posture.
 
 use super::bend::{Axis, Knots};
 use taxel_core::fold::{FoldRecord, FoldTable, NO_JOINT};

@@ -21,7 +21,7 @@ pub(super) fn means(weights: &[[KnotWeight; 4]], felt: impl Iterator<Item = u16>
     sums.iter().zip(&all).map(|(sum, all)| if *all >= FEWEST { sum / all } else { f32::NAN }).collect()
 }
 
-/// What is expected in a frame.
+/// Returns the expected pressure in a frame.
 pub(super) fn expected(means: &[f32], frame: &[KnotWeight; 4]) -> f32 {
     let there = frame.iter().filter(|(knot, weight)| *weight > 0.0 && means[*knot].is_finite());
     let (sum, all) =

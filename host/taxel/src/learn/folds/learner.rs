@@ -31,7 +31,7 @@ const MOST_UNITS: f32 = 127.0;
 /// Most knots of a joint.
 const MOST_KNOTS: usize = 64;
 
-/// How to learn.
+/// Settings of learning.
 #[derive(Debug, Clone)]
 pub struct FoldSettings {
     /// The folds: names of one or two joints each. Empty: each joint of the sweeps is one.
@@ -53,7 +53,7 @@ impl Default for FoldSettings {
 /// A fold that was learned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LearnedFold {
-    /// Its joints.
+    /// Joints of the fold.
     pub joints: Vec<String>,
     /// Taxels that were pressed, and those that a shift may bring there.
     pub taxels: [usize; 2],
@@ -71,16 +71,16 @@ pub struct LearnedFold {
     pub bytes: [usize; 2],
 }
 
-/// What was learned.
+/// Result of learning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LearnedFolds {
     /// The table, for the board.
     pub table: Vec<u8>,
-    /// Its folds.
+    /// Folds of the table.
     pub folds: Vec<LearnedFold>,
 }
 
-/// What a taxel feels at the knots of its fold.
+/// Pressure on a taxel at the knots of its fold.
 struct TaxelCourse {
     taxel: usize,
     mean: Vec<f32>,
@@ -264,7 +264,7 @@ fn fit_to_board(folds: &mut [Fold], all: &[Vec<usize>], sweeps: &[FoldSweep], st
     }
 }
 
-/// What each taxel of a fold feels.
+/// Returns the pressure on each taxel of a fold.
 fn courses(
     layout: &Layout,
     sweeps: &[FoldSweep],
@@ -399,7 +399,7 @@ fn write(
     Ok(LearnedFolds { table, folds })
 }
 
-/// What is reported of a fold.
+/// Returns the report on a fold.
 fn reported(sweeps: &[FoldSweep], fold: &Fold, its: &[TaxelCourse]) -> LearnedFold {
     let knots = fold.knots.count();
     let felt: f64 = fold.pressed.iter().map(|taxel| variation(sweeps, *taxel)).sum();

@@ -1,5 +1,5 @@
-//! What the garment's folds press on it, learned while joints move and nothing touches: a table for the board,
-//! see [`taxel_core::fold`].
+//! Pressure of the garment's folds on it, learned while joints move and nothing touches: a table for the board, see
+//! [`taxel_core::fold`].
 //!
 //! | file | holds |
 //! |---|---|

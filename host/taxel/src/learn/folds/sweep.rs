@@ -1,8 +1,8 @@
-//! What the taxels felt on one day, and the joints' angles.
+//! Pressure on the taxels on one day, and the joints' angles.
 
 use crate::error::{LearnError, Result};
 
-/// What every taxel felt, frame by frame, while joints moved and nothing touched the garment.
+/// Pressure on every taxel, frame by frame, while joints moved and nothing touched the garment.
 #[derive(Debug, Clone, Default)]
 pub struct FoldSweep {
     joints: Vec<String>,
@@ -62,7 +62,7 @@ impl FoldSweep {
         Some(self.angles.chunks(self.joints.len()).map(move |frame| frame[at]))
     }
 
-    /// What a taxel felt, counts, frame by frame.
+    /// Returns the pressure on a taxel, counts, frame by frame.
     pub(super) fn felt(&self, taxel: usize) -> impl Iterator<Item = u16> {
         self.felt[taxel].iter().copied()
     }

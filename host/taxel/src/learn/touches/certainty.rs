@@ -37,9 +37,9 @@ pub fn reliability(predictions: &[Prediction]) -> Value {
     json!({ "predictions": count, "expected_error": error / count.max(1) as f64, "bins": bins })
 }
 
-/// For each confidence: the share of touches announced before their end, the median time until then (in
-/// `unit`s; a frame is `frame`), and the shares of right answers among those announced and among all, where
-/// the rest are decided at the end.
+/// Returns for each confidence: the share of touches announced before their end, the median time until then (in
+/// `unit`s; a frame is `frame`), and the shares of right answers among those announced and among all, where the rest
+/// are decided at the end.
 pub fn waits(touches: &[(usize, Applied)], unit: &str, frame: f64) -> Value {
     let row = |certainty: f64| {
         let sure = |(_, taken): &&(usize, Taken)| taken.confidence.is_some_and(|sure| sure >= certainty);

@@ -14,7 +14,7 @@ use taxel_core::gesture::{Features, LEADS};
 pub struct TouchExample<'a> {
     /// Training data of the touch.
     pub course: &'a Course,
-    /// Its class.
+    /// Class of the example.
     pub class: usize,
     /// Group that is left out together.
     pub group: &'a str,
@@ -59,7 +59,7 @@ pub fn train_experts(
 struct Trial {
     frames: usize,
     over: bool,
-    /// For each expert: right or wrong, and lead.
+    /// Result of each expert: right or wrong, and lead.
     decided: Vec<(bool, f64)>,
 }
 

@@ -26,7 +26,7 @@ const MEANINGS: [(&str, &[&str]); 3] = [
     ("attack", &["punch"]),
 ];
 
-/// What touches are grouped by, and left out together.
+/// Groups of touches, which are left out together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Apart {
     /// Each recording.

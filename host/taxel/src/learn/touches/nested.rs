@@ -9,8 +9,8 @@ use crate::error::{LearnError, Result};
 use crate::text::progress::{Progress, Unit};
 use serde_json::json;
 
-/// For each group: chooses the settings that perform best in cross-validation on the other groups, trains
-/// with them on all the others, and applies to the group.
+/// Chooses for each group the settings that perform best in cross-validation on the other groups, trains with them on
+/// all the others, and applies to the group.
 pub fn nested(data: &Data, candidates: &[TrainSettings]) -> Result<Report> {
     let groups = data.groups();
     require!(

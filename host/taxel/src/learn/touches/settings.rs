@@ -12,13 +12,13 @@ pub const EARLY: usize = EXPERTS - 1;
 pub struct TrainSettings {
     /// Value above which a cell counts as touched.
     pub pressed: u16,
-    /// Also train on each half of a touch.
+    /// True to train also on each half of a touch.
     pub halves: bool,
     /// Ridge penalty.
     pub penalty: f64,
     /// Balance: at 1 every class has the same weight, at 0 every example.
     pub balance: f64,
-    /// Also train on the mirror images of a touch.
+    /// True to train also on the mirror images of a touch.
     pub mirrored: bool,
     /// Training windows of the early experts, by age.
     #[serde(default)]
