@@ -15,15 +15,15 @@ use zenoh::{Config, Session, Wait};
 const VARIABLE: &str = "ZENOH_CONFIG";
 /// Longest message that is taken, bytes: far above all of taxel's, for what a router passes on for others.
 const LONGEST: usize = 16 << 20;
-/// Where programs on this machine meet.
+/// Place at which programs on this machine meet.
 const MEETING: &str = "tcp/127.0.0.1:7447";
 
-/// What a program does in the network.
+/// Role of a program in the network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NetworkEnd {
-    /// It offers boards.
+    /// Program that offers boards.
     Offer,
-    /// It follows a board of another machine.
+    /// Program that follows a board of another machine.
     Viewer,
 }
 

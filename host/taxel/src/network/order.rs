@@ -29,7 +29,7 @@ const STEP: u64 = 1 << 16;
 #[derive(Debug)]
 pub struct PieceOrder {
     publisher: u64,
-    /// What has come by each way, and when.
+    /// Frames that have come by each way, and when.
     main: Queue<(Instant, WirePiece)>,
     images: Queue<WirePiece>,
     /// The highest numbers that have come.
@@ -41,7 +41,7 @@ pub struct PieceOrder {
     dropped: u64,
 }
 
-/// What has come by a way.
+/// Frames that have come by a way.
 #[derive(Debug)]
 struct Queue<T> {
     waiting: VecDeque<T>,
@@ -77,7 +77,7 @@ fn taken(piece: &WirePiece) -> usize {
 }
 
 impl PieceOrder {
-    /// Of this publisher; what others publish is ignored.
+    /// Makes the order of this publisher's frames; what others publish is ignored.
     pub fn new(publisher: u64) -> PieceOrder {
         let (main, images) = Default::default();
         PieceOrder { publisher, main, images, near: None, passed: None, in_a_row: IN_A_ROW, dropped: 0 }
@@ -148,7 +148,7 @@ impl PieceOrder {
         Some(piece)
     }
 
-    /// How long the next frame without an image still waits for images before it; none if there is none.
+    /// Returns how long the next frame without an image still waits for images before it; none if there is none.
     pub fn wait(&self, now: Instant) -> Option<Duration> {
         let (came, main) = self.main.waiting.front()?;
         // An image that comes after it shows that those before it were dropped.

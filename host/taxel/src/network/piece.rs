@@ -6,9 +6,9 @@ use super::stamp::{PieceKind, PieceStamp};
 /// A frame and its stamp.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WirePiece {
-    /// How it has travelled.
+    /// Kind by which it has travelled.
     pub kind: PieceKind,
-    /// Where it belongs.
+    /// Place to which it belongs.
     pub stamp: PieceStamp,
     /// The bytes, as the board has sent them.
     pub bytes: Vec<u8>,

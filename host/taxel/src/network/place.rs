@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// What all keys begin with.
+/// Prefix of all keys.
 const ROOT: &str = "taxel";
 /// Longest name of a robot or a board, bytes.
 const LONGEST: usize = 32;
@@ -54,7 +54,7 @@ impl BoardPlace {
         self.key("wire/*")
     }
 
-    /// What the board is, and whether it is there: JSON.
+    /// Returns the key of what the board is, and whether it is there: JSON.
     pub fn state(&self) -> String {
         self.key("state")
     }

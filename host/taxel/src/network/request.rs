@@ -32,7 +32,7 @@ impl AskedFrame {
     }
 }
 
-/// What is said of a request that is longer than any.
+/// Returns what is said of a request that is longer than any.
 pub fn too_long(bytes: usize) -> String {
     format!("it has {bytes} bytes, and a request has at most {LONGEST_ASK}")
 }

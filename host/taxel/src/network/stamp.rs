@@ -1,6 +1,6 @@
-//! How a frame travels between machines, and where it belongs.
+//! Way of a frame between machines, and place to which it belongs.
 
-/// How a frame travels.
+/// Way of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PieceKind {
     /// Contacts, reactions, answers, and all else that is no image: reliable, and before images.
@@ -9,10 +9,10 @@ pub enum PieceKind {
     Image,
 }
 
-/// Where a frame belongs: the attachment of its sample.
+/// Place to which a frame belongs: the attachment of its sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PieceStamp {
-    /// Who has published it: a number that a program draws when it begins to serve the board.
+    /// Number of the publisher, which a program draws when it begins to serve the board.
     pub publisher: u64,
     /// Number of frames without an image that it has published, with this one.
     pub main: u64,
@@ -34,7 +34,7 @@ impl PieceStamp {
         PieceStamp { main: self.main.max(other.main), images: self.images.max(other.images), ..self }
     }
 
-    /// As bytes: three numbers of 64 bits, low byte first.
+    /// Returns it as bytes: three numbers of 64 bits, low byte first.
     pub fn to_bytes(self) -> [u8; 24] {
         let mut bytes = [0; 24];
         for (place, number) in bytes.chunks_exact_mut(8).zip([self.publisher, self.main, self.images]) {

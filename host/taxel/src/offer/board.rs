@@ -40,7 +40,7 @@ pub struct BoardOffer {
     asks: Arc<Asks>,
     /// There while the board is.
     token: Option<LivelinessToken>,
-    /// Why something could not be published.
+    /// Error because of which something could not be published.
     failed: Option<Error>,
     _queryables: [Queryable<()>; 2],
     _rivals: Subscriber<()>,
@@ -128,7 +128,7 @@ impl BoardOffer {
         })
     }
 
-    /// Who offers the board: what the keys of requests and of signs of life end with.
+    /// Returns the publisher of the board: what the keys of requests and of signs of life end with.
     pub fn publisher(&self) -> u64 {
         self.stamp.publisher
     }

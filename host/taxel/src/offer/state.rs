@@ -1,4 +1,4 @@
-//! What an offered board is, as JSON for other programs.
+//! State of an offered board, as JSON for other programs.
 
 use crate::client::BoardDescription;
 use crate::network::BoardPlace;
@@ -11,7 +11,7 @@ pub struct OfferState {
     pub robot: String,
     /// Name of the board.
     pub board: String,
-    /// Who offers it: 16 hexadecimal digits, as in the keys of requests.
+    /// Publisher that offers it: 16 hexadecimal digits, as in the keys of requests.
     pub publisher: String,
     /// True while the board is there.
     pub live: bool,
@@ -30,7 +30,7 @@ pub struct OfferState {
 }
 
 impl OfferState {
-    /// Of a board that is not known yet.
+    /// Makes the state of a board that is not known yet.
     pub fn new(place: &BoardPlace, publisher: u64) -> OfferState {
         let empty = String::new;
         OfferState {

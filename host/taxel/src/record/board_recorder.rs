@@ -18,7 +18,7 @@ pub struct BoardRecorder {
 }
 
 impl BoardRecorder {
-    /// Of the board of this number.
+    /// Makes the recorder of the board of this number.
     pub(super) fn new(recording: Arc<Recording>, board: usize) -> BoardRecorder {
         BoardRecorder { recording, board }
     }
@@ -71,7 +71,7 @@ impl Observer for BoardRecorder {
         self.recording.files.is_over()
     }
 
-    /// In another file.
+    /// True if another file follows.
     fn follows_another(&self) -> bool {
         self.recording.rotates().is_some()
     }

@@ -1,4 +1,4 @@
-//! What has been recorded of a board so far.
+//! Counts of what has been recorded of a board so far.
 
 use super::tally::Tally;
 use crate::client::passed::Passed;
@@ -9,11 +9,11 @@ use crate::client::{Client, Event, Stamp};
 pub struct Counters {
     /// Images.
     pub frames: u64,
-    /// Those before the current file.
+    /// Images before the current file.
     earlier_frames: u64,
     /// Board time since the current file began.
     passed: Passed,
-    /// The same, us.
+    /// Board time since the current file began, us.
     passed_us: u64,
     /// Board time of earlier files, us.
     earlier_us: u64,
@@ -44,7 +44,7 @@ impl Counters {
         self.tally[1] = self.tally[0];
     }
 
-    /// Of the current file, only this many images are whole.
+    /// Counts only this many images of the current file as whole.
     pub fn cut(&mut self, frames: u64) {
         self.frames = self.earlier_frames + frames;
     }

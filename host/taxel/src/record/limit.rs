@@ -9,9 +9,9 @@ const BYTES: [(&str, u64); 4] = [("B", 1), ("kB", 1000), ("MB", 1_000_000), ("GB
 /// Largest extent of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotate {
-    /// In board time.
+    /// Board time.
     After(Duration),
-    /// In bytes.
+    /// Bytes.
     Bytes(u64),
 }
 

@@ -95,7 +95,7 @@ pub struct JointLine<'a> {
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("joints")))]
 #[serde(tag = "type", rename = "joints")]
 pub struct JointsLine<'a> {
-    /// When they were read, us of the board.
+    /// Time at which they were read, us of the board.
     pub time_us: u64,
     /// Position by joint, rad or m.
     pub positions: BTreeMap<&'a str, f64>,
@@ -119,8 +119,8 @@ pub struct PosesLine<'a> {
 pub struct LinkPoseLine<'a> {
     /// Name of the link.
     pub link: &'a str,
-    /// Its origin, m.
+    /// Origin of the link, m.
     pub at_m: [f64; 3],
-    /// Its rotation, a quaternion x, y, z, w.
+    /// Rotation of the link, a quaternion x, y, z, w.
     pub turn: [f64; 4],
 }

@@ -1,18 +1,18 @@
-//! What is to be recorded, and where.
+//! Plan of a recording: what is recorded, and where.
 
 use super::limit::Rotate;
 use super::provenance::Origin;
 use crate::body::ReadBody;
 use std::path::PathBuf;
 
-/// What to record, and where.
+/// Plan of a recording: what to record, and where.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     /// The first file.
     pub path: PathBuf,
-    /// When to continue in another file.
+    /// Extent after which another file follows.
     pub rotate: Option<Rotate>,
-    /// Also write ROS 2 messages, into a file beside each.
+    /// True to write ROS 2 messages, too, into a file beside each.
     pub ros2: bool,
     /// Replace existing files.
     pub force: bool,
@@ -27,22 +27,22 @@ pub struct Plan {
 /// A robot that is to be recorded.
 #[derive(Debug, Clone)]
 pub struct PlannedRobot {
-    /// Its name.
+    /// Name of the robot.
     pub name: String,
-    /// Its file, `robot.toml`.
+    /// Text of its file, `robot.toml`.
     pub text: String,
 }
 
 /// A board that is to be recorded.
 #[derive(Debug, Clone, Default)]
 pub struct PlannedBoard {
-    /// Its name in the robot, below which its topics are; none of a board alone.
+    /// Name in the robot, below which its topics are; none of a board alone.
     pub name: Option<String>,
-    /// Where its stream comes from; label and scale are those of its source once that is open.
+    /// Source of its stream; label and scale are those of its source once that is open.
     pub origin: Origin,
-    /// Where its panels lie on the robot, for the ROS 2 messages.
+    /// Places of its panels on the robot, for the ROS 2 messages.
     pub body: Option<ReadBody>,
-    /// It is there from the start, as a simulation or a recording is: the first file waits for it.
+    /// True if it is there from the start, as a simulation or a recording is: the first file waits for it.
     pub is_there: bool,
 }
 

@@ -74,7 +74,8 @@ impl Recorder {
         done.and(self.shared.files.finish())
     }
 
-    /// What has been recorded: a line for a board alone, a line for each board of a robot and one for the file.
+    /// Returns what has been recorded: a line for a board alone, a line for each board of a robot and one for the
+    /// file.
     pub fn summary(&self) -> String {
         let files = &self.shared.files;
         let (path, count, bytes) = files.summary();

@@ -1,4 +1,4 @@
-//! What the threads of the boards of a recording share.
+//! State shared by the threads of the boards of a recording.
 
 use super::limit::Rotate;
 use super::recorded_board::RecordedBoard;
@@ -18,14 +18,14 @@ const CHUNK_US: u64 = 1_000_000;
 pub struct Recording {
     /// The files.
     pub files: RecordingFiles,
-    /// Its boards.
+    /// Boards of the recording.
     pub boards: Vec<Mutex<RecordedBoard>>,
     /// The progress on the terminal.
     pub shown: Mutex<Progress>,
 }
 
 impl Recording {
-    /// What is recorded of a board. A panic of another thread does not poison it.
+    /// Locks what is recorded of a board. A panic of another thread does not poison it.
     pub fn lock(&self, board: usize) -> MutexGuard<'_, RecordedBoard> {
         self.boards[board].lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -48,7 +48,7 @@ impl Recording {
         self.shown().show(board.counters.board_us(), line);
     }
 
-    /// When to continue in another file.
+    /// Returns when to continue in another file.
     pub fn rotates(&self) -> Option<Rotate> {
         self.files.rotates()
     }

@@ -84,12 +84,12 @@ impl RecordingFiles {
         Ok((RecordingFiles { plan, state: Mutex::new(state) }, parts))
     }
 
-    /// What is to be recorded.
+    /// Returns what is to be recorded.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// When to continue in another file.
+    /// Returns when to continue in another file.
     pub fn rotates(&self) -> Option<Rotate> {
         self.plan.rotate
     }
@@ -166,7 +166,7 @@ impl RecordingFiles {
         self.lock().write(board)
     }
 
-    /// The same, and ends the chunk of the file beside.
+    /// Writes what is ready of a board, and ends the chunk of the file beside.
     pub fn close(&self, board: &mut RecordedBoard) -> Result<()> {
         let mut state = self.lock();
         state.write(board)?;

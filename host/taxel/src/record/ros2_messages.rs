@@ -68,7 +68,7 @@ pub struct Ros2Messages {
     board: String,
     /// Panels whose frames have been reported.
     areas: Vec<Area>,
-    /// Where the panels lie on the robot.
+    /// Places of the panels on the robot.
     body: Option<ReadBody>,
     /// The body on this garment.
     surface: Option<Surface>,
@@ -173,7 +173,7 @@ impl Ros2Messages {
         !self.waiting.is_empty()
     }
 
-    /// How the board is.
+    /// Makes the diagnostics of the board.
     fn diagnostics(&self, client: &Client, stamp: Stamp, state: DiagnosticState<'_>) -> Sent {
         let firmware = client.description().map_or("", |description| description.firmware.as_str());
         let data = messages::diagnostics(&self.board, stamp.host_us, firmware, state);

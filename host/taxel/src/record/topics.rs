@@ -14,7 +14,7 @@ pub const IMAGE: &str = "/taxel/image";
 /// Encoding of the wire, described in `taxel_core::wire`.
 const WIRE_ENCODING: &str = "taxel-wire";
 
-/// Where a message goes.
+/// Topic of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RecordTopic {
     /// Frames of the wire from the board.

@@ -8,7 +8,7 @@ use std::ffi::OsString;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Where a board was recorded, as text `FILE`, or `FILE#BOARD` for a board of a robot.
+/// Place of a recorded board, as text `FILE`, or `FILE#BOARD` for a board of a robot.
 ///
 /// What follows the last `#` and cannot be the name of a board, such as `b.mcap`, belongs to the name of the
 /// file.
@@ -60,7 +60,7 @@ impl BoardRecording {
         attachment_of(self.board.as_deref(), name)
     }
 
-    /// What the file holds. Error if it is of a robot, and the board is not named or not among its boards.
+    /// Returns what the file holds. Error if it is of a robot, and the board is not named or not among its boards.
     pub fn overview(&self) -> Result<Overview> {
         let overview = Overview::of(&self.path)?;
         self.check(&overview)?;

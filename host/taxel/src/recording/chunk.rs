@@ -87,7 +87,7 @@ impl FullChunk {
 /// A written chunk: its place, and its messages by channel.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// Its record in the summary.
+    /// Record in the summary.
     pub index: ChunkIndex,
     /// Number of messages by channel.
     pub counts: BTreeMap<u16, u64>,

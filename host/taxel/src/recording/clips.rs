@@ -35,7 +35,7 @@ pub struct ChunkPlace {
 pub struct ClipMessage {
     /// Channel, order and times (ns).
     pub header: MessageHeader,
-    /// Its bytes.
+    /// Bytes of the message.
     pub data: Box<[u8]>,
 }
 

@@ -15,7 +15,7 @@ const WINDOW: u64 = 1 << 16;
 const FIELDS: u64 = 40;
 const LONGEST_NAME: u32 = 16;
 
-/// What was skipped because it is damaged.
+/// Amount that was skipped because it is damaged.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Skipped {
     /// Number of chunks.

@@ -20,14 +20,14 @@ pub enum GapMark {
     Lost {
         /// The reason, a sentence.
         why: String,
-        /// When the board was last heard, the host's time, us since 1970.
+        /// Host time at which the board was last heard, us since 1970.
         since_us: u64,
     },
     /// The board is back.
     Back {
-        /// Whether it had restarted and what was set again, a sentence.
+        /// Sentence on whether it had restarted and what was set again.
         how: String,
-        /// How long it was lost, s.
+        /// Time for which it was lost, s.
         after_s: f64,
     },
 }

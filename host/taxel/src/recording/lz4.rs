@@ -30,7 +30,7 @@ pub fn is_ours(frame: &[u8]) -> bool {
 /// A frame being written: what fills a block is compressed at once, while it is in the processor's cache.
 #[derive(Debug)]
 pub struct FrameWriter {
-    /// What is not compressed yet.
+    /// Bytes that are not compressed yet.
     rest: Vec<u8>,
     /// The frame so far.
     frame: Vec<u8>,

@@ -22,7 +22,7 @@ const LONGEST: u64 = 1 << 24;
 pub struct Message<'a> {
     /// Channel, order and times (ns).
     pub header: MessageHeader,
-    /// Its bytes in the channel's encoding.
+    /// Bytes in the channel's encoding.
     pub data: &'a [u8],
 }
 
@@ -95,7 +95,7 @@ impl Messages {
         self.channels.get(&channel).map(|channel| channel.topic.as_str())
     }
 
-    /// What was skipped so far.
+    /// Returns what was skipped so far.
     pub fn skipped(&self) -> Skipped {
         self.skipped
     }
@@ -248,9 +248,9 @@ impl Messages {
 
 /// Result of reading a record.
 enum ReadStep {
-    /// It has messages.
+    /// Record with messages.
     Filled,
-    /// It has none.
+    /// Record without messages.
     Passed,
     Damaged(Damage),
     Over,

@@ -72,7 +72,7 @@ impl Overview {
         }
     }
 
-    /// Its topics.
+    /// Returns its topics.
     pub fn topics(&self) -> impl Iterator<Item = &str> {
         self.channels.iter().map(|info| info.channel.topic.as_str())
     }

@@ -19,7 +19,7 @@ const LONGEST_HEADER: u64 = 1 << 16;
 pub struct Head {
     /// Offset of the record.
     pub offset: u64,
-    /// Its number.
+    /// Opcode of the record.
     pub op: u8,
     /// Size of its body.
     pub length: u64,
@@ -48,9 +48,9 @@ impl Head {
 pub struct RawRecord<'a> {
     /// Offset of the record.
     pub offset: u64,
-    /// Its number.
+    /// Opcode of the record.
     pub op: u8,
-    /// Its contents.
+    /// Contents of the record.
     pub body: &'a [u8],
 }
 

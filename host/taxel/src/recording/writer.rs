@@ -46,7 +46,7 @@ pub struct Writer<S: Store> {
     torn: bool,
     /// Without the chunks, which are read back for the end if the store can be read.
     contents: Contents,
-    /// Its own messages.
+    /// Messages of the writer itself.
     messages: Filler,
 }
 

@@ -18,17 +18,17 @@ use taxel_core::wire::Request;
 /// A board, and what it is asked first: a [`BoardConfig`](super::BoardConfig) whose files are read and checked.
 #[derive(Debug, Clone)]
 pub struct RobotBoard {
-    /// Its name in a robot.
+    /// Name in a robot.
     pub name: String,
-    /// Where it is found.
+    /// Place at which it is found.
     pub source: SourceSpec,
-    /// Its garment; none if any will do.
+    /// Garment of the board; none if any will do.
     pub garment: Option<BoardGarment>,
     /// The garment is sent to the board, in place of being what it is recognised by.
     pub is_dressed: bool,
     /// Scene to send to it.
     pub scene: Option<SceneFile>,
-    /// Its calibration, for forces in newtons.
+    /// Calibration, for forces in newtons.
     pub calibration: Option<Calibration>,
     /// Frames of the tare; none for that of the source.
     pub tare: Option<u16>,
@@ -44,7 +44,7 @@ pub struct RobotBoard {
     pub feeds: Vec<Feed>,
     /// Shapes that it recognises.
     pub shapes: Option<Base>,
-    /// Where its panels lie: path of a file, or name of a preset.
+    /// Body on which its panels lie: path of a file, or name of a preset.
     pub body: Option<String>,
     /// Table of its folds.
     pub folds: Option<PathBuf>,
@@ -59,9 +59,9 @@ pub struct RobotBoard {
 pub struct BoardGarment {
     /// Path of its file, or name of the preset.
     pub name: String,
-    /// What it is.
+    /// Content of the file or preset.
     pub garment: Garment,
-    /// Its geometry.
+    /// Geometry of the garment.
     pub layout: Layout,
 }
 
@@ -90,7 +90,7 @@ impl RobotBoard {
         Ok(source)
     }
 
-    /// What it is recognised by.
+    /// Returns what it is recognised by.
     pub fn identity(&self) -> Identity {
         let usb_serial = match &self.source {
             SourceSpec::Usb(number) => number.clone(),

@@ -37,7 +37,7 @@ impl<T> Clone for BoardQueue<T> {
 }
 
 impl<T> BoardQueue<T> {
-    /// That of a board.
+    /// Makes the queue of a board.
     pub(super) fn new(
         board: usize,
         queue: Arc<EventQueue<T>>,

@@ -21,10 +21,10 @@ const TARE: u16 = 4096;
 /// Longest name of a board, bytes.
 const NAME: usize = 32;
 
-/// Where a board is configured: how errors name its keys.
+/// Place of a board's configuration: how errors name its keys.
 #[derive(Debug, Clone, Copy)]
 pub enum ConfigPlace<'a> {
-    /// In a robot's file of so many boards.
+    /// Robot's file of so many boards.
     File {
         /// The file.
         text: RobotText<'a>,
@@ -78,7 +78,7 @@ impl ConfigPlace<'_> {
 pub(super) struct BoardReader<'a> {
     /// The configuration, with paths from the working folder.
     pub config: &'a BoardConfig,
-    /// Where it is.
+    /// Place of the configuration.
     pub place: ConfigPlace<'a>,
     /// The robot that carries it, if it is described.
     pub robot: Option<&'a Arc<Robot>>,
@@ -141,7 +141,7 @@ impl BoardReader<'_> {
         })
     }
 
-    /// Its source.
+    /// Returns its source.
     fn found(&self) -> Result<SourceSpec> {
         let BoardReader { config, place, .. } = *self;
         let wrong = |why: String| Err(place.wrong(&config.name, "source", why));

@@ -17,17 +17,17 @@ use taxel_core::intent::Feed;
 pub struct RobotConfig {
     /// Name of the robot.
     pub name: String,
-    /// Its description: a URDF file, or `reference`.
+    /// Description of the robot: a URDF file, or `reference`.
     pub urdf: Option<String>,
     /// Poses of the links sent to each board per second; 50 if left out.
     pub poses: Option<f64>,
-    /// What bounds the joints' motion, for the error of places in the base, as for `--motion`.
+    /// Bounds on the joints' motion, for the error of places in the base, as for `--motion`.
     #[serde(default, deserialize_with = "parsed")]
     pub motion: Option<Motion>,
-    /// What touches mean to it: maps of a robot, TOML files or shipped ones, which are united; `robot` and
-    /// `probe` if left out.
+    /// Meaning of touches to it: maps of a robot, TOML files or shipped ones, which are united; `robot` and `probe`
+    /// if left out.
     pub maps: Option<Vec<String>>,
-    /// Its boards.
+    /// Boards of the robot.
     pub boards: Vec<BoardConfig>,
 }
 
@@ -39,7 +39,7 @@ pub struct RobotConfig {
 #[cfg_attr(feature = "clap", command(next_help_heading = "Set", next_help_heading(None::<&'static str>)))]
 #[serde(deny_unknown_fields)]
 pub struct BoardConfig {
-    /// Its name in a robot: 1 to 32 letters, digits, `_` and `-`.
+    /// Name in a robot: 1 to 32 letters, digits, `_` and `-`.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub name: String,
     /// `auto`, `usb[:SERIAL]`, `sim[:TOUCHES]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`,

@@ -6,7 +6,7 @@ use taxel_core::garment::Rect;
 /// A contact of a board.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoardContact {
-    /// Its id on the board.
+    /// Id on the board.
     pub id: u32,
     /// Index of the panel.
     pub panel: u8,

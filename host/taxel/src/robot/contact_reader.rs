@@ -14,7 +14,7 @@ pub struct ContactReader {
 }
 
 impl ContactReader {
-    /// Of a board of a robot.
+    /// Makes the reader of a board of a robot.
     pub fn new(board: &RobotBoard) -> ContactReader {
         let description = board.garment.as_ref().zip(board.calibration.clone());
         let calibration = description.and_then(|(description, calibration)| {

@@ -27,15 +27,15 @@ pub struct ReadRobot {
     pub text: String,
     /// Name of the robot.
     pub name: String,
-    /// Its description, if it names one.
+    /// Description of the robot, if it names one.
     pub robot: Option<Arc<Robot>>,
     /// Poses of its links per second.
     pub poses: Option<f64>,
-    /// What bounds the motion of its joints.
+    /// Bounds on the motion of its joints.
     pub motion: Option<Motion>,
-    /// What touches mean to it.
+    /// Meaning of touches to it.
     pub map: MapFile,
-    /// Its boards, in the order of the file; at least one.
+    /// Boards, in the order of the file; at least one.
     pub boards: Vec<RobotBoard>,
     /// Every file that was read, which no output may replace.
     pub inputs: Vec<String>,

@@ -19,7 +19,7 @@ const TRY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(1)];
 /// Silence of a board that has said nothing yet, after which that is noted.
 const QUIET: Duration = Duration::from_secs(3);
 
-/// What is asked of a board while it is followed.
+/// Request to a board while it is followed.
 pub type Ask = Box<dyn FnOnce(&mut Session) -> Result<()> + Send>;
 /// Opens a board's source for the first time.
 pub type Opener = Box<dyn FnMut() -> Result<Source> + Send>;
@@ -28,26 +28,26 @@ pub type Begin = Box<dyn FnOnce(&mut Session) -> Result<Required> + Send>;
 
 /// A board to be followed.
 pub struct BoardPlan {
-    /// Its name.
+    /// Name of the board.
     pub name: String,
     /// Opens its source.
     pub open: Opener,
     /// A source that cannot be opened is tried again: a board that may be plugged in later, not a file.
     pub waits: bool,
-    /// It takes requests: it is not a recording.
+    /// True if it takes requests: it is not a recording.
     pub listens: bool,
-    /// What it is recognised by; none if any board will do.
+    /// Identity by which it is recognised; none if any board will do.
     pub identity: Option<Identity>,
-    /// It is one of several: nothing of it is passed on before it is recognised, and another board in its place is
-    /// [reported](BoardState::Other), not followed.
+    /// True if it is one of several: nothing of it is passed on before it is recognised, and another board in its
+    /// place is [reported](BoardState::Other), not followed.
     pub is_among: bool,
-    /// What becomes of it when it is lost.
+    /// Action when it is lost.
     pub returns: Returns,
-    /// Its first requests.
+    /// First requests.
     pub begin: Begin,
     /// Time in which its bytes [gather](Session::gather).
     pub gather: Duration,
-    /// Where it ends; a missing board is waited for [`PATIENCE`] at most if it ends at all.
+    /// Limit at which it ends; a missing board is waited for [`PATIENCE`] at most if it ends at all.
     pub limit: RunLimit,
 }
 
@@ -74,7 +74,7 @@ impl BoardPlan {
     }
 }
 
-/// Whoever has a board followed.
+/// Supervisor of a board that is followed.
 pub trait Supervisor {
     /// Hears that the board's source is open.
     fn opened(&mut self, _source: &Source) {}
@@ -108,7 +108,7 @@ struct Follower<'a> {
     /// The limit is reached.
     is_done: bool,
     begun: Instant,
-    /// Its silence is noted.
+    /// True if its silence is noted.
     is_noted: bool,
 }
 

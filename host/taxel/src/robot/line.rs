@@ -1,4 +1,4 @@
-//! How a board of a robot is, as JSON.
+//! State of a board of a robot, as JSON.
 
 use super::event::BoardState;
 #[cfg(feature = "schema")]
@@ -6,7 +6,7 @@ use crate::json::schema::TypeIs;
 use crate::text::words;
 use serde::Serialize;
 
-/// How a board of a robot is.
+/// State of a board of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("board")))]
@@ -18,16 +18,16 @@ pub struct BoardLine<'a> {
     pub state: &'static str,
     /// The host's time, us since 1970.
     pub host_time_us: u64,
-    /// When a lost board was last heard, the host's time, us since 1970.
+    /// Host time at which a lost board was last heard, us since 1970.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub since_us: Option<u64>,
-    /// How long a board was gone that is back, s.
+    /// Time for which a board was gone that is back, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub after_s: Option<f64>,
     /// Images dropped so far.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub images: Option<u64>,
-    /// Why.
+    /// Reason of the state.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
 }

@@ -1,11 +1,11 @@
-//! What boards have said lately, aligned by the time that they share.
+//! Recent news of boards, aligned by the time that they share.
 
 use super::contact::BoardContact;
 use crate::client::Stamp;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// What the boards of a robot have said lately: the newest by a time of the host, or what was between.
+/// Recent news of the boards of a robot: the newest by a time of the host, or what was between.
 ///
 /// Stamps are those of [`RobotEvent`](super::RobotEvent)s: a board's own clock, brought to the host's time by round
 /// trips, with the bound of what that may be off.
@@ -15,17 +15,17 @@ pub struct RobotMoments<T> {
     boards: Vec<VecDeque<BoardMoment<T>>>,
 }
 
-/// What a board has said, and when it was.
+/// News of a board, and when it was.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoardMoment<T> {
-    /// When it was.
+    /// Time of the news.
     pub stamp: Stamp,
-    /// What it has said.
+    /// News that it has reported.
     pub what: T,
 }
 
 impl<T> RobotMoments<T> {
-    /// Of so many boards, each for so long.
+    /// Makes room for so many boards, each for so long.
     pub fn new(boards: usize, kept: Duration) -> RobotMoments<T> {
         let kept_us = u64::try_from(kept.as_micros()).unwrap_or(u64::MAX);
         RobotMoments { kept_us, boards: (0..boards).map(|_| VecDeque::new()).collect() }
@@ -64,7 +64,7 @@ impl<T> RobotMoments<T> {
         self.around(board, host_us).map(|(before, _)| before)
     }
 
-    /// The same, and what the board has said next, if it has.
+    /// Returns that, and what the board has said next, if it has.
     pub fn around(&self, board: usize, host_us: u64) -> Option<(&BoardMoment<T>, Option<&BoardMoment<T>>)> {
         let moments = self.boards.get(board)?;
         let after = moments.partition_point(|moment| moment.stamp.host_us <= host_us);

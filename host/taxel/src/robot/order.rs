@@ -1,4 +1,4 @@
-//! What the boards of a robot are asked while they are followed.
+//! Orders to the boards of a robot while they are followed.
 
 use crate::client::Client;
 use crate::error::Result;
@@ -6,7 +6,7 @@ use crate::session::setting;
 use crate::source::SceneFile;
 use taxel_core::wire::Request;
 
-/// What a board is asked while it is followed. Its answer is an event of the board, like any other.
+/// Order to a board while it is followed. Its answer is an event of the board, like any other.
 #[derive(Debug, Clone)]
 pub enum BoardOrder {
     /// To take the mean of so many frames as the baseline, 1 to 4096.

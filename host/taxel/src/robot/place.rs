@@ -11,7 +11,7 @@ use std::fmt::Display;
 pub struct RobotText<'a> {
     /// Path of the file.
     pub file: &'a str,
-    /// What it holds.
+    /// Text of the file.
     pub text: &'a str,
 }
 

@@ -1,4 +1,4 @@
-//! What is planned with the boards of a robot's file: to follow them, to record them.
+//! Plans with the boards of a robot's file: to follow them, to record them.
 
 use super::board::RobotBoard;
 use super::file::ReadRobot;

@@ -11,9 +11,8 @@ pub const WAITING: usize = 256;
 /// Most events that are taken at a time.
 const BATCH: usize = 64;
 
-/// What happens to a board's images while its events wait to be taken and there is no room for more. All
-/// other events wait for room: the link then holds the board back, which leaves out images itself and counts
-/// them.
+/// Treatment of a board's images while its events wait to be taken and there is no room for more. All other events
+/// wait for room: the link then holds the board back, which leaves out images itself and counts them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WhenFull {
     /// They wait, too.
@@ -40,7 +39,7 @@ pub struct EventQueue<T> {
 struct WaitingEvents<T> {
     events: VecDeque<Waiter<T>>,
     boards: Vec<QueuedBoard>,
-    /// Whoever takes events waits for one.
+    /// True if whoever takes events waits for one.
     is_awaited: bool,
     /// Nobody takes events any longer.
     closed: bool,
@@ -79,7 +78,7 @@ impl<T> EventQueue<T> {
         EventQueue { waiting: Mutex::new(waiting), came: Condvar::new(), room, closed: Condvar::new() }
     }
 
-    /// What waits. A panic of another thread does not poison it.
+    /// Locks what waits. A panic of another thread does not poison it.
     fn lock(&self) -> MutexGuard<'_, WaitingEvents<T>> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }

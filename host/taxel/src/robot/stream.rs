@@ -57,7 +57,7 @@ pub struct RobotStream<T> {
 
 struct FollowedBoard {
     name: String,
-    /// It takes requests: it is not a recording.
+    /// True if it takes requests: it is not a recording.
     listens: bool,
     asks: Sender<Ask>,
     thread: Option<JoinHandle<()>>,

@@ -1,4 +1,4 @@
-//! What a board reports, as standard messages. `board` is its name among those of a robot; empty if it is alone.
+//! Reports of a board, as standard messages. `board` is its name among those of a robot; empty if it is alone.
 
 use super::cdr::Cdr;
 use super::names::frame;
@@ -117,9 +117,9 @@ const STALE: u8 = 3;
 /// State of a board, as its diagnostics report it.
 #[derive(Debug, Clone, Copy)]
 pub enum DiagnosticState<'a> {
-    /// Its counters, and its number of faulty taxels. A warning if anything was lost or failed.
+    /// Counters, and number of faulty taxels. A warning if anything was lost or failed.
     Reports(&'a Health, usize),
-    /// Its source is lost, and why: stale.
+    /// Lost source, and why: stale.
     Lost(&'a str),
 }
 

@@ -1,5 +1,5 @@
-//! What a board reports, as messages of the package `taxel_msgs` (host/ros2/taxel_msgs), whose files define
-//! their fields and units.
+//! Reports of a board, as messages of the package `taxel_msgs` (host/ros2/taxel_msgs), whose files define their
+//! fields and units.
 
 use super::cdr::Cdr;
 use super::names::frame;

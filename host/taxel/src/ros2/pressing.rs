@@ -1,4 +1,4 @@
-//! What presses on the robot, by link: a message of the package `taxel_msgs`, forces and points as standard
+//! Contacts and forces on the robot, by link: a message of the package `taxel_msgs`, forces and points as standard
 //! messages.
 
 use super::cdr::Cdr;

@@ -15,12 +15,12 @@ pub struct RosQos {
 /// A topic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RosTopic {
-    /// Its name; `PANEL`, `LINK`, `CONCEPT` and `NAME` stand for one topic each. A name that does not begin with `/`
-    /// lies in the node's namespace, behind the node's name if it begins with `~/`.
+    /// Name of the topic; `PANEL`, `LINK`, `CONCEPT` and `NAME` stand for one topic each. A name that does not begin
+    /// with `/` lies in the node's namespace, behind the node's name if it begins with `~/`.
     pub name: &'static str,
     /// Package and name of its type.
     pub message: (&'static str, &'static str),
-    /// Its quality of service.
+    /// Quality of service.
     pub qos: RosQos,
 }
 
@@ -57,14 +57,14 @@ pub const IMAGE: RosTopic = topic("tactile/PANEL/image", "sensor_msgs", "Image",
 pub const POINTS: RosTopic = topic("tactile/PANEL/points", "sensor_msgs", "PointCloud2", NEWEST);
 /// Force on a panel.
 pub const WRENCH: RosTopic = topic("tactile/PANEL/wrench", "geometry_msgs", "WrenchStamped", CONTROL);
-/// What presses on the robot, with a body.
+/// Contacts and forces on the robot, with a body.
 pub const PRESSING: RosTopic = topic("~/pressing", "taxel_msgs", "Pressing", EVERY);
-/// What the regions of the robot's surface feel, with a body.
+/// Touch state of the regions of the robot's surface, with a body.
 pub const REGIONS: RosTopic = topic("~/regions", "taxel_msgs", "BodyRegions", EVERY);
 /// Force and moment on a link, with a body and a calibration.
 pub const LINK_WRENCH: RosTopic =
     topic("tactile/links/LINK/wrench", "geometry_msgs", "WrenchStamped", CONTROL);
-/// The same in counts, with a body and without a calibration.
+/// Force and moment on a link in counts, with a body and without a calibration.
 pub const LINK_COUNTS: RosTopic =
     topic("tactile/links/LINK/wrench_counts", "geometry_msgs", "WrenchStamped", CONTROL);
 /// Frames of the panels.
@@ -74,10 +74,10 @@ pub const DIAGNOSTICS: RosTopic = topic("/diagnostics", "diagnostic_msgs", "Diag
 /// The board's time, with `--clock`.
 pub const CLOCK: RosTopic = topic("/clock", "rosgraph_msgs", "Clock", EVERY);
 
-/// What touches mean to a robot of several boards, by the node of the robot.
+/// Meaning of touches to a robot of several boards, by the node of the robot.
 pub const ROBOT_INTENT: RosTopic = topic("robot_intent", "taxel_msgs", "RobotIntent", EVERY);
 
-/// What the nodes publish.
+/// Topics that the nodes publish.
 pub const PUBLISHED: [RosTopic; 18] = [
     CONTACTS,
     SYMBOLS,
@@ -103,10 +103,10 @@ pub const PUBLISHED: [RosTopic; 18] = [
 pub const JOINT_STATES: RosTopic = topic("joint_states", "sensor_msgs", "JointState", NEWEST);
 /// A concept that the scene's map lets the host feed.
 pub const CONCEPT: RosTopic = topic("~/concepts/CONCEPT", "std_msgs", "Float64", EVERY);
-/// What others send the robot's map by a name, to the node of the robot.
+/// Value that others send the robot's map by a name, to the node of the robot.
 pub const HOST_INPUT: RosTopic = topic("~/host_input/NAME", "std_msgs", "Float64", EVERY);
 
-/// What the nodes subscribe to.
+/// Topics to which the nodes subscribe.
 pub const TAKEN: [RosTopic; 3] = [JOINT_STATES, CONCEPT, HOST_INPUT];
 
 /// A service: its name, and package and name of its type.
@@ -119,5 +119,5 @@ pub const SAVE: RosService = ("~/save", ("std_srvs", "Trigger"));
 /// Sends a scene.
 pub const SET_SCENE: RosService = ("~/set_scene", ("taxel_msgs", "SetScene"));
 
-/// What the node offers.
+/// Services that the node offers.
 pub const SERVICES: [RosService; 3] = [TARE, SAVE, SET_SCENE];

@@ -31,7 +31,7 @@ impl Absence {
         self.since.elapsed()
     }
 
-    /// Why the source was lost.
+    /// Returns why the source was lost.
     pub fn why(self) -> Error {
         self.why
     }

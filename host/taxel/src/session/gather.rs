@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-/// When to read again.
+/// Time at which to read again.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Gather {
     /// Time in which bytes gather.
@@ -13,7 +13,8 @@ pub(super) struct Gather {
 }
 
 impl Gather {
-    /// How long to wait before the next read, of a link that keeps bytes for a time, so long after the last bytes.
+    /// Returns how long to wait before the next read, of a link that keeps bytes for a time, so long after the last
+    /// bytes.
     pub fn pause(&self, keeps: Duration, since: Duration) -> Duration {
         if self.is_behind { Duration::ZERO } else { self.time.min(keeps).saturating_sub(since) }
     }

@@ -39,7 +39,7 @@ pub struct JointStates {
     until_us: u64,
 }
 
-/// Where lines come from.
+/// Source of lines.
 enum Lines {
     File(BufReader<File>),
     /// A thread waits for them.

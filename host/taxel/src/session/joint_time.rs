@@ -1,9 +1,9 @@
-//! When positions of joints were read.
+//! Time at which positions of joints were read.
 
 use crate::client::Client;
 use taxel_core::format::Micros;
 
-/// When positions of joints were read.
+/// Time at which positions of joints were read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointTime {
     /// At this time of the board.

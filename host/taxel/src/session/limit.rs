@@ -12,7 +12,7 @@ pub const PATIENCE: Duration = Duration::from_secs(10);
 /// Most that counts as waiting between two looks: whoever looks more rarely was busy or asleep, not waiting.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Where a run ends: after so many images, or so much of the board's time as its images report it.
+/// Limit at which a run ends: after so many images, or so much of the board's time as its images report it.
 ///
 /// A board that sends none, because its scene asks for none or its scan fails, must not make a run endless: without
 /// an image for [`PATIENCE`], or for the whole time if that is longer, the limit is reached, too, and the session
@@ -25,7 +25,7 @@ pub struct RunLimit {
     codes: bool,
     longest: Option<Duration>,
     passed: Passed,
-    /// How long an image has been waited for.
+    /// Time for which an image has been waited for.
     imageless: Duration,
     looked: Instant,
     is_reached: bool,
@@ -45,7 +45,7 @@ impl RunLimit {
         }
     }
 
-    /// The same, and the raw codes of the last image are awaited, too.
+    /// Returns the limit with the raw codes of the last image awaited, too.
     pub fn with_codes(self) -> RunLimit {
         RunLimit { codes: true, ..self }
     }

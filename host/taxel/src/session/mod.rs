@@ -82,10 +82,10 @@ pub struct Session {
     buffer: Vec<u8>,
     taken: usize,
     outgoing: Outgoing,
-    /// When bytes were last received, and when a `Hello` was last requested.
+    /// Time at which bytes were last received, and at which a `Hello` was last requested.
     heard: Instant,
     greeted: Instant,
-    /// When the link was opened.
+    /// Time at which the link was opened.
     opened: Instant,
     absence: Option<Absence>,
     /// Start of a gap in the stream, which ends once the board's settings are restored.
@@ -93,11 +93,11 @@ pub struct Session {
     returns: Returns,
     posing: Option<Posing>,
     gather: Gather,
-    /// What was received before the first message of a board.
+    /// Bytes that were received before the first message of a board.
     stranger: Stranger,
 }
 
-/// What to do about a lost source.
+/// Action on a lost source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Returns {
     /// Wait for it.
@@ -144,7 +144,7 @@ impl Session {
         Session::by(SteadyTime::start(), source, returns)
     }
 
-    /// The same by a time of the host that others go by, too: if the calendar is set between the starts of two
+    /// Makes a session by a time of the host that others go by, too: if the calendar is set between the starts of two
     /// times, these differ.
     pub fn by(time: SteadyTime, source: Source, returns: Returns) -> Session {
         let now = Instant::now();
@@ -188,7 +188,7 @@ impl Session {
         self.posing = Some(posing);
     }
 
-    /// Who sends the board its robot's posture, and the client.
+    /// Returns what sends the board its robot's posture, and the client.
     pub fn posing(&mut self) -> Option<(&Client, &mut Posing)> {
         self.posing.as_mut().map(|posing| (&self.client, posing))
     }

@@ -54,11 +54,11 @@ pub struct Posing {
     history: JointHistory,
     /// The board's time now, and the host's, us.
     now: (Option<Micros>, u64),
-    /// What was taken since the last turn.
+    /// Positions taken since the last turn.
     taken: Vec<JointPositions>,
     /// The board's time of the next poses, us.
     due_us: u64,
-    /// When the poses were sent that the board has not answered.
+    /// Time at which the poses were sent that the board has not answered.
     asked: Option<Instant>,
     refused: Option<Instant>,
     /// Restarts of the board so far.
@@ -78,7 +78,8 @@ impl Posing {
         Posing::new(body::read(body)?, Arc::new(robot::read(robot)?), motion, hz)
     }
 
-    /// Of a body on a robot. `hz` poses a second, 0.1 to 1000, are sent at most; `motion` bounds the errors.
+    /// Makes the poses of a body on a robot. `hz` poses a second, 0.1 to 1000, are sent at most; `motion` bounds the
+    /// errors.
     pub fn new(body: ReadBody, robot: Arc<Robot>, motion: Motion, hz: f64) -> Result<Posing> {
         require!(
             POSES.contains(&hz),

@@ -28,7 +28,7 @@ struct HandParts {
     desk: Mutex<Desk>,
 }
 
-/// What the board's thread and the others share.
+/// State that the board's thread and the others share.
 #[derive(Debug)]
 struct Desk {
     orders: VecDeque<Order>,
@@ -39,12 +39,12 @@ struct Desk {
     playing: Option<String>,
 }
 
-/// What a finger does.
+/// Press of a finger.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FingerPress {
     /// Number of the finger.
     pub finger: u64,
-    /// What it presses with.
+    /// Tool with which it presses.
     pub tool: Tool,
     /// Direction of the tool's length, degrees from +x towards +y.
     pub angle_deg: f64,
@@ -56,7 +56,7 @@ pub struct FingerPress {
     pub force_n: f64,
 }
 
-/// What the board's thread is to do.
+/// Order to the board's thread.
 #[derive(Debug)]
 pub(super) enum Order {
     /// With the name of the panel.
@@ -152,7 +152,7 @@ impl Hand {
         self.order(Order::Clear);
     }
 
-    /// Of each kind one order waits at most.
+    /// Queues an order; of each kind one waits at most.
     fn order(&self, order: Order) {
         let mut desk = self.lock();
         let kind = std::mem::discriminant(&order);

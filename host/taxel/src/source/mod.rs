@@ -54,8 +54,8 @@ pub trait Port: Send {
     fn own_requests(&mut self) -> Vec<u8> {
         Vec::new()
     }
-    /// How long bytes may wait to be read without holding back the board: not at all, unless the link has room for
-    /// them.
+    /// Returns how long bytes may wait to be read without holding back the board: not at all, unless the link has
+    /// room for them.
     fn keeps(&self) -> Duration {
         Duration::ZERO
     }
@@ -63,7 +63,7 @@ pub trait Port: Send {
     fn gap(&mut self) -> Option<GapMark> {
         None
     }
-    /// What has become known of the link, to be reported at once.
+    /// Returns what has become known of the link, to be reported at once.
     fn news(&mut self) -> Option<String> {
         None
     }
@@ -94,7 +94,7 @@ pub struct SourceOptions {
     pub body: Option<String>,
     /// Table of folds that a simulated board has in its flash from the start.
     pub folds: Option<PathBuf>,
-    /// Of several boards that are plugged in, opens the first that speaks, instead of refusing.
+    /// True to open the first that speaks of several boards that are plugged in, instead of refusing.
     pub first: bool,
     /// Serial ports; those of this machine by default.
     pub ports: SerialPorts,
@@ -111,23 +111,23 @@ pub struct Source {
     pub port: Box<dyn Port>,
     /// Frames over which it should be tared at the start; 0 for no tare.
     pub tare: u16,
-    /// Its board runs in real time, so that its clock can be compared with the host's.
+    /// True if its board runs in real time, so that its clock can be compared with the host's.
     pub real_time: bool,
     /// Counts per newton on a taxel, if known.
     pub counts_per_newton: Option<f32>,
-    /// Its board already has the requested garment.
+    /// True if its board already has the requested garment.
     pub has_asked_garment: bool,
-    /// Its board already has the requested body.
+    /// True if its board already has the requested body.
     pub has_body: bool,
     /// Scene that the board begins with, if it is known: that of a simulated one.
     pub scene: Option<taxel_core::scene::Scene>,
-    /// Its board already has the requested table of folds.
+    /// True if its board already has the requested table of folds.
     pub has_folds: bool,
     /// Serial number on USB of its board, or of the probe before it; none if its link has none.
     pub usb_serial: Option<String>,
     /// Names of other boards that are plugged in, and were not chosen.
     pub others: Vec<String>,
-    /// It has a board that receives requests; false for recordings.
+    /// True if it has a board that receives requests; false for recordings.
     pub listens: bool,
     /// Touches the garment of its board; none unless that is simulated.
     pub hand: Option<Hand>,

@@ -15,12 +15,12 @@ const PATIENCE: Duration = Duration::from_millis(10);
 /// Speed of a replay.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub enum Speed {
-    /// As a simulation: at the recorded speed if somebody watches, else as fast as possible.
+    /// Speed of a simulation: the recorded one if somebody watches, else as fast as possible.
     #[default]
     AsAsked,
     /// Multiple of the recorded speed.
     Times(f64),
-    /// As fast as possible.
+    /// Greatest speed that is possible.
     Max,
 }
 
@@ -74,7 +74,7 @@ pub fn open(recording: &BoardRecording, speed: Speed, options: &SourceOptions) -
 struct Player {
     wire: WireReader,
     speed: Option<f64>,
-    /// When the first message was played, and its log time, ns.
+    /// Time at which the first message was played, and its log time, ns.
     began: Option<(Instant, u64)>,
     /// Pending bytes, or a gap's begin or end, and when they are due.
     next: Vec<u8>,

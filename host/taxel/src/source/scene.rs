@@ -89,7 +89,7 @@ pub fn read_scene(path: &Path) -> Result<Scene> {
     Ok(SceneFile::read(path)?.scene)
 }
 
-/// What is wrong with a scene's values, and under which key.
+/// Fault in a scene's values, and the key under which it is.
 struct SceneFault {
     key: String,
     why: String,

@@ -19,9 +19,9 @@ pub(super) struct ScriptPosture {
     movements: Vec<Joint>,
     /// The joints of the board's scene.
     joints: Vec<Name>,
-    /// What the host has sent of a request that is not complete.
+    /// Bytes that the host has sent of a request that is not complete.
     request: Vec<u8>,
-    /// What is left of a posture that is being read.
+    /// Bytes that are left of a posture that is being read.
     posture: Vec<u8>,
     /// Time of the script at which the next posture is due, us.
     due_us: u64,

@@ -24,7 +24,7 @@ impl Serial {
     }
 }
 
-/// Why a port cannot be opened, in plain words.
+/// Returns why a port cannot be opened, in plain words.
 fn fault(path: &str, baud: u32, error: &serialport::Error) -> SourceError {
     use serialport::ErrorKind::{Io, NoDevice};
     let no_board = |why: &str| SourceError::NoBoard(cannot(path, baud, why));

@@ -34,7 +34,7 @@ const LINK: u32 = 1_000_000;
 /// Lag behind real time beyond which a simulation gives up catching up.
 const LAG: Duration = Duration::from_millis(250);
 
-/// What to play, and for how long.
+/// Script to play, and for how long.
 struct Playing {
     script: Script,
     garment: Garment,
@@ -260,7 +260,7 @@ impl Playing {
     }
 }
 
-/// Where the tables of a kind lie in the simulated flash: after the settings.
+/// Returns where the tables of a kind lie in the simulated flash: after the settings.
 const fn tables_start(kind: TableKind) -> u32 {
     match kind {
         TableKind::Surface => SimFlash::BYTES,

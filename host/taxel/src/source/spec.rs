@@ -33,7 +33,7 @@ pub enum SourceSpec {
     Tcp(String),
     /// A board that another machine offers over Zenoh.
     Zenoh {
-        /// Its name.
+        /// Name of the board.
         place: BoardPlace,
         /// Zenoh's configuration; none for that of the environment, else for this machine.
         config: Option<PathBuf>,
@@ -60,8 +60,8 @@ impl SourceSpec {
         SourceSpec::Sim(SCENE.into())
     }
 
-    /// Where its board is, the same for all names of a place: a port's number or path, an address; none if any board
-    /// may be there, or a simulated one.
+    /// Returns where its board is, the same for all names of a place: a port's number or path, an address; none if
+    /// any board may be there, or a simulated one.
     pub fn place(&self) -> Option<String> {
         match self {
             SourceSpec::Usb(number) => number.clone(),
@@ -141,7 +141,7 @@ fn by_path(text: &str) -> Option<Result<SourceSpec, String>> {
     }
 }
 
-/// What sources there are, and which one may be meant.
+/// Returns what sources there are, and which one may be meant.
 fn unknown(kind: &str, rest: Option<&str>) -> String {
     let kinds = ["auto", "usb", "sim", "serial", "tcp", "zenoh", "replay"];
     let meant = words::meant(kind, kinds).filter(|meant| *meant != kind);

@@ -10,7 +10,7 @@ const DAMAGED: usize = 20;
 /// Received bytes, as long as none of them is a message of a board.
 #[derive(Debug, Default)]
 pub struct Stranger {
-    /// When the first was received.
+    /// Time at which the first was received.
     began: Option<Instant>,
     count: u64,
     sample: Vec<u8>,

@@ -1,4 +1,4 @@
-//! What touches the garment of a simulated board while it runs: its script, round after round, and a hand.
+//! Touches on the garment of a simulated board while it runs: its script, round after round, and a hand.
 
 use super::hand::{FingerPress, Hand, Order};
 use crate::sim::{Joint, Knot, Script, SimHand, Trace};
@@ -14,7 +14,7 @@ const SCRIPTS: usize = 8;
 /// The board is sent a path that is played again this long before it begins, ns.
 const AHEAD_NS: u64 = 50_000_000;
 
-/// How a script is played.
+/// Number of rounds of a script.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rounds {
     /// Once.
@@ -35,11 +35,11 @@ pub(super) struct Touching<'a> {
     touches: u64,
     traces: u64,
     fingers: BTreeMap<u64, Finger>,
-    /// What is drawn again, by its beginning, ns.
+    /// Traces that are drawn again, by their beginning, ns.
     again: VecDeque<(u64, Trace)>,
     /// Ends of the scripts that play, ns.
     ends_ns: Vec<u64>,
-    /// When the next round may begin, ns.
+    /// Time at which the next round may begin, ns.
     next_ns: u64,
 }
 

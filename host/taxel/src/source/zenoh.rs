@@ -36,7 +36,7 @@ pub fn open(place: &BoardPlace, config: Option<&Path>) -> Result<Source> {
     network.source(None, FIRST)
 }
 
-/// What a board is looked for with.
+/// Means to look for a board.
 struct Network {
     place: BoardPlace,
     config: Option<PathBuf>,
@@ -61,14 +61,14 @@ impl Network {
     }
 }
 
-/// What has come, and what is under way.
+/// Messages that have come, and requests that are under way.
 #[derive(Default)]
 struct Inbox {
     /// Publishers that show signs of life.
     alive: Vec<u64>,
     /// Frames of the publisher; none before one is chosen.
     order: Option<PieceOrder>,
-    /// What is to be reported.
+    /// News that are to be reported.
     news: VecDeque<String>,
     /// Requests that have no answer yet.
     open: usize,
@@ -259,7 +259,7 @@ fn note_life(inbox: &Shared<Inbox>, sample: &Sample) {
     });
 }
 
-/// What is said if two programs offer a board.
+/// Returns what is said if two programs offer a board.
 fn twice(ours: u64, other: u64) -> String {
     format!("it is offered twice; {ours:016x} is followed, and {other:016x} is not")
 }

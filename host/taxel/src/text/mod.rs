@@ -1,4 +1,4 @@
-//! What a user reads: errors in plain words, steps of the program, progress.
+//! Texts that a user reads: errors in plain words, steps of the program, progress.
 
 pub mod date;
 pub mod progress;

@@ -14,7 +14,7 @@ pub fn cause(boot: &Boot) -> &'static str {
     }
 }
 
-/// Why saved settings are not in use; none if they are.
+/// Returns why saved settings are not in use; none if they are.
 pub fn aside(boot: &Boot) -> Option<&'static str> {
     match boot.aside {
         Aside::No => None,

@@ -22,9 +22,9 @@ const BLOCK: u64 = 1 << 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Trust {
     No,
-    /// Its head fits into the file, as random bytes might.
+    /// Head that fits into the file, as random bytes might.
     Head,
-    /// Its fields fill it to the last byte.
+    /// Fields that fill it to the last byte.
     Fields,
 }
 

@@ -15,13 +15,13 @@ pub struct Piece {
     pub offset: u64,
     /// Offset of the next record.
     pub end: u64,
-    /// Its number.
+    /// Opcode of the record.
     pub op: u8,
-    /// Its contents; known errors in a chunk's fields are corrected.
+    /// Contents; known errors in a chunk's fields are corrected.
     pub body: Vec<u8>,
-    /// Its meaning.
+    /// Meaning of the record.
     pub kind: Kind,
-    /// Its number, length or fields are wrong in the file.
+    /// True if its number, length or fields are wrong in the file.
     pub is_corrected: bool,
 }
 
