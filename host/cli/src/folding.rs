@@ -1,4 +1,4 @@
-//! Where the garment folds, for what shows it: a table of folds, and the angles that a board was sent.
+//! Folds of the garment, for what shows them: a table of folds, and the angles that a board was sent.
 
 use anyhow::Result;
 use serde::Serialize;
@@ -14,7 +14,7 @@ use taxel::recording::BoardRecording;
 use taxel_core::fold::{FoldTable, STALE_US};
 use taxel_core::wire::{self, Request};
 
-/// Where the garment folds. The docs of the fields are the descriptions in `view/page/messages.d.ts`.
+/// Folds of the garment at its posture. The docs of the fields are the descriptions in `view/page/messages.d.ts`.
 #[derive(Debug, Default, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("folding")))]
@@ -90,7 +90,7 @@ impl Folding {
         }
     }
 
-    /// Where the garment folds at a time of the board, us; none if that is known already, or no garment is.
+    /// Returns where the garment folds at a time of the board, us; none if that is known already, or no garment is.
     pub fn news(&mut self, time_us: u64) -> Option<&FoldingLine> {
         let line = self.at(time_us)?;
         if self.line.as_ref() == Some(&line) {
@@ -99,7 +99,7 @@ impl Folding {
         Some(self.line.insert(line))
     }
 
-    /// Where the garment folds at a time of the board, us; none before a garment is known.
+    /// Returns where the garment folds at a time of the board, us; none before a garment is known.
     pub fn at(&self, time_us: u64) -> Option<FoldingLine> {
         let (floor, table) = (self.floor?, FoldTable::view(&self.table)?);
         let of_recording;

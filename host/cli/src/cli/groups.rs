@@ -23,7 +23,7 @@ pub(super) fn grouped(command: Command) -> Command {
     command.help_template(template)
 }
 
-/// What clap fills in, around the lists of the commands, which say what the commands themselves say.
+/// Template that clap fills in, around the lists of the commands, which say what the commands themselves say.
 fn template(command: &Command) -> String {
     let mut built = command.clone();
     // Only then it has the command `help`.

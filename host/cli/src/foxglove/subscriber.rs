@@ -16,7 +16,7 @@ const MOST: usize = 64;
 /// A message of a channel.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ChannelMessage {
-    /// Its channel.
+    /// Channel of the message.
     pub channel: Channel,
     /// Host time, ns since 1970.
     pub ns: u64,

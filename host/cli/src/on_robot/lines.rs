@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 #[cfg(feature = "schema")]
 use taxel::json::schema::TypeIs;
 
-/// Where the taxels lie on the robot.
+/// Places of the taxels on the robot.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("body")))]
@@ -28,13 +28,13 @@ pub type OnLink = (usize, [f64; 3], [f64; 3]);
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BodyLink<'a> {
-    /// Its name.
+    /// Name of the link.
     pub name: &'a str,
     /// Number of the link that it hangs on; null for the root, and without a robot.
     pub parent: Option<usize>,
 }
 
-/// Where the links of the robot are.
+/// Poses of the robot's links.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("poses")))]
@@ -54,7 +54,7 @@ pub struct PoseOfLink {
     pub turn: [f64; 4],
 }
 
-/// What the robot looks like.
+/// Figure of the robot.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("figure")))]

@@ -22,7 +22,7 @@ const FRESH: u64 = 150_000;
 pub struct ShownRobot {
     body: ReadBody,
     robot: Option<Arc<Robot>>,
-    /// What the robot looks like.
+    /// Figure of the robot.
     figure: Figure,
     /// Positions of the robot's joints, rad or m; empty without a robot.
     posture: Vec<f64>,
@@ -36,7 +36,7 @@ pub struct ShownRobot {
 struct GarmentOn {
     garment: Garment,
     layout: Layout,
-    /// In the frames of the links, where the posture has slid the cloth to.
+    /// Surface in the frames of the links, where the posture has slid the cloth to.
     surface: Surface,
     /// With a robot: what follows from its posture.
     on_robot: Option<RobotSurface>,
@@ -124,7 +124,7 @@ impl ShownRobot {
         Ok(has_slid)
     }
 
-    /// Where the taxels lie; none before a garment is on.
+    /// Returns where the taxels lie; none before a garment is on.
     pub fn body(&self) -> Option<BodyLine<'_>> {
         let on = self.garment.as_ref()?;
         let links = match &self.robot {
@@ -146,7 +146,7 @@ impl ShownRobot {
         Some(BodyLine { name: &self.body.name, links, taxels })
     }
 
-    /// Where the links are; none without a robot.
+    /// Returns where the links are; none without a robot.
     pub fn poses<'a>(&'a self) -> Option<PosesLine<'a>> {
         let robot = self.robot.as_ref()?;
         let poses = robot.poses(&self.posture);
@@ -157,7 +157,7 @@ impl ShownRobot {
         Some(PosesLine { links: robot.links().iter().enumerate().filter_map(pose).collect() })
     }
 
-    /// What the robot looks like; none if that is not known.
+    /// Returns what the robot looks like; none if that is not known.
     pub fn figure(&self) -> Option<FigureLine<'_>> {
         fn link((name, mesh): &(String, mesh::Mesh)) -> FigureLink<'_> {
             let points = mesh.points().iter().map(|point| rounded(*point)).collect();
@@ -167,8 +167,8 @@ impl ShownRobot {
         (!links.is_empty()).then(|| FigureLine { links: links.iter().map(link).collect() })
     }
 
-    /// Why a link has no shape although the robot's file gives it one, and how many others have none; none if all are
-    /// there.
+    /// Returns why a link has no shape although the robot's file gives it one, and how many others have none; none if
+    /// all are there.
     pub fn lacks(&self) -> Option<String> {
         let [first, others @ ..] = self.figure.lacks.as_slice() else { return None };
         let more =
@@ -181,8 +181,8 @@ impl ShownRobot {
         self.reported = Some(Box::new(report.clone()));
     }
 
-    /// What presses on the robot in the client's newest frame, of this time: by the board's report, if there is one of
-    /// that time, else computed. None before a garment is on.
+    /// Returns the contacts and forces on the robot in the client's newest frame, of this time: by the board's
+    /// report, if there is one of that time, else computed. None before a garment is on.
     pub fn pressing<'a>(&'a self, client: &Client, time: Micros) -> Option<PressingLine<'a>> {
         let on = self.garment.as_ref()?;
         match &self.reported {

@@ -13,7 +13,7 @@ const MARGIN: [f64; 4] = [26.0, 30.0, 12.0, 22.0];
 /// Taxels between two marks of an axis.
 const STEP: u16 = 4;
 
-/// What is drawn over the pressure of a panel.
+/// Overlay on the pressure of a panel.
 pub struct PlaneOverlay<'a> {
     pub contacts: &'a [Placed],
     /// Numbers of the taxels of the garment on which it folds.

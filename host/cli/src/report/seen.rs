@@ -51,7 +51,7 @@ pub struct Seen {
     pub(super) faulty: BTreeMap<u16, TaxelHealth>,
     /// The robot that carries the garment; none if it is not shown.
     pub(super) shown_robot: Option<ShownRobot>,
-    /// Where it folds; none without a table.
+    /// Folds of the garment; none without a table.
     folding: Option<Folding>,
     /// Damage of a recording.
     pub skipped: Skipped,
@@ -62,7 +62,7 @@ pub struct Seen {
 #[derive(Debug)]
 pub(super) struct SeenContact {
     pub placed: Placed,
-    /// Its shape in words.
+    /// Shape in words.
     pub shape: String,
 }
 
@@ -73,9 +73,9 @@ pub(super) struct Moment {
     pub total: u64,
     pub image: Vec<u16>,
     pub contacts: Vec<Placed>,
-    /// What presses on the robot: the message `pressing`; null without one.
+    /// Contacts and forces on the robot: the message `pressing`; null without one.
     pub pressing: Value,
-    /// Where the garment folds; none if that is not known.
+    /// Folds of the garment; none if they are not known.
     pub folding: Option<FoldingLine>,
 }
 
@@ -105,12 +105,12 @@ impl Seen {
         }
     }
 
-    /// Also shows the garment on this robot.
+    /// Shows the garment on this robot, too.
     pub fn on(self, shown_robot: Option<ShownRobot>) -> Seen {
         Seen { shown_robot, ..self }
     }
 
-    /// Also shows where the garment folds.
+    /// Shows where the garment folds, too.
     pub fn folding(self, folding: Option<Folding>) -> Seen {
         Seen { folding, ..self }
     }

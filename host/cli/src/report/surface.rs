@@ -6,10 +6,10 @@ use crate::on_robot::ShownRobot;
 use crate::palette;
 use serde_json::{Value, json};
 
-/// Its style.
+/// Style of the surface.
 pub const STYLE: &str = include_str!("../view/page/relief.css");
 
-/// Where the script draws the robot.
+/// Place at which the script draws the robot.
 pub const ROBOT: &str = "<div id=\"robot\"></div>\n<p id=\"pointed-robot\">&nbsp;</p>\n";
 
 /// The surface on a scale that ends at `top` counts.
@@ -24,7 +24,7 @@ pub fn draw(seen: &Seen, top: u16) -> String {
     )
 }
 
-/// What `frozen.js` reads: the garment as in the page's `hello`, the image, and the peaks with their values.
+/// Returns what `frozen.js` reads: the garment as in the page's `hello`, the image, and the peaks with their values.
 fn data(seen: &Seen, top: u16) -> Value {
     let unit = seen.scale();
     let panels = seen.areas().iter().map(|area| {

@@ -1,4 +1,4 @@
-//! What others send the robot: values on their way to its mind, and its joints.
+//! Inputs that others send the robot: values on their way to its mind, and its joints.
 
 use super::inbox::received;
 use super::node::RosNode;

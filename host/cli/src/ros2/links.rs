@@ -1,4 +1,4 @@
-//! What presses on the robot's links.
+//! Forces and moments on the robot's links.
 
 use super::node::RosNode;
 use anyhow::Result;
@@ -21,7 +21,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Those of a body, if there is one.
+    /// Makes the links of a body, if there is one.
     pub fn new(body: Option<ReadBody>) -> Links {
         Links { body, per_newton: None, placed: None }
     }

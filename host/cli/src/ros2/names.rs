@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use anyhow::{Result, bail};
 use taxel::ros2::topic_part;
 
-/// Where a node is, and how it is called.
+/// Place of a node, and how it is called.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RosPlace {
     /// Domain of DDS.

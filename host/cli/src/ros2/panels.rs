@@ -13,7 +13,7 @@ use taxel_core::garment::Area;
 /// The topics of each panel.
 const OF_PANEL: [RosTopic; 3] = [IMAGE, POINTS, WRENCH];
 
-/// What is published of the panels.
+/// Messages that are published of the panels.
 #[derive(Debug)]
 pub struct Panels {
     /// Counts per newton, if known.

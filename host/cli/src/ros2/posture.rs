@@ -30,7 +30,7 @@ pub struct Postures {
     newest: Option<JointState>,
     asked: Option<JointState>,
     sent: Instant,
-    /// When joint states were last complained of.
+    /// Time at which joint states were last complained of.
     reported: Option<Instant>,
     /// A robot's posture takes what comes.
     is_posing: bool,
@@ -124,7 +124,7 @@ impl Postures {
     }
 }
 
-/// When joint states with this stamp, seconds and nanoseconds, were read: now, if there is none, else by
+/// Returns when joint states with this stamp, seconds and nanoseconds, were read: now, if there is none, else by
 /// `time`.
 pub fn at((sec, nanosec): (i32, u32), time: impl Fn(u64) -> JointTime) -> JointTime {
     let us = u64::try_from(sec).unwrap_or(0) * 1_000_000 + u64::from(nanosec / 1000);

@@ -73,9 +73,9 @@ pub struct SceneAsked {
 /// Response of `std_srvs/Trigger` and `taxel_msgs/SetScene`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Done {
-    /// It was done.
+    /// True if it was done.
     pub success: bool,
-    /// Why not, or what was done.
+    /// Words on why not, or on what was done.
     pub message: String,
 }
 

@@ -20,7 +20,7 @@ pub struct RobotNode<'a> {
     robot: &'a ReadRobot,
     mind: RobotMind,
     taken: HostInputTopics,
-    /// Why a board is not there; none if it is.
+    /// Reason why each board is not there; none if it is.
     gone: Vec<Option<String>>,
     sent: Instant,
 }

@@ -40,21 +40,21 @@ pub struct RosShow {
     /// Frame of the robot's base; empty without a robot.
     base: String,
     concepts: Concepts,
-    /// What it takes from others; none before the board's source is open.
+    /// Messages that it takes from others; none before the board's source is open.
     taken: Option<Taken>,
-    /// Why the board is lost, and when that was reported last.
+    /// Reason why the board is lost, and when that was reported last.
     lost: Option<(String, Instant)>,
 }
 
-/// What a node takes for its board: positions of joints, and calls of services.
+/// Messages that a node takes for its board: positions of joints, and calls of services.
 struct Taken {
     postures: Postures,
     services: Services,
 }
 
 impl RosShow {
-    /// Of the board of this node. With `is_clock`, stamps are the board's time, which is reported on `/clock`. With a
-    /// body, what presses on its links is reported.
+    /// Makes the show of this node's board. With `is_clock`, stamps are the board's time, which is reported on
+    /// `/clock`. With a body, what presses on its links is reported.
     pub fn new(node: RosNode, is_clock: bool, body: Option<ReadBody>) -> RosShow {
         RosShow {
             stamps: Stamps::start(),

@@ -22,7 +22,7 @@ impl<W: Write> Lines<W> {
         Lines { label: String::new(), narrator: Narrator::new(None), out, summed: None }
     }
 
-    /// What it writes to.
+    /// Returns what it writes to.
     pub fn output(&mut self) -> &mut W {
         &mut self.out
     }

@@ -6,7 +6,7 @@ use ratatui::style::Color;
 /// Characters of growing weight; the first is a taxel without pressure.
 pub const GLYPHS: [char; 10] = ['.', ':', '-', '=', '+', 'o', '*', '#', '%', '@'];
 
-/// How pressure is drawn.
+/// Way in which pressure is drawn.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Paint {
     /// Two coloured pixels in a character.

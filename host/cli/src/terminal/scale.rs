@@ -19,7 +19,7 @@ impl PressureScale {
         PressureScale { top: START, fits: false, is_set: false }
     }
 
-    /// Its end, counts.
+    /// Returns its end, counts.
     pub fn top(self) -> u16 {
         self.top
     }

@@ -44,7 +44,7 @@ pub struct View {
     /// Half of the last round trip to the board.
     pub latency: Option<Duration>,
     paint: Paint,
-    /// Why the board is lost; none while it is there.
+    /// Reason why the board is lost; none while it is there.
     lost: Option<String>,
     /// Shown while paused: the client and the view at that moment.
     paused: Option<Box<(Client, View)>>,

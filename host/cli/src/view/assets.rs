@@ -2,7 +2,7 @@
 
 /// An embedded file.
 pub struct Asset {
-    /// Its media type.
+    /// Media type.
     pub kind: &'static str,
     /// Contents.
     pub bytes: &'static [u8],

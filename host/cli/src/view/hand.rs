@@ -1,4 +1,4 @@
-//! What pages press on the garment of a simulated board.
+//! Presses by pages on the garment of a simulated board.
 
 use super::lines::{HandLine, ScriptLine, ToolLine};
 use super::message::{FINGERS, FingerRequest, HandOrder};
@@ -11,7 +11,7 @@ use taxel::source::{FingerPress, Hand};
 #[derive(Debug, Clone)]
 pub struct PageHand {
     hand: Hand,
-    /// What pages were sent last.
+    /// State that pages were sent last.
     sent: Option<(Option<String>, usize)>,
 }
 
@@ -21,7 +21,7 @@ impl PageHand {
         PageHand { hand, sent: None }
     }
 
-    /// What pages are to be sent; none if nothing has changed.
+    /// Returns what pages are to be sent; none if nothing has changed.
     pub fn news(&mut self) -> Option<HandLine> {
         let now = (self.hand.playing(), self.hand.touches());
         if self.sent.as_ref() == Some(&now) {

@@ -177,7 +177,7 @@ impl PageHub {
         self.announce(kind, text(line));
     }
 
-    /// The same, of a message that is encoded already.
+    /// Sends a state to all pages, of a message that is encoded already.
     pub fn announce(&self, kind: &'static str, line: Arc<str>) {
         let mut shared = self.lock();
         shared.pages.iter().for_each(|page| page.state(kind, line.clone()));

@@ -72,7 +72,7 @@ pub struct PageConcept<'a> {
     pub name: &'a str,
     /// Layer in the drawing, from 0.
     pub layer: usize,
-    /// Its part: `felt`, `meaning` or `feeling`.
+    /// Part of the concept: `felt`, `meaning` or `feeling`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub role: Role,
 }
@@ -97,19 +97,19 @@ pub struct PageFrame<'a> {
     /// The frame.
     #[serde(flatten)]
     pub line: FrameLine<'a>,
-    /// What is felt, for people.
+    /// Touch that is felt, for people.
     pub felt: Felt,
     /// Shape of each contact for people: `touch` unless the recogniser is sure of it.
     pub shapes: Vec<String>,
-    /// Of a recording: time since its beginning, us.
+    /// Time since the beginning, us, of a recording.
     #[cfg_attr(feature = "schema", schemars(with = "u64"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_us: Option<u64>,
-    /// Of a recording: number of jumps in time.
+    /// Number of jumps in time, of a recording.
     #[cfg_attr(feature = "schema", schemars(with = "u32"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seeks: Option<u32>,
-    /// What presses on the robot; absent without a body.
+    /// Contacts and forces on the robot; absent without a body.
     #[cfg_attr(feature = "schema", schemars(with = "PressingLine"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressing: Option<PressingLine<'a>>,
@@ -173,7 +173,7 @@ pub struct TaxelLine {
 pub struct WhyLine {
     /// Name of the concept.
     pub concept: String,
-    /// Its activation, -1 to 1.
+    /// Activation, -1 to 1.
     pub activation: f64,
     /// Share of each input over all its paths, the greatest first.
     pub inputs: Vec<(String, f64)>,
@@ -225,7 +225,7 @@ pub struct LinkLine {
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("log")))]
 #[serde(tag = "type", rename = "log")]
 pub struct LogLine<'a> {
-    /// Its lines, the oldest first.
+    /// Lines, the oldest first.
     pub said: Vec<SayLine<'a>>,
 }
 
@@ -238,7 +238,7 @@ pub struct SayLine<'a> {
     /// `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub kind: LineKind,
-    /// Its time, us of the board; null if it has none.
+    /// Time, us of the board; null if it has none.
     pub time_us: Option<u64>,
     /// The sentence.
     pub said: &'a str,
@@ -325,7 +325,7 @@ pub struct ImageHead {
     missed: u64,
 }
 
-/// What can press the garment of a simulated board.
+/// Tools that can press the garment of a simulated board.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(transform = TypeIs("hand")))]
@@ -457,7 +457,7 @@ pub struct RobotLine<'a> {
     pub boards: &'a [RobotBoardLine<'a>],
 }
 
-/// How a board of a robot is.
+/// State of a board of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotBoardLine<'a> {
@@ -465,9 +465,9 @@ pub struct RobotBoardLine<'a> {
     pub name: &'a str,
     /// `live`, or `absent`, `lost`, `other`, `over`, `failed`: its picture is not live.
     pub state: &'static str,
-    /// When it was last live, the host's time, us since 1970; null if it is, or never was.
+    /// Host time at which it was last live, us since 1970; null if it is, or never was.
     pub since_us: Option<u64>,
-    /// Why it is not live.
+    /// Reason why it is not live.
     pub why: Option<String>,
     /// Contacts on it.
     pub contacts: usize,
@@ -477,7 +477,7 @@ pub struct RobotBoardLine<'a> {
     pub is_calibrated: bool,
 }
 
-/// What the touches of all boards mean to the robot.
+/// Meaning of the touches of all boards to the robot.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotIntentLine {

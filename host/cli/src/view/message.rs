@@ -212,14 +212,14 @@ pub enum PageRequest {
     Release(u8),
     /// A script of touches is played once.
     Script(String),
-    /// What was pressed is played again, or forgotten.
+    /// Order to play again what was pressed, or to forget it.
     Hand(HandOrder),
     /// An order to the player of a recording.
     #[serde(untagged)]
     Player(Order),
 }
 
-/// What a finger does.
+/// Press of a finger.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FingerRequest {
@@ -238,14 +238,14 @@ pub struct FingerRequest {
     pub angle_deg: f64,
 }
 
-/// What happens to what was pressed.
+/// Order about what was pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum HandOrder {
-    /// It is played again.
+    /// Order to play it again.
     Again,
-    /// It is forgotten.
+    /// Order to forget it.
     Clear,
 }
 

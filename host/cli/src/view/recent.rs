@@ -40,7 +40,7 @@ pub struct Recent {
 }
 
 impl Recent {
-    /// Of one of so many boards, which share the room.
+    /// Makes that of one of so many boards, which share the room.
     pub fn among(boards: usize) -> Recent {
         Recent { others: boards.saturating_sub(1), ..Recent::default() }
     }

@@ -26,7 +26,7 @@ pub struct RobotPages<'a> {
     /// True if the boards are not as they were sent last; and when that was.
     is_new: bool,
     sent_boards: Instant,
-    /// What touches mean as it was reported last, without its time.
+    /// Meaning of touches as it was reported last, without its time.
     meant: Option<RobotMeaningLine>,
     sent: Instant,
 }

@@ -12,7 +12,7 @@ pub fn text(line: &impl Serialize) -> Arc<str> {
 /// An image and its contacts.
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// Its line as printed by `taxel live --json`.
+    /// Line as printed by `taxel live --json`.
     pub line: Arc<str>,
     /// Pressure by taxel, counts.
     pub image: Arc<[u16]>,

@@ -1,4 +1,4 @@
-//! What a page can save as a recording: the last half minute of a board, or a part of a recording.
+//! Part that a page can save as a recording: the last half minute of a board, or a part of a recording.
 
 use anyhow::Result;
 use std::sync::Arc;

@@ -34,13 +34,13 @@ pub struct Viewer {
     label: String,
     counts_per_newton: Option<f32>,
     calibration: Option<Calibration>,
-    /// Where the garment folds; none without a table.
+    /// Folds of the garment; none without a table.
     folding: Option<Folding>,
     lines: EventLines,
     rate: Rate,
     raw: RawCodes,
     sent: Instant,
-    /// It asks the board what only pages want to know: round trips, raw codes.
+    /// True if it asks the board what only pages want to know: round trips, raw codes.
     is_curious: bool,
     asked: Instant,
     token: u32,
@@ -78,7 +78,7 @@ impl Viewer {
         Viewer { is_curious: false, ..self }
     }
 
-    /// Also shows where the garment folds.
+    /// Shows where the garment folds, too.
     pub fn folding(self, folding: Option<Folding>) -> Viewer {
         Viewer { folding, ..self }
     }

@@ -11,7 +11,7 @@ use taxel_core::intent::Leading;
 pub struct Felt {
     /// The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`.
     pub what: String,
-    /// The same with the greatest force of the strongest touch so far: reported once it has ended.
+    /// Such a text with the greatest force of the strongest touch so far: reported once it has ended.
     pub peak: String,
     /// The announced intention, or why none is; empty while nothing touches.
     pub meaning: &'static str,
@@ -73,7 +73,7 @@ fn round(total: u32, counts_per_newton: Option<f32>) -> String {
     }
 }
 
-/// What forces rest on.
+/// Basis on which forces rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Basis {

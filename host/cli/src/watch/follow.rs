@@ -18,7 +18,7 @@ pub struct WatchOptions {
     pub frames: Option<u64>,
     /// Seconds of the board's time after which it ends.
     pub seconds: Option<f64>,
-    /// Its raw codes are requested; an image counts once its codes have come.
+    /// True if its raw codes are requested; an image counts once its codes have come.
     pub codes: bool,
     /// The board may refuse the body, and reports of what presses on it: the observer can do without.
     pub body_may_fail: bool,
@@ -107,7 +107,7 @@ pub fn watch(args: &WatchOptions, source: Source, observer: &mut dyn Observer) -
     Ok(())
 }
 
-/// Where a run ends that is limited by options.
+/// Returns where a run ends that is limited by options.
 pub fn run_limit(frames: Option<u64>, seconds: Option<f64>) -> RunLimit {
     // A time that is too long for a `Duration` is none.
     RunLimit::of(frames, seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()))
@@ -130,7 +130,7 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Those of a board of a robot, and what it refuses: nobody waits for its answers.
+    /// Makes the remarks of a board of a robot, and what it refuses: nobody waits for its answers.
     pub fn of(board: &str) -> Remarks {
         Remarks { board: Some(board.into()) }
     }

@@ -143,7 +143,7 @@ fn sentences(client: &Client, event: &Event) -> Vec<String> {
     }
 }
 
-/// What a region feels; none if it is free again.
+/// Returns what a region feels; none if it is free again.
 fn felt(region: &RegionSymbol) -> Option<String> {
     Some(match region.phase {
         RegionPhase::Free => return None,

@@ -1,4 +1,4 @@
-//! What boards are asked while they are followed, as lines of a file or of the standard input.
+//! Requests to boards while they are followed, as lines of a file or of the standard input.
 
 use anyhow::{Context, Result, bail, ensure};
 use std::io::{BufRead, BufReader, Read, stdin};
@@ -85,13 +85,13 @@ impl RequestLines {
     }
 }
 
-/// What a mind was given.
+/// Input that a mind was given.
 pub struct HostInput {
     /// Host time at which it was sent, us.
     pub host_us: u64,
-    /// What.
+    /// Line of the input.
     pub line: HostInputLine,
-    /// What touches mean then, if that is news.
+    /// Meaning of touches then, if that is news.
     pub news: Option<RobotMeaning>,
 }
 

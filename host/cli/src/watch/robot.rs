@@ -9,7 +9,7 @@ use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent, RobotStream};
 /// Longest wait before requests are read and Ctrl-C is noticed.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Whoever is handed the events of all boards; a board's own stream goes to the observer of its thread.
+/// Observer of the events of all boards; a board's own stream goes to the observer of its thread.
 pub trait RobotObserver<T> {
     /// The robot's map, which takes the host's inputs among the requests; none if there is none.
     fn mind(&mut self) -> Option<&mut RobotMind> {

@@ -171,7 +171,7 @@ impl Observer for Known {
 pub struct FaultyPlace {
     /// Number of the taxel.
     pub taxel: u16,
-    /// Its fault.
+    /// Fault of the taxel.
     pub health: TaxelHealth,
     /// Name of the panel.
     pub panel: String,

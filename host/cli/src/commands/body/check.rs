@@ -1,4 +1,4 @@
-//! How the panels of a garment lie on the robot.
+//! Fit of a garment's panels on the robot.
 
 use serde_json::{Value, json};
 use std::fmt::Write;

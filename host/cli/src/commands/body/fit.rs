@@ -1,4 +1,4 @@
-//! How the garment sits, found by touches whose place on the robot is known.
+//! Fit of the garment, found by touches whose place on the robot is known.
 
 use super::dressed::DressedArgs;
 use super::fit_text;

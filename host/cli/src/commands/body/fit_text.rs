@@ -1,4 +1,4 @@
-//! How well the panels of a garment fit the touches.
+//! Fit of a garment's panels to the touches, in words.
 
 use serde_json::{Value, json};
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! What the garment's folds press, learned from recordings.
+//! Pressure of the garment's folds, learned from recordings.
 
 use crate::watch::Overwrite;
 use anyhow::{Context, Result};
@@ -75,7 +75,7 @@ pub fn run(args: &BodyLearnArgs) -> Result<()> {
     Ok(())
 }
 
-/// What the taxels felt in a recording, with the angles that the board knew then.
+/// Reads what the taxels felt in a recording, with the angles that the board knew then.
 fn sweep(recording: &BoardRecording, taxels: usize) -> Result<FoldSweep> {
     recording.overview()?;
     let angles = Angles::read(recording)?;

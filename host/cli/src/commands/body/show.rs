@@ -125,7 +125,7 @@ fn label(
     }
 }
 
-/// Where a point is drawn that is so far from the middle, m.
+/// Returns where a point is drawn that is so far from the middle, m.
 fn drawn(from_middle: DVec3, side: &Side, ([x, y], scale): ([f64; 2], f64)) -> [f64; 2] {
     [x + from_middle.dot(side.right) * scale, y - from_middle.dot(side.up) * scale]
 }

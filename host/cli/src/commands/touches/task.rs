@@ -77,7 +77,7 @@ pub struct TouchesEvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
 pub struct Task {
     /// The shipped model.
     pub shipped: ShippedModel,
-    /// Its training settings.
+    /// Training settings.
     pub settings: TrainSettings,
     /// Settings that `--nested` chooses from.
     pub candidates: fn() -> Vec<TrainSettings>,

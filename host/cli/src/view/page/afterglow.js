@@ -4,7 +4,7 @@
 export const FADE_S = 0.8;
 
 /**
- * For each taxel the greatest recent pressure, fading with its age. `images` are [values, age in seconds];
+ * Returns for each taxel the greatest recent pressure, fading with its age. `images` are [values, age in seconds];
  * `into` is filled and returned.
  * @param {[ArrayLike<number>, number][]} images
  * @param {Float32Array} into

@@ -36,7 +36,7 @@ export function onPanels(parts, [x, y]) {
 }
 
 /**
- * Where places of a panel are on the page.
+ * Places of a panel on the page.
  * @param {Drawn[]} parts
  * @param {Panel} panel
  * @returns {Plot}
@@ -118,7 +118,7 @@ export function inFace(face, point) {
 }
 
 /**
- * Where places of a panel are on cloth: between its taxels, and beyond the outermost straight on.
+ * Places of a panel on cloth: between its taxels, and beyond the outermost straight on.
  * @param {Panel} panel
  * @param {Stage} stage
  * @param {(taxel: number) => Point | null} pixelOf place of a taxel on the stage; null if it has none

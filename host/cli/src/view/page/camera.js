@@ -123,7 +123,7 @@ const affine = ([a, b, c], [x, y, z]) => [a, b, c, -(a * x + b * y + c * z)];
 const of = ([a, b, c, d], x, y, z) => a * x + b * y + c * z + d;
 
 /**
- * The same projection for WebGL: all in it is linear before the division.
+ * Returns the same projection for WebGL: all in it is linear before the division.
  * @param {{ right: Row, up: Row, divisor: Row }} rows
  * @param {{ scale: number, left: number, top: number, width: number, height: number }} picture
  * @param {number} deep greatest change of the divisor within the scene

@@ -189,7 +189,8 @@ export function sideBySide(body) {
 export const nothing = () => ({ least: [Infinity, Infinity, Infinity], most: [-Infinity, -Infinity, -Infinity] });
 
 /**
- * Where the links' poses put a cloth. `bounds` grows to hold it, so that a picture of a robot that moves keeps its size.
+ * Puts a cloth where the links' poses are. `bounds` grows to hold it, so that a picture of a robot that moves keeps
+ * its size.
  * @param {Cloth} cloth
  * @param {BodyState} body
  * @param {Record<string, PoseOfLink>} poses by the links' names; corners of a link without one are at the root

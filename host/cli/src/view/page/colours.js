@@ -11,7 +11,7 @@
  */
 export const palette = { ramp: [], bands: 1, start: 0, ends: [1, 1], intentions: {}, feeling: "", pixels: new Uint32Array(0) };
 
-/** Where it is not known what presses: no colour of the ramp. */
+/** Grey where it is not known what presses: no colour of the ramp. */
 export const GREY = 0.45;
 /** The robot that carries the garment. */
 export const ROBOT = 0.72;

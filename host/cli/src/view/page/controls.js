@@ -15,7 +15,7 @@ const VIEWS = /** @type {const} */ ([
   ["map", "Map", "4"],
   ["health", "Health", "5"],
 ]);
-/** What the page can show, by name: a view is one of them, but the garment is the figure with the panels beside it. */
+/** Parts of the page, by name: a view is one of them, but the garment is the figure with the panels beside it. */
 const PARTS = /** @type {const} */ (["body", "panels", "surface", "map", "health"]);
 /** Layers of pressure: setting, label, key, description. */
 const LAYERS = /** @type {const} */ ([

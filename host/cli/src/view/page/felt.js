@@ -4,7 +4,7 @@ import { palette } from "./colours.js";
 import { $, say } from "./dom.js";
 import { sentence } from "./sentence.js";
 
-/** What newtons rest on, in words. */
+/** Basis of newtons, in words. */
 const BASES = {
   simulated: "simulated newtons",
   calibrated: "calibrated newtons",

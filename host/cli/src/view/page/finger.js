@@ -41,7 +41,7 @@ export class Finger {
     this.rested = 0;
     this.force = 0;
     this.lashed = false;
-    /** Whether it has moved since the program was sent. */
+    /** True if it has moved since the program was sent. */
     this.moved = false;
     /** @type {number | null} pressure of a pen, 0 to 1 */
     this.pressure = null;
@@ -94,7 +94,7 @@ export class Finger {
   }
 
   /**
-   * What the program is to be sent now; null if nothing has changed.
+   * Returns what the program is to be sent now; null if nothing has changed.
    * @param {number} now ms
    * @returns {PageRequest | null}
    */

@@ -14,7 +14,7 @@
 export const folding = ({ head }, settings) => (settings.folds && !settings.held ? (head.folding?.taxels ?? []) : []);
 
 /**
- * What the strokes mean; empty if nothing is known of folds.
+ * Meaning of the strokes; empty if nothing is known of folds.
  * @param {Shown | null} shown
  * @param {Settings} settings
  */

@@ -31,7 +31,7 @@ export const turnedBy = (factor, notches) => Math.max(LEAST, Math.min(GREATEST, 
 export const shortForce = ({ force_n: force }, factor) => Math.min(MOST_N, force * factor);
 
 /**
- * Whether a tool lashes at this speed, mm/s.
+ * True if a tool lashes at this speed, mm/s.
  * @param {Tool} tool
  * @param {number} speed
  */

@@ -55,18 +55,18 @@ export class Hand {
     this.listen();
   }
 
-  /** Whether something can be pressed now: the picture is that of a simulated board, and live. */
+  /** True if something can be pressed now: the picture is that of a simulated board, and live. */
   get offers() {
     const { states, paused, recorded } = this.store;
     return Boolean(states.hand && !recorded && !paused && !states.lost && !states.end && this.hasGarment);
   }
 
-  /** Whether a view shows the garment. */
+  /** True if a view shows the garment. */
   get hasGarment() {
     return this.views().some(({ aim }) => aim);
   }
 
-  /** What the palette offers: it stays while the picture stands still. */
+  /** Offer of the palette: it stays while the picture stands still. */
   get offered() {
     return this.store.recorded || !this.hasGarment ? null : (this.store.states.hand ?? null);
   }
@@ -98,7 +98,7 @@ export class Hand {
   }
 
   /**
-   * Where a pointer meets the garment, if it can be pressed.
+   * Spot at which a pointer meets the garment, if it can be pressed.
    * @param {{ clientX: number, clientY: number } | null | undefined} event
    * @returns {Spot | null}
    */

@@ -133,7 +133,7 @@ export class Hover {
 }
 
 /**
- * Where a taxel is wired to, if that is known.
+ * Wiring of a taxel, if it is known.
  * @param {import("./types.d.ts").TaxelState | null} drawn
  */
 function wiredText(drawn) {

@@ -41,7 +41,7 @@ export class Link {
   }
 
   /**
-   * Why the picture is not live; null if it is.
+   * Reason why the picture is not live; null if it is.
    * @param {import("./store.js").Store} store
    */
   absence(store) {

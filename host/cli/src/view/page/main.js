@@ -34,9 +34,9 @@ const link = new Link($("link"), $("source"), $("provenance"));
 /** Time between two redraws of what is beside the picture while it is live: nobody reads faster. */
 const BESIDE_MS = 100;
 let stale = true;
-/** What is beside the picture is out of date since a message, or must be drawn at once. */
+/** True if what is beside the picture is out of date since a message, and if it must be drawn at once. */
 let [besides, urgent] = [true, true];
-/** When it was drawn. */
+/** Time at which it was drawn. */
 let besidesAt = 0;
 const changed = () => (stale = urgent = true);
 /** @type {<What>(act: (what: What) => void) => (what: What) => void} */
@@ -109,7 +109,7 @@ function draw() {
 }
 
 /**
- * What is said to whoever does not see the picture: what the keys have changed of the tool, the taxel that they read,
+ * Text for whoever does not see the picture: what the keys have changed of the tool, the taxel that they read,
  * else the intention, of the robot if it has one.
  */
 function spoken() {

@@ -22,7 +22,7 @@
 const [GAP, AISLE] = [24, 100];
 /** Height of the scale's end, share of the longer side of the floor. */
 const HIGH = 0.3;
-/** Where the light comes from: steep, from the left and from row 0. */
+/** Direction from which the light comes: steep, from the left and from row 0. */
 const LIGHT = { x: -0.5, y: -0.35 };
 const [DARKEST, SHADE] = [0.6, 0.3];
 
@@ -179,7 +179,7 @@ export function foremost(seen, faces, x, y) {
 }
 
 /**
- * Whether a face, as it is seen, holds a point: the number of sides to the right of it is odd.
+ * True if a face, as it is seen, holds a point: the number of sides to the right of it is odd.
  * @param {Float32Array} seen
  * @param {Uint32Array} faces
  * @param {number} face

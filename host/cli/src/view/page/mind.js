@@ -5,7 +5,7 @@ import { Bars } from "./bars.js";
 
 /** @typedef {import("./messages.d.ts").RobotIntentLine} Meaning */
 
-/** Whose motion has caused a touch, in words. */
+/** Mover whose motion has caused a touch, in words. */
 const MOVERS = { own: "the robot", other: "what touches it", unsure: "unsure" };
 
 /**
@@ -23,7 +23,7 @@ export function cells({ board, contact, region, link, load, mover, approach }, r
   return [`${name} ${contact}`, `${region} (${link})`, moved, force, speed];
 }
 
-/** What touches mean to the robot, above the picture of a board. */
+/** Meaning of touches to the robot, above the picture of a board. */
 export class Mind {
   constructor() {
     this.bars = new Bars($("mind-concepts"));

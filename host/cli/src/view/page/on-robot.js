@@ -101,7 +101,7 @@ export class OnRobot {
     /** @type {Aspect[]} */
     this.aspects = [];
     this.looked = "";
-    /** When the texts were written. */
+    /** Time at which the texts were written. */
     this.said = 0;
     /** @type {ReturnType<typeof setTimeout> | undefined} they wait for that */
     this.late = undefined;
@@ -112,12 +112,12 @@ export class OnRobot {
     this.become();
   }
 
-  /** What draws the cloth. */
+  /** Painter of the cloth. */
   get painter() {
     return this.drawing.painter;
   }
 
-  /** Whether the robot can be turned. */
+  /** True if the robot can be turned. */
   get turns() {
     return this.painter instanceof GlPainter;
   }

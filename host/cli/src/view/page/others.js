@@ -6,7 +6,7 @@ import { KEPT_S, Store } from "./store.js";
 /** Boards whose images are kept as long as those of the page's own board: those of more boards for a shorter time. */
 const FULL = 8;
 
-/** What is known of each, by name. */
+/** State of each other board, by name. */
 export class Others {
   /** @param {() => void} changed */
   constructor(changed) {
@@ -54,7 +54,7 @@ export class Others {
   }
 
   /**
-   * What is known of a board; null if it is not followed.
+   * State of a board; null if it is not followed.
    * @param {string} name
    */
   of(name) {

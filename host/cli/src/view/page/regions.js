@@ -95,7 +95,7 @@ function canvasOf({ name, rows, columns, mm }, scale) {
 }
 
 /**
- * What is felt in a region, in words.
+ * Touch that is felt in a region, in words.
  * @param {Garment} garment
  * @param {Contact[]} contacts
  */

@@ -70,7 +70,7 @@ export class Relief {
     });
   }
 
-  /** What draws the surface. */
+  /** Painter of the surface. */
   get painter() {
     return this.drawing.painter;
   }
@@ -132,7 +132,7 @@ export class Relief {
   }
 
   /**
-   * Where each taxel is in the picture.
+   * Finds where each taxel is in the picture.
    * @param {Sight} view
    */
   see(view) {

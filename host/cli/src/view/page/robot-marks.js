@@ -12,7 +12,7 @@ import { NONE } from "./figure.js";
 const [LINE, LETTER, FORCE] = [14, 6.8, 7];
 
 /**
- * Where a point of the scene is in the picture.
+ * Place of a point of the scene in the picture.
  * @param {Aspect} aspect
  * @param {Triple} point
  * @returns {[number, number]}

@@ -6,7 +6,7 @@ import { agoText } from "./presence.js";
 /** @typedef {import("./messages.d.ts").RobotLine["boards"][number]} Board */
 
 /**
- * How a board is, in words.
+ * State of a board, in words.
  * @param {Board} board
  * @param {number} now ms since 1970
  */

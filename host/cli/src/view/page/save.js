@@ -5,7 +5,7 @@ import { diamond, label } from "./marks.js";
 
 /** Margin of a saved picture, pixels. */
 const MARGIN = 12;
-/** What a picture has of a view. */
+/** Elements of a view that a picture has. */
 const DRAWN = "canvas, svg, figcaption b, .marks b, .regions :is(h2, p, figcaption), .note";
 
 /** The menu. `context` has the store and the name of the view. */

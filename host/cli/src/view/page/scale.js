@@ -8,7 +8,7 @@ import { isPascal, pressure } from "./units.js";
 const ROOM = 280;
 const HEIGHT = 28;
 
-/** What was drawn last: it changes seldom, and a canvas that is drawn again costs as much as if it had changed. */
+/** Last drawing: it changes seldom, and a canvas that is drawn again costs as much as if it had changed. */
 let drawn = "";
 
 /**

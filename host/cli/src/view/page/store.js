@@ -236,7 +236,7 @@ export class Store {
     return this.latest?.head.frame.time_us ?? 0;
   }
 
-  /** Whether the picture stands still. */
+  /** True if the picture stands still. */
   get paused() {
     return this.recorded ? !this.recorded.playing : this.still !== null;
   }

@@ -35,7 +35,7 @@ export class Tools {
     this.key = "";
     /** @type {HTMLElement[]} */
     this.buttons = [];
-    /** What the keys have changed, and when, ms. */
+    /** Change by the keys, and when, ms. */
     this.keyed = { text: "", at: -Infinity };
     const script = one(HTMLSelectElement, "script");
     $("play-script").addEventListener("click", () => script.value && ask({ script: script.value }));
@@ -107,7 +107,7 @@ export class Tools {
   }
 
   /**
-   * What the keys have just changed, in words; null if that is long ago.
+   * Change that the keys have just made, in words; null if that is long ago.
    * @param {number} now ms
    */
   text(now) {

@@ -102,7 +102,7 @@ function joined(parts) {
 }
 
 /**
- * What presses on all boards: the contacts with their boards, and the force on each link.
+ * Contacts and forces on all boards: the contacts with their boards, and the force on each link.
  * @param {Part[]} parts
  * @returns {Pushed}
  */

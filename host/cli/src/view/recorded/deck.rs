@@ -23,7 +23,7 @@ pub struct Deck {
     seeks: u32,
 }
 
-/// What the reader of the recording is to do.
+/// Order to the reader of the recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Go {
     /// Play up to this time.

@@ -17,7 +17,7 @@ pub struct PageScreen {
     hub: Arc<PageHub>,
     label: String,
     scale: Option<f32>,
-    /// Where the garment folds; none without a table.
+    /// Folds of the garment; none without a table.
     folding: Option<Folding>,
     rate: Rate,
     /// Number and time of the last image.

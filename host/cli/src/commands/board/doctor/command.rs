@@ -84,7 +84,7 @@ pub fn run(args: &DoctorArgs) -> Result<()> {
 /// A board that was watched.
 #[derive(Debug)]
 pub struct Examined {
-    /// What was found.
+    /// Findings on the board.
     pub found: Vec<Finding>,
     /// The error that ended the watch.
     pub heard: Result<()>,
@@ -107,7 +107,7 @@ pub fn examine(spec: &SourceSpec, source: Source, seconds: f64, buses: Buses) ->
 /// Remedy for a port on which something else speaks.
 const ELSEWHERE: &str = "name the port of the board and its speed: `taxel ports` lists what is plugged in";
 
-/// What speaks in place of a board, if that has ended the watch.
+/// Returns what speaks in place of a board, if that has ended the watch.
 fn foreign(error: &anyhow::Error) -> Option<String> {
     match error.downcast_ref::<taxel::Error>()?.kind() {
         ErrorKind::Source(SourceError::Foreign(what)) => Some(what.clone()),

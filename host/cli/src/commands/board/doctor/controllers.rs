@@ -2,7 +2,8 @@
 
 use super::finding::Finding;
 
-/// What is found of the board at `at`, given names and controllers of all boards; none if it is on no controller.
+/// Returns what is found of the board at `at`, given names and controllers of all boards; none if it is on no
+/// controller.
 pub fn controller(boards: &[(&str, Option<usize>)], at: usize) -> Option<Finding> {
     let (name, own) = *boards.get(at)?;
     own?;

@@ -7,7 +7,7 @@ use taxel_core::garment::Garment;
 use taxel_core::selftest::Findings;
 use taxel_core::wire::{Health, Request};
 
-/// What was observed.
+/// Facts that were observed.
 #[derive(Debug, Default, Clone)]
 pub struct Facts {
     /// The board is simulated.
@@ -16,7 +16,7 @@ pub struct Facts {
     pub firmware: Option<String>,
     /// Cause of the board's start; none if it does not report one.
     pub boot: Option<Boot>,
-    /// Why a `Hello` could not be used.
+    /// Reason why a `Hello` could not be used.
     pub unusable: Option<String>,
     /// Number of taxels of the garment.
     pub taxels: usize,

@@ -6,11 +6,11 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
-    /// It works as it should.
+    /// Part that works as it should.
     Good,
-    /// It works, but not fully.
+    /// Part that works, but not fully.
     Weak,
-    /// It does not work.
+    /// Part that does not work.
     Bad,
 }
 
@@ -21,7 +21,7 @@ pub struct Finding {
     pub grade: Grade,
     /// Subject of the finding.
     pub of: &'static str,
-    /// What was found.
+    /// Sentence on what was found.
     pub what: String,
     /// Remedy; empty if nothing is to be done.
     pub cure: &'static str,

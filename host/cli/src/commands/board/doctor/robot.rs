@@ -46,7 +46,7 @@ pub fn run(args: &DoctorArgs, robot: &ReadRobot) -> Result<()> {
     Ok(())
 }
 
-/// What is found of each board.
+/// Returns what is found of each board.
 fn diagnosed_together(boards: &[RobotBoard], seconds: f64) -> Vec<Vec<Finding>> {
     let buses = Buses::default();
     let (mut all, on): (Vec<_>, Vec<_>) = thread::scope(|scope| {
@@ -64,7 +64,7 @@ fn diagnosed_together(boards: &[RobotBoard], seconds: f64) -> Vec<Vec<Finding>> 
     all
 }
 
-/// What is found of a board, and the number of its controller.
+/// Returns what is found of a board, and the number of its controller.
 fn diagnosed(board: &RobotBoard, seconds: f64, buses: Buses) -> (Vec<Finding>, Option<usize>) {
     let options = SourceOptions { seconds: Some(seconds), ..SourceOptions::default() };
     let source = match board.open(&options) {

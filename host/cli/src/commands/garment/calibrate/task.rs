@@ -11,10 +11,10 @@ use taxel_core::wire::Request;
 /// Frames averaged by the tare.
 const TARE: u16 = 64;
 
-/// What to calibrate, and how.
+/// Task of a calibration: what, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibrationTask {
-    /// What the plate covers.
+    /// Area that the plate covers.
     pub over: Over,
     /// The weights, N, ascending.
     pub weights: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What the user is asked to touch, in words and as a picture.
+//! Requests to the user to touch something, in words and as a picture.
 
 use taxel_core::garment::{Block, Garment};
 
@@ -28,7 +28,7 @@ pub struct Ask {
     pub panel: usize,
     /// The touch.
     pub gesture: Gesture,
-    /// Why the last attempt was rejected.
+    /// Reason why the last attempt was rejected.
     pub why: Option<String>,
 }
 

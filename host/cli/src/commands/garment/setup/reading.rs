@@ -29,7 +29,7 @@ pub struct Reading {
 /// Blocks of a stroke, once the lines that select blocks are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocks {
-    /// In the order of the stroke.
+    /// Blocks in the order of the stroke.
     pub felt: Vec<StrokedBlock>,
     /// Which of the fine lines are inverted, if the most significant is not.
     pub inverted: Vec<bool>,
@@ -141,7 +141,7 @@ fn ranked(gaps: &[Gap], fine: usize) -> Result<(Vec<usize>, f64), String> {
     Ok((lines, margin))
 }
 
-/// For each line: true if the taxel with the line high is passed after the one with it low.
+/// Returns for each line: true if the taxel with the line high is passed after the one with it low.
 fn directions(traces: &[Trace], lines: &[usize], step: f64, margin: &mut f64) -> Result<Vec<bool>, String> {
     let mut rises = Vec::new();
     for (rank, line) in lines.iter().enumerate() {

@@ -14,7 +14,7 @@ const TRIES: u32 = 3;
 /// Unanswered requests after which a panel counts as dead.
 const SILENT: u32 = 2;
 
-/// Why dead panels cannot be matched to inputs.
+/// Reason why dead panels cannot be matched to inputs.
 const LEFT_OVER: &str = "The numbers of silent inputs and of silent panels differ.";
 
 /// Next step of the dialogue.

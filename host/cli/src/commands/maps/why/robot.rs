@@ -44,7 +44,7 @@ struct RobotEar {
     /// The moment, s since the begin; none: that of the first intention.
     at: Option<f64>,
     begun_us: u64,
-    /// It has come, so many seconds since the begin.
+    /// Time at which it has come, in seconds since the begin.
     found: Option<f64>,
 }
 

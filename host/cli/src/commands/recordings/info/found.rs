@@ -19,17 +19,17 @@ pub struct Contents<'a> {
     file: &'a Path,
     bytes: u64,
     overview: Overview,
-    /// Its only board, or those of a robot.
+    /// Boards: the only one, or those of a robot.
     boards: Vec<RecordedCounts>,
     /// Damage, and what readers pass over; none if the file was not read.
     checked: Option<(Scan, Skipped)>,
     repaired: bool,
 }
 
-/// What was counted of a board.
+/// Counts of a board.
 struct RecordedCounts {
     recording: BoardRecording,
-    /// Its images.
+    /// Number of its images.
     frames: u64,
     /// Line counters of its messages; none if the file holds none and was not read.
     line: Option<Tally>,

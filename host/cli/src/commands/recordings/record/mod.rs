@@ -65,7 +65,7 @@ pub struct RecordArgs {
     pub open: bool,
 }
 
-/// What the pages show beside the board's stream.
+/// Parts of the pages beside the board's stream.
 struct Pages {
     listener: TcpListener,
     shown_robot: Option<ShownRobot>,

@@ -20,7 +20,7 @@ const GATHER: Duration = Duration::from_millis(40);
 /// Time in which events gather once all are taken: of many boards, each would wake this thread.
 const REST: Duration = Duration::from_millis(5);
 
-/// What becomes of the events of all boards; those of each are recorded in its thread.
+/// Recording of the events of all boards; those of each are recorded in its thread.
 struct Recording<'a> {
     recorder: Recorder,
     /// None if boards are not at one time.

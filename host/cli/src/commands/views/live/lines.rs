@@ -1,4 +1,4 @@
-//! What a board of a robot says, as the lines of `taxel live`.
+//! Lines of `taxel live` for what a board of a robot says.
 
 use crate::terminal::Lines;
 use taxel::Result;
@@ -9,11 +9,11 @@ use taxel::robot::{BoardQueue, RobotBoard};
 use taxel::session::Observer;
 use taxel::source::Source;
 
-/// What is made of an event of a board.
+/// Result of an event of a board.
 pub struct BoardNews {
     /// Lines, each with its end.
     pub lines: String,
-    /// What it says of touches.
+    /// Content of the event about touches.
     pub sense: Option<BoardSense>,
 }
 
@@ -26,7 +26,8 @@ pub struct JsonLines {
 }
 
 impl JsonLines {
-    /// Of a board, with or without the pressure of every taxel, and with what this reader hears of touches.
+    /// Makes the lines of a board, with or without the pressure of every taxel, and with what this reader hears of
+    /// touches.
     pub fn new(
         board: &RobotBoard,
         pixels: bool,
@@ -55,7 +56,7 @@ impl Observer for JsonLines {
 
 /// Queues a board's events as lines of text.
 pub struct TextLines {
-    /// What precedes each line.
+    /// Prefix of each line.
     head: String,
     lines: Lines<Vec<u8>>,
     mind: Option<MindReader>,
@@ -63,12 +64,12 @@ pub struct TextLines {
 }
 
 impl TextLines {
-    /// Of a board whose lines begin with this, with what this reader hears of touches.
+    /// Makes the lines of a board, which begin with this, with what this reader hears of touches.
     pub fn new(head: String, mind: Option<MindReader>, queue: &BoardQueue<BoardNews>) -> TextLines {
         TextLines { head, lines: Lines::new(Vec::new()), mind, queue: queue.clone() }
     }
 
-    /// What has been written since, with the board before each line.
+    /// Returns what has been written since, with the board before each line.
     fn written(&mut self) -> String {
         let written = std::mem::take(self.lines.output());
         let text = String::from_utf8_lossy(&written);

@@ -50,7 +50,7 @@ pub struct LiveArgs {
 }
 
 impl LiveArgs {
-    /// What is watched for these arguments.
+    /// Returns what is watched for these arguments.
     pub fn watched(&self) -> WatchOptions {
         let (frames, seconds, codes) = (self.frames, self.seconds, self.taxel.is_some());
         WatchOptions { frames, seconds, codes, ..WatchOptions::on(self.board.clone()) }

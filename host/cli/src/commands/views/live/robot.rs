@@ -14,7 +14,7 @@ use taxel::session::Observer;
 use taxel::source::SourceOptions;
 use taxel::text::words;
 
-/// What precedes lines about the whole robot.
+/// Prefix of lines about the whole robot.
 const ROBOT: &str = "robot";
 
 /// Runs the command. Error if a board cannot be followed, once all are over.
@@ -120,7 +120,7 @@ impl RobotLines<'_> {
     }
 }
 
-/// How a board is, in words; none if its lines say it: it is met, lost, back, over.
+/// Returns how a board is, in words; none if its lines say it: it is met, lost, back, over.
 fn said(state: &BoardState) -> Option<String> {
     Some(match state {
         BoardState::Absent { why } => format!("absent: {why}; waiting for it"),

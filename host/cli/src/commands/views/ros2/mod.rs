@@ -58,7 +58,7 @@ fn hz(text: &str) -> Result<f64, String> {
 }
 
 impl RosNodeArgs {
-    /// Where the node is. Error if a name or the domain is invalid.
+    /// Returns where the node is. Error if a name or the domain is invalid.
     pub fn place(&self) -> Result<RosPlace> {
         let domain = match (self.domain, std::env::var("ROS_DOMAIN_ID").ok().filter(|text| !text.is_empty()))
         {

@@ -30,7 +30,7 @@ pub trait Scanner {
 pub struct Settled {
     /// Shortest settling time, ns.
     pub settle_ns: u32,
-    /// Its residue of a full-scale step, counts.
+    /// Residue of a full-scale step, counts.
     pub residue_counts: f64,
     /// Standard error of the residue, counts.
     pub error_counts: f64,
