@@ -26,7 +26,7 @@ COLUMNS = {"file": pl.String, "panel": pl.String, "total": pl.Int64, "features":
 
 
 def hardest(recording: taxel.Recording) -> tuple[float, str, int] | None:
-    """When, where and how hard a contact pressed most; None if nothing touched."""
+    """Returns when, where and how hard a contact pressed most; None if nothing touched."""
     most: tuple[float, str, int] | None = None
     for event in recording.contacts():
         if len(event.contacts):
@@ -38,7 +38,7 @@ def hardest(recording: taxel.Recording) -> tuple[float, str, int] | None:
 
 
 def row(folder: str, file: str) -> dict[str, Any]:
-    """What is reported of a recording."""
+    """Returns the report of a recording."""
     try:
         recording = taxel.read(Path(folder) / file)
         found = hardest(recording)
@@ -54,12 +54,12 @@ def row(folder: str, file: str) -> dict[str, Any]:
 
 
 def rows(folder: str, files: list[str]) -> list[dict[str, Any]]:
-    """What is reported of some recordings."""
+    """Returns the reports of some recordings."""
     return [row(folder, file) for file in files]
 
 
 def by_ray(folder: str, pieces: list[list[str]], address: str | None, workers: int | None) -> list[list[dict[str, Any]]]:
-    """What is reported of all pieces, in their order."""
+    """Returns the reports of all pieces, in their order."""
     import ray
 
     ray.init(address=address, num_cpus=workers)

@@ -26,7 +26,7 @@ pub fn records<'py>(
 /// Place and size of a panel in an image of all taxels.
 #[derive(Debug, Clone)]
 pub struct Panel {
-    /// Its name.
+    /// Name of the panel.
     pub name: String,
     first: usize,
     rows: usize,

@@ -38,12 +38,12 @@ struct Open {
     reader: FactReader,
     clock: SteadyTime,
     limit: RunLimit,
-    /// What the board was asked at the start, and must accept.
+    /// Requests of the start, which the board must accept.
     required: Required,
     over: bool,
 }
 
-/// What one look at the session brings.
+/// Result of one look at the session.
 enum Look {
     Found(Box<Fact>),
     Nothing,

@@ -1,4 +1,4 @@
-//! What the garment's folds press: learned, and as a board expects it.
+//! Pressure of the garment's folds: learned, and as a board expects it.
 
 use crate::error::{raised, usage};
 use crate::value;

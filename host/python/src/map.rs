@@ -117,7 +117,7 @@ impl Map {
         value::dict(py, &py.detach(explain).map_err(raised)?)
     }
 
-    /// What is to be said about the map: concepts that cannot be reached, whether it settles, whether it fits
+    /// Returns what is to be said about the map: concepts that cannot be reached, whether it settles, whether it fits
     /// the board.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let check = || check::check(&self.file).map(|checked| check::report(&self.file, &checked));

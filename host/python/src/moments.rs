@@ -1,4 +1,4 @@
-//! What the boards of a robot have said lately, by the time that they share.
+//! Recent news of the boards of a robot, by the time that they share.
 
 use crate::array::Panels;
 use crate::contact;
@@ -13,12 +13,12 @@ use taxel::robot::{BoardContact, BoardMoment, RobotMoments};
 pub struct KeptMoments {
     frames: RobotMoments<Fact>,
     contacts: RobotMoments<Vec<BoardContact>>,
-    /// Of each board: the panels of its garment, and whether its stream has ended.
+    /// Panels of the garment of each board, and whether its stream has ended.
     boards: Vec<(Panels, bool)>,
 }
 
 impl KeptMoments {
-    /// Of so many boards, each for so long.
+    /// Makes room for so many boards, each for so long.
     pub fn new(boards: usize, kept: Duration) -> KeptMoments {
         KeptMoments {
             frames: RobotMoments::new(boards, kept),
@@ -114,7 +114,7 @@ impl Moment {
 
 #[pymethods]
 impl Moment {
-    /// When it was, the host's time, ns since 1970: the time that was asked for, or that of the newest list.
+    /// Returns its host time, ns since 1970: the time that was asked for, or that of the newest list.
     #[getter]
     fn host_ns(&self) -> u64 {
         self.stamp.host_ns()

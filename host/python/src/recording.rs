@@ -13,7 +13,7 @@ use taxel::client::{Event, ImageNews};
 use taxel::record::Play;
 use taxel::recording::{BoardRecording, Messages, Overview};
 
-/// How far messages are out of order in a recording, ns.
+/// Most by which messages are out of order in a recording, ns.
 const DISORDER_NS: u64 = 10_000_000_000;
 
 /// Contents of a recording: topics, times, attachments, metadata.

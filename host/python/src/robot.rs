@@ -42,11 +42,11 @@ struct OpenRobot {
     kept: Option<KeptMoments>,
     /// Host time of the begin, us.
     begun_us: u64,
-    /// What is reported next.
+    /// Facts that are reported next.
     waiting: VecDeque<Fact>,
 }
 
-/// What is made of a board's event, in the board's thread.
+/// Result of a board's event, in the board's thread.
 struct BoardFact {
     fact: Fact,
     /// None unless it is a list of contacts, and those are kept.
@@ -166,7 +166,7 @@ impl Robot {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is reported next; none if nothing has come for a while, and an outer none at the end.
+    /// Returns what is reported next; none if nothing has come for a while, and an outer none at the end.
     fn look(&self) -> anyhow::Result<Option<Option<Fact>>> {
         while self.asking.load(Ordering::Acquire) > 0 {
             std::thread::sleep(Duration::from_micros(100));
@@ -216,7 +216,7 @@ impl Robot {
 }
 
 impl Robot {
-    /// What is kept, as `find` finds it.
+    /// Returns what is kept, as `find` finds it.
     fn kept<T>(&self, find: impl FnOnce(&KeptMoments) -> T) -> anyhow::Result<T> {
         let open = self.interrupt();
         let Some(robot) = open.as_ref() else { return Err(argument("the robot is closed").into()) };
@@ -343,7 +343,7 @@ impl Robot {
         py.detach(|| self.take_input(&line)).map_err(raised)
     }
 
-    /// Why the robot's map has its activations now.
+    /// Returns why the robot's map has its activations now.
     #[pyo3(signature = (of=None))]
     fn why<'py>(&self, py: Python<'py>, of: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
         value::dict(py, &py.detach(|| self.reasons(of)).map_err(raised)?)

@@ -103,14 +103,14 @@ impl VirtualRobot {
         py.detach(|| self.take_input(&line, time_us)).map_err(raised)
     }
 
-    /// What touches the robot now: a dict for each touch.
+    /// Returns what touches the robot now: a dict for each touch.
     fn _touches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let touches =
             || Ok::<_, anyhow::Error>(serde_json::to_value(RobotTouchLine::all(self.lock().mind()))?);
         value::object(py, &py.detach(touches).map_err(raised)?)
     }
 
-    /// Why the robot's map has its activations now.
+    /// Returns why the robot's map has its activations now.
     #[pyo3(signature = (of=None))]
     fn why<'py>(&self, py: Python<'py>, of: Option<&str>) -> PyResult<Bound<'py, PyDict>> {
         let why = || {

@@ -10,7 +10,7 @@ import pytest
 
 
 def program(*words: str) -> str:
-    """What the command prints."""
+    """Returns what the command prints."""
     done = subprocess.run([sys.executable, "-m", "taxel", *words], check=True, capture_output=True, text=True)
     return done.stdout
 

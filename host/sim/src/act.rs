@@ -1,4 +1,4 @@
-//! What a hand does to the garment.
+//! Acts of a hand on the garment.
 
 use super::touch::Touch;
 use super::trace::{Knot, Trace};

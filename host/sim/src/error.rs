@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use taxel_core::garment::GarmentError;
 
-/// Why a script of touches is invalid, or does not fit a garment.
+/// Reason why a script of touches is invalid, or does not fit a garment.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScriptError {
@@ -21,9 +21,9 @@ pub enum ScriptError {
     /// The garment itself is invalid.
     #[error("garment {garment}: {why}")]
     Garment {
-        /// Its name.
+        /// Name of the garment.
         garment: String,
-        /// What is wrong.
+        /// Error of the garment.
         why: GarmentError,
     },
     /// The garment cannot be scanned, or has more select lines than the emulator takes.

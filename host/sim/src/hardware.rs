@@ -52,7 +52,7 @@ pub(super) struct Bus {
     pub now_ns: Cell<u64>,
     /// Time of the last change of a level.
     pub changed_ns: Cell<u64>,
-    /// What a hand has done since the last sample.
+    /// Acts of a hand since the last sample.
     pub acts: RefCell<Vec<Act>>,
 }
 

@@ -129,7 +129,7 @@ fn check_joint(joint: &Joint) -> Result<(), ScriptError> {
     within("fall_s", joint.fall_s.unwrap_or(0.0), 0.0..=LONGEST_S)
 }
 
-/// Also refuses NaN.
+/// Checks the range of a value; refuses NaN, too.
 fn within(key: &'static str, value: f64, range: RangeInclusive<f64>) -> Result<(), ScriptError> {
     if !range.contains(&value) {
         let text = format!("`{key}` is {value}, it must be {} to {}", range.start(), range.end());

@@ -113,7 +113,7 @@ pub struct Faults {
 pub struct Noisy {
     /// Number of the taxel.
     pub taxel: u16,
-    /// Its noise, counts rms.
+    /// Noise, counts rms.
     pub counts: f32,
 }
 
@@ -227,7 +227,7 @@ impl Script {
         posture(&self.joints, t_s)
     }
 
-    /// The same garment, which nothing touches and no joint bends.
+    /// Returns the same garment, which nothing touches and no joint bends.
     pub fn untouched(&self) -> Script {
         let (touches, traces, joints) = (Vec::new(), Vec::new(), Vec::new());
         Script { touches, traces, joints, ..self.clone() }

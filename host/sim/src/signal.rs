@@ -132,7 +132,7 @@ impl World {
         Ok(())
     }
 
-    /// What a hand does from a time on.
+    /// Takes what a hand does from a time on.
     pub(super) fn act(&mut self, act: Act, t_ns: u64) {
         self.pressure.forget(t_ns);
         // What has no place on the garment presses nothing: whoever plays it has checked it.

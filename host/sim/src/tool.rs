@@ -1,4 +1,4 @@
-//! What a hand presses the garment with.
+//! Tool with which a hand presses the garment.
 
 use super::footprint::is_too_fine;
 use super::pressure::pitch_mm;
@@ -45,7 +45,7 @@ impl Tool {
         [0.0, 45.0, 90.0].into_iter().all(fits)
     }
 
-    /// Its touch on a panel, without a path.
+    /// Returns its touch on a panel, without a path.
     pub fn trace(&self, panel: &str, angle_deg: f64) -> Trace {
         let size = Size::Both(self.size_mm);
         let size_mm = (self.size_mm != self.shape.usual_mm()).then_some(size);

@@ -35,7 +35,7 @@ impl Trace {
     }
 }
 
-/// Where a path has come to at a time.
+/// Place of a path at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Knot {
     /// Time, ns.
@@ -47,7 +47,7 @@ pub struct Knot {
 }
 
 impl Knot {
-    /// As in a path: `[t, x, y, N]`.
+    /// Returns it as in a path: `[t, x, y, N]`.
     pub fn written(&self) -> [f64; 4] {
         [self.t_ns as f64 / 1e9, self.at[0], self.at[1], self.force_n]
     }

@@ -110,7 +110,7 @@ pub fn refit(script: &Script, from: &Layout, to: &Layout) -> Script {
     fitted
 }
 
-/// The same relative place on another panel, taxels.
+/// Returns the same relative place on another panel, taxels.
 fn moved(at: [f64; 2], from: &Area, to: &Area) -> [f64; 2] {
     let sizes = [(from.columns, to.columns), (from.rows, to.rows)];
     // The panel extends half a taxel beyond its first and its last centre.

@@ -36,7 +36,7 @@ fn approach(from: f32, to: f32, since_ns: u64, tau_ns: f64) -> f32 {
     to + (from - to) * (-(since_ns as f64) / tau_ns).exp() as f32
 }
 
-/// For each taxel, the other taxels on its wired row and column within the block.
+/// Returns for each taxel the other taxels on its wired row and column within the block.
 pub(super) fn mates(garment: &Garment, decoder: &Decoder, taxels: usize) -> Vec<Vec<u16>> {
     let mut mates = vec![Vec::new(); taxels];
     for block in &garment.blocks {

@@ -73,7 +73,7 @@ class TouchEnv(gymnasium.Env[Image, np.int64]):
         return None
 
     def render(self) -> str | None:  # type: ignore[override,unused-ignore]
-        """What touches, in a line."""
+        """Returns what touches, in a line."""
         if self._frame is None or self.render_mode != "ansi":
             return None
         places = [f"{one['panel_name']}: {one['total']}" for one in self._frame.contacts]

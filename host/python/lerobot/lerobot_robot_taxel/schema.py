@@ -31,7 +31,7 @@ def _word(name: str) -> str:
 
 
 def _parts(presses: taxel.Wrench | None) -> list[float]:
-    """What presses on a link, in the order of ``PARTS``."""
+    """Returns force and moment on a link, in the order of ``PARTS``."""
     if presses is None:
         return [0.0] * len(PARTS)
     return [float(part) for parts in (presses.force, presses.moment, presses.center_m) for part in parts]

@@ -25,7 +25,7 @@ class Stream(Iterable[taxel.Event], Protocol):
 
 
 class Seen:
-    """What an observation holds."""
+    """Content of an observation."""
 
     def __init__(
         self,

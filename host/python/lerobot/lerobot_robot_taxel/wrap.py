@@ -37,7 +37,7 @@ class Wrapped:
 
     @property
     def is_calibrated(self) -> bool:
-        """Whether the robot is: a garment needs none."""
+        """True if the robot is: a garment needs none."""
         return bool(self.inner.is_calibrated)
 
     def connect(self, calibrate: bool = True) -> None:

@@ -34,7 +34,7 @@ SOURCE = f"sim:{Path(__file__).parent / 'hand.toml'}"
 
 
 class Device:
-    """What robots and teleoperators have in common here: nothing to set up."""
+    """Base of robots and teleoperators here: nothing to set up."""
 
     is_connected = False
     is_calibrated = True
@@ -84,7 +84,7 @@ class LeaderConfig(TeleoperatorConfig):
 
 
 class Leader(Device, Teleoperator):
-    """It does not move."""
+    """Leader that does not move."""
 
     config_class = LeaderConfig
     name = "stub"

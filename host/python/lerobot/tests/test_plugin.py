@@ -161,7 +161,7 @@ def test_nothing_is_simulated_in_place_of_a_board(tmp_path: Path, monkeypatch: p
 
 
 def recorded(file: Path, *words: str) -> bytes:
-    """What a pressed board sends in two seconds."""
+    """Returns what a pressed board sends in two seconds."""
     record = ["record", "--source", "sim:press", "--for", "2s", *words, "-o", str(file)]
     subprocess.run([sys.executable, "-m", "taxel", *record], check=True, capture_output=True)
     return b"".join(one.data for one in taxel.read(file).messages("/taxel/wire"))

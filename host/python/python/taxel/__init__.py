@@ -134,7 +134,7 @@ class VirtualRobot(_taxel.VirtualRobot):
     """
 
     def touches(self) -> list[RobotTouch]:
-        """What touches the robot now: ``board`` (its number), ``contact``, ``region``, ``link``, ``load``.
+        """Contacts on the robot now: ``board`` (its number), ``contact``, ``region``, ``link``, ``load``.
 
         ``mover`` is ``own`` if the robot's own motion has caused the touch, ``other`` or ``unsure``; ``approach`` is how
         the robot's surface moved before the onset, if that is known: ``normal_m_s`` outwards, ``speed_m_s`` in all.

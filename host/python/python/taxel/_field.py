@@ -1,4 +1,4 @@
-"""How an event, and a part of one, has attributes."""
+"""Attributes of an event, and of a part of one."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Field(Generic[T_co]):
 
 
 def each(made: Callable[[Any], T]) -> Callable[[list[Any]], list[T]]:
-    """What makes a list of the items of a list."""
+    """Returns what makes a list of the items of a list."""
     return lambda items: [made(item) for item in items]
 
 

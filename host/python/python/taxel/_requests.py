@@ -1,4 +1,4 @@
-"""What a program asks of a board."""
+"""Requests of a program to a board."""
 
 from __future__ import annotations
 

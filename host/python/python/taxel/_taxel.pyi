@@ -98,7 +98,7 @@ class Moment:
 
     @property
     def host_ns(self) -> int:
-        """When it was, the host's time, ns since 1970: the time that was asked for, or that of the newest list."""
+        """Host time, ns since 1970: the time that was asked for, or that of the newest list."""
     @property
     def host_time_uncertainty_us(self) -> int | None:
         """The most by which that is off, us; None if the board has not answered yet."""
@@ -143,7 +143,7 @@ class Robot:
     def set_joints(self, positions: dict[str, float], *, age_ms: int = 0) -> None:
         """Sends positions of the robot's joints, rad or m, of this age."""
     def why(self, of: str | None = None) -> dict[str, Any]:
-        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
+        """Returns why the robot's map has its activations now: of a concept, else of the intention that leads.
 
         It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
         the contacts of each board, and why each board announced what it did.
@@ -215,7 +215,7 @@ class VirtualRobot:
         """Sends positions of the robot's joints, rad or m, at a time, of this age."""
     def _touches(self) -> list[dict[str, Any]]: ...
     def why(self, of: str | None = None) -> dict[str, Any]:
-        """Why the robot's map has its activations now: of a concept, else of the intention that leads.
+        """Returns why the robot's map has its activations now: of a concept, else of the intention that leads.
 
         It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
         the contacts of each board, and why each board announced what it did.
@@ -268,8 +268,8 @@ class Map:
     ) -> dict[str, Any]:
         """Explains a concept's activation in numbers that add up, and what would change it."""
     def check(self) -> dict[str, Any]:
-        """What is to be said about the map: concepts that cannot be reached, whether it settles, whether it fits
-        the board.
+        """Returns what is to be said about the map: concepts that cannot be reached, whether it settles, whether it
+        fits the board.
         """
     def draw(self) -> str:
         """The map in DOT."""

@@ -1,4 +1,4 @@
-"""What the garment's folds press on it where a joint bends: learned from sweeps, subtracted by the board.
+"""Pressure of the garment's folds on it where a joint bends: learned from sweeps, subtracted by the board.
 
 A sweep is what every taxel felt while joints moved and nothing touched the garment. Take one on each of several
 days, put the garment on anew between them, and give the table to the board:
@@ -32,7 +32,7 @@ __all__ = ["Learned", "Sweep", "learn"]
 
 @dataclass(frozen=True)
 class Sweep:
-    """What every taxel felt on one day."""
+    """Pressure on every taxel on one day."""
 
     degrees: Mapping[str, npt.ArrayLike]
     """Angle of each joint, (n,) degrees, as the board knew it."""
@@ -42,12 +42,12 @@ class Sweep:
 
 @dataclass(frozen=True)
 class Learned:
-    """What was learned."""
+    """Result of learning."""
 
     table: bytes
     """The table, for a board."""
     folds: list[dict[str, Any]]
-    """Of each fold: ``joints``; ``pressed`` and ``beside``, the taxels that were pressed and those that a shift
+    """Result of each fold: ``joints``; ``pressed`` and ``beside``, the taxels that were pressed and those that a shift
     may bring there; ``knots``, ``step_deg``, ``play_deg``; ``strongest``, counts; ``explained``, share of the
     variance; ``flash_bytes``, ``ram_bytes``."""
 

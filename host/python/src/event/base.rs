@@ -1,4 +1,4 @@
-//! What all events have.
+//! Base of all events.
 
 use super::fact::Fact;
 use crate::error::{argument, raised};
@@ -8,12 +8,12 @@ use pyo3::types::PyDict;
 use serde_json::Value;
 use std::sync::{Mutex, PoisonError};
 
-/// What an event is made of, once.
+/// Parts of which an event is made, once.
 #[pyclass(frozen, module = "taxel")]
 pub struct EventParts(Mutex<Option<Fact>>);
 
 impl EventParts {
-    /// Of an event.
+    /// Makes the parts of an event.
     pub fn new(fact: Fact) -> EventParts {
         EventParts(Mutex::new(Some(fact)))
     }

@@ -10,7 +10,7 @@ use taxel::json::MessagePrinter;
 /// An event.
 #[derive(Clone)]
 pub struct Fact {
-    /// Its JSON line.
+    /// JSON line.
     pub line: Value,
     /// The host's time, ns since 1970.
     pub host_ns: u64,
@@ -40,7 +40,7 @@ impl Default for FactReader {
 }
 
 impl FactReader {
-    /// Of a board; contacts of its frames have a force in newtons while it uses this calibration.
+    /// Makes the reader of a board; contacts of its frames have a force in newtons while it uses this calibration.
     pub fn new(calibration: Option<Calibration>) -> FactReader {
         let messages = MessagePrinter::new(false, io::empty()).calibrated(calibration);
         FactReader { panels: Panels::from([]), messages }
