@@ -29,7 +29,7 @@ def by_type(heard):
 def test_words_reactions_and_intention_say_what_json_says(listener, tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text('[[react]]\nname = "pressed"\ncause = "contacts"\nlevel = 1\n')
-    heard = listener.hear(String, "/taxel/json")
+    said = listener.hear(String, "/taxel/json")
     heard = [
         (listener.hear(Symbols, "/taxel/symbols"), "symbols", fields.symbols),
         (listener.hear(Intent, "/taxel/intent"), "intent", fields.intent),
@@ -39,7 +39,7 @@ def test_words_reactions_and_intention_say_what_json_says(listener, tmp_path):
         reactions = heard[2][0].messages
         listener.spin(lambda: {one.active for one in reactions} == {True, False}, 20)
         listener.rest(2)
-    lines = by_type(heard)
+    lines = by_type(said)
     for got, kind, same in heard:
         compared = 0
         for message in got.messages:
@@ -55,7 +55,7 @@ def test_health_is_sent_to_who_comes_later(listener):
         listener.rest(3)
         health = listener.hear(Health, "/taxel/health", LATCHED)
         diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
-        heard = listener.hear(String, "/taxel/json")
+        said = listener.hear(String, "/taxel/json")
         listener.spin(lambda: len(diagnostics.messages) > 1 and len(health.messages) > 1)
     of_health = [all_lines for (kind, _), all_lines in by_type(heard).items() if kind == "health"]
     lines = {line["scans"]: line for all_lines in of_health for line in all_lines}
@@ -103,10 +103,10 @@ def test_images_points_and_forces_agree(listener):
 def test_with_clock_the_stamps_are_the_boards_time(listener):
     clock = listener.hear(Clock, "/clock")
     contacts = listener.hear(Contacts, "/taxel/contacts")
-    heard = listener.hear(String, "/taxel/json")
+    said = listener.hear(String, "/taxel/json")
     with taxel("--source", "sim:five", "--clock"):
         listener.spin(lambda: len(contacts.messages) > 50 and len(clock.messages) > 200, 20)
-    lines = by_type(heard)
+    lines = by_type(said)
     frames = [one for one in contacts.messages if ("contacts", one.frame) in lines]
     assert len(frames) > 20
     for one in frames:

@@ -12,12 +12,12 @@ from ._taxel import Event
 
 @final
 class Boot(Part):
-    """Why the board has started."""
+    """Start of the board."""
 
     cause = Field[str]("``power``, ``pin``, ``watchdog``, ``panic``, ``request`` or ``other``.")
     resets = Field[int]("Resets by watchdog or panic up to this one, each less than a minute after the one before.")
     aside = Field[str](
-        "Why the stored settings are not in use: ``no`` (they are), ``resets``, ``pin`` or ``request``."
+        "Reason why the stored settings are not in use: ``no`` (they are), ``resets``, ``pin`` or ``request``."
     )
 
 
@@ -44,7 +44,7 @@ class Hello(Event):
     garment = Field[str]("Name of the garment.")
     scene = Field[str]("Name of the scene.")
     calibration = Field[str]("Id, date and fit of the calibration in force; empty without one: values are counts.")
-    boot = Field[Boot | None](Boot, "Why the board has started; None if it does not know.")
+    boot = Field[Boot | None](Boot, "Start of the board; None if it does not know it.")
     taxels = Field[int]("Number of taxels.")
     regions = Field[list[str]]("Names of the regions of the body.")
     panels = Field[list[HelloPanel]](each(HelloPanel), "The panels, in the order of their taxels.")
@@ -177,7 +177,7 @@ class Push(Part):
 
 @final
 class Uncertain(Part):
-    """What saturated and faulty taxels leave unknown of a force and its place."""
+    """Uncertainty of a force and its place by saturated and faulty taxels."""
 
     saturated = Field[int]("Number of saturated taxels: with one or more, the force is the least that it may be.")
     faulty = Field[int]("Number of faulty taxels under the contact, or at its edge.")
@@ -195,15 +195,15 @@ class PlacedContact(Part):
     at_m = Field[tuple[float, float, float]](tuple, "Place, m.")
     normal = Field[tuple[float, float, float]](tuple, "Direction away from the robot.")
     force = Field[tuple[int, int, int]](tuple, "Force, counts.")
-    base = Field[Push | None](Push, "The same in the frame of the poses; None without a pose of the link.")
+    base = Field[Push | None](Push, "Place in the frame of the poses; None without a pose of the link.")
     uncertain = Field[Uncertain | None](Uncertain,
-        "What saturated and faulty taxels leave unknown; None if there is none."
+        "Uncertainty by saturated and faulty taxels; None if there is none."
     )
 
 
 @final
 class Wrench(Part):
-    """What presses on a link, in its frame."""
+    """Force and moment on a link, in its frame."""
 
     link = Field[str]("Name of the link.")
     force = Field[tuple[int, int, int]](tuple, "Sum of the taxels' forces along their normals, counts.")
@@ -211,13 +211,13 @@ class Wrench(Part):
     pressed = Field[int]("Sum of their magnitudes, counts.")
     center_m = Field[tuple[float, float, float]](tuple, "Centre of pressure, m.")
     uncertain = Field[Uncertain | None](Uncertain,
-        "What saturated and faulty taxels leave unknown; None if there is none."
+        "Uncertainty by saturated and faulty taxels; None if there is none."
     )
 
 
 @final
 class Pressing(Event):
-    """What presses on the robot."""
+    """Contacts and forces on the robot."""
 
     frame = Field[int]("Number of the scan.")
     time_us = Field[int]("Start of the scan, us of the board.")
@@ -246,7 +246,7 @@ class FoldDoubt(Part):
 
 @final
 class Folds(Event):
-    """What the garment's folds are expected to press."""
+    """Expected pressure of the garment's folds."""
 
     frame = Field[int]("Number of the scan.")
     time_us = Field[int]("Start of the scan, us of the board.")
@@ -265,15 +265,15 @@ class Folds(Event):
 
 @final
 class SurfaceRegion(Part):
-    """What a region of the surface feels."""
+    """Touch state of a region of the surface."""
 
     region = Field[str]("Name of the region.")
     phase = Field[str](
         "``free``; ``onset`` for the first 150 ms of a touch; ``held``; ``moving``; ``released`` for 0.5 s."
     )
     way = Field[str](
-        "Where it moves to: ``forward``, ``back``, ``left``, ``right``, ``up``, ``down`` or ``none``; x is forward, y "
-        "to the left and z up, in the frame of the poses or, without a pose, of the link."
+        "Direction in which the touch moves: ``forward``, ``back``, ``left``, ``right``, ``up``, ``down`` or "
+        "``none``; x is forward, y to the left and z up, in the frame of the poses or, without a pose, of the link."
     )
     contacts = Field[int]("Number of contacts in it.")
     strength = Field[str](
@@ -286,7 +286,7 @@ class SurfaceRegion(Part):
 
 @final
 class Regions(Event):
-    """What each region of the robot's surface feels: when one of them changes, and once a second."""
+    """Touch state of each region of the robot's surface: when one of them changes, and once a second."""
 
     frame = Field[int]("Number of the scan.")
     time_us = Field[int]("Start of the scan, us of the board.")
@@ -321,7 +321,7 @@ class Reflex(Event):
     other = Field[int | None]("The taxel that agrees, if two must; else None.")
     index = Field[int]("Row of the scene's table, from 0.")
     taxel = Field[int]("The taxel that decided.")
-    value = Field[int]("Its pressure, counts.")
+    value = Field[int]("Pressure of the taxel, counts.")
     time_us = Field[int]("Time at which the deciding part of the scan had been read, us of the board.")
 
 
@@ -369,7 +369,7 @@ class FaultyTaxel(Part):
     """A faulty taxel."""
 
     taxel = Field[int]("Number of the taxel.")
-    health = Field[str]("Its fault, for people.")
+    health = Field[str]("Fault, for people.")
 
 
 @final
@@ -421,7 +421,7 @@ class Sync(Event):
 
 @final
 class StartOfFrame(Event):
-    """When a frame of the USB began."""
+    """Start of a frame of the USB."""
 
     number = Field[int]("Number of the frame, 0 to 2047.")
     noticed_us = Field[int]("Time at which the board noticed its start, us of the board.")
@@ -433,7 +433,7 @@ class Answer(Event):
     """Answer to another request."""
 
     request = Field[str]("Name of the request.")
-    refusal = Field[str | None]("Why it was refused; None if it was done.")
+    refusal = Field[str | None]("Reason why it was refused; None if it was done.")
 
 
 @final
@@ -456,7 +456,7 @@ class Refused(Event):
 class Lost(Event):
     """The link to the board is lost, and waited for. What was present has ended just before."""
 
-    since_us = Field[int]("When the board was last heard, the host's time, us since 1970.")
+    since_us = Field[int]("Host time at which the board was last heard, us since 1970.")
     why = Field[str]("The reason, for people.")
 
 
@@ -464,20 +464,20 @@ class Lost(Event):
 class Back(Event):
     """The lost board is back, and its settings are restored."""
 
-    after_s = Field[float]("How long it was lost, s.")
-    how = Field[str]("Whether it had restarted and what was set again, for people.")
+    after_s = Field[float]("Time for which it was lost, s.")
+    how = Field[str]("Words on whether it had restarted and what was set again, for people.")
 
 
 @final
 class Other(Event):
     """Another board answers in place of the one before."""
 
-    why = Field[str]("How it differs, for people.")
+    why = Field[str]("Difference, for people.")
 
 
 @final
 class Approach(Part):
-    """How the robot's surface moved shortly before a contact."""
+    """Motion of the robot's surface shortly before a contact."""
 
     normal_m_s = Field[float]("Speed along the normal, m/s; positive outwards.")
     speed_m_s = Field[float]("Whole speed, m/s.")
@@ -485,7 +485,7 @@ class Approach(Part):
 
 @final
 class Probe(Part):
-    """What a limb feels of an object."""
+    """Properties of an object that a limb feels."""
 
     hardness = Field[int | None](
         "Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before that "
@@ -504,21 +504,21 @@ class RobotTouch(Part):
     contact = Field[int]("Id of the board's contact.")
     region = Field[str]("Region on which it lies.")
     link = Field[str]("Link on which it lies.")
-    load = Field[int]("Its pressure, counts; with a calibration in force its force, thousandths of a newton.")
+    load = Field[int]("Pressure, counts; with a calibration in force the force, thousandths of a newton.")
     mover = Field[str](
         "``own`` if the robot's motion has caused it, ``other`` if that of what touches it, or ``unsure``."
     )
     approach = Field[Approach | None](Approach,
-        "How the robot's surface moved before the onset; absent if it is not known."
+        "Motion of the robot's surface before the onset; absent if it is not known."
     )
     probe = Field[Probe | None](Probe,
-        "What the robot feels of the object that it has moved into; absent of what touches it."
+        "Properties of the object that the robot has moved into; absent of what touches it."
     )
 
 
 @final
 class RobotIntent(Event):
-    """What the touches of all boards mean together."""
+    """Meaning of the touches of all boards together."""
 
     host_time_us = Field[int]("The host's time, us since 1970.")
     leading = Field[str]("The announced intention: ``none``, ``kindness``, ``threat`` or ``attack``.")
@@ -528,19 +528,19 @@ class RobotIntent(Event):
         "Inputs of the map for which nothing is known that is young enough, so that its default counts: names of "
         "their concepts."
     )
-    touches = Field[list[RobotTouch]](each(RobotTouch), "What touches the robot, and whose motion has caused it.")
+    touches = Field[list[RobotTouch]](each(RobotTouch), "Contacts on the robot, and whose motion has caused them.")
 
 
 @final
 class BoardState(Event):
-    """How a board of a robot is."""
+    """State of a board of a robot."""
 
     state = Field[str]("``absent``, ``met``, ``lost``, ``back``, ``other``, ``dropped``, ``over`` or ``failed``.")
     host_time_us = Field[int]("The host's time, us since 1970.")
-    since_us = Field[int | None]("When a lost board was last heard, the host's time, us since 1970.")
-    after_s = Field[float | None]("How long a board was gone that is back, s.")
+    since_us = Field[int | None]("Host time at which a lost board was last heard, us since 1970.")
+    after_s = Field[float | None]("Time for which a board was gone that is back, s.")
     images = Field[int | None]("Images dropped so far.")
-    why = Field[str | None]("Why.")
+    why = Field[str | None]("Reason of the state.")
 
 
 #: The class of each type of message.

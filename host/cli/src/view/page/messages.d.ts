@@ -21,13 +21,13 @@ export type PageHello = {
   scene: string;
   /** Id, date and fit of the calibration in force; empty without one: values are counts. */
   calibration: string;
-  /** Why the board has started; null if it does not know. */
+  /** Start of the board; null if it does not know it. */
   boot: {
     /** `power`, `pin`, `watchdog`, `panic`, `request` or `other`. */
     cause: string;
     /** Resets by watchdog or panic up to this one, each less than a minute after the one before. */
     resets: number;
-    /** Why the stored settings are not in use: `no` (they are), `resets`, `pin` or `request`. */
+    /** Reason why the stored settings are not in use: `no` (they are), `resets`, `pin` or `request`. */
     aside: string;
   } | null;
   /** Number of taxels. */
@@ -93,7 +93,7 @@ export type PageHello = {
       name: string;
       /** Layer in the drawing, from 0. */
       layer: number;
-      /** Its part: `felt`, `meaning` or `feeling`. */
+      /** Part of the concept: `felt`, `meaning` or `feeling`. */
       role: string;
     }[];
     /** The edges whose weight is not 0. */
@@ -146,7 +146,7 @@ export type HealthMapLine = {
   faulty: {
     /** Number of the taxel. */
     taxel: number;
-    /** Its fault, for people. */
+    /** Fault, for people. */
     health: string;
   }[];
 };
@@ -179,7 +179,7 @@ export type BudgetLine = {
 export type LostLine = {
   /** Type of the message. */
   type: "lost";
-  /** When the board was last heard, the host's time, us since 1970. */
+  /** Host time at which the board was last heard, us since 1970. */
   since_us: number;
   /** The reason, for people. */
   why: string;
@@ -304,22 +304,22 @@ export type ImageHead = {
     }[] | null;
     /** Force on each panel by the calibration in force, N; null where a panel has none, absent without a calibration. */
     force_n?: (number | null)[] | null;
-    /** What is felt, for people. */
+    /** Touch that is felt, for people. */
     felt: {
       /** The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`. */
       what: string;
-      /** The same with the greatest force of the strongest touch so far: reported once it has ended. */
+      /** Such a text with the greatest force of the strongest touch so far: reported once it has ended. */
       peak: string;
       /** The announced intention, or why none is; empty while nothing touches. */
       meaning: string;
     };
     /** Shape of each contact for people: `touch` unless the recogniser is sure of it. */
     shapes: string[];
-    /** Of a recording: time since its beginning, us. */
+    /** Time since the beginning, us, of a recording. */
     at_us?: number;
-    /** Of a recording: number of jumps in time. */
+    /** Number of jumps in time, of a recording. */
     seeks?: number;
-    /** What presses on the robot; absent without a body. */
+    /** Contacts and forces on the robot; absent without a body. */
     pressing?: {
       /** Type of the message. */
       type: "pressing";
@@ -345,7 +345,7 @@ export type ImageHead = {
         normal: [number, number, number];
         /** Force, counts. */
         force: [number, number, number];
-        /** The same in the frame of the poses; null without a pose of the link. */
+        /** Place in the frame of the poses; null without a pose of the link. */
         base: {
           /** Place, m. */
           at_m: [number, number, number];
@@ -354,7 +354,7 @@ export type ImageHead = {
           /** Force, counts. */
           force: [number, number, number];
         } | null;
-        /** What saturated and faulty taxels leave unknown; null if there is none. */
+        /** Uncertainty by saturated and faulty taxels; null if there is none. */
         uncertain: {
           /** Number of saturated taxels: with one or more, the force is the least that it may be. */
           saturated: number;
@@ -380,7 +380,7 @@ export type ImageHead = {
         pressed: number;
         /** Centre of pressure, m. */
         center_m: [number, number, number];
-        /** What saturated and faulty taxels leave unknown; null if there is none. */
+        /** Uncertainty by saturated and faulty taxels; null if there is none. */
         uncertain: {
           /** Number of saturated taxels: with one or more, the force is the least that it may be. */
           saturated: number;
@@ -406,7 +406,7 @@ export type ImageHead = {
   missed: number;
 };
 
-/** Where the taxels lie on the robot. */
+/** Places of the taxels on the robot. */
 export type BodyLine = {
   /** Type of the message. */
   type: "body";
@@ -414,7 +414,7 @@ export type BodyLine = {
   name: string;
   /** The links: all of a robot, each after its parent; without a robot those that taxels lie on. */
   links: {
-    /** Its name. */
+    /** Name of the link. */
     name: string;
     /** Number of the link that it hangs on; null for the root, and without a robot. */
     parent: number | null;
@@ -423,7 +423,7 @@ export type BodyLine = {
   taxels: ([number, [number, number, number], [number, number, number]] | null)[];
 };
 
-/** Where the links of the robot are. */
+/** Poses of the robot's links. */
 export type PosesLine = {
   /** Type of the message. */
   type: "poses";
@@ -436,7 +436,7 @@ export type PosesLine = {
   }>;
 };
 
-/** What the robot looks like. */
+/** Figure of the robot. */
 export type FigureLine = {
   /** Type of the message. */
   type: "figure";
@@ -451,7 +451,7 @@ export type FigureLine = {
   }[];
 };
 
-/** Where the garment folds. The docs of the fields are the descriptions in `view/page/messages.d.ts`. */
+/** Folds of the garment at its posture. The docs of the fields are the descriptions in `view/page/messages.d.ts`. */
 export type FoldingLine = {
   /** Type of the message. */
   type: "folding";
@@ -529,7 +529,7 @@ export type SayLine = {
   type: "say";
   /** `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`. */
   kind: string;
-  /** Its time, us of the board; null if it has none. */
+  /** Time, us of the board; null if it has none. */
   time_us: number | null;
   /** The sentence. */
   said: string;
@@ -539,13 +539,13 @@ export type SayLine = {
 export type LogLine = {
   /** Type of the message. */
   type: "log";
-  /** Its lines, the oldest first. */
+  /** Lines, the oldest first. */
   said: {
     /** Type of the message. */
     type: "say";
     /** `onset`, `release`, `intention`, `reaction`, `gesture`, `gap` or `note`. */
     kind: string;
-    /** Its time, us of the board; null if it has none. */
+    /** Time, us of the board; null if it has none. */
     time_us: number | null;
     /** The sentence. */
     said: string;
@@ -558,7 +558,7 @@ export type WhyLine = {
   type: "why";
   /** Name of the concept. */
   concept: string;
-  /** Its activation, -1 to 1. */
+  /** Activation, -1 to 1. */
   activation: number;
   /** Share of each input over all its paths, the greatest first. */
   inputs: [string, number][];
@@ -583,7 +583,7 @@ export type EndLine = {
   text: string;
 };
 
-/** What can press the garment of a simulated board. */
+/** Tools that can press the garment of a simulated board. */
 export type HandLine = {
   /** Type of the message. */
   type: "hand";
@@ -673,9 +673,9 @@ export type RobotLine = {
     name: string;
     /** `live`, or `absent`, `lost`, `other`, `over`, `failed`: its picture is not live. */
     state: string;
-    /** When it was last live, the host's time, us since 1970; null if it is, or never was. */
+    /** Host time at which it was last live, us since 1970; null if it is, or never was. */
     since_us: number | null;
-    /** Why it is not live. */
+    /** Reason why it is not live. */
     why: string | null;
     /** Contacts on it. */
     contacts: number;
@@ -686,7 +686,7 @@ export type RobotLine = {
   }[];
 };
 
-/** What the touches of all boards mean to the robot. */
+/** Meaning of the touches of all boards to the robot. */
 export type RobotIntentLine = {
   /** Type of the message. */
   type: "robot_intent";
@@ -700,7 +700,7 @@ export type RobotIntentLine = {
   concepts: Record<string, number>;
   /** Inputs of the map for which nothing is known that is young enough, so that its default counts: names of their concepts. */
   defaults: string[];
-  /** What touches the robot, and whose motion has caused it. */
+  /** Contacts on the robot, and whose motion has caused them. */
   touches: {
     /** Number of the board, in the order of the robot's file. */
     board: number;
@@ -710,18 +710,18 @@ export type RobotIntentLine = {
     region: string;
     /** Link on which it lies. */
     link: string;
-    /** Its pressure, counts; with a calibration in force its force, thousandths of a newton. */
+    /** Pressure, counts; with a calibration in force the force, thousandths of a newton. */
     load: number;
     /** `own` if the robot's motion has caused it, `other` if that of what touches it, or `unsure`. */
     mover: string;
-    /** How the robot's surface moved before the onset; absent if it is not known. */
+    /** Motion of the robot's surface before the onset; absent if it is not known. */
     approach?: {
       /** Speed along the normal, m/s; positive outwards. */
       normal_m_s: number;
       /** Whole speed, m/s. */
       speed_m_s: number;
     };
-    /** What the robot feels of the object that it has moved into; absent of what touches it. */
+    /** Properties of the object that the robot has moved into; absent of what touches it. */
     probe?: {
       /** Greatest force over greatest depth, counts/mm, the depth of at least half a millimetre; none before that depth or 2,000 counts. */
       hardness?: number;
@@ -750,7 +750,7 @@ export type PageRequest = {
     concepts: number[];
   };
 } | {
-  /** What a finger does. */
+  /** Press of a finger. */
   press: {
     /** Number of the finger, 0 to 9. */
     finger: number;
@@ -770,7 +770,7 @@ export type PageRequest = {
 } | {
   script: string;
 } | {
-  /** What happens to what was pressed. */
+  /** Order about what was pressed. */
   hand: "again" | "clear";
 } | {
   play: boolean;
