@@ -11,6 +11,7 @@
 //! | `event` | events as Python objects |
 //! | `request` | requests to a board |
 //! | `keywords` | keywords as a board's configuration |
+//! | `garment` | `Garment`: panels of taxels |
 //! | `board` | `Board`: a board's stream |
 //! | `moments` | `Moment`: what the boards of a robot have said lately, by the time that they share |
 //! | `robot` | `Robot`: all boards of a robot as one stream |
@@ -36,6 +37,8 @@ mod event;
 mod request;
 
 mod keywords;
+
+mod garment;
 
 mod board;
 
@@ -70,6 +73,7 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(program::run_program, module)?)?;
+    module.add_class::<garment::Garment>()?;
     module.add_class::<board::Board>()?;
     module.add_class::<moments::Moment>()?;
     module.add_class::<robot::Robot>()?;

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import urllib.request
+from pathlib import Path
+
 import numpy as np
 import pytest
 import taxel
@@ -50,6 +53,50 @@ def test_the_box_of_a_contact_holds_its_taxels() -> None:
     assert inside.sum() == contact["total"] == image.sum()
 
 
+def test_any_array_is_seen_and_recorded(tmp_path: Path) -> None:
+    mat = taxel.Garment.grid(12, 21, pitch_mm=(10, 12.5), name="mat")
+    assert (mat.taxels, mat.panels, repr(mat)) == (252, {"mat": (12, 21)}, "Garment('mat': mat 12x21)")
+    file = tmp_path / "mat.mcap"
+    rest, codes = np.full((12, 21), 8, np.uint8), np.full((12, 21), 8, np.uint8)
+    codes[4:6, 9:12] = 120
+    with taxel.VirtualBoard(mat, full_scale=255, record=file, view=True) as board:
+        assert board.shape == (12, 21) and board.page is not None
+        with urllib.request.urlopen(board.page) as page:
+            assert b"taxel" in page.read()
+        board.tare(frames=8)
+        events = [event for at in range(90) for event in board.step(rest if at < 20 else codes, at * 16_667)]
+    frames = [event for event in events if isinstance(event, taxel.Frame)]
+    (contact,) = frames[-1].contacts
+    # 112 of 255 are 1799 of 4095.
+    assert (contact["area"], contact["total"]) == (6, 6 * 1799)
+    assert (contact["x_mm"], contact["y_mm"]) == (100.0, 4.5 * 12.5)
+    recorded = taxel.read(file)
+    assert recorded.is_whole and recorded.metadata["taxel"]["garment"] == "mat"
+    assert [frame.image.tobytes() for frame in recorded.frames() if frame.image is not None] == [
+        frame.image.tobytes() for frame in frames if frame.image is not None
+    ]
+    with pytest.raises(taxel.Error, match="mat.mcap"):
+        taxel.VirtualBoard(mat, record=file)
+
+
+def test_grids_and_scans_that_cannot_be_are_refused() -> None:
+    for options, why in [
+        ({"rows": 0, "columns": 4}, "rows"),
+        ({"rows": 64, "columns": 64}, "4096 taxels"),
+        ({"rows": 4, "columns": 4, "pitch_mm": 0.1}, "0.5 to 200"),
+        ({"rows": 4, "columns": 4, "name": ""}, "no name"),
+    ]:
+        with pytest.raises(taxel.UsageError, match=why):
+            taxel.Garment.grid(**options)  # type: ignore[arg-type]
+    board = taxel.VirtualBoard(taxel.Garment.grid(12, 21), full_scale=255)
+    with pytest.raises(taxel.UsageError, match=r"\(21, 12\) for a garment that takes \(12, 21\) or \(252,\)"):
+        board.step(np.zeros((21, 12), np.uint8), 0)
+    with pytest.raises(taxel.UsageError, match="code 256 of taxel 3 is beyond full_scale=255"):
+        board.step([0, 0, 0, 256] + [0] * 248, 0)
+    with pytest.raises(taxel.UsageError, match="full_scale"):
+        taxel.VirtualBoard(full_scale=0)
+
+
 def test_codes_are_checked() -> None:
     board = taxel.VirtualBoard("block-4x16")
     assert board.taxels == 64
@@ -59,7 +106,7 @@ def test_codes_are_checked() -> None:
         board.step(np.zeros(64), 0)
     with pytest.raises(taxel.UsageError, match="0 to 65535"):
         board.step(np.full(64, -1), 0)
-    with pytest.raises(TypeError):
+    with pytest.raises(taxel.UsageError, match=r"\(8, 8\) for a garment that takes \(4, 16\) or \(64,\)"):
         board.step(np.zeros((8, 8), np.uint16), 0)
     board.step([100] * 64, 5000)
     with pytest.raises(taxel.UsageError, match="before the last one"):

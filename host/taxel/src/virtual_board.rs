@@ -31,10 +31,10 @@ use crate::error::{Context, Result, SourceError, UsageError};
 use crate::source::{lasting, simulated_info};
 use std::thread;
 use taxel_core::acquire::{Scan, ScanReport};
-use taxel_core::board::{Board, Input, Job, PieceToStore, Shipped};
+use taxel_core::board::{Board, BoardInfo, Input, Job, PieceToStore, Shipped};
 use taxel_core::boot::Boot;
 use taxel_core::format::{Code, Micros};
-use taxel_core::garment::Garment;
+use taxel_core::garment::{Area, Garment};
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
 
@@ -48,6 +48,15 @@ const MOST_JOBS: usize = 1000;
 /// Receives an event; the client already includes it. [`Error::other`](crate::Error::other) holds an error of
 /// its own.
 pub type EventSink<'a> = dyn FnMut(&Client, &Event) -> Result<()> + 'a;
+
+/// The board for a garment: without a converter if the garment has no wiring, because its codes come from elsewhere.
+fn info(garment: &Garment) -> BoardInfo {
+    let mut info = simulated_info(garment);
+    if garment.blocks.is_empty() {
+        info.pins.inputs = 0;
+    }
+    info
+}
 
 /// A board without pins, without a converter and without a clock.
 pub struct VirtualBoard {
@@ -65,7 +74,7 @@ impl VirtualBoard {
     /// A board as after power-up, whose whole stream is requested. Error if the garment or the scene does not
     /// fit the board.
     pub fn new(garment: Garment, scene: Scene) -> Result<VirtualBoard> {
-        let build = move || Board::new(simulated_info(&garment), garment, scene).map(Box::new);
+        let build = move || Board::new(info(&garment), garment, scene).map(Box::new);
         let builder = thread::Builder::new().name("board".into()).stack_size(STACK).spawn(build)?;
         let mut board =
             builder.join().map_err(|_| error!(SourceError::Unstarted, "the board could not be built"))??;
@@ -87,6 +96,11 @@ impl VirtualBoard {
             folds.table().into_iter().flat_map(|table| table.folded()).flat_map(|(_, taxels)| taxels);
         let reported = |taxel: &u16| folds.of(*taxel).map(|[expected, doubt]| [*taxel, expected, doubt]);
         taxels.filter_map(reported).collect()
+    }
+
+    /// Panels of the garment.
+    pub fn areas(&self) -> &[Area] {
+        self.board.setup().layout.areas()
     }
 
     /// The client, for requests; they reach the board with the next step.
@@ -162,7 +176,7 @@ impl VirtualBoard {
 
     /// All lines and inputs are good.
     fn examined(&mut self, now: Micros) {
-        let inputs = simulated_info(&self.board.setup().garment).pins.inputs.count_ones() as u8;
+        let inputs = info(&self.board.setup().garment).pins.inputs.count_ones() as u8;
         let lines = self.board.circuit().lines().len() as u8;
         let findings = Findings { lines, inputs, ..Findings::default() };
         self.board.step(now, Input::Examined(Ok(findings)), &mut ());

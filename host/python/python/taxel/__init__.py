@@ -31,6 +31,7 @@ from ._taxel import (
     BoardError,
     Error,
     Event,
+    Garment,
     Moment,
     UsageError,
     __version__,
@@ -45,6 +46,7 @@ __all__ = [
     "BoardError",
     "Error",
     "Event",
+    "Garment",
     "Images",
     "Message",
     "Moment",
@@ -145,26 +147,47 @@ class VirtualRobot(_taxel.VirtualRobot):
 class VirtualBoard(_taxel.VirtualBoard, Requests):
     """The very board, stepped by hand: the codes of a scan and a time in, events out. Nothing waits.
 
-    ``garment`` is the name of a preset or a TOML file, ``scene`` a TOML file or its text; by default those
-    that ship. Requests reach it with the next step.
+    - ``garment``: a ``Garment``, the name of a preset, or a TOML file
+    - ``scene``: a TOML file or its text; by default the one that ships
+    - ``full_scale``: code of a full scan, 1 to 65535: 255 of an array of 8 bits. Counts are those of 12 bits, 0 to 4095
+    - ``record``: path of a recording, complete once the board is closed; ``overwrite`` replaces an existing file
+    - ``view``: shows the board in the browser, at its ``page``
+
+    Requests reach it with the next step.
 
     >>> import numpy as np, taxel
-    >>> board = taxel.VirtualBoard("block-4x16")
+    >>> board = taxel.VirtualBoard(taxel.Garment.grid(12, 21, pitch_mm=10), full_scale=255)
     >>> board.tare(frames=8)
-    >>> codes = np.full(board.taxels, 100, np.uint16)
+    >>> codes = np.full((12, 21), 8, np.uint8)
     >>> for frame in range(30):
     ...     if frame == 20:
-    ...         codes[20:24] = 900
-    ...     events = board.step(codes, frame * 5000)
-    >>> [int(total) for event in events if isinstance(event, taxel.Frame)
-    ...  for total in event.contacts["total"]]
-    [3200]
+    ...         codes[4:6, 9:12] = 120
+    ...     events = board.step(codes, frame * 16_667)
+    >>> [(int(contact["area"]), float(contact["x_mm"])) for event in events if isinstance(event, taxel.Frame)
+    ...  for contact in event.contacts]
+    [(6, 100.0)]
     """
 
     def __new__(
-        cls, garment: str | os.PathLike[str] = "reference", scene: str | os.PathLike[str] | None = None
+        cls,
+        garment: Garment | str | os.PathLike[str] = "reference",
+        scene: str | os.PathLike[str] | None = None,
+        *,
+        full_scale: int = 4095,
+        record: str | os.PathLike[str] | None = None,
+        overwrite: bool = False,
+        view: bool = False,
     ) -> VirtualBoard:
-        return super().__new__(cls, os.fspath(garment), None if scene is None else os.fspath(scene))
+        named = None if scene is None else os.fspath(scene)
+        return super().__new__(cls, garment, named, full_scale, record, overwrite, view)
+
+    def __enter__(self) -> VirtualBoard:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
 
     def folds(self) -> tuple[npt.NDArray[np.uint16], npt.NDArray[np.uint16], npt.NDArray[np.uint16]]:
         """Numbers of the taxels that fold, what each is expected to feel now, and the doubt of it, counts."""
@@ -172,9 +195,14 @@ class VirtualBoard(_taxel.VirtualBoard, Requests):
         return taxels, expected, doubts
 
     def step(self, codes: npt.ArrayLike, time_us: int) -> list[Event]:
-        """Takes one scan: the codes of all taxels by their numbers, whole numbers from 0 to 65535, and the
-        board's time in microseconds, which never goes back. Returns the events that it causes."""
-        return super().step(_whole(codes), time_us)
+        """Takes one scan: the codes of all taxels by their numbers, or of a garment of one panel as (rows, columns),
+        whole numbers from 0 to ``full_scale``, and the board's time in microseconds, which never goes back. Returns
+        the events that it causes."""
+        scan, shape = _whole(codes), self.shape
+        if scan.ndim != 1 and scan.shape != shape:
+            wanted = f"{shape} or ({self.taxels},)" if shape else f"({self.taxels},)"
+            raise UsageError(f"codes of shape {scan.shape} for a garment that takes {wanted}")
+        return super().step(scan.ravel(), time_us)
 
 
 def open(

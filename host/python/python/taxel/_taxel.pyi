@@ -182,10 +182,51 @@ class Board:
         self, positions: dict[str, float], host_ns: int | None, time_us: int | None
     ) -> None: ...
 
+@final
+class Garment:
+    """Panels of taxels, and their wiring if a board scans them."""
+
+    @staticmethod
+    def grid(
+        rows: int, columns: int, *, pitch_mm: float | tuple[float, float] | None = None, name: str = "grid"
+    ) -> Garment:
+        """A garment of one panel without wiring, for an array of taxels that something else reads: ``rows`` x
+        ``columns``, at most 2,048, their centres ``pitch_mm`` apart: a number, or (columns, rows); None if it is not
+        known, and lengths are then in taxels alone.
+        """
+    @staticmethod
+    def load(name_or_path: str | PathLike[str]) -> Garment:
+        """A preset by its name (``reference``, ``mat-64x32``, ``block-4x16``), or a TOML file."""
+    @property
+    def name(self) -> str:
+        """Its name."""
+    @property
+    def taxels(self) -> int:
+        """Number of taxels: the length of a scan."""
+    @property
+    def panels(self) -> dict[str, tuple[int, int]]:
+        """Rows and columns of each panel, by its name, in the order of their taxels."""
+
 class VirtualBoard:
     """A board without pins and without a clock."""
 
-    def __new__(cls: type[_B], garment: str = "reference", scene: str | None = None) -> _B: ...
+    def __new__(
+        cls: type[_B],
+        garment: Garment | str | PathLike[str],
+        scene: str | None,
+        full_scale: int,
+        record: str | PathLike[str] | None,
+        overwrite: bool,
+        view: bool,
+    ) -> _B: ...
+    @property
+    def shape(self) -> tuple[int, int] | None:
+        """Rows and columns of a garment of one panel; None of one of several."""
+    @property
+    def page(self) -> str | None:
+        """Address of the page that shows the board, in a browser of this machine; None without ``view``."""
+    def close(self) -> None:
+        """Completes the recording, if there is one."""
     @property
     def taxels(self) -> int:
         """Number of taxels: the length of a scan."""

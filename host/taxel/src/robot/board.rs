@@ -68,8 +68,8 @@ pub struct BoardGarment {
 impl RobotBoard {
     /// True if its source is a board that may be plugged in later.
     pub fn is_real(&self) -> bool {
-        use SourceSpec::{Auto, Serial, Tcp, Usb, Zenoh};
-        matches!(self.source, Auto | Usb(_) | Serial { .. } | Tcp(_) | Zenoh { .. })
+        use SourceSpec::{Replay, Robot, Sim};
+        !matches!(self.source, Sim(_) | Replay { .. } | Robot { .. })
     }
 
     /// True unless its source is a recording, whose board takes no requests.

@@ -8,6 +8,9 @@ use taxel::session::Session;
 use taxel::source::{self, SourceOptions, SourceSpec, scene_of};
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
+use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::scene::Scene;
+use taxel_core::wire::Request;
 
 /// Events that depend on codes and time alone.
 const PERCEIVED: [&str; 5] = ["frame", "contacts", "symbols", "intent", "reaction"];
@@ -32,7 +35,7 @@ fn stepped(scene: &str, scans: &[(Micros, Vec<u16>)]) -> Vec<Value> {
     let script = scripts::load(scene).unwrap();
     let mut board =
         VirtualBoard::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
-    let tare = taxel_core::wire::Request::Tare { frames: script.tare_frames as u16 };
+    let tare = Request::Tare { frames: script.tare_frames as u16 };
     if script.tare_frames > 0 {
         board.client().request(&tare).unwrap();
     }
@@ -85,4 +88,32 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(frames, 1);
     let why = board.step(&codes, Micros(8), &mut quiet).unwrap_err().to_string();
     assert_eq!(why, "a step at 8 us is before the last one");
+}
+
+#[test]
+fn an_array_without_wiring_is_perceived_and_never_scanned() {
+    let garment = Garment::grid("mat", 12, 21, [10_000, 12_500]);
+    let layout = Layout::build(&garment, 252, u16::MAX).unwrap();
+    for pins in [Pins::ANY, Pins::FEATHER] {
+        assert!(Circuit::build(&garment, &layout, pins).is_err(), "a board with a converter needs blocks");
+    }
+    let mut board = VirtualBoard::new(garment, Scene::shipped()).unwrap();
+    assert_eq!((board.taxels(), board.areas().len()), (252, 1));
+    board.client().request(&Request::Tare { frames: 8 }).unwrap();
+    let mut touched = Vec::new();
+    for frame in 0..30 {
+        let mut codes = vec![130; 252];
+        if frame > 19 {
+            [93, 94, 114, 115].into_iter().for_each(|taxel: usize| codes[taxel] += 900);
+        }
+        board
+            .step(&codes, Micros(frame * 16_667), &mut |client, event| {
+                if let Event::Contacts { .. } = event {
+                    touched = client.contacts().iter().map(|placed| placed.contact.total).collect();
+                }
+                Ok(())
+            })
+            .unwrap();
+    }
+    assert_eq!(touched, [3600]);
 }
