@@ -17,10 +17,10 @@ from taxel_msgs.msg import Contacts, Health, Intent, Reaction, Symbols
 PITCH = (0.012, 0.010)
 
 
-def by_type(heard):
+def by_type(said):
     """Lines of JSON by type and frame."""
     all_lines = {}
-    for message in heard.messages:
+    for message in said.messages:
         line = json.loads(message.data)
         all_lines.setdefault((line["type"], line.get("frame", line.get("time_us"))), []).append(line)
     return all_lines
@@ -57,7 +57,7 @@ def test_health_is_sent_to_who_comes_later(listener):
         diagnostics = listener.hear(DiagnosticArray, "/diagnostics")
         said = listener.hear(String, "/taxel/json")
         listener.spin(lambda: len(diagnostics.messages) > 1 and len(health.messages) > 1)
-    of_health = [all_lines for (kind, _), all_lines in by_type(heard).items() if kind == "health"]
+    of_health = [all_lines for (kind, _), all_lines in by_type(said).items() if kind == "health"]
     lines = {line["scans"]: line for all_lines in of_health for line in all_lines}
     for message in health.messages:
         for line in filter(None, [lines.get(message.scans)]):
