@@ -85,8 +85,8 @@ impl Garment {
         Garment::grid("recorded", rows, columns, [0, 0])
     }
 
-    /// One panel of any size, of this distance of columns and of rows, um; 0 if unknown. Without blocks it can be
-    /// perceived but not scanned.
+    /// One panel of any size, of this distance of columns and of rows, um; 0 if unknown. Without blocks it
+    /// can be perceived but not scanned.
     pub fn grid(title: &str, rows: u16, columns: u16, pitch_um: [u32; 2]) -> Garment {
         let mut garment = plain(title, rows, columns);
         if let Some(panel) = garment.panels.first_mut() {

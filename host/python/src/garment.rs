@@ -32,6 +32,14 @@ pub enum GarmentOrName<'py> {
 }
 
 impl GarmentOrName<'_> {
+    /// Path of its file, or name of a preset; none of a garment.
+    pub fn file(&self) -> Option<PathBuf> {
+        match self {
+            GarmentOrName::Garment(_) => None,
+            GarmentOrName::Name(path) => Some(path.clone()),
+        }
+    }
+
     /// The garment. Error if the file cannot be read.
     pub fn read(&self) -> anyhow::Result<Described> {
         match self {

@@ -131,11 +131,13 @@ impl VirtualBoard {
         if full_scale == 0 {
             return Err(usage("full_scale must be 1 to 65535"));
         }
+        // No recording replaces what it is made of.
+        let inputs = garment.file().into_iter().chain(scene.map(PathBuf::from)).collect();
         let garment = garment.read().map_err(raised)?;
         let begin = || -> anyhow::Result<Hand> {
             let board = build(garment, scene)?;
             let recorder = record.map(|path| {
-                Recorder::create(Plan { force: overwrite, ..Plan::of(path, PlannedBoard::default()) })
+                Recorder::create(Plan { force: overwrite, inputs, ..Plan::of(path, PlannedBoard::default()) })
             });
             let recorder = recorder.transpose()?;
             let mut observers: Vec<Box<dyn Observer + Send>> = Vec::new();

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import taxel
+from conftest import program
 
 PERCEIVED = ["frame", "contacts", "symbols", "intent", "reaction"]
 SCENES = ["pat", "lash", "two-hands", "five"]
@@ -77,6 +78,12 @@ def test_any_array_is_seen_and_recorded(tmp_path: Path) -> None:
     ]
     with pytest.raises(taxel.Error, match="mat.mcap"):
         taxel.VirtualBoard(mat, record=file)
+    own = tmp_path / "own.toml"
+    program("config", "new", str(own))
+    text = own.read_text(encoding="utf-8")
+    with pytest.raises(taxel.Error, match="own.toml"):
+        taxel.VirtualBoard(own, record=own, overwrite=True)
+    assert own.read_text(encoding="utf-8") == text
 
 
 def test_grids_and_scans_that_cannot_be_are_refused() -> None:

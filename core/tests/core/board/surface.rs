@@ -175,14 +175,14 @@ fn a_table_is_in_force_while_its_garment_is_in_use() {
 
 /// What the bench's regions feel by the next scans, and their names.
 #[derive(Default)]
-struct RegionReports {
+struct ReportedRegions {
     names: Vec<String>,
     states: Vec<RegionsReport>,
 }
 
 impl BoardAndHost {
-    fn regions(&mut self, scans: usize) -> RegionReports {
-        let mut reported = RegionReports::default();
+    fn regions(&mut self, scans: usize) -> ReportedRegions {
+        let mut reported = ReportedRegions::default();
         for _ in 0..scans {
             self.scan();
             self.drain(usize::MAX, |report| match report {
@@ -206,7 +206,7 @@ fn every_region_always_has_a_state() {
     assert_eq!(reported.names, ["palm", "fingers"]);
     assert_eq!(reported.states.len(), 3, "once a second");
     assert!(reported.states[0].regions.iter().all(|region| region.phase == RegionPhase::Free));
-    let phases = |reported: &RegionReports, region: usize| {
+    let phases = |reported: &ReportedRegions, region: usize| {
         let mut phases: Vec<_> = reported.states.iter().map(|report| report.regions[region].phase).collect();
         phases.dedup();
         phases
@@ -224,7 +224,7 @@ fn every_region_always_has_a_state() {
 
     // A fingertip that slides from the palm to the fingers: along x of the link.
     let slide = |bench: &mut BoardAndHost| {
-        let mut reported = RegionReports::default();
+        let mut reported = ReportedRegions::default();
         for step in 0..90 {
             let x = 2.0 + 0.125 * f64::from(step);
             for taxel in 0..64 {
@@ -237,7 +237,7 @@ fn every_region_always_has_a_state() {
         reported
     };
     let reported = slide(&mut bench);
-    let moving = |reported: &RegionReports, region: usize| -> Vec<BodyDirection> {
+    let moving = |reported: &ReportedRegions, region: usize| -> Vec<BodyDirection> {
         let of = reported.states.iter().map(|report| report.regions[region]);
         let mut ways: Vec<_> = of.filter(|it| it.phase == RegionPhase::Moving).map(|it| it.way).collect();
         ways.dedup();

@@ -21,4 +21,4 @@ pub use follow::{Remarks, WatchOptions, run_limit, watch};
 pub use overwrite::Overwrite;
 pub use place::TaxelPlace;
 pub use requests::{HostInput, RequestLines};
-pub use robot::{RobotObserver, watch_robot};
+pub use robot::{RobotNews, RobotObserver, watch_robot};

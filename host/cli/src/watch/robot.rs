@@ -6,11 +6,21 @@ use std::time::Duration;
 use taxel::mind::RobotMind;
 use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent, RobotStream};
 
-/// Longest wait before requests are read and Ctrl-C is noticed.
-const LOOK: Duration = Duration::from_millis(100);
+/// News of a robot: an event of a board, or that time passes.
+pub struct RobotNews<'a, T> {
+    /// The robot's boards.
+    pub session: &'a RobotStream<T>,
+    /// Inputs of the map among the requests since the last news.
+    pub inputs: &'a [HostInput],
+    /// Event of a board; none: time passes.
+    pub event: Option<&'a RobotEvent<T>>,
+}
 
 /// Observer of the events of all boards; a board's own stream goes to the observer of its thread.
 pub trait RobotObserver<T> {
+    /// Longest wait for an event, before requests are read and Ctrl-C is noticed.
+    const LOOK: Duration = Duration::from_millis(100);
+
     /// The robot's map, which takes the host's inputs among the requests; none if there is none.
     fn mind(&mut self) -> Option<&mut RobotMind> {
         None
@@ -21,16 +31,11 @@ pub trait RobotObserver<T> {
     where
         T: Send + 'static,
     {
-        session.wait(LOOK)
+        session.wait(Self::LOOK)
     }
 
-    /// Hears what the map was reported since, and an event; none: time passes.
-    fn event(
-        &mut self,
-        session: &RobotStream<T>,
-        inputs: &[HostInput],
-        event: Option<&RobotEvent<T>>,
-    ) -> Result<()>;
+    /// Takes news.
+    fn event(&mut self, news: RobotNews<'_, T>) -> Result<()>;
 
     /// True once it needs no more.
     fn is_done(&self) -> bool {
@@ -50,7 +55,7 @@ pub fn watch_robot<T: Send + 'static>(
     while !session.is_over() && !observer.is_done() && !stop::asked() {
         let inputs = requests.as_mut().map_or(Vec::new(), |requests| requests.ask(&session, observer.mind()));
         let event = observer.wait(&mut session);
-        observer.event(&session, &inputs, event.as_ref())?;
+        observer.event(RobotNews { session: &session, inputs: &inputs, event: event.as_ref() })?;
         if let Some(event) = event {
             ended = ended.and(failed(&robot.boards[event.board].name, event.what));
         }

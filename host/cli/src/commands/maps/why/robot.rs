@@ -1,16 +1,13 @@
 //! `taxel fcm why` of a robot: explains what touches mean to the robot, down to the contacts of its boards.
 
 use super::WhyArgs;
-use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, watch_robot};
+use crate::watch::{RequestLines, RobotNews, RobotObserver, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::time::Duration;
 use taxel::mind::{BoardSense, MindReader, RobotMeaning, RobotMind, RobotReasons};
-use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
 use taxel::source::SourceOptions;
 use taxel_core::intent::Leading;
-
-/// Longest wait before the requests are read again.
-const LOOK: Duration = Duration::from_millis(20);
 
 /// Runs the command: simulations are played at real time. Error if no intention is announced.
 pub fn run(args: &WhyArgs, robot: &ReadRobot) -> Result<()> {
@@ -49,20 +46,15 @@ struct RobotEar {
 }
 
 impl RobotObserver<BoardSense> for RobotEar {
+    /// Longest wait before the requests are read again.
+    const LOOK: Duration = Duration::from_millis(20);
+
     fn mind(&mut self) -> Option<&mut RobotMind> {
         Some(&mut self.mind)
     }
 
-    fn wait(&mut self, session: &mut RobotStream<BoardSense>) -> Option<RobotEvent<BoardSense>> {
-        session.wait(LOOK)
-    }
-
-    fn event(
-        &mut self,
-        session: &RobotStream<BoardSense>,
-        inputs: &[HostInput],
-        event: Option<&RobotEvent<BoardSense>>,
-    ) -> Result<()> {
+    fn event(&mut self, news: RobotNews<'_, BoardSense>) -> Result<()> {
+        let RobotNews { session, inputs, event } = news;
         let seconds = session.now_us().saturating_sub(self.begun_us) as f64 / 1e6;
         let is_found = |meaning: &RobotMeaning| self.at.is_none() && meaning.leading != Leading::None;
         let mut is_now = inputs.iter().filter_map(|input| input.news.as_ref()).any(is_found)

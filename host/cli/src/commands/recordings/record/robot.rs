@@ -3,7 +3,9 @@
 use super::RecordArgs;
 use crate::commands::views::view::{announce, bind, pages, viewer};
 use crate::view::RobotPages;
-use crate::watch::{HostInput, Remarks, RequestLines, RobotObserver, run_limit, stop, watch_robot};
+use crate::watch::{
+    HostInput, Remarks, RequestLines, RobotNews, RobotObserver, run_limit, stop, watch_robot,
+};
 use anyhow::Result;
 use std::thread;
 use std::time::Duration;
@@ -13,8 +15,6 @@ use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent, RobotStream, W
 use taxel::session::Observer;
 use taxel::source::SourceOptions;
 
-/// Longest wait before Ctrl-C is noticed.
-const LOOK: Duration = Duration::from_millis(100);
 /// Time in which a board's bytes gather: pages show them so much later.
 const GATHER: Duration = Duration::from_millis(40);
 /// Time in which events gather once all are taken: of many boards, each would wake this thread.
@@ -89,16 +89,12 @@ impl RobotObserver<BoardSense> for Recording<'_> {
     fn wait(&mut self, session: &mut RobotStream<BoardSense>) -> Option<RobotEvent<BoardSense>> {
         session.wait(Duration::ZERO).or_else(|| {
             thread::sleep(REST);
-            session.wait(LOOK)
+            session.wait(Self::LOOK)
         })
     }
 
-    fn event(
-        &mut self,
-        session: &RobotStream<BoardSense>,
-        inputs: &[HostInput],
-        event: Option<&RobotEvent<BoardSense>>,
-    ) -> Result<()> {
+    fn event(&mut self, news: RobotNews<'_, BoardSense>) -> Result<()> {
+        let RobotNews { session, inputs, event } = news;
         if let Some(mind) = &mut self.mind {
             write_mind(&self.recorder, mind, inputs, event, session.now_us())?;
         }

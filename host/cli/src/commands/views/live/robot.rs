@@ -3,7 +3,7 @@
 use super::LiveArgs;
 use super::lines::{BoardNews, JsonLines, TextLines};
 use crate::fault::Fault;
-use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, watch_robot};
+use crate::watch::{RequestLines, RobotNews, RobotObserver, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::io::{BufWriter, Stdout, Write, stdout};
 use taxel::mind::{MindReader, RobotMeaning, RobotMeaningLine, RobotMind};
@@ -68,12 +68,8 @@ impl RobotObserver<BoardNews> for RobotLines<'_> {
         self.mind.as_mut()
     }
 
-    fn event(
-        &mut self,
-        session: &RobotStream<BoardNews>,
-        inputs: &[HostInput],
-        event: Option<&RobotEvent<BoardNews>>,
-    ) -> Result<()> {
+    fn event(&mut self, news: RobotNews<'_, BoardNews>) -> Result<()> {
+        let RobotNews { session, inputs, event } = news;
         for meaning in inputs.iter().filter_map(|input| input.news.as_ref()) {
             self.write_meaning(meaning)?;
         }

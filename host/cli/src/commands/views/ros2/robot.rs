@@ -3,11 +3,11 @@
 use super::Ros2Args;
 use crate::fault::Fault;
 use crate::ros2::{RobotNode, RosNode, RosParameters, RosPlace, RosShow};
-use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, stop, watch_robot};
+use crate::watch::{RequestLines, RobotNews, RobotObserver, run_limit, stop, watch_robot};
 use anyhow::{Result, ensure};
 use taxel::body;
 use taxel::mind::{BoardSense, MindReader, RobotMind};
-use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
 use taxel::ros2::topic_part;
 use taxel::session::Observer;
 
@@ -47,12 +47,8 @@ impl RobotObserver<BoardSense> for RobotNode<'_> {
         Some(RobotNode::mind(self))
     }
 
-    fn event(
-        &mut self,
-        session: &RobotStream<BoardSense>,
-        inputs: &[HostInput],
-        event: Option<&RobotEvent<BoardSense>>,
-    ) -> Result<()> {
+    fn event(&mut self, news: RobotNews<'_, BoardSense>) -> Result<()> {
+        let RobotNews { session, inputs, event } = news;
         inputs.iter().filter_map(|input| input.news.as_ref()).try_for_each(|meaning| self.mean(meaning))?;
         self.turn(session, event.is_none())?;
         event.map_or(Ok(()), |event| RobotNode::event(self, event))?;

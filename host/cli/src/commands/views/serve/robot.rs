@@ -2,11 +2,11 @@
 
 use super::ServeArgs;
 use crate::fault::Fault;
-use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, stop, watch_robot};
+use crate::watch::{RequestLines, RobotNews, RobotObserver, run_limit, stop, watch_robot};
 use anyhow::Result;
 use taxel::network::{self, BoardPlace, NetworkEnd};
 use taxel::offer::BoardOffer;
-use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
 use taxel::session::Observer;
 
 /// Runs the command. Error if a board cannot be followed, once all are over.
@@ -34,7 +34,7 @@ pub fn run(args: &ServeArgs, robot: &ReadRobot) -> Result<()> {
 struct Unheard;
 
 impl RobotObserver<()> for Unheard {
-    fn event(&mut self, _: &RobotStream<()>, _: &[HostInput], _: Option<&RobotEvent<()>>) -> Result<()> {
+    fn event(&mut self, _: RobotNews<'_, ()>) -> Result<()> {
         Ok(())
     }
 }

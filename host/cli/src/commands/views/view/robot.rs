@@ -4,16 +4,13 @@ use super::{ViewArgs, announce, bind};
 use crate::fault::Fault;
 use crate::on_robot::ShownRobot;
 use crate::view::{RobotPages, Viewer};
-use crate::watch::{HostInput, RequestLines, RobotObserver, run_limit, watch_robot};
+use crate::watch::{RequestLines, RobotNews, RobotObserver, run_limit, watch_robot};
 use anyhow::{Result, bail};
 use std::thread;
 use std::time::Duration;
 use taxel::mind::{BoardSense, MindReader, RobotMind};
-use taxel::robot::{ReadRobot, RobotEvent, RobotStream, WhenFull};
+use taxel::robot::{ReadRobot, RobotStream, WhenFull};
 use taxel::session::Observer;
-
-/// Longest wait before pages get what is new.
-const LOOK: Duration = Duration::from_millis(50);
 
 /// Runs the command. Error if a board cannot be followed, once all are over.
 pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
@@ -48,20 +45,15 @@ struct RobotView<'a> {
 }
 
 impl RobotObserver<BoardSense> for RobotView<'_> {
+    /// Longest wait before pages get what is new.
+    const LOOK: Duration = Duration::from_millis(50);
+
     fn mind(&mut self) -> Option<&mut RobotMind> {
         Some(&mut self.mind)
     }
 
-    fn wait(&mut self, session: &mut RobotStream<BoardSense>) -> Option<RobotEvent<BoardSense>> {
-        session.wait(LOOK)
-    }
-
-    fn event(
-        &mut self,
-        session: &RobotStream<BoardSense>,
-        inputs: &[HostInput],
-        event: Option<&RobotEvent<BoardSense>>,
-    ) -> Result<()> {
+    fn event(&mut self, news: RobotNews<'_, BoardSense>) -> Result<()> {
+        let RobotNews { session, inputs, event } = news;
         inputs.iter().for_each(|input| self.pages.take_input(&input.line));
         match event {
             Some(event) => {
