@@ -7,8 +7,6 @@ use std::path::Path;
 use taxel::files::bases::Base;
 use taxel::files::calibrate::Calibration;
 use taxel::files::{garments, scripts};
-use taxel::learn::shapes::labels;
-use taxel::learn::touches::Table;
 use taxel::robot::ReadRobot;
 use taxel::sim::{self, World};
 use taxel::{fcm, source};
@@ -18,6 +16,8 @@ use taxel_cli::view::message::{self, PageRequest};
 use taxel_core::garment::{Garment, Layout};
 use taxel_core::gesture::Model;
 use taxel_core::intent::{CONCEPTS, EDGES};
+use taxel_learn::shapes::labels;
+use taxel_learn::touches::Table;
 
 /// What reads a file.
 type Reader = fn(&Scratch, &[u8]);

@@ -53,8 +53,11 @@ const CHECKS: &[(&str, Check)] = &[
 ];
 
 /// Checks that need recordings, which only their owners have; they run on request.
-const RECORDED: &[(&str, Check)] =
-    &[("recorded", targets::recorded), ("emulator-recorded", targets::emulator_recorded)];
+const RECORDED: &[(&str, Check)] = &[
+    ("recorded", targets::recorded),
+    ("trained", targets::trained),
+    ("emulator-recorded", targets::emulator_recorded),
+];
 
 /// Checks at a time.
 const AT_ONCE: usize = 3;
@@ -115,7 +118,7 @@ pub fn run(args: &[String]) -> Result<bool, String> {
     let report = report.into_inner().unwrap_or_else(|broken| broken.into_inner());
     if asked.left_out {
         let names: Vec<&str> = RECORDED.iter().map(|(name, _)| *name).collect();
-        println!("\nnot asked for: {}, which need recordings (--recorded)", names.join(" and "));
+        println!("\nnot asked for: {}, which need recordings (--recorded)", names.join(", "));
     }
     println!("\n{} min\n{}", start.elapsed().as_secs().div_ceil(60), report.closing());
     Ok(report.succeeded(&asked.may_miss))

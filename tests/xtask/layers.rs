@@ -315,11 +315,12 @@ mod tests {
 
     #[test]
     fn a_type_name_stands_for_one_thing() {
-        let groups: [&[&str]; 6] = [
+        let groups: [&[&str]; 7] = [
             &["core", "firmware", "firmware/store", "tests/suite"],
             &["host/sim"],
             &["host/taxel"],
             &["host/cli"],
+            &["host/learn"],
             &["host/python"],
             &["tests/bench"],
         ];

@@ -63,9 +63,10 @@ pub fn run() -> Result<(), String> {
 
 /// True for what is neither test nor example. The second image of the firmware is the one that measures.
 fn is_product(path: &str) -> bool {
+    // The trainer is a tool of the repository.
     let beside = |part| matches!(part, "tests" | "tests.rs" | "benches" | "fuzz" | "examples" | "docs");
     !path.split('/').any(|part| beside(part) || part.starts_with("test_"))
-        && !path.starts_with("firmware/src/bin/")
+        && !["firmware/src/bin/", "host/learn/"].iter().any(|folder| path.starts_with(folder))
 }
 
 /// Lines that are neither blank nor comment nor test.

@@ -9,8 +9,11 @@ use std::path::Path;
 use std::process::Command;
 
 /// These targets by package; cargo skips them even if all targets are selected.
-pub const APART: &[(&str, &[&str])] =
-    &[("taxel-tests", &["emulated", "cycles"]), ("taxel-cli", &["recorded", "python", "disk"])];
+pub const APART: &[(&str, &[&str])] = &[
+    ("taxel-tests", &["emulated", "cycles"]),
+    ("taxel-cli", &["recorded", "python", "disk"]),
+    ("taxel-learn", &["trained"]),
+];
 
 /// Default minutes of a soak.
 const SOAK_MINUTES: f64 = 20.0;
@@ -127,10 +130,16 @@ pub fn soak(args: &[String]) -> Result<(), String> {
     process::run(&mut command)
 }
 
-/// Runs recordings through the pipeline, and evaluates recorded touches with people and days left out.
+/// Runs recordings through the pipeline.
 pub fn recorded(log: &Path) -> End {
     recordings::at_hand()?;
     Ok(process::run_into(&mut test_target("recorded"), log))
+}
+
+/// Trains models on recorded touches with people and days left out.
+pub fn trained(log: &Path) -> End {
+    recordings::at_hand()?;
+    Ok(process::run_into(&mut test_target("trained"), log))
 }
 
 /// Runs recordings on the emulated board and on this machine.

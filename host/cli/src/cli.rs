@@ -3,9 +3,7 @@
 mod completions;
 mod groups;
 
-use crate::commands::{
-    board::*, body, frames::*, garment::*, maps, recordings::*, shapes, touches::*, views::*,
-};
+use crate::commands::{board::*, body, garment::*, maps, process, recordings::*, shapes, views::*};
 use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
@@ -98,10 +96,7 @@ group!(SetUp {
 group!(Teach {
     Fcm(maps, FcmArgs),
     Shapes(shapes, ShapesArgs),
-    Gestures(gestures, GesturesArgs),
-    Intent(intent, IntentArgs),
     Process(process, ProcessArgs),
-    Features(features, FeaturesArgs),
 });
 
 impl Cli {

@@ -87,33 +87,6 @@ impl Features {
             peak,
         })
     }
-
-    /// Readable form: one line for each feature.
-    pub fn table(&self) -> String {
-        let float = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.7}"));
-        let degrees = |angle: f64| format!("{angle:.7} rad ({:.2} degrees)", angle.to_degrees());
-        let lines = [
-            ("m", self.m.to_string()),
-            ("sx", self.sx.to_string()),
-            ("sy", self.sy.to_string()),
-            ("sxx", self.sxx.to_string()),
-            ("syy", self.syy.to_string()),
-            ("sxy", self.sxy.to_string()),
-            ("Jm", self.jm.to_string()),
-            ("nmi", float(self.nmi)),
-            ("nmi_peak", float(self.nmi_peak)),
-            ("nmi_s2", float(self.nmi_s2)),
-            ("nmi_peak_sheppard", float(self.nmi_peak_sheppard)),
-            ("nmi_s2_sheppard", float(self.nmi_s2_sheppard)),
-            ("azimuth", self.azimuth.map_or("-".into(), degrees)),
-            ("anisotropy", float(self.anisotropy)),
-            ("x", float(self.x)),
-            ("y", float(self.y)),
-            ("area", format!("{} taxels", self.area)),
-            ("peak", format!("{} counts", self.peak)),
-        ];
-        lines.iter().map(|(name, value)| format!("{name:<18} {value}\n")).collect()
-    }
 }
 
 /// `m (sxx + syy) - sx^2 - sy^2` without wrapping.
@@ -140,7 +113,6 @@ mod tests {
         assert!((have.nmi.unwrap() - 0.1f64.sqrt()).abs() < 6e-8);
         assert!((have.nmi_peak.unwrap() - 2.0 * 0.1f64.sqrt()).abs() < 6e-8);
         assert_eq!(have.nmi_peak, have.nmi_s2);
-        assert!(have.table().contains("Jm                 800\n"));
     }
 
     #[test]

@@ -2,12 +2,11 @@
 
 pub mod board;
 pub mod body;
-pub mod frames;
 pub mod garment;
 pub mod maps;
+pub mod process;
 pub mod recordings;
 pub mod shapes;
-pub mod touches;
 pub mod views;
 
 /// Prints a command's messages besides its output: on standard error if the output is the standard output.

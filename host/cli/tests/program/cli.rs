@@ -1,11 +1,9 @@
-//! The program from outside: results on the reference images, and one sentence and an exit status for bad
+//! The program from outside: one sentence and an exit status for bad
 //! input.
 
 use crate::called::{answer, file, json, refused, run, said};
-use crate::reference;
 use crate::start::taxel;
 use npyz::WriterBuilder;
-use serde_json::Value;
 use std::io::{Cursor, Write as _};
 use std::process::{Command, Stdio};
 use zip::ZipWriter;
@@ -39,14 +37,12 @@ fn bad_arrays_are_refused_by_name() {
     let half = file("half.csv", b"1,2\n3,4.5\n");
     let text = file("text.npy", b"not an array");
     let missing = text.replace("text.npy", "missing.npy");
-    for command in ["features", "process"] {
-        refused(1, &[command, &cut], &["cut.npy", "truncated", "12 bytes", "9"]);
-        refused(1, &[command, &flat], &["flat.npy", "[6]", "[frames, rows, columns]"]);
-        refused(1, &[command, &nan], &["nan.npy", "frame 1, row 0, column 1", "NaN"]);
-        refused(1, &[command, &half], &["half.csv", "line 2", "row 1, column 1", "4.5"]);
-        refused(1, &[command, &text, "--json"], &["text.npy", "not a NumPy array"]);
-        refused(1, &[command, &missing], &["missing.npy", "cannot be read"]);
-    }
+    refused(1, &["process", &cut], &["cut.npy", "truncated", "12 bytes", "9"]);
+    refused(1, &["process", &flat], &["flat.npy", "[6]", "[frames, rows, columns]"]);
+    refused(1, &["process", &nan], &["nan.npy", "frame 1, row 0, column 1", "NaN"]);
+    refused(1, &["process", &half], &["half.csv", "line 2", "row 1, column 1", "4.5"]);
+    refused(1, &["process", &text, "--json"], &["text.npy", "not a NumPy array"]);
+    refused(1, &["process", &missing], &["missing.npy", "cannot be read"]);
 }
 
 #[test]
@@ -64,42 +60,12 @@ fn what_speaks_against_recorded_frames_is_reported() {
     assert!(process("started.npy", &started).contains("started.npy: frame 1 has "));
     assert!(process("stopped.npy", &stopped).contains("saturation: values stop at 1500"));
     assert!(process("soft.npy", &soft).contains("no value is above 59 of a full scale of 4095"));
-
-    // Two gestures by three people, eight times each, which all saturate; the first recording begins with a
-    // transient.
-    let two = started.iter().chain(&stopped).map(|value| (*value).min(500));
-    let mut all = two.collect::<Vec<u16>>().repeat(24);
-    all[..64 * 20].iter_mut().for_each(|value| *value /= 50);
-    all[64..128].fill(500);
-    let frames = file("touches.npy", &npy(&[48 * 20, 8, 8], &all));
-    let labels: String =
-        (0..48).map(|n| format!("{},{}\n", ["pat", "rub"][n % 2], ["ann", "bob", "cid"][n / 16])).collect();
-    let labels = file("touches.csv", format!("gesture,participant\n{labels}").as_bytes());
-    let cross = ["--cross", "participant", "--json"];
-    let files = ["--frames", frames.as_str(), "--labels", labels.as_str()];
-    let (error, text) = said(&[&["gestures", "eval"][..], &files, &cross].concat());
-    assert!(error.contains("warning: 1 of 48 recordings, recording 0: frame 1 has "), "{error}");
-    assert!(
-        error.contains("warning: saturation: values stop at 500 in 100 % of pat, 100 % of rub"),
-        "{error}"
-    );
-    let report: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(report["doubts"].as_array().map(Vec::len), Some(2));
-    assert!(report["reliability"]["predictions"].as_u64() > Some(0), "{report}");
 }
 
 #[test]
 fn what_is_not_in_a_file_is_refused_by_name() {
     let two = file("two.npz", &two_images());
-    refused(2, &["features", &two, "--array", "c"], &["two.npz", "no array c", "a, b"]);
     refused(2, &["process", &two, "--array", "c"], &["two.npz", "no array c", "a, b"]);
-    refused(2, &["features", &two], &["two.npz", "--array", "a, b"]);
-    refused(
-        2,
-        &["features", &two, "--array", "a", "--frame", "1"],
-        &["two.npz", "no frame 1", "the last is 0"],
-    );
-    assert_eq!(json(&["features", &two, "--array", "b", "--json"])["m"], 21);
 }
 
 #[test]
@@ -135,29 +101,12 @@ fn bad_sources_are_refused_by_name() {
 #[test]
 fn bad_arguments_have_the_same_status() {
     for args in
-        [&["features"][..], &["features", "x.npy", "--frame", "-1"], &["nothing"], &["fcm", "x", "--no"]]
+        [&["process"][..], &["process", "x.npy", "--full-scale", "-1"], &["nothing"], &["fcm", "x", "--no"]]
     {
         let output = run(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");
         assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: "), "{args:?}");
     }
-}
-
-/// Some pixels are in the reference itself; the others are with the recordings.
-#[test]
-fn features_are_those_of_the_reference() {
-    let cases = reference::cases();
-    let whole =
-        cases.iter().enumerate().filter_map(|(index, case)| Some((index, case, case["img"].as_array()?)));
-    let mut compared = 0;
-    for (index, case, image) in whole {
-        let image: Vec<u16> = image.iter().map(|v| v.as_u64().unwrap() as u16).collect();
-        let shape = [&case["shape"][0], &case["shape"][1]].map(|v| v.as_u64().unwrap());
-        let image = file(&format!("reference-{index}.npy"), &npy(&shape, &image));
-        reference::check(&reference::features(&[&image]), case);
-        compared += 1;
-    }
-    assert!(compared >= 8);
 }
 
 #[test]
@@ -174,7 +123,7 @@ fn scripts_of_touches_are_listed() {
 #[test]
 fn every_subcommand_has_a_help_with_an_example() {
     assert!(answer(&["--help"]).contains("Example"));
-    for command in ["process", "features", "fcm", "config", "body"] {
+    for command in ["process", "fcm", "config", "body"] {
         let help = answer(&[command, "--help"]);
         assert!(help.contains("Example") && help.contains(&format!("taxel {command}")), "{help}");
     }

@@ -28,7 +28,7 @@ fn no_other_module_opens_files() {
 
 /// Commands, and the file that each reads.
 #[cfg(unix)]
-const READERS: [&[&str]; 24] = [
+const READERS: [&[&str]; 23] = [
     &["info", "no.mcap"],
     &["export", "no.mcap", "--to", "csv", "-o", "out.csv"],
     &["report", "no.mcap", "-o", "out.html"],
@@ -59,7 +59,6 @@ const READERS: [&[&str]; 24] = [
     &["body", "drape", "no.obj", "--panel", "chest", "--at", "0,0,0", "-o", "out.txt"],
     &["body", "fit", "reference", "--touches", "no.csv", "-o", "out.toml"],
     &["shapes", "list", "no.json"],
-    &["shapes", "train", "--images", "no.npz", "-o", "out.json"],
     &["config", "check", "no.toml"],
     &["live", "robot.toml", "--requests", "no.jsonl"],
     &["flash", "no.uf2"],

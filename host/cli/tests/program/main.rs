@@ -35,7 +35,6 @@ mod pressed;
 mod random;
 mod record_view;
 mod recordings;
-mod reference;
 mod repair;
 mod robot;
 mod robot_cost;

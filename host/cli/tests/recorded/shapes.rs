@@ -1,8 +1,8 @@
 //! The labelled set of synthetic shapes, which the built-in base was not learned from.
 
 use crate::data;
+use crate::docs::says;
 use crate::shape_of::{recorded, shape_of};
-use crate::touches::says;
 use std::fs::File;
 use taxel_core::condition::{Image, Rows};
 use taxel_core::shape::Class;

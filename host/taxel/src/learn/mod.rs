@@ -1,11 +1,8 @@
-//! Training of what a board recognises: shapes, touches over time, folds of the garment; and the parts that
-//! these share.
+//! Teaching by touch: objects, folds of the garment, and checks of what was recorded. Models are trained on data
+//! sets by the crate `taxel-learn` of the repository.
 
 pub mod confusion;
 pub mod doubts;
 pub mod fingerprint;
 pub mod folds;
-pub mod linear;
 pub mod shapes;
-pub mod stratified;
-pub mod touches;

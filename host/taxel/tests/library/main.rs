@@ -19,6 +19,7 @@ mod link;
 mod maps;
 mod meaning;
 mod mind;
+mod moments;
 mod people;
 mod points;
 mod pressing;
@@ -26,6 +27,7 @@ mod pressing;
 mod python_types;
 #[path = "../../../../core/tests/core/random.rs"]
 mod random;
+mod reference;
 mod robot;
 mod ros2;
 mod scan;
@@ -36,7 +38,6 @@ mod session;
 mod shape_of;
 mod shapes;
 mod timed_line;
-mod touch;
 #[cfg(feature = "schema")]
 mod validator;
 mod versions;

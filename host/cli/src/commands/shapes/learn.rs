@@ -1,12 +1,9 @@
-//! `taxel shapes learn`: adds a class to a base, or examples to a class, from touches on a board or from
-//! images.
+//! `taxel shapes learn`: adds a class to a base, or examples to a class, from touches on a board.
 
 use super::hold::Hold;
 use crate::watch::{self, BoardArgs, Overwrite, WatchOptions, time};
 use anyhow::{Result, ensure};
-use std::path::{Path, PathBuf};
-use taxel::files::arrays;
-use taxel::files::bases::view::Choice;
+use std::path::PathBuf;
 use taxel::files::bases::{Base, ImagesFile, LEFT_OUT};
 use taxel::files::output::{Force, Output, is_same};
 use taxel::learn::fingerprint::Fingerprint;
@@ -19,12 +16,6 @@ use taxel_core::shape::Point;
 pub struct ShapesLearnArgs {
     /// Name of the class, at most 16 bytes
     pub name: String,
-    /// Learn from images or frames (.npz, .npy or .csv) [default: from touches of the board]
-    #[arg(long, value_name = "FILE", conflicts_with = "source")]
-    pub images: Option<PathBuf>,
-    /// Array of an .npz that holds several
-    #[arg(long, value_name = "NAME", requires = "images")]
-    pub array: Option<String>,
     /// The board that the object is held against
     #[command(flatten)]
     pub board: BoardArgs,
@@ -58,10 +49,7 @@ pub fn run(args: ShapesLearnArgs) -> Result<()> {
         None if args.output.exists() => Base::open(&args.output)?,
         None => Base::empty()?,
     };
-    let (points, source) = match &args.images {
-        Some(images) => shown(&args, images, &base)?,
-        None => held(&args, &base)?,
-    };
+    let (points, source) = held(&args, &base)?;
     let added = extend(&mut base, &args.name, &points, args.prototypes)?;
     base.trained_on.push(source);
     base.save(output)?;
@@ -79,26 +67,8 @@ fn output(args: &ShapesLearnArgs) -> Result<Output> {
     let extends = args.base.as_ref().is_none_or(|base| is_same(base, &args.output));
     let force = Force { force: args.force.force || extends };
     let base = args.base.iter().filter(|_| !extends);
-    let inputs = base.chain(&args.images).cloned().chain(args.board.files());
+    let inputs = base.cloned().chain(args.board.files());
     Ok(Output::file(&args.output, force, inputs)?)
-}
-
-/// A point for each image with a touch.
-fn shown(args: &ShapesLearnArgs, images: &Path, base: &Base) -> Result<(Vec<Point>, ImagesFile)> {
-    let view = Choice::default().build(Some(base.view), 0);
-    let frames = arrays::read(images, args.array.as_deref())?;
-    let touched = frames.iter().filter(|image| image.iter().any(|value| *value >= view.threshold));
-    let place = |image| base.gallery.space.place(&view.describe(image, frames.columns));
-    let points: Vec<Point> = touched.map(place).collect();
-    let file = images.display();
-    ensure!(!points.is_empty(), "{file}: there is no touch: no value reaches {} counts", view.threshold);
-    let source = ImagesFile {
-        file: images.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        fingerprint: Fingerprint::of(images)?.to_string(),
-        sets: args.array.iter().cloned().collect(),
-        images: points.len(),
-    };
-    Ok((points, source))
 }
 
 /// A point for each touch that was held against a board.

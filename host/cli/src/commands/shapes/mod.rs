@@ -4,26 +4,20 @@ use anyhow::Result;
 use clap::Subcommand;
 
 mod card;
-mod eval;
 mod hold;
-pub mod images;
 pub mod install;
 mod learn;
 mod list;
 mod prune;
-pub mod train;
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
   taxel shapes list
   taxel shapes learn mug -o mine.json
   taxel live --shapes mine.json
-  taxel shapes train --images images.npz --labels labels.csv -o objects.json
-  taxel shapes eval --images images.npz --labels labels.csv --cross 5 --json
-  taxel shapes eval --images shapes.npz --set 32x64_C_n3 --classes three
   taxel shapes card objects";
 
-/// Recognise shapes: train, teach, evaluate, install
+/// Recognise objects by their shape: teach, install
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ShapesArgs {
@@ -33,11 +27,7 @@ pub struct ShapesArgs {
 
 #[derive(Debug, Clone, Subcommand)]
 enum ShapesCommand {
-    /// Train a base on labelled images
-    Train(train::ShapesTrainArgs),
-    /// Evaluate a base on labelled images
-    Eval(eval::ShapesEvalArgs),
-    /// Add a class, or more examples of one, by touching a board or from images
+    /// Add a class, or more examples of one, by touching a board
     Learn(Box<learn::ShapesLearnArgs>),
     /// Send a base to a board
     Install(install::InstallArgs),
@@ -52,8 +42,6 @@ enum ShapesCommand {
 /// Runs the command.
 pub fn run(args: ShapesArgs) -> Result<()> {
     match args.command {
-        ShapesCommand::Train(args) => train::run(args),
-        ShapesCommand::Eval(args) => eval::run(args),
         ShapesCommand::Learn(args) => learn::run(*args),
         ShapesCommand::Install(args) => install::run(args),
         ShapesCommand::Prune(args) => prune::run(args),

@@ -1,7 +1,7 @@
 //! Adds examples to a base.
 
-use super::calibrate::count;
 use super::cluster::centres;
+use super::confidence::count;
 use crate::error::{LearnError, Result};
 use crate::files::bases::{Base, LEFT_OUT};
 use crate::learn::confusion::Confusion;

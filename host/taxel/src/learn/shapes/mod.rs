@@ -1,20 +1,6 @@
-//! Recognition of objects by the shape of their contact.
-//!
-//! Images become descriptors ([`view`](crate::files::bases::view), and `descriptor` of the core). A discriminant analysis finds the
-//! directions that separate the classes ([`discriminant`]). In this space the examples of each class become
-//! prototypes, at most 200 in all ([`cluster`], [`train`]). The confidence of votes is measured on left-out
-//! folds ([`cross`], [`calibrate`]). The resulting gallery is in integers and runs on a board; every figure
-//! is that of these integers.
+//! Objects taught by touch: more examples for a base of shapes, in the integers of the board.
 
-pub mod calibrate;
-pub mod classes;
 pub mod cluster;
-pub mod cross;
-pub mod data;
-pub mod discriminant;
+pub mod confidence;
 pub mod extend;
-pub mod labels;
 pub mod prune;
-pub mod select;
-pub mod train;
-pub mod trained;

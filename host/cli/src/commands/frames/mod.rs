@@ -1,4 +1,0 @@
-//! Commands about recorded frames, without a board.
-
-pub mod features;
-pub mod process;
