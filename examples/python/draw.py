@@ -19,7 +19,7 @@ def draw(frame):
         for row in panel["rows"]:
             print("".join(SHADES[min(value // 100, 9)] for value in row))
     for contact in frame["contacts"]:
-        print(f'contact {contact["id"]} at {contact["x"]:.1f}, {contact["y"]:.1f}')
+        print(f'contact {contact["id"]} at {contact["column"]:.1f}, {contact["row"]:.1f}')
 
 
 for line in lines():

@@ -19,7 +19,7 @@ class Touches(Node):
                 place = contact.position
                 print(f"contact {contact.id} at {place.x:.3f}, {place.y:.3f} m of {contact.header.frame_id}")
         for contact in message.released:
-            print(f"contact {contact.id} ends after {contact.duration:.2f} s: {contact.shape}")
+            print(f"contact {contact.id} ends after {contact.duration_ms / 1000:.2f} s: {contact.shape}")
 
     def intent(self, message):
         if message.leading != self.leading:

@@ -5,7 +5,9 @@ use crate::bytes::Bytes;
 use crate::mcap;
 use crate::scratch::Scratch;
 use std::path::Path;
-use taxel::recording::{Clips, Messages, Overview, chunk_indexes, footer, repair, scan, summary};
+use taxel::recording::{
+    BoardRecording, Clips, Messages, Overview, chunk_indexes, footer, repair, scan, summary,
+};
 
 /// How many bytes a recording may hold per byte of its file: LZ4 packs 255 into one.
 const MOST: usize = 255;
@@ -27,8 +29,8 @@ fn read(data: &[u8]) {
     let _ = (summary(path), footer(path), chunk_indexes(path));
     let messages = count(path, data.len());
     if let Ok(overview) = Overview::of(path) {
-        let _ =
-            (overview.messages("/taxel/wire"), overview.counts_per_newton(Some("x")), overview.attached("x"));
+        let board = BoardRecording { board: Some("x".into()), ..path.display().to_string().as_str().into() };
+        let _ = (overview.messages("/taxel/wire"), overview.scale(&board).is_ok(), overview.attached("x"));
     }
     clips(path);
     let Ok(found) = scan(path) else { return };

@@ -127,7 +127,7 @@ test("an arrow ends where the force presses, comes from outside, and is as long 
   const built = cloth.clothOf(BODY, PANELS);
   const bounds = cloth.nothing();
   const { places } = cloth.stand(built, BODY, { base: STILL, torso: STILL, arm: STILL }, bounds);
-  const push = (force) => ({ at_m: BODY.taxels[5][1], normal: [1, 0, 0], force: [-force, 0, 0] });
+  const push = (force) => ({ at_m: BODY.taxels[5][1], normal: [1, 0, 0], force_counts: [-force, 0, 0] });
   const { tip, tail, normal } = cloth.arrowOf(STILL, push(300), 3_000, bounds);
   near(tip, [...places.slice(15, 18)]);
   // From the front: 300 of 3,000 counts for a metre.

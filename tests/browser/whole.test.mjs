@@ -31,14 +31,14 @@ const CHAIN = [
 ];
 
 test("boards of one robot are one garment on its links", () => {
-  const contact = { id: 3, link: "arm", at_m: [0, 0, 0], normal: [1, 0, 0], force: [-4, 0, 0] };
+  const contact = { id: 3, link: "arm", at_m: [0, 0, 0], normal: [1, 0, 0], force_counts: [-4, 0, 0] };
   const poses = { base: { at_m: [0, 0, 0], turn: [0, 0, 0, 1] } };
   const scene = new Whole().scene([
     part("torso", CHAIN, 1, { folding: [1] }),
     part("hand", [CHAIN[0], { name: "palm", parent: 0 }, { name: "arm", parent: 0 }], 2, {
       poses,
       scale: { pressure: 2, force: 3 },
-      pressing: { contacts: [contact], links: [{ link: "arm", pressed: 4 }] },
+      pressing: { contacts: [contact], links: [{ link: "arm", pressed_counts: 4 }] },
       folding: [0],
     }),
     part("foot", [], 0, { body: null, image: null }),
@@ -67,8 +67,8 @@ test("boards of one robot are one garment on its links", () => {
   assert.deepEqual([...scene.unknown], [0, 0, 0, 0, 1, 1]);
   assert.deepEqual(scene.folding, [1, 2]);
   assert.equal(scene.poses, poses);
-  assert.deepEqual(scene.pressing.contacts, [{ ...contact, board: "hand", force: [-12, 0, 0] }]);
-  assert.deepEqual(scene.pressing.links, [{ link: "arm", pressed: 12 }]);
+  assert.deepEqual(scene.pressing.contacts, [{ ...contact, board: "hand", force_counts: [-12, 0, 0] }]);
+  assert.deepEqual(scene.pressing.links, [{ link: "arm", pressed_counts: 12 }]);
 });
 
 test("places are joined anew only if they are others", () => {

@@ -14,7 +14,7 @@ def main(source: str) -> None:
         for event in board:
             if isinstance(event, taxel.Contacts) and len(event.contacts):
                 hardest = event.contacts[np.argmax(event.contacts["total"])]
-                place = f"{hardest['panel_name']} at ({hardest['x']:.1f}, {hardest['y']:.1f})"
+                place = f"{hardest['panel_name']} at ({hardest['column']:.1f}, {hardest['row']:.1f})"
                 print(f"{event.time_us / 1e6:.3f} s: {hardest['total']} counts on {place}")
             elif isinstance(event, taxel.Intent) and event.leading != leading:
                 leading = event.leading

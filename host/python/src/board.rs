@@ -104,7 +104,7 @@ fn open(
     posing.into_iter().for_each(|posing| session.pose_by(posing));
     let longest = options.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     let (reader, clock, limit) =
-        (FactReader::new(board.calibration), SteadyTime::start(), RunLimit::of(options.frames, longest));
+        (FactReader::default(), SteadyTime::start(), RunLimit::of(options.frames, longest));
     let over = options.frames == Some(0);
     Ok(Open { session, reader, clock, limit, required, over })
 }

@@ -26,6 +26,7 @@
 
 mod error;
 
+mod touch_model;
 mod value;
 
 mod array;
@@ -79,6 +80,8 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::Robot>()?;
     module.add_class::<virtual_board::VirtualBoard>()?;
     module.add_class::<virtual_robot::VirtualRobot>()?;
+    module.add_class::<touch_model::TouchModel>()?;
+    module.add_class::<touch_model::TouchDecision>()?;
     module.add_class::<recording::RecordedEvents>()?;
     module.add_class::<recording::RecordedMessages>()?;
     module.add_function(wrap_pyfunction!(recording::overview, module)?)?;

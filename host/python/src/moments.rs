@@ -93,7 +93,7 @@ fn line(contact: &BoardContact, panels: &Panels) -> Value {
         "id": contact.id, "panel": contact.panel,
         "panel_name": panels.get(usize::from(contact.panel)).map(|panel| panel.name.as_str()),
         "total": contact.total, "force_n": contact.newtons_per_count.map(|newtons| newtons * f64::from(contact.total)),
-        "peak": contact.peak, "area": contact.area, "x": x, "y": y, "vx": vx, "vy": vy,
+        "peak": contact.peak, "area": contact.area, "column": x, "row": y, "columns_per_s": vx, "rows_per_s": vy,
         "top": bounds.top, "bottom": bounds.bottom, "left": bounds.left, "right": bounds.right,
     })
 }

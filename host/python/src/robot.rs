@@ -15,8 +15,7 @@ use std::time::Duration;
 use taxel::client::Event;
 use taxel::mind::{BoardSense, HostInputLine, MindReader, RobotMeaningLine, RobotMind, RobotReasons};
 use taxel::robot::{
-    BoardContact, BoardEvent, BoardLine, BoardOrder, BoardState, ContactReader, ReadRobot, RobotEvent,
-    RobotStream, WhenFull,
+    BoardContact, BoardEvent, BoardLine, BoardOrder, BoardState, ReadRobot, RobotEvent, RobotStream, WhenFull,
 };
 use taxel::session::RunLimit;
 use taxel::source::{SceneFile, SourceOptions};
@@ -65,8 +64,7 @@ impl OpenRobot {
         let plans = robot.plans(options, &RunLimit::of(options.frames, limit));
         let session = RobotStream::start(plans, WhenFull::DropImages, |number, queue| {
             let board = &robot.boards[number];
-            let (name, mut reader) = (board.name.clone(), FactReader::new(board.calibration.clone()));
-            let contacts = is_kept.then(|| ContactReader::new(board));
+            let (name, mut reader) = (board.name.clone(), FactReader::default());
             let mut mind = is_minded.then(|| MindReader::new(&robot, number));
             queue.make(move |client, event, stamp| {
                 // How the board is, the robot says.
@@ -76,7 +74,7 @@ impl OpenRobot {
                 let mut fact = reader.fact(client, event, stamp.host_ns());
                 fact.line["board"] = name.as_str().into();
                 stamp.mark(&mut fact.line);
-                let contacts = contacts.as_ref().and_then(|reader| reader.contacts(client, event));
+                let contacts = is_kept.then(|| BoardContact::all(client, event)).flatten();
                 let sense = mind.as_mut().and_then(|mind| mind.sense(client, event));
                 Some(BoardFact { fact, contacts, sense })
             })

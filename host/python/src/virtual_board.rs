@@ -11,6 +11,7 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use taxel::client::Stamps;
+use taxel::files::calibrate::ForceScale;
 use taxel::record::{Plan, PlannedBoard, Recorder};
 use taxel::session::Observer;
 use taxel::source::{Port, SceneFile, Source};
@@ -118,25 +119,28 @@ impl Port for Nowhere {
 #[pymethods]
 impl VirtualBoard {
     #[new]
-    #[pyo3(signature = (garment, scene, full_scale, record, overwrite, view))]
+    #[pyo3(signature = (garment, scene, full_scale, counts_per_newton, record, view))]
     fn new(
         py: Python<'_>,
         garment: GarmentOrName<'_>,
         scene: Option<&str>,
         full_scale: u16,
-        record: Option<PathBuf>,
-        overwrite: bool,
+        counts_per_newton: Option<f32>,
+        record: Option<(PathBuf, bool)>,
         view: bool,
     ) -> PyResult<VirtualBoard> {
         if full_scale == 0 {
             return Err(usage("full_scale must be 1 to 65535"));
         }
+        if counts_per_newton.is_some_and(|counts| !(counts.is_finite() && counts > 0.0)) {
+            return Err(usage("counts_per_newton must be above 0"));
+        }
         // No recording replaces what it is made of.
         let inputs = garment.file().into_iter().chain(scene.map(PathBuf::from)).collect();
         let garment = garment.read().map_err(raised)?;
         let begin = || -> anyhow::Result<Hand> {
-            let board = build(garment, scene)?;
-            let recorder = record.map(|path| {
+            let mut board = build(garment, scene)?;
+            let recorder = record.map(|(path, overwrite)| {
                 Recorder::create(Plan { force: overwrite, inputs, ..Plan::of(path, PlannedBoard::default()) })
             });
             let recorder = recorder.transpose()?;
@@ -148,7 +152,9 @@ impl VirtualBoard {
                 observers.push(viewer);
                 page = Some(address);
             }
-            observers.opened(&Source::new(LABEL, Nowhere))?;
+            let scale = ForceScale::new(None, counts_per_newton);
+            board.client().weigh_by(scale.clone());
+            observers.opened(&Source { scale, ..Source::new(LABEL, Nowhere) })?;
             let (reader, stamps) = (FactReader::default(), Stamps::start());
             Ok(Hand { board, reader, full_scale, codes: Vec::new(), stamps, recorder, observers, page })
         };

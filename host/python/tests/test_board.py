@@ -19,7 +19,7 @@ def test_it_perceives_what_the_simulation_perceives(scene: str) -> None:
     with taxel.open(f"sim:{scene}", raw=True, tare=0) as stream:
         events = list(stream)
     scans = [event for event in events if isinstance(event, taxel.Raw)]
-    board = taxel.VirtualBoard()
+    board = taxel.VirtualBoard(counts_per_newton=1000)
     stepped: list[taxel.Event] = []
     for scan in scans:
         assert scan.codes is not None

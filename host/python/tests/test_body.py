@@ -40,7 +40,7 @@ def test_a_body_on_the_board_says_what_presses_where() -> None:
     touched[[263, 264, 279, 280]] += 500
     last = hold(touched, 10)[-1]
     (link,) = last.links
-    assert (link.link, link.pressed) == ("torso", 2000)
+    assert (link.link, link.pressed_counts) == ("torso", 2000)
     (contact,) = last.contacts
     assert contact.at_m == link.center_m
     # Half a turn about z, and a metre up.
@@ -49,7 +49,7 @@ def test_a_body_on_the_board_says_what_presses_where() -> None:
     # Gains count.
     board.set_gains([2.0] * board.taxels)
     hold(rest, 30)
-    assert hold(touched, 10)[-1].links[0].pressed == 4000
+    assert hold(touched, 10)[-1].links[0].pressed_counts == 4000
 
 
 def test_a_simulated_board_has_a_body_from_the_start() -> None:

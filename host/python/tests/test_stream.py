@@ -72,7 +72,7 @@ def test_an_image_is_not_copied() -> None:
 
 
 def test_contacts_are_structured() -> None:
-    assert set(taxel.CONTACT.names or ()) >= {"id", "phase", "panel_name", "x", "y", "nmi", "slip"}
+    assert set(taxel.CONTACT.names or ()) >= {"id", "phase", "panel_name", "column", "row", "x_mm", "y_mm", "nmi", "slip"}
     seen = 0
     with taxel.open("sim:five", frames=300) as board:
         for event in board:

@@ -18,9 +18,9 @@ def test_moments_are_exact_sums() -> None:
     y, x = np.indices(image.shape)
     m = int(image.sum())
     assert (found["m"], found["sx"], found["sy"]) == (m, int((x * image).sum()), int((y * image).sum()))
-    assert found["x"] == pytest.approx((x * image).sum() / m, abs=1e-12)
-    inertia = (((x - found["x"]) ** 2 + (y - found["y"]) ** 2) * image).sum()
-    assert found["nmi"] == pytest.approx(np.sqrt(inertia) / m, rel=1e-7)
+    assert found["column"] == pytest.approx((x * image).sum() / m, abs=1e-12)
+    inertia = (((x - found["column"]) ** 2 + (y - found["row"]) ** 2) * image).sum()
+    assert found["nmi"] == pytest.approx(np.sqrt(inertia) / m, abs=6e-8)
 
 
 def test_features_are_of_the_board() -> None:
@@ -31,6 +31,31 @@ def test_features_are_of_the_board() -> None:
     assert not np.array_equal(found, taxel.features(frames[:20], pressed=100))
     with pytest.raises(TypeError):
         taxel.features(frames / 2)
+
+
+def test_a_model_of_planes_decides_by_the_greatest(tmp_path: Path) -> None:
+    still, moving = (np.full((40, 8, 8), 500, np.uint16), np.zeros((40, 8, 8), np.uint16))
+    moving[np.arange(40), np.arange(40) % 8] = 500
+    both = np.array([taxel.features(touch, pressed=12) for touch in (still, moving)], float)
+    mean, scale = both.mean(axis=0), both.std(axis=0) + 1
+    apart = np.clip((both[1] - mean) / scale, -2.5, 2.5) / 127
+    model = taxel.TouchModel.linear(
+        ["still", "moving"], mean=mean, scale=scale, weights=np.array([-apart, apart]), offsets=np.zeros(2), pressed=12
+    )
+    assert (model.classes, model.pressed) == (["still", "moving"], 12)
+    model.save(tmp_path / "own.model")
+    again = taxel.TouchModel.load(tmp_path / "own.model")
+    for touch, name in ((still, "still"), (moving, "moving")):
+        decision = again.decide(touch)
+        assert (decision.name, decision.confidence) == (name, None)
+        features = np.clip((taxel.features(touch, pressed=12) - mean) / scale, -2.5, 2.5)
+        assert decision.scores == pytest.approx([-(features @ apart), features @ apart], abs=0.1)
+    with pytest.raises(taxel.Error):
+        model.save(tmp_path / "own.model")
+    with pytest.raises(taxel.UsageError, match="127"):
+        taxel.TouchModel.linear(["a", "b"], mean=mean[:5], scale=scale, weights=np.array([apart, apart]), offsets=np.zeros(2))
+    with pytest.raises(taxel.Error, match="longer than 16 bytes"):
+        taxel.TouchModel.linear(["a" * 17, "b"], mean=mean, scale=scale, weights=np.array([apart, apart]), offsets=np.zeros(2))
 
 
 def test_maps_run_as_by_the_command() -> None:

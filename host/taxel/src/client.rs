@@ -53,6 +53,7 @@ pub use scene_change::SceneChange;
 pub use stamps::{NS, Stamp, Stamps, time_of};
 
 use crate::client::growths::Growths;
+use crate::files::calibrate::{ForceScale, Newtons};
 use crate::text::words::printable;
 use held::{Beside, HeldRequest};
 use life::Life;
@@ -111,6 +112,9 @@ pub struct Client {
     is_only: bool,
     /// Short name of the source, and the serial number on USB that its link has now.
     link: (String, Option<String>),
+    scale: ForceScale,
+    /// Newtons by that scale on the garment.
+    newtons: Option<Newtons>,
     description: Option<BoardDescription>,
     picture: Picture,
     raw: Vec<u16>,
@@ -173,6 +177,8 @@ impl Client {
             identity: Identity::default(),
             is_only: false,
             link: Default::default(),
+            scale: ForceScale::default(),
+            newtons: None,
             description: None,
             picture: Picture::default(),
             raw: Vec::new(),
@@ -447,6 +453,7 @@ impl Client {
                     (self.intention, self.led) = (None, None);
                 }
                 self.description = Some(description);
+                self.weigh();
                 Event::Hello
             }
             Err(why) => Event::Unusable(why),

@@ -1,7 +1,9 @@
 //! JSON objects shared by all commands.
 //!
-//! Lengths are in taxels and, with `_mm`, in millimetres if the garment has a pitch; angles in radians, times
-//! in seconds, pressure in counts. Floats are finite or `null`.
+//! A key says its unit (`_mm`, `_m`, `_n`, `_rad`, `_us`, `_ms`); without one, lengths are in taxels and pressure in
+//! counts. A quantity has the same key, unit and value wherever it is told: here, in Python, in tables, and in the
+//! messages of `taxel_msgs`, whose standard parts are in ROS's units. Forces in newtons say what they rest on
+//! (`force_basis`). Floats are finite or `null`.
 
 mod contact;
 mod frames;

@@ -36,13 +36,13 @@ pub struct Features {
     /// `nmi_s2` with Sheppard's correction.
     pub nmi_s2_sheppard: Option<f64>,
     /// Angle of the major axis from +x towards +y, in (-pi/2, pi/2] rad; none for an image without direction.
-    pub azimuth: Option<f64>,
+    pub azimuth_rad: Option<f64>,
     /// 0 for a disc or square, 1 for a line.
     pub anisotropy: Option<f64>,
-    /// Centroid, taxels.
-    pub x: Option<f64>,
-    /// Centroid, taxels.
-    pub y: Option<f64>,
+    /// Centroid along the columns, taxels from the first column.
+    pub column: Option<f64>,
+    /// Centroid along the rows, taxels from the first row.
+    pub row: Option<f64>,
     /// Number of taxels with pressure.
     pub area: u32,
     /// Greatest value.
@@ -79,10 +79,10 @@ impl Features {
             nmi_s2: some(forms.s2.to_f64()),
             nmi_peak_sheppard: some(forms.peak_sheppard.to_f64()),
             nmi_s2_sheppard: some(forms.s2_sheppard.to_f64()),
-            azimuth: axis.azimuth.map(Turn::to_radians),
+            azimuth_rad: axis.azimuth.map(Turn::to_radians),
             anisotropy: some(axis.anisotropy.to_f64()),
-            x: some(moments.sx as f64 / m as f64),
-            y: some(moments.sy as f64 / m as f64),
+            column: some(moments.sx as f64 / m as f64),
+            row: some(moments.sy as f64 / m as f64),
             area,
             peak,
         })
@@ -107,8 +107,8 @@ mod tests {
         let have = Features::of(&image, 5).unwrap();
         let sums = (have.m, have.sx, have.sy, have.sxx, have.syy, have.sxy, have.jm);
         assert_eq!(sums, (20, 40, 20, 120, 20, 40, 800));
-        assert_eq!((have.x, have.y, have.area, have.peak), (Some(2.0), Some(1.0), 5, 4));
-        assert_eq!((have.azimuth, have.anisotropy), (Some(0.0), Some(1.0)));
+        assert_eq!((have.column, have.row, have.area, have.peak), (Some(2.0), Some(1.0), 5, 4));
+        assert_eq!((have.azimuth_rad, have.anisotropy), (Some(0.0), Some(1.0)));
         // sqrt(40) / 20, and times sqrt(4) for even pressure.
         assert!((have.nmi.unwrap() - 0.1f64.sqrt()).abs() < 6e-8);
         assert!((have.nmi_peak.unwrap() - 2.0 * 0.1f64.sqrt()).abs() < 6e-8);
@@ -118,9 +118,9 @@ mod tests {
     #[test]
     fn an_image_without_pressure_has_no_place() {
         let have = Features::of(&[0; 12], 4).unwrap();
-        assert_eq!((have.m, have.jm, have.nmi, have.azimuth, have.x), (0, 0, None, None, None));
+        assert_eq!((have.m, have.jm, have.nmi, have.azimuth_rad, have.column), (0, 0, None, None, None));
         let json = serde_json::to_value(&have).unwrap();
-        assert!(json["nmi"].is_null() && json["x"].is_null() && json["Jm"] == 0);
+        assert!(json["nmi"].is_null() && json["column"].is_null() && json["Jm"] == 0);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use taxel::client::{Client, Event, ImageNews, Stamp};
+use taxel::files::calibrate::ForceScale;
 use taxel::record::{Origin, Plan, PlannedBoard, Recorder};
 use taxel::session::Observer;
 use taxel::sim;
@@ -175,7 +176,7 @@ fn cpu_us() -> Option<f64> {
 }
 
 fn record(spec: SourceSpec, path: PathBuf, ros2: bool) -> Result<()> {
-    let origin = Origin { label: format!("sim:{SCENE}"), counts_per_newton: Some(1000.0), calibration: None };
+    let origin = Origin { label: format!("sim:{SCENE}"), scale: ForceScale::new(None, Some(1000.0)) };
     let board = PlannedBoard { origin, ..PlannedBoard::default() };
     let recorder = Recorder::create(Plan { ros2, force: true, ..Plan::of(path, board) })?;
     play(spec, &mut recorder.board(0))?;

@@ -47,7 +47,7 @@ class Felt:
         if not on:
             return None
         scale = self._newtons_per_count
-        keys = ("force", "moment", "pressed", "center_m")
+        keys = ("force_counts", "moment_counts_m", "pressed_counts", "center_m")
         force, moment, pressed, center = (np.mean([getattr(each, key) for each in on], axis=0) for key in keys)
         return Wrench(force * scale, moment * scale, float(pressed) * scale, center)
 

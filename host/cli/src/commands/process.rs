@@ -139,7 +139,7 @@ fn array_of(name: &str) -> String {
 fn line(object: &Value) -> String {
     let contacts = object["contacts"].as_array().map_or(&[][..], Vec::as_slice);
     let each = contacts.iter().map(|c| {
-        let (x, y) = (c["x"].as_f64().unwrap_or(0.0), c["y"].as_f64().unwrap_or(0.0));
+        let (x, y) = (c["column"].as_f64().unwrap_or(0.0), c["row"].as_f64().unwrap_or(0.0));
         format!(
             "#{} {} total {} peak {} area {} at ({x:.2}, {y:.2})",
             c["id"],

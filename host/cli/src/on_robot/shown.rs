@@ -186,7 +186,9 @@ impl ShownRobot {
     pub fn pressing<'a>(&'a self, client: &Client, time: Micros) -> Option<PressingLine<'a>> {
         let on = self.garment.as_ref()?;
         match &self.reported {
-            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => Some(pressing(report)),
+            Some(report) if report.time.0.abs_diff(time.0) <= FRESH => {
+                Some(pressing(report, client.newtons()))
+            }
             _ => computed_pressing(client, time, &on.layout, &on.surface),
         }
     }

@@ -8,8 +8,8 @@ pub struct PageUnit {
 
 impl PageUnit {
     /// Unit for these counts per newton, if known.
-    pub fn of(counts_per_newton: Option<f32>) -> PageUnit {
-        PageUnit { per_newton: counts_per_newton.map(f64::from).filter(|counts| *counts > 0.0) }
+    pub fn of(counts_per_newton: Option<f64>) -> PageUnit {
+        PageUnit { per_newton: counts_per_newton }
     }
 
     /// Name of the unit.

@@ -28,7 +28,7 @@ const SENTENCES: usize = 500;
 pub struct Seen {
     /// Name of the recording or the board.
     pub label: String,
-    pub(super) counts_per_newton: Option<f32>,
+    pub(super) counts_per_newton: Option<f64>,
     pub(super) description: Option<BoardDescription>,
     pub(super) counts: Counts,
     /// The moment of the greatest force.
@@ -81,10 +81,10 @@ pub(super) struct Moment {
 
 impl Seen {
     /// No data yet, of a source with this label.
-    pub fn new(label: String, counts_per_newton: Option<f32>) -> Seen {
+    pub fn new(label: String) -> Seen {
         Seen {
             label,
-            counts_per_newton,
+            counts_per_newton: None,
             description: None,
             counts: Counts::default(),
             top: Moment::default(),
@@ -101,7 +101,7 @@ impl Seen {
             shown_robot: None,
             folding: None,
             skipped: Skipped::default(),
-            narrator: Narrator::new(counts_per_newton),
+            narrator: Narrator::default(),
         }
     }
 
@@ -186,6 +186,7 @@ impl Observer for Seen {
         match event {
             Event::Hello => {
                 self.description = client.description().cloned();
+                self.counts_per_newton = client.counts_per_newton();
                 if let (Some(shown_robot), Some(description)) = (&mut self.shown_robot, client.description())
                     && !shown_robot.has(description)
                 {

@@ -5,6 +5,7 @@ use anyhow::Result;
 use std::sync::Arc;
 use taxel::body::{ReadBody, Surface};
 use taxel::client::Client;
+use taxel::files::calibrate::Newtons;
 use taxel::ros2::topics::{LINK_COUNTS, LINK_WRENCH, PRESSING, REGIONS, RosTopic};
 use taxel::ros2::{pressing, topic_part};
 use taxel_core::garment::Garment;
@@ -14,8 +15,8 @@ use taxel_core::wire::{PressingReport, RegionsReport};
 #[derive(Debug)]
 pub struct Links {
     body: Option<ReadBody>,
-    /// Counts per newton, if known.
-    pub per_newton: Option<f32>,
+    /// Newtons of its board's pressure.
+    newtons: Option<Newtons>,
     /// The body on this garment.
     placed: Option<(Garment, Arc<Surface>)>,
 }
@@ -23,7 +24,7 @@ pub struct Links {
 impl Links {
     /// Makes the links of a body, if there is one.
     pub fn new(body: Option<ReadBody>) -> Links {
-        Links { body, per_newton: None, placed: None }
+        Links { body, newtons: None, placed: None }
     }
 
     /// The places of the taxels; none without a body, or before the board's garment is known.
@@ -31,24 +32,31 @@ impl Links {
         self.placed.as_ref().map(|(_, surface)| surface)
     }
 
-    /// Forces of links: in newtons if a calibration is known.
+    /// Counts per newton; none if unknown.
+    fn per_newton(&self) -> Option<f64> {
+        self.newtons.as_ref()?.counts_per_newton()
+    }
+
+    /// Forces of links: in newtons if they are known.
     fn topic(&self) -> RosTopic {
-        if self.per_newton.is_some() { LINK_WRENCH } else { LINK_COUNTS }
+        if self.per_newton().is_some() { LINK_WRENCH } else { LINK_COUNTS }
     }
 
     /// Places the body on the garment of the board, and offers the topics of its links, if it is
     /// another garment than before.
     pub fn offer(&mut self, node: &mut RosNode, client: &Client) -> Result<()> {
         let (Some(body), Some(board)) = (&self.body, client.description()) else { return Ok(()) };
-        if self.placed.as_ref().is_some_and(|(garment, _)| *garment == board.garment) {
+        let before = self.topic();
+        self.newtons = client.newtons().cloned();
+        let topic = self.topic();
+        if topic == before && self.placed.as_ref().is_some_and(|(garment, _)| *garment == board.garment) {
             return Ok(());
         }
         let surface = Arc::new(body.surface(&board.garment, &board.layout)?);
-        let topic = self.topic();
         let gone = self.surface().into_iter().flat_map(|before| before.links());
         let gone: Vec<String> = gone
-            .filter(|link| !surface.links().contains(link))
-            .map(|link| node.name(&topic, &topic_part(link)))
+            .filter(|link| topic != before || !surface.links().contains(link))
+            .map(|link| node.name(&before, &topic_part(link)))
             .collect();
         node.withdraw(|name| gone.iter().any(|gone| gone == name));
         node.offer(&PRESSING, "")?;
@@ -79,13 +87,13 @@ impl Links {
     pub fn report(&self, node: &mut RosNode, report: &PressingReport, us: u64, base: &str) -> Result<()> {
         // The board may have a body that nobody has named here.
         let Some(surface) = self.surface() else { return Ok(()) };
-        node.publish(&PRESSING, "", pressing::pressing(us, report, base, self.per_newton))?;
+        node.publish(&PRESSING, "", pressing::pressing(us, report, base, self.newtons.as_ref()))?;
         let topic = self.topic();
         for link in surface.links() {
             let part = topic_part(link);
             if node.wants(&topic, &part) {
                 let presses = report.links.iter().find(|wrench| wrench.name.as_str() == link);
-                node.publish(&topic, &part, pressing::wrench(us, link, presses, self.per_newton))?;
+                node.publish(&topic, &part, pressing::wrench(us, link, presses, self.per_newton()))?;
             }
         }
         Ok(())

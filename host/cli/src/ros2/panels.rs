@@ -17,7 +17,7 @@ const OF_PANEL: [RosTopic; 3] = [IMAGE, POINTS, WRENCH];
 #[derive(Debug)]
 pub struct Panels {
     /// Counts per newton, if known.
-    pub per_newton: Option<f32>,
+    per_newton: Option<f64>,
     /// Panels that were offered.
     areas: Vec<Area>,
     /// Places of the taxels, with a body.
@@ -41,29 +41,32 @@ impl Panels {
         us: u64,
         surface: Option<&Arc<Surface>>,
     ) -> Result<()> {
+        let before = self.names();
         self.surface = surface.cloned();
         let Some(layout) = client.layout() else { return Ok(()) };
-        let areas = layout.areas();
-        if self.areas == areas {
+        if (self.areas.as_slice(), self.per_newton) == (layout.areas(), client.counts_per_newton()) {
             return Ok(());
         }
-        let topics = |areas: &[Area]| -> Vec<(RosTopic, String)> {
-            let of = |area: &Area| {
-                self.topics(area).map(|topic| (topic, topic_part(&area.name))).collect::<Vec<_>>()
-            };
-            areas.iter().flat_map(of).collect()
+        (self.areas, self.per_newton) = (layout.areas().to_vec(), client.counts_per_newton());
+        let now = self.names();
+        let names = |topics: &[(RosTopic, String)]| -> Vec<String> {
+            topics.iter().map(|(topic, part)| node.name(topic, part)).collect()
         };
-        let kept: Vec<String> = topics(areas).iter().map(|(topic, part)| node.name(topic, part)).collect();
-        let gone: Vec<String> =
-            topics(&self.areas).iter().map(|(topic, part)| node.name(topic, part)).collect();
+        let (kept, gone) = (names(&now), names(&before));
         node.withdraw(|name| gone.iter().any(|gone| gone == name) && !kept.iter().any(|kept| kept == name));
-        for (topic, part) in topics(areas) {
-            node.offer(&topic, &part)?;
+        for (topic, part) in &now {
+            node.offer(topic, part)?;
         }
-        self.areas = areas.to_vec();
         self.due_us = 0;
         let frames = messages::frames(node.board(), us, layout, surface.map(AsRef::as_ref));
         node.publish(&FRAMES, "", frames)
+    }
+
+    /// Topics of all panels, each with its panel's part of the name.
+    fn names(&self) -> Vec<(RosTopic, String)> {
+        let of =
+            |area: &Area| self.topics(area).map(|topic| (topic, topic_part(&area.name))).collect::<Vec<_>>();
+        self.areas.iter().flat_map(of).collect()
     }
 
     /// Topics of a panel: points need a pitch or a place, forces a calibration.

@@ -77,8 +77,6 @@ impl RosShow {
         if self.is_clock {
             self.node.offer(&CLOCK, "")?;
         }
-        self.panels.per_newton = source.counts_per_newton;
-        self.links.per_newton = source.counts_per_newton;
         let deaf = (!source.listens).then(|| source.label.clone());
         let postures = Postures::open(&mut self.node)?;
         self.taken = Some(Taken { postures, services: Services::open(&mut self.node, deaf)? });
@@ -102,7 +100,7 @@ impl RosShow {
             Event::Frame { image: ImageNews::Whole, .. } => self.panels.image(node, client, us, board_us),
             Event::Contacts { frame, dropped, released, .. } => {
                 let list_of = (*frame, *dropped);
-                let on = (self.links.surface().map(AsRef::as_ref), self.panels.per_newton);
+                let on = self.links.surface().map(AsRef::as_ref);
                 let message = own::contacts(node.board(), us, client, list_of, released, on);
                 node.publish(&CONTACTS, "", message)
             }

@@ -2,7 +2,7 @@
 
 use super::ramp::{Paint, color};
 use crate::palette::intention;
-use crate::watch::{Basis, Felt};
+use crate::watch::Felt;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
@@ -24,14 +24,14 @@ pub struct Head {
 
 impl Head {
     /// Handles a frame.
-    pub fn take(&mut self, client: &Client, time: Micros, counts_per_newton: Option<f32>) {
+    pub fn take(&mut self, client: &Client, time: Micros) {
         let touches = !client.contacts().is_empty();
         if touches {
             self.touched = Some(time);
         }
         let lasts = |at: Micros| time.0.wrapping_sub(at.0) <= LASTS;
         self.is_over = !touches && self.touched.is_some_and(lasts);
-        let felt = Felt::of(client, counts_per_newton);
+        let felt = Felt::of(client);
         if let Some(reported) = self.felt.as_mut().filter(|_| self.is_over) {
             reported.what.clone_from(&reported.peak);
         }
@@ -43,7 +43,7 @@ impl Head {
     }
 
     /// Draws it in one row, the meaning on its colour.
-    pub fn draw(&self, client: &Client, space: Rect, (basis, paint): (Basis, Paint), buffer: &mut Buffer) {
+    pub fn draw(&self, client: &Client, space: Rect, paint: Paint, buffer: &mut Buffer) {
         let (Some(felt), false) = (&self.felt, space.is_empty()) else { return };
         let bold = Style::new().add_modifier(Modifier::BOLD);
         let room = |x: u16| usize::from(space.right().saturating_sub(x));
@@ -63,9 +63,10 @@ impl Head {
             };
         }
         let now = if self.is_over { "just now" } else { "now" };
-        let newtons = if basis == Basis::Counts { "" } else { " newtons" };
-        if client.description().is_some() {
-            put(x, &format!("   {now}, {}{newtons}", basis.as_str()), Style::new());
+        if let Some(newtons) = client.newtons() {
+            let basis = newtons.basis().map(|basis| format!("{} newtons", basis.as_str()));
+            let basis = basis.unwrap_or_else(|| "not calibrated".into());
+            put(x, &format!("   {now}, {basis}"), Style::new());
         }
     }
 }
@@ -82,7 +83,6 @@ mod tests {
     /// Greatest force of the first touch, and the force that is reported once it has ended, N.
     #[derive(Default)]
     struct FirstTouch {
-        counts_per_newton: Option<f32>,
         head: Head,
         most: f64,
         ended: Option<f64>,
@@ -91,7 +91,7 @@ mod tests {
     impl Observer for FirstTouch {
         fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
             let Event::Frame { time, .. } = event else { return Ok(()) };
-            self.head.take(client, *time, self.counts_per_newton);
+            self.head.take(client, *time);
             let what = self.head.felt.as_ref().and_then(|felt| felt.what.split(" N").next());
             let force = what.and_then(|what| what.rsplit(' ').next()?.parse::<f64>().ok());
             match (force, self.head.is_over, self.ended) {
@@ -107,8 +107,7 @@ mod tests {
     fn a_touch_that_has_ended_is_reported_with_its_greatest_force() {
         let spec: SourceSpec = "sim:pat".parse().unwrap();
         let source = open(&spec, &SourceOptions::default()).unwrap();
-        let counts_per_newton = source.counts_per_newton;
-        let mut first = FirstTouch { counts_per_newton, ..FirstTouch::default() };
+        let mut first = FirstTouch::default();
         watch(&WatchOptions::of(spec), source, &mut first).unwrap();
         assert_eq!(first.ended, Some(first.most));
         assert!(first.most > 5.0, "{} N", first.most);

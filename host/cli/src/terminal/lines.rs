@@ -19,7 +19,7 @@ pub struct Lines<W> {
 impl<W: Write> Lines<W> {
     /// Output for a source, which is reported once it is open.
     pub fn new(out: W) -> Lines<W> {
-        Lines { label: String::new(), narrator: Narrator::new(None), out, summed: None }
+        Lines { label: String::new(), narrator: Narrator::default(), out, summed: None }
     }
 
     /// Returns what it writes to.
@@ -51,7 +51,7 @@ impl<W: Write> Lines<W> {
 impl<W: Write> Observer for Lines<W> {
     fn opened(&mut self, source: &Source) -> taxel::Result<()> {
         self.label.clone_from(&source.label);
-        self.narrator = Narrator::new(source.counts_per_newton);
+        self.narrator = Narrator::default();
         Ok(())
     }
 

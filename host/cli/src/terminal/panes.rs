@@ -2,7 +2,6 @@
 
 use super::ramp::color;
 use crate::palette::{FEELING, Rgb, intention as colour_of};
-use crate::watch::narrate::force;
 use crate::watch::shape::shape;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -37,16 +36,14 @@ pub fn list(title: &str, lines: &[String], space: Rect, buffer: &mut Buffer) {
 pub const CONTACTS: &str = " id region     shape        force area  axis    mm/s";
 
 /// Formats a contact as a line.
-pub fn contact(client: &Client, placed: &Placed, counts_per_newton: Option<f32>) -> String {
+pub fn contact(client: &Client, placed: &Placed) -> String {
     let contact = &placed.contact;
     let axis = contact.azimuth.map_or("   -".into(), |a| format!("{:3.0}°", a.to_radians().to_degrees()));
     let speed = client.layout().map_or(0, |layout| placed.speed(layout)) / 10;
     let region = client.region_name(placed.region);
     let shape = shape(client, placed);
-    let force = match counts_per_newton {
-        Some(_) => force(contact.total, counts_per_newton),
-        None => contact.total.to_string(),
-    };
+    let force = client.force(placed);
+    let force = force.map_or_else(|| contact.total.to_string(), |newtons| format!("{newtons:.1} N"));
     let slip = if contact.slip { " slip" } else { "" };
     format!(
         "{:>3} {region:<10.10} {shape:<9.9} {force:>8} {:>4}  {axis} {speed:>7}{slip}",

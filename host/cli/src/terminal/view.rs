@@ -7,7 +7,6 @@ use super::panes;
 use super::ramp::{GLYPHS, Paint, color};
 use super::scale::PressureScale;
 use crate::palette::{STEPS, ramp};
-use crate::watch::Basis;
 use crate::watch::narrate::{Narrator, force};
 use crate::watch::rate::Rate;
 use ratatui::buffer::Buffer;
@@ -55,7 +54,7 @@ impl View {
     pub fn new(source: &Source) -> View {
         View {
             label: source.label.clone(),
-            narrator: Narrator::new(source.counts_per_newton),
+            narrator: Narrator::default(),
             log: VecDeque::new(),
             rate: Rate::default(),
             head: Head::default(),
@@ -78,7 +77,7 @@ impl View {
         match event {
             Event::Frame { time, .. } => {
                 self.rate.add(*time);
-                self.head.take(client, *time, self.narrator.counts_per_newton);
+                self.head.take(client, *time);
                 self.curve.add(client, *time);
                 if let (Some((_, image)), Some(description)) = (client.image(), client.description()) {
                     self.scale.follow(image, description.scene.contact.low);
@@ -144,15 +143,14 @@ impl View {
         let rows = [header, head, Constraint::Fill(1), Constraint::Length(1)];
         let [header, head, body, footer] = Layout::vertical(rows).areas(buffer.area);
         self.header(client, header, buffer);
-        self.footer(paused, footer, buffer);
+        self.footer(client, paused, footer, buffer);
         let head = Rect { y: head.bottom().saturating_sub(1), height: head.height.min(1), ..head };
-        let basis = Basis::of(client, self.narrator.counts_per_newton);
-        self.head.draw(client, head, (basis, self.paint), buffer);
+        self.head.draw(client, head, self.paint, buffer);
         if body.width < WIDE && is_tall {
             let parts = [Constraint::Fill(1), Constraint::Length(CURVE), Constraint::Length(12)];
             let [maps, curve, below] = Layout::vertical(parts).areas(body);
             self.maps(client, maps, buffer);
-            self.force(curve, buffer);
+            self.force(client, curve, buffer);
             let [left, right] = Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas(below);
             self.contacts(client, left, buffer);
             return panes::concepts(client, right, buffer);
@@ -162,7 +160,7 @@ impl View {
         let side = Rect { x: body.x + taken, width: body.width - taken, ..body };
         let parts = [Constraint::Length(CURVE), Constraint::Fill(1)];
         let [curve, below] = Layout::vertical(parts).spacing(u16::from(is_tall)).areas(side);
-        self.force(curve, buffer);
+        self.force(client, curve, buffer);
         match body.width >= WIDE {
             true => self.side(client, below, buffer),
             false => panes::concepts(client, below, buffer),
@@ -170,11 +168,11 @@ impl View {
     }
 
     /// Draws the force of the last half minute below its name.
-    fn force(&self, space: Rect, buffer: &mut Buffer) {
+    fn force(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
         if space.is_empty() {
             return;
         }
-        let most = force(self.curve.most(), self.narrator.counts_per_newton);
+        let most = force(client, self.curve.most());
         let title = format!("force of the last 30 s, up to {most}");
         buffer.set_stringn(space.x, space.y, title, usize::from(space.width), Style::new());
         self.curve.draw(Rect { y: space.y + 1, height: space.height - 1, ..space }, buffer);
@@ -253,13 +251,12 @@ impl View {
     }
 
     fn contacts(&self, client: &Client, space: Rect, buffer: &mut Buffer) {
-        let newtons = self.narrator.counts_per_newton;
-        let lines: Vec<_> = client.contacts().iter().map(|p| panes::contact(client, p, newtons)).collect();
+        let lines: Vec<_> = client.contacts().iter().map(|p| panes::contact(client, p)).collect();
         panes::list(panes::CONTACTS, &lines, space, buffer);
     }
 
     /// Draws keys and scale.
-    fn footer(&self, paused: bool, space: Rect, buffer: &mut Buffer) {
+    fn footer(&self, client: &Client, paused: bool, space: Rect, buffer: &mut Buffer) {
         if space.is_empty() {
             return;
         }
@@ -279,8 +276,8 @@ impl View {
         }
         let left = usize::from(space.right().saturating_sub(x));
         let top = self.scale.top();
-        let end = match self.narrator.counts_per_newton {
-            Some(counts) => format!(" {:.2} N on a taxel", f32::from(top) / counts),
+        let end = match client.counts_per_newton() {
+            Some(counts) => format!(" {:.2} N on a taxel", f64::from(top) / counts),
             None => format!(" {top} counts"),
         };
         buffer.set_stringn(x, y, end, left, Style::new());
@@ -308,6 +305,7 @@ mod tests {
             let source = source::open(&"sim:box".parse().unwrap(), &SourceOptions::default()).unwrap();
             let mut client = Client::new();
             client.start(source.tare).unwrap();
+            client.weigh_by(source.scale.clone());
             let view = View::new(&source).painted(paint);
             Seat { source, client, view }
         }

@@ -18,6 +18,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use taxel::client::{Client, Event};
 use taxel::fcm::map::MapFile;
+use taxel::files::calibrate::ForceScale;
 use taxel::recording::Store;
 use taxel::source::shared;
 use taxel_core::garment::{Circuit, Pins};
@@ -54,7 +55,8 @@ struct PageShared {
     known: BTreeMap<&'static str, Arc<str>>,
     log: KeptLog,
     circuit: Option<Box<Circuit>>,
-    counts_per_newton: Option<f32>,
+    /// Scale of forces, for images of the past.
+    scale: ForceScale,
     /// The map of the scene.
     map: Option<Arc<MapFile>>,
     tares: VecDeque<u16>,
@@ -214,7 +216,7 @@ impl PageHub {
     }
 
     /// Shows the garment and the scene of the last `Hello`.
-    pub fn greet(&self, client: &Client, label: &str, counts_per_newton: Option<f32>) {
+    pub fn greet(&self, client: &Client, label: &str) {
         let description = client.description();
         let circuit = description.and_then(|description| {
             Circuit::build(&description.garment, &description.layout, Pins::ANY).ok()
@@ -224,14 +226,14 @@ impl PageHub {
             let mut shared = self.lock();
             shared.circuit = circuit.map(Box::new);
             shared.map = intent.map(|intent| Arc::new(MapFile::from_config(&intent.map)));
-            shared.counts_per_newton = counts_per_newton;
+            shared.scale = client.scale().clone();
         }
-        self.state("hello", &message::hello(client, label, counts_per_newton));
+        self.state("hello", &message::hello(client, label));
     }
 
-    /// Counts per newton on a taxel; none if unknown.
-    pub fn counts_per_newton(&self) -> Option<f32> {
-        self.lock().counts_per_newton
+    /// Scale of forces.
+    pub fn scale(&self) -> ForceScale {
+        self.lock().scale.clone()
     }
 
     /// Handles the raw codes of a frame.

@@ -3,7 +3,7 @@
 
 use super::line_kind::LineKind;
 use crate::palette::PagePalette;
-use crate::watch::{Basis, Felt};
+use crate::watch::Felt;
 use serde::Serialize;
 use taxel::fcm::layers::Role;
 use taxel::json::lines::{FrameLine, HelloLine, PressingLine};
@@ -25,9 +25,8 @@ pub struct PageHello<'a> {
     pub palette: PagePalette,
     /// Counts per newton on a taxel; null if unknown.
     pub counts_per_newton: Option<f64>,
-    /// Basis of forces: `simulated`, `calibrated`, `nominal` or `counts`.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
-    pub basis: Basis,
+    /// Basis of forces: `calibrated`, `nominal` or `simulated`; null if they are in counts.
+    pub force_basis: Option<&'static str>,
     /// Counts at which a contact ends.
     pub low: u16,
     /// Rectangles of positions without a taxel.
@@ -473,8 +472,6 @@ pub struct RobotBoardLine<'a> {
     pub contacts: usize,
     /// Counts per newton on its taxels; null if unknown.
     pub counts_per_newton: Option<f32>,
-    /// True if the loads of its touches are thousandths of a newton, by a calibration in force.
-    pub is_calibrated: bool,
 }
 
 /// Meaning of the touches of all boards to the robot.

@@ -27,8 +27,8 @@ use super::lines::{
 use super::order::Order;
 use super::shot::Shot;
 use crate::palette;
+use crate::watch::Felt;
 use crate::watch::shape::shape;
-use crate::watch::{Basis, Felt};
 use serde::Deserialize;
 use std::time::Duration;
 use taxel::client::{Client, Event};
@@ -61,11 +61,7 @@ pub fn image(shot: &Shot, highest: &[u16], samples: &[(u64, u32)], replaced: u64
 }
 
 /// `hello`; none before the board has sent its garment.
-pub fn hello<'a>(
-    client: &'a Client,
-    label: &'a str,
-    counts_per_newton: Option<f32>,
-) -> Option<PageHello<'a>> {
+pub fn hello<'a>(client: &'a Client, label: &'a str) -> Option<PageHello<'a>> {
     let (Some(JsonLine::Hello(line)), Some(description)) =
         (json::line(client, &Event::Hello), client.description())
     else {
@@ -75,8 +71,8 @@ pub fn hello<'a>(
         line,
         label,
         palette: palette::for_page(),
-        counts_per_newton: counts_per_newton.map(f64::from),
-        basis: Basis::of(client, counts_per_newton),
+        counts_per_newton: client.counts_per_newton(),
+        force_basis: client.force_basis(),
         low: description.scene.contact.low,
         absent: &description.garment.absent,
         map: description.scene.intent.as_ref().map(|intent| map(&intent.map)),
@@ -127,16 +123,12 @@ pub fn why(map: &MapFile, of: Option<&str>, activations: &[f64]) -> Option<WhyLi
 /// The line of an image; none of another event. The activations are those of the last moment at which the
 /// announced intention led: a board announces it a little longer than the touch activates it, and a page
 /// shows both together.
-pub fn frame<'a>(
-    client: &'a Client,
-    event: &'a Event,
-    counts_per_newton: Option<f32>,
-) -> Option<PageFrame<'a>> {
+pub fn frame<'a>(client: &'a Client, event: &'a Event) -> Option<PageFrame<'a>> {
     let Some(JsonLine::Frame(line)) = json::line(client, event) else { return None };
     let intent = MeaningOfTouch::of(client.leading(), client.concepts(), &client.activations_of_leading());
     Some(PageFrame {
         line: FrameLine { intent, ..line },
-        felt: Felt::of(client, counts_per_newton),
+        felt: Felt::of(client),
         shapes: client.contacts().iter().map(|placed| shape(client, placed)).collect(),
         at_us: None,
         seeks: None,

@@ -23,7 +23,9 @@ pub struct Past<'a> {
 impl<'a> Past<'a> {
     /// Reads the result of [`super::Recent::recording`].
     pub fn of(bytes: &'a [u8], hub: &'a PageHub) -> Past<'a> {
-        Past { bytes: bytes.iter(), client: Client::new(), mailbox: Mailbox::default(), last: None, hub }
+        let mut client = Client::new();
+        client.weigh_by(hub.scale());
+        Past { bytes: bytes.iter(), client, mailbox: Mailbox::default(), last: None, hub }
     }
 
     /// Handles an image. Returns whether it is due.
@@ -31,7 +33,7 @@ impl<'a> Past<'a> {
         let Event::Frame { time, image: ImageNews::Whole, .. } = event else { return false };
         let Some((_, image)) = self.client.image() else { return false };
         let total = self.client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let Some(line) = message::frame(&self.client, event, self.hub.counts_per_newton()) else {
+        let Some(line) = message::frame(&self.client, event) else {
             return false;
         };
         let shown_robot = self.hub.shown_robot();

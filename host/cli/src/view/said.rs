@@ -31,18 +31,13 @@ impl Said {
 }
 
 /// Turns events into lines.
-#[derive(Debug, Clone)]
+#[derive(Debug, Default, Clone)]
 pub struct EventLines {
     narrator: Narrator,
     lost: u64,
 }
 
 impl EventLines {
-    /// Starts at the beginning of a stream.
-    pub fn new(counts_per_newton: Option<f32>) -> EventLines {
-        EventLines { narrator: Narrator::new(counts_per_newton), lost: 0 }
-    }
-
     /// Lines for an event, and for messages lost before it.
     pub fn narrate(&mut self, client: &Client, event: &Event) -> Vec<Said> {
         let lost = client.counts().lost.saturating_sub(self.lost);

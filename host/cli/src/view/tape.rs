@@ -41,7 +41,9 @@ impl<S: Store> Copy<S> {
     pub fn begin(store: S, origin: Origin) -> Result<Copy<S>> {
         let mut file = RecordingFile::create(store, None)?;
         let part = file.board(None, None)?;
-        Ok(Copy { file, part, client: Client::new(), origin, description: None, chunk_us: 0 })
+        let mut client = Client::new();
+        client.weigh_by(origin.scale.clone());
+        Ok(Copy { file, part, client, origin, description: None, chunk_us: 0 })
     }
 
     /// Adds a frame of the wire.
@@ -66,7 +68,7 @@ impl<S: Store> Copy<S> {
             self.part.close();
         }
         self.part.put(|messages| messages.frames(&self.client, stamp))?;
-        self.part.event(&self.client, event, stamp, self.origin.counts_per_newton)?;
+        self.part.event(&self.client, event, stamp)?;
         Ok(self.file.write(&mut self.part)?)
     }
 

@@ -32,7 +32,6 @@ const ROUND: Duration = Duration::from_secs(1);
 pub struct Viewer {
     hub: Arc<PageHub>,
     label: String,
-    counts_per_newton: Option<f32>,
     calibration: Option<Calibration>,
     /// Folds of the garment; none without a table.
     folding: Option<Folding>,
@@ -57,10 +56,9 @@ impl Viewer {
         Viewer {
             hub,
             label: String::new(),
-            counts_per_newton: None,
             calibration,
             folding: None,
-            lines: EventLines::new(None),
+            lines: EventLines::default(),
             rate: Rate::default(),
             raw: RawCodes::default(),
             sent: now,
@@ -115,7 +113,7 @@ impl Viewer {
             self.hub.state("folding", line);
         }
         let Some((_, image)) = client.image().filter(|_| self.hub.pages() > 0) else { return };
-        let Some(line) = message::frame(client, event, self.counts_per_newton) else { return };
+        let Some(line) = message::frame(client, event) else { return };
         let shown_robot = self.hub.shown_robot();
         let pressing = shown_robot.as_ref().and_then(|shown_robot| shown_robot.pressing(client, time));
         let line = text(&PageFrame { pressing, ..line });
@@ -129,14 +127,14 @@ impl Viewer {
         self.hub.forget_images();
         let (frame, time) = (self.last.0, Micros(self.last.1.0 + 1));
         let nothing = Event::Frame { frame, time, alone: true, image: ImageNews::NoBase };
-        let line = message::frame(client, &nothing, self.counts_per_newton);
+        let line = message::frame(client, &nothing);
         let Some((line, layout)) = line.zip(client.layout()) else { return };
         let image = vec![0; layout.taxels()].into();
         self.hub.shot(&Shot { line: text(&line), image, time_us: time.0, total: 0 });
     }
 
     fn hello(&mut self, client: &Client) -> Result<()> {
-        self.hub.greet(client, &self.label, self.counts_per_newton);
+        self.hub.greet(client, &self.label);
         if let (Some(folding), Some(description)) = (&mut self.folding, client.description()) {
             folding.use_garment(description)?;
         }
@@ -153,10 +151,10 @@ impl Viewer {
 impl Observer for Viewer {
     fn opened(&mut self, source: &Source) -> taxel::Result<()> {
         source.hand.iter().for_each(|hand| self.hub.hand(PageHand::new(hand.clone())));
-        (self.label, self.counts_per_newton) = (source.label.clone(), source.counts_per_newton);
-        self.lines = EventLines::new(source.counts_per_newton);
-        let (label, counts_per_newton) = (source.label.clone(), source.counts_per_newton);
-        let origin = Origin { label, counts_per_newton, calibration: self.calibration.clone() };
+        self.label.clone_from(&source.label);
+        self.lines = EventLines::default();
+        let scale = source.scale.with(self.calibration.as_ref());
+        let origin = Origin { label: source.label.clone(), scale };
         self.hub.tape(Tape::Live(Arc::new(origin)));
         Ok(())
     }

@@ -1,7 +1,7 @@
-//! The first thing that one reads: what is felt now, in one sentence, and on what its newtons rest.
+//! The first thing that one reads: what is felt now, in one sentence.
 
 use serde::Serialize;
-use taxel::client::{BoardDescription, Client};
+use taxel::client::Client;
 use taxel_core::body::Placed;
 use taxel_core::intent::Leading;
 
@@ -18,8 +18,8 @@ pub struct Felt {
 }
 
 impl Felt {
-    /// The present contacts, with forces in newtons if the counts per newton are known.
-    pub fn of(client: &Client, counts_per_newton: Option<f32>) -> Felt {
+    /// The present contacts, with forces in newtons if they are known.
+    pub fn of(client: &Client) -> Felt {
         let contacts = client.contacts();
         let Some(strongest) = contacts.iter().max_by_key(|placed| placed.contact.total) else {
             let leading = Some(client.leading()).filter(|leading| *leading != Leading::None);
@@ -31,7 +31,7 @@ impl Felt {
             others => format!(", and {others} more"),
         };
         let (noun, place) = (noun(client, strongest), client.region_name(strongest.region));
-        let reported = |total| format!("{noun} on the {place}, {}{others}", round(total, counts_per_newton));
+        let reported = |total| format!("{noun} on the {place}, {}{others}", round(client, total));
         let total = strongest.contact.total;
         let peak = reported(client.greatest_force(strongest.contact.id).unwrap_or(total));
         Felt { what: reported(total), peak, meaning: meaning(client, strongest) }
@@ -65,50 +65,11 @@ fn meaning(client: &Client, placed: &Placed) -> &'static str {
 }
 
 /// A force for a sentence, which changes seldom: whole newtons from 3 N on.
-fn round(total: u32, counts_per_newton: Option<f32>) -> String {
-    match counts_per_newton.map(|counts| total as f32 / counts) {
+fn round(client: &Client, total: u32) -> String {
+    match client.counts_per_newton().map(|counts| f64::from(total) / counts) {
         Some(newtons) if newtons < 2.95 => format!("{newtons:.1} N"),
         Some(newtons) => format!("{newtons:.0} N"),
         None => format!("{total} counts"),
-    }
-}
-
-/// Basis on which forces rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Basis {
-    /// A simulated board: newtons of its script.
-    Simulated,
-    /// A calibration in force.
-    Calibrated,
-    /// The nominal gain of the garment.
-    Nominal,
-    /// Nothing: forces are in counts.
-    Counts,
-}
-
-impl Basis {
-    /// The basis of a board's forces.
-    pub fn of(client: &Client, counts_per_newton: Option<f32>) -> Basis {
-        let description = client.description();
-        match counts_per_newton {
-            _ if description.is_some_and(BoardDescription::is_simulated) => Basis::Simulated,
-            _ if description.is_some_and(|description| !description.calibration.is_empty()) => {
-                Basis::Calibrated
-            }
-            Some(_) => Basis::Nominal,
-            None => Basis::Counts,
-        }
-    }
-
-    /// The word beside a force.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Basis::Simulated => "simulated",
-            Basis::Calibrated => "calibrated",
-            Basis::Nominal => "nominal",
-            Basis::Counts => "not calibrated",
-        }
     }
 }
 
@@ -118,30 +79,33 @@ mod tests {
     use crate::watch::{WatchOptions, watch};
     use taxel::client::Event;
     use taxel::client::Stamp;
+    use taxel::files::calibrate::ForceScale;
     use taxel::session::Observer;
     use taxel::source::{SourceOptions, SourceSpec, open};
 
     /// The sentences of a script, each once.
-    struct Ear(Option<f32>, Vec<String>);
+    struct Ear(Vec<String>);
 
     impl Observer for Ear {
         fn event(&mut self, client: &Client, event: &Event, _: Stamp) -> taxel::Result<()> {
             let Event::Frame { .. } = event else { return Ok(()) };
-            let text = Felt::of(client, self.0).text();
-            if !self.1.contains(&text) {
-                self.1.push(text);
+            let text = Felt::of(client).text();
+            if !self.0.contains(&text) {
+                self.0.push(text);
             }
-            assert_eq!(Basis::of(client, self.0), Basis::Simulated);
             Ok(())
         }
     }
 
     fn reported(script: &str, newtons: bool) -> Vec<String> {
         let spec: SourceSpec = script.parse().unwrap();
-        let source = open(&spec, &SourceOptions::default()).unwrap();
-        let mut ear = Ear(source.counts_per_newton.filter(|_| newtons), Vec::new());
+        let mut source = open(&spec, &SourceOptions::default()).unwrap();
+        if !newtons {
+            source.scale = ForceScale::default();
+        }
+        let mut ear = Ear(Vec::new());
         watch(&WatchOptions::of(spec), source, &mut ear).unwrap();
-        ear.1
+        ear.0
     }
 
     #[test]

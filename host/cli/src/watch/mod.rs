@@ -16,7 +16,7 @@ pub mod shape;
 pub mod stop;
 
 pub use args::{BoardArgs, time};
-pub use felt::{Basis, Felt};
+pub use felt::Felt;
 pub use follow::{Remarks, WatchOptions, run_limit, watch};
 pub use overwrite::Overwrite;
 pub use place::TaxelPlace;

@@ -17,10 +17,8 @@ use taxel_core::wire::{GestureReport, RegionsReport, Request, SymbolList};
 const TARE: u8 = Request::Tare { frames: 0 }.number();
 
 /// Turns events into sentences.
-#[derive(Debug, Clone)]
+#[derive(Debug, Default, Clone)]
 pub struct Narrator {
-    /// Counts per newton, if known: forces are then reported in newtons.
-    pub counts_per_newton: Option<f32>,
     leading: Leading,
     /// Garbage was reported, and no other event has come since.
     garbage: bool,
@@ -31,12 +29,6 @@ pub struct Narrator {
 }
 
 impl Narrator {
-    /// A narrator; with counts per newton, forces are reported in newtons.
-    pub fn new(counts_per_newton: Option<f32>) -> Narrator {
-        let (regions, shapes) = (Vec::new(), BTreeMap::new());
-        Narrator { counts_per_newton, leading: Leading::None, garbage: false, regions, shapes }
-    }
-
     /// Returns the lines for an event, if it deserves any.
     pub fn narrate(&mut self, client: &Client, event: &Event) -> Vec<String> {
         let garbage = matches!(event, Event::Refused(_));
@@ -73,7 +65,7 @@ impl Narrator {
     fn symbols(&self, client: &Client, list: &SymbolList) -> Vec<String> {
         let line = |symbol: &Symbol| {
             let is_sure = self.shapes.get(&symbol.contact) == Some(&symbol.words.class);
-            format!("{} {}", seconds(list.time), said(client, symbol, is_sure, self.counts_per_newton))
+            format!("{} {}", seconds(list.time), said(client, symbol, is_sure))
         };
         list.events.iter().filter(|symbol| symbol.phase != Phase::Held).map(line).collect()
     }
@@ -188,7 +180,7 @@ fn gesture(client: &Client, report: &GestureReport) -> String {
 }
 
 /// Describes an onset or a release, with the shape if the recogniser was sure of it.
-fn said(client: &Client, symbol: &Symbol, is_sure: bool, counts_per_newton: Option<f32>) -> String {
+fn said(client: &Client, symbol: &Symbol, is_sure: bool) -> String {
     let region = client.region_name(symbol.region);
     if symbol.phase != Phase::Released {
         return format!("contact {} on the {region} begins", symbol.contact);
@@ -207,14 +199,14 @@ fn said(client: &Client, symbol: &Symbol, is_sure: bool, counts_per_newton: Opti
         "contact {} on the {region} ends: {strength}, {extent}{shape}{moving}, {} ms, {bound} {}{feels}",
         symbol.contact,
         symbol.duration_ms,
-        force(symbol.peak_total, counts_per_newton)
+        force(client, symbol.peak_total)
     )
 }
 
-/// Formats a total in newtons if the calibration is known, else in counts.
-pub fn force(total: u32, counts_per_newton: Option<f32>) -> String {
-    match counts_per_newton {
-        Some(counts) => format!("{:.1} N", total as f32 / counts),
+/// Formats a total in newtons if they are known, else in counts.
+pub fn force(client: &Client, total: u32) -> String {
+    match client.counts_per_newton() {
+        Some(counts) => format!("{:.1} N", f64::from(total) / counts),
         None => format!("{total} counts"),
     }
 }
@@ -236,11 +228,11 @@ mod tests {
             let words = Words { strength, extent, span, moving: false, class: Class(0) };
             let (phase, region) = (Phase::Released, 0);
             let symbol = Symbol { contact: 7, phase, region, words, peak_total: 4_800, duration_ms: 900 };
-            said(&Client::new(), &symbol, false, Some(1_000.0))
+            said(&Client::new(), &symbol, false)
         };
         let ends = |extent, end: &str| assert!(line(extent).ends_with(end), "{}", line(extent));
-        ends(Extent::Sharp, "sharp, 900 ms, at least 4.8 N");
-        ends(Extent::Point, "point, 900 ms, at most 4.8 N");
+        ends(Extent::Sharp, "sharp, 900 ms, at least 4800 counts");
+        ends(Extent::Point, "point, 900 ms, at most 4800 counts");
     }
 
     /// A narrator, and what it has reported.
@@ -257,7 +249,7 @@ mod tests {
     fn lines(script: &str, shapes: Option<&str>) -> String {
         let spec: SourceSpec = script.parse().unwrap();
         let source = open(&spec, &SourceOptions::default()).unwrap();
-        let mut heard = Heard(Narrator::new(None), String::new());
+        let mut heard = Heard(Narrator::default(), String::new());
         let mut args = WatchOptions::of(spec);
         args.board.config.shapes = shapes.map(Into::into);
         watch(&args, source, &mut heard).unwrap();

@@ -71,12 +71,12 @@ fn the_contacts_are_a_table_of_their_own() {
     let table = fs::read_to_string(path).unwrap();
     let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let names = lines.next().unwrap();
-    assert_eq!(names[..5], ["time", "frame", "id", "panel", "link"]);
+    assert_eq!(names[..5], ["time_us", "frame", "id", "panel_name", "link"]);
     let rows: Vec<_> = lines.collect();
     assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == names.len() && row[3] == "back"));
     for row in &rows {
         let [total, force]: [f64; 2] = [row[9], row[10]].map(|cell| cell.parse().unwrap());
-        assert!((total / 1000.0 - force).abs() < 1e-4, "{row:?}");
+        assert!((total / 1000.0 - force).abs() < 1e-4 && row[11] == "simulated", "{row:?}");
     }
 }
 

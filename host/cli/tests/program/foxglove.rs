@@ -87,7 +87,7 @@ fn a_client_sees_the_contact_of_a_pat_and_one_that_does_not_read_stops_nothing()
     let contacts = channels.iter().find(|channel| channel["topic"] == "/taxel/contacts").unwrap();
     assert_eq!((&contacts["encoding"], &contacts["schemaEncoding"]), (&json!("json"), &json!("jsonschema")));
     let schema: Value = serde_json::from_str(contacts["schema"].as_str().unwrap()).unwrap();
-    assert!(schema["properties"]["contacts"]["items"]["properties"]["azimuth"].is_object());
+    assert!(schema["properties"]["contacts"]["items"]["properties"]["azimuth_rad"].is_object());
     let images = channels.iter().find(|channel| channel["topic"] == "/taxel/image").unwrap();
     assert_eq!(
         (&images["encoding"], &images["schemaName"]),

@@ -7,6 +7,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use taxel::client::{Client, Event, ImageNews, Stamp};
@@ -135,6 +136,9 @@ fn keep(path: &Path, bytes: &[u8]) {
     let format = Format { encoding: "taxel-wire", schema: "", schema_encoding: "", text: b"" };
     let channel = writer.channel(WIRE, &format).unwrap();
     writer.message(channel, 0, 0, bytes).unwrap();
+    // Newtons as those of the simulation.
+    let scale = BTreeMap::from([("counts_per_newton".to_string(), "1000".to_string())]);
+    writer.metadata("taxel", scale).unwrap();
     writer.finish().unwrap();
 }
 

@@ -162,7 +162,7 @@ fn no_command_replaces_its_input() {
 fn the_standard_output_takes_what_is_a_stream() {
     let folder = Folder::new("stream");
     let table = folder.run(&["export", "in.mcap", "--to", "csv", "-o", "-"]);
-    assert!(table.status.success() && table.stdout.starts_with(b"time,panel,row"));
+    assert!(table.status.success() && table.stdout.starts_with(b"time_us,panel_name,row"));
     let page = folder.run(&["report", "in.mcap", "-o", "-"]);
     assert!(page.stdout.trim_ascii_start().starts_with(b"<!"), "nothing but the page");
     let map = folder.run(&["fcm", "combine", "tactile", "tactile", "-o", "-"]);

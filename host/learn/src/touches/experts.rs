@@ -7,6 +7,7 @@ use super::course::Course;
 use super::ridge::Ridge;
 use super::settings::{EARLY, TrainSettings};
 use std::ops::Range;
+use taxel::learn::model::LinearExpert;
 use taxel_core::gesture::{Features, LEADS};
 
 /// A training example.
@@ -29,6 +30,14 @@ pub struct Trained {
     pub ridge: Ridge,
     /// Confidence at each lead, by first age.
     pub rows: Vec<(usize, [f64; LEADS])>,
+}
+
+impl Trained {
+    /// The expert, as a model has it.
+    pub fn expert(&self) -> LinearExpert<'_> {
+        let Ridge { middle, deviation, weights, offsets } = &self.ridge;
+        LinearExpert { from: self.from, middle, deviation, weights, offsets, confidence: &self.rows }
+    }
 }
 
 /// Most folds of groups.

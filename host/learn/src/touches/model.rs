@@ -1,13 +1,13 @@
 //! Trains a model of touches.
 
 use super::data::{Data, TouchesFile};
-use super::experts::{TouchExample, train_experts};
-use super::export::{ModelHead, export};
+use super::experts::{TouchExample, Trained, train_experts};
 use super::settings::TrainSettings;
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use taxel::files::input;
+use taxel::learn::model::{ModelHead, encode};
 use taxel::text::date::today;
 use taxel_core::gesture::Model;
 
@@ -48,7 +48,8 @@ pub fn train(data: &Data, examples: &[TouchExample<'_>], settings: &TrainSetting
     };
     let notes = serde_json::to_string(&notes)?;
     let TrainSettings { pressed, concludes, .. } = *settings;
-    export(&experts, ModelHead { names: &data.classes, pressed, concludes, notes: &notes })
+    let experts: Vec<_> = experts.iter().map(Trained::expert).collect();
+    Ok(encode(&experts, ModelHead { names: &data.classes, pressed, concludes, notes: &notes })?)
 }
 
 /// Reads the bytes of a model. Errors name the file.

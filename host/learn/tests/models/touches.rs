@@ -1,11 +1,12 @@
 //! Models of touches: refused bytes, decisions of a trained model in the board's arithmetic, and its size.
 
 use proptest::prelude::*;
+use taxel::learn::model::{ModelHead, encode};
 use taxel_core::format::{Q15, crc32};
 use taxel_core::gesture::{
     FEATURES, Features, LARGEST, LEADS, Model, ModelError, Sheet, ShippedModel, TouchClassifier, TouchState,
 };
-use taxel_learn::touches::{ModelHead, Provenance, Ridge, Trained, export};
+use taxel_learn::touches::{Provenance, Ridge, Trained};
 
 /// Touches of a sheet that differ in the speed of their back-and-forth movement.
 fn rubbing(period: usize, seed: usize) -> impl Iterator<Item = Vec<u16>> {
@@ -31,7 +32,7 @@ fn trained() -> (Ridge, Vec<u8>) {
     let names = ["fast".to_string(), "slow".to_string()];
     let alone = Trained { from: 0, ridge: ridge.clone(), rows: vec![(0, [0.75; LEADS])] };
     let head = ModelHead { names: &names, pressed: 12, concludes: false, notes: "{}" };
-    let bytes = export(&[alone], head).unwrap();
+    let bytes = encode(&[alone.expert()], head).unwrap();
     (ridge, bytes)
 }
 
@@ -91,7 +92,8 @@ fn of_experts(experts: &[(usize, usize)], concludes: bool) -> Vec<u8> {
         })
         .collect();
     let names = ["fast".to_string(), "slow".to_string()];
-    export(&experts, ModelHead { names: &names, pressed: 12, concludes, notes: "{}" }).unwrap()
+    let experts: Vec<_> = experts.iter().map(Trained::expert).collect();
+    encode(&experts, ModelHead { names: &names, pressed: 12, concludes, notes: "{}" }).unwrap()
 }
 
 #[test]

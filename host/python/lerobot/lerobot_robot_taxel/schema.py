@@ -34,7 +34,7 @@ def _parts(presses: taxel.Wrench | None) -> list[float]:
     """Returns force and moment on a link, in the order of ``PARTS``."""
     if presses is None:
         return [0.0] * len(PARTS)
-    return [float(part) for parts in (presses.force, presses.moment, presses.center_m) for part in parts]
+    return [float(part) for parts in (presses.force_counts, presses.moment_counts_m, presses.center_m) for part in parts]
 
 
 def observation_features(panels: Iterable[str], links: Iterable[str] = ()) -> dict[str, type]:

@@ -33,6 +33,8 @@ from ._taxel import (
     Event,
     Garment,
     Moment,
+    TouchDecision,
+    TouchModel,
     UsageError,
     __version__,
 )
@@ -53,6 +55,8 @@ __all__ = [
     "Recording",
     "Requests",
     "Robot",
+    "TouchDecision",
+    "TouchModel",
     "UsageError",
     "VirtualBoard",
     "VirtualRobot",
@@ -150,6 +154,7 @@ class VirtualBoard(_taxel.VirtualBoard, Requests):
     - ``garment``: a ``Garment``, the name of a preset, or a TOML file
     - ``scene``: a TOML file or its text; by default the one that ships
     - ``full_scale``: code of a full scan, 1 to 65535: 255 of an array of 8 bits. Counts are those of 12 bits, 0 to 4095
+    - ``counts_per_newton``: gain of a taxel, if it is known: contacts then have a ``force_n``
     - ``record``: path of a recording, complete once the board is closed; ``overwrite`` replaces an existing file
     - ``view``: shows the board in the browser, at its ``page``
 
@@ -174,12 +179,14 @@ class VirtualBoard(_taxel.VirtualBoard, Requests):
         scene: str | os.PathLike[str] | None = None,
         *,
         full_scale: int = 4095,
+        counts_per_newton: float | None = None,
         record: str | os.PathLike[str] | None = None,
         overwrite: bool = False,
         view: bool = False,
     ) -> VirtualBoard:
         named = None if scene is None else os.fspath(scene)
-        return super().__new__(cls, garment, named, full_scale, record, overwrite, view)
+        recorded = None if record is None else (record, overwrite)
+        return super().__new__(cls, garment, named, full_scale, counts_per_newton, recorded, view)
 
     def __enter__(self) -> VirtualBoard:
         return self

@@ -77,8 +77,10 @@ class Frame(_taxel.Frame):
     lost = Field[int]("Messages lost so far.")
     thinned = Field[int]("Images left out so far, because the link had no room.")
     force_n = Field[list[float | None] | None](
-        "Force on each panel by the calibration in force, N; None where a panel has none, absent without a "
-        "calibration."
+        "Force on each panel, N; None where a panel has none, absent if it is unknown."
+    )
+    force_basis = Field[str | None](
+        "Basis of the forces: ``calibrated``, ``nominal`` or ``simulated``; absent if they are unknown."
     )
 
 
@@ -89,6 +91,9 @@ class Contacts(_taxel.Contacts):
     frame = Field[int]("Number of the scan.")
     time_us = Field[int]("Start of the scan, us of the board.")
     dropped = Field[int]("Number of contacts that did not fit.")
+    force_basis = Field[str | None](
+        "Basis of the forces: ``calibrated``, ``nominal`` or ``simulated``; absent if they are unknown."
+    )
 
 
 @final
@@ -172,7 +177,8 @@ class Push(Part):
 
     at_m = Field[tuple[float, float, float]](tuple, "Place, m.")
     normal = Field[tuple[float, float, float]](tuple, "Direction away from the robot.")
-    force = Field[tuple[int, int, int]](tuple, "Force, counts.")
+    force_counts = Field[tuple[int, int, int]](tuple, "Force, counts.")
+    force_n = Field[tuple[float, float, float] | None](tuple, "Force, N; absent if it is unknown.")
 
 
 @final
@@ -181,8 +187,8 @@ class Uncertain(Part):
 
     saturated = Field[int]("Number of saturated taxels: with one or more, the force is the least that it may be.")
     faulty = Field[int]("Number of faulty taxels under the contact, or at its edge.")
-    less = Field[int]("The most by which the faulty ones press less than is counted for them, counts.")
-    more = Field[int]("The most by which they press more, counts.")
+    less_counts = Field[int]("The most by which the faulty ones press less than is counted for them, counts.")
+    more_counts = Field[int]("The most by which they press more, counts.")
     off_m = Field[float]("The most by which they move the centre of pressure, m.")
 
 
@@ -194,7 +200,8 @@ class PlacedContact(Part):
     link = Field[str]("Name of the link.")
     at_m = Field[tuple[float, float, float]](tuple, "Place, m.")
     normal = Field[tuple[float, float, float]](tuple, "Direction away from the robot.")
-    force = Field[tuple[int, int, int]](tuple, "Force, counts.")
+    force_counts = Field[tuple[int, int, int]](tuple, "Force, counts.")
+    force_n = Field[tuple[float, float, float] | None](tuple, "Force, N; absent if it is unknown.")
     base = Field[Push | None](Push, "Place in the frame of the poses; None without a pose of the link.")
     uncertain = Field[Uncertain | None](Uncertain,
         "Uncertainty by saturated and faulty taxels; None if there is none."
@@ -206,9 +213,14 @@ class Wrench(Part):
     """Force and moment on a link, in its frame."""
 
     link = Field[str]("Name of the link.")
-    force = Field[tuple[int, int, int]](tuple, "Sum of the taxels' forces along their normals, counts.")
-    moment = Field[tuple[float, float, float]](tuple, "Their moment about the link's origin, counts times m.")
-    pressed = Field[int]("Sum of their magnitudes, counts.")
+    force_counts = Field[tuple[int, int, int]](tuple, "Sum of the taxels' forces along their normals, counts.")
+    moment_counts_m = Field[tuple[float, float, float]](tuple, "Their moment about the link's origin, counts times m.")
+    pressed_counts = Field[int]("Sum of their magnitudes, counts.")
+    force_n = Field[tuple[float, float, float] | None](tuple,
+        "The force, N; absent if it is unknown, as are the two below."
+    )
+    moment_nm = Field[tuple[float, float, float] | None](tuple, "The moment, N m.")
+    pressed_n = Field[float | None]("The sum of the magnitudes, N.")
     center_m = Field[tuple[float, float, float]](tuple, "Centre of pressure, m.")
     uncertain = Field[Uncertain | None](Uncertain,
         "Uncertainty by saturated and faulty taxels; None if there is none."
@@ -234,6 +246,9 @@ class Pressing(Event):
     )
     contacts = Field[list[PlacedContact]](each(PlacedContact), "The contacts that have a place.")
     links = Field[list[Wrench]](each(Wrench), "The links that something presses on.")
+    force_basis = Field[str | None](
+        "Basis of the forces in newtons: ``calibrated``, ``nominal`` or ``simulated``; absent if they are unknown."
+    )
 
 
 @final

@@ -152,7 +152,7 @@ def moments(image: npt.ArrayLike) -> dict[str, Any]:
     >>> line = np.zeros((3, 5), int)
     >>> line[1] = 4
     >>> found = taxel.moments(line)
-    >>> found["m"], found["Jm"], found["x"], found["azimuth"]
+    >>> found["m"], found["Jm"], found["column"], found["azimuth_rad"]
     (20, 800, 2.0, 0.0)
     """
     return _taxel.moments(_whole(image))

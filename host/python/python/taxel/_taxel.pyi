@@ -215,8 +215,8 @@ class VirtualBoard:
         garment: Garment | str | PathLike[str],
         scene: str | None,
         full_scale: int,
-        record: str | PathLike[str] | None,
-        overwrite: bool,
+        counts_per_newton: float | None,
+        record: tuple[str | PathLike[str], bool] | None,
         view: bool,
     ) -> _B: ...
     @property
@@ -273,6 +273,64 @@ class RecordedEvents:
     def __init__(self, path: str, kinds: list[str], first: int, last: int) -> None: ...
     def __iter__(self) -> RecordedEvents: ...
     def __next__(self) -> Event: ...
+
+class TouchDecision:
+    """What a model says of a touch."""
+
+    @property
+    def name(self) -> str:
+        """Name of the class with the greatest score."""
+    @property
+    def confidence(self) -> float | None:
+        """Share of such touches that are classified correctly, 0 to 1; None if the model does not know."""
+    @property
+    def scores(self) -> npt.NDArray[np.float64]:
+        """Score of each class, in the order of the model's ``classes``: fitted to 1 for a touch's own, -1 for others."""
+
+class TouchModel:
+    """A model of touches over time, in the integers of the board.
+
+    It is linear over the 127 ``features`` of a touch. ``load`` has the models of the firmware, ``linear`` makes one of
+    planes that your program has fitted; what it decides is what a board with it would.
+
+    >>> import numpy as np, taxel
+    >>> model = taxel.TouchModel.load("intent")
+    >>> model.classes
+    ['kindness', 'threat', 'attack']
+    >>> model.decide(np.full((30, 8, 8), 900, np.uint16)).name in model.classes
+    True
+    """
+
+    @staticmethod
+    def linear(
+        classes: Sequence[str],
+        *,
+        mean: npt.NDArray[np.float64],
+        scale: npt.NDArray[np.float64],
+        weights: npt.NDArray[np.float64],
+        offsets: npt.NDArray[np.float64],
+        pressed: int = 0,
+        notes: str = "{}",
+    ) -> TouchModel:
+        """A model of one plane for each class. Score: offset + weights . clip((features - mean) / scale, -2.5, 2.5).
+
+        ``classes`` are 2 to 8 names of at most 16 bytes; ``mean`` and ``scale`` (127,), ``weights`` (classes, 127),
+        ``offsets`` (classes,); ``pressed`` as of ``features``; ``notes`` is JSON that the file keeps. Numbers are rounded
+        to those of the board. ``UsageError`` for other shapes, ``Error`` for what does not fit a board.
+        """
+    @staticmethod
+    def load(model: str | PathLike[str]) -> TouchModel:
+        """A model of the firmware, ``"gestures"`` or ``"intent"``, or that of a file; ``Error`` if it is none."""
+    def save(self, path: str | PathLike[str], overwrite: bool = False) -> None:
+        """Saves the model as a file; an existing one is replaced with ``overwrite`` only."""
+    @property
+    def classes(self) -> list[str]:
+        """Names of the classes."""
+    @property
+    def pressed(self) -> int:
+        """Cells above this count as touched."""
+    def decide(self, frames: npt.NDArray[np.uint16]) -> TouchDecision:
+        """Classifies a whole touch by its frames of one panel, (n, rows, columns), whole counts."""
 
 class RecordedMessages:
     """Iterator over the messages of a recording, as they were written."""

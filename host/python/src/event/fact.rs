@@ -4,7 +4,6 @@ use crate::array::{Panels, panels};
 use serde_json::Value;
 use std::io::{self, Empty};
 use taxel::client::{Client, Event, ImageNews};
-use taxel::files::calibrate::Calibration;
 use taxel::json::MessagePrinter;
 
 /// An event.
@@ -35,17 +34,11 @@ pub struct FactReader {
 
 impl Default for FactReader {
     fn default() -> FactReader {
-        FactReader::new(None)
+        FactReader { panels: Panels::from([]), messages: MessagePrinter::new(false, io::empty()) }
     }
 }
 
 impl FactReader {
-    /// Makes the reader of a board; contacts of its frames have a force in newtons while it uses this calibration.
-    pub fn new(calibration: Option<Calibration>) -> FactReader {
-        let messages = MessagePrinter::new(false, io::empty()).calibrated(calibration);
-        FactReader { panels: Panels::from([]), messages }
-    }
-
     /// The fact of an event that the client has just returned, at this time of the host, ns.
     pub fn fact(&mut self, client: &Client, event: &Event, now_ns: u64) -> Fact {
         if *event == Event::Hello {

@@ -1,6 +1,7 @@
 //! State of a board, as the client knows it.
 
 use super::{BoardDescription, Client, Counts};
+use crate::files::calibrate::{ForceScale, Newtons};
 use std::collections::BTreeMap;
 use taxel_core::body::Placed;
 use taxel_core::boot::Boot;
@@ -58,6 +59,32 @@ impl Client {
     /// Present contacts, by the latest list.
     pub fn contacts(&self) -> &[Placed] {
         &self.contacts
+    }
+
+    /// Scale by which forces are computed.
+    pub fn scale(&self) -> &ForceScale {
+        &self.scale
+    }
+
+    /// Newtons of the board's pressure, by what the host knows of it; none before the first `Hello`.
+    pub fn newtons(&self) -> Option<&Newtons> {
+        self.newtons.as_ref()
+    }
+
+    /// Counts per newton for sums of pressure, as of [`Newtons::counts_per_newton`].
+    pub fn counts_per_newton(&self) -> Option<f64> {
+        self.newtons()?.counts_per_newton()
+    }
+
+    /// The word for what forces in newtons rest on; none if they are unknown.
+    pub fn force_basis(&self) -> Option<&'static str> {
+        Some(self.newtons()?.basis()?.as_str())
+    }
+
+    /// Normal force of a contact, N; none if it is unknown. With a calibration in force, by the newest image.
+    pub fn force(&self, placed: &Placed) -> Option<f64> {
+        let (description, image) = (self.description()?, self.image().map_or(&[][..], |(_, image)| image));
+        self.newtons()?.contact(&description.layout, image, description.scene.contact.low, &placed.contact)
     }
 
     /// Apparent hardness of a present or just released contact, counts per cm2; none if its growth does not

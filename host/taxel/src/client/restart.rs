@@ -2,6 +2,7 @@
 
 use super::again::Restored;
 use super::{BoardDescription, Client, Event, Identity};
+use crate::files::calibrate::ForceScale;
 use std::time::{Duration, Instant};
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Request, encode, frame_bound};
@@ -24,6 +25,18 @@ impl Client {
     /// The link to a board is open: the short name of its source, and its serial number on USB if there is one.
     pub fn linked(&mut self, label: &str, usb_serial: Option<&str>) {
         self.link = (label.into(), usb_serial.map(String::from));
+    }
+
+    /// Forces are computed by this scale from now on.
+    pub fn weigh_by(&mut self, scale: ForceScale) {
+        self.scale = scale;
+        self.weigh();
+    }
+
+    /// Newtons on the garment that the board has now.
+    pub(super) fn weigh(&mut self) {
+        let on = |it: &BoardDescription| self.scale.on(&it.layout, &it.calibration, it.is_simulated());
+        self.newtons = self.description.as_ref().map(on);
     }
 
     /// The link was reopened. Discards a partial message, and asks the board to stream; its `Hello` shows which

@@ -38,11 +38,17 @@ pub struct ContactLine<'a> {
     /// Mean slope over those taxels, counts per taxel.
     pub edge: u16,
     /// Centroid along the columns, taxels from the first column.
-    pub x: f64,
+    pub column: f64,
     /// Centroid along the rows, taxels from the first row.
-    pub y: f64,
+    pub row: f64,
+    /// Centroid along the columns, mm from the first column; absent if the pitch is unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_mm: Option<f64>,
+    /// Centroid along the rows, mm from the first row; absent if the pitch is unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_mm: Option<f64>,
     /// Direction of the long axis, rad; null if there is no clear direction.
-    pub azimuth: Option<f64>,
+    pub azimuth_rad: Option<f64>,
     /// Elongation, 0 (round) to 1 (a line).
     pub anisotropy: f64,
     /// Width across the long axis, mm.
@@ -58,29 +64,23 @@ pub struct ContactLine<'a> {
     /// Share of the votes for that shape, 0 to 1; of an unknown shape, how far it is from all known ones.
     pub confidence: f64,
     /// Displacement along the columns since the onset, taxels.
-    pub dx: f64,
+    pub moved_columns: f64,
     /// Displacement along the rows since the onset, taxels.
-    pub dy: f64,
+    pub moved_rows: f64,
     /// Velocity along the columns, taxels/s.
-    pub vx: f64,
+    pub columns_per_s: f64,
     /// Velocity along the rows, taxels/s.
-    pub vy: f64,
+    pub rows_per_s: f64,
     /// True if it slides over the surface.
     pub slip: bool,
     /// True if all of it may be drift of the baseline.
     pub unsure: bool,
-    /// Time since the onset, s.
-    pub duration: f64,
+    /// Time since the onset, ms.
+    pub duration_ms: u32,
     /// Greatest total so far, counts.
     pub peak_total: u32,
     /// Width at the greatest total, mm.
     pub peak_breadth_mm: f64,
-    /// Centroid along the columns, mm from the first column; absent if the pitch is unknown.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub x_mm: Option<f64>,
-    /// Centroid along the rows, mm from the first row; absent if the pitch is unknown.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub y_mm: Option<f64>,
     /// First row of the box around its taxels on its panel.
     pub top: u16,
     /// Last row of the box.
@@ -92,9 +92,9 @@ pub struct ContactLine<'a> {
     /// Age of the form, frames; absent unless ages were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form_age: Option<u8>,
-    /// Force by the calibration in force, N; null where the panel has none, absent without a calibration.
+    /// Normal force, N; absent if it is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub force_n: Option<Option<f64>>,
+    pub force_n: Option<f64>,
 }
 
 impl<'a> ContactLine<'a> {
@@ -117,9 +117,11 @@ impl<'a> ContactLine<'a> {
             area: contact.area,
             perimeter: contact.perimeter,
             edge: contact.edge,
-            x: contact.x.to_f64(),
-            y: contact.y.to_f64(),
-            azimuth: contact.azimuth.map(|a| a.to_radians()),
+            column: contact.x.to_f64(),
+            row: contact.y.to_f64(),
+            x_mm,
+            y_mm,
+            azimuth_rad: contact.azimuth.map(|a| a.to_radians()),
             anisotropy: contact.anisotropy.to_f64(),
             breadth_mm: f64::from(contact.breadth) / 10.0,
             nmi: form.nmi.to_f64(),
@@ -127,17 +129,15 @@ impl<'a> ContactLine<'a> {
             nmi_s2: form.nmi_s2.to_f64(),
             shape,
             confidence: form.confidence.to_f64(),
-            dx: contact.dx.to_f64(),
-            dy: contact.dy.to_f64(),
-            vx: contact.vx.to_f64(),
-            vy: contact.vy.to_f64(),
+            moved_columns: contact.dx.to_f64(),
+            moved_rows: contact.dy.to_f64(),
+            columns_per_s: contact.vx.to_f64(),
+            rows_per_s: contact.vy.to_f64(),
             slip: contact.slip,
             unsure,
-            duration: f64::from(contact.duration_ms) / 1000.0,
+            duration_ms: contact.duration_ms,
             peak_total: contact.peak_total,
             peak_breadth_mm: f64::from(contact.peak_breadth) / 10.0,
-            x_mm,
-            y_mm,
             top: contact.bounds.top,
             bottom: contact.bounds.bottom,
             left: contact.bounds.left,

@@ -73,7 +73,7 @@ impl Replay {
             released: percept.released.iter().map(|placed| placed.contact.id).collect(),
             dropped: Some(percept.dropped).filter(|dropped| *dropped > 0),
             tare: matches!(percept.tare, Tare::Running { .. }).then_some(true),
-            time: time.0 as f64 / 1e6,
+            time_us: time.0,
             intent: MeaningOfTouch::of(*leading, names, concepts),
         };
         // Numbers, texts and keys that are texts: this cannot fail.
@@ -92,8 +92,8 @@ struct ReplayedFrame<'a> {
     /// Absent unless a tare is running.
     #[serde(skip_serializing_if = "Option::is_none")]
     tare: Option<bool>,
-    /// s.
-    time: f64,
+    /// us.
+    time_us: u64,
     intent: MeaningOfTouch,
 }
 

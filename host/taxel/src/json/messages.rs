@@ -46,11 +46,12 @@ pub fn line<'a>(client: &'a Client, event: &'a Event) -> Option<JsonLine<'a>> {
             contacts: contacts(client, client.contacts()),
             released: contacts(client, released),
             dropped: *dropped,
+            force_basis: client.force_basis(),
         }),
         Event::Symbols(list) => JsonLine::Symbols(symbols(client, list)),
         Event::Intent(report) => JsonLine::Intent(intent(client, report)),
         Event::Gesture(report) => JsonLine::Gesture(gesture(client, report)),
-        Event::Pressing(report) => JsonLine::Pressing(pressing::line(report)),
+        Event::Pressing(report) => JsonLine::Pressing(pressing::line(report, client.newtons())),
         Event::Folds(report) => JsonLine::Folds(FoldsLine {
             frame: report.frame,
             time_us: report.time.0,
@@ -146,6 +147,8 @@ fn hello(client: &Client) -> Option<HelloLine<'_>> {
 
 fn frame(client: &Client, frame: u32, time: Micros, key: bool, decoded: bool) -> FrameLine<'_> {
     let counts = client.counts();
+    let image = client.image().filter(|_| decoded).zip(client.layout()).zip(client.newtons());
+    let forces = image.map(|(((_, image), layout), newtons)| newtons.panels(layout, image));
     FrameLine {
         frame,
         time_us: time.0,
@@ -157,7 +160,8 @@ fn frame(client: &Client, frame: u32, time: Micros, key: bool, decoded: bool) ->
         lost: counts.lost,
         thinned: counts.thinned,
         panels: None,
-        force_n: None,
+        force_n: forces.flatten(),
+        force_basis: client.force_basis(),
     }
 }
 
@@ -167,7 +171,7 @@ fn contacts<'a>(client: &'a Client, list: &[Placed]) -> Vec<ContactLine<'a>> {
         let id = placed.contact.id;
         let shape = client.shape_name(placed.shape.class).into();
         let contact = ContactLine::of(placed, layout, shape, client.is_unsure(id));
-        ContactLine { form_age: client.form_age(id), ..contact }
+        ContactLine { form_age: client.form_age(id), force_n: client.force(placed), ..contact }
     };
     list.iter().map(contact).collect()
 }

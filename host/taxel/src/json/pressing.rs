@@ -3,6 +3,7 @@
 use super::lines::{LandedLine, PressingLine, PushLine, UncertainLine, WrenchLine};
 use crate::body::{DVec3, Surface, wrenches};
 use crate::client::Client;
+use crate::files::calibrate::{ForceBasis, Newtons};
 use std::collections::BTreeSet;
 use taxel_core::body::Placed;
 use taxel_core::contact::Contact;
@@ -11,15 +12,16 @@ use taxel_core::garment::{Layout, Place};
 use taxel_core::surface::{Landed, Micrometres, ONE, Uncertainty, UnitVector, Wrench};
 use taxel_core::wire::PressingReport;
 
-/// The message of a report.
-pub fn line(report: &PressingReport) -> PressingLine<'_> {
+/// The message of a report, whose forces are these newtons if they are known.
+pub fn line<'a>(report: &'a PressingReport, newtons: Option<&Newtons>) -> PressingLine<'a> {
+    let scale = newtons.and_then(Newtons::counts_per_newton);
     let name =
         |link: u8| report.links.iter().find(|wrench| wrench.link == link).map_or("", |w| w.name.as_str());
     let contact = |landed: &Landed| LandedLine {
         id: landed.id,
         link: name(landed.spot.link),
-        own: push(landed.spot.at, landed.spot.normal, landed.force),
-        base: landed.base.map(|base| push(base.at, base.normal, base.force)),
+        own: push(landed.spot.at, landed.spot.normal, landed.force, scale),
+        base: landed.base.map(|base| push(base.at, base.normal, base.force, scale)),
         uncertain: uncertain(&report.contact_bounds, &landed.id),
     };
     PressingLine {
@@ -29,7 +31,8 @@ pub fn line(report: &PressingReport) -> PressingLine<'_> {
         pose_age_us: report.posed.map(|time| report.time.0.wrapping_sub(time.0) as i64),
         pose_error_m: pose_error(report),
         contacts: report.contacts.iter().map(contact).collect(),
-        links: report.links.iter().map(|it| wrench(it, report)).collect(),
+        links: report.links.iter().map(|it| wrench(it, report, scale)).collect(),
+        force_basis: newtons.and_then(Newtons::basis).map(ForceBasis::as_str),
     }
 }
 
@@ -44,13 +47,14 @@ pub fn computed<'a>(
     surface: &'a Surface,
 ) -> Option<PressingLine<'a>> {
     let (frame, image) = client.image().filter(|(_, image)| image.len() == surface.places().len())?;
+    let scale = client.counts_per_newton();
     let low = client.description().map_or(1, |description| description.scene.contact.low);
     let counts = |force: DVec3| force.to_array().map(|part| part.round() as i32);
     let name = |link: usize| surface.links().get(link).map_or("", String::as_str);
     let contact = |Placed { contact, .. }: &Placed| {
         let place = surface.at(layout, contact.panel, contact.x.to_f64(), contact.y.to_f64())?;
         let force = counts(force_of(contact, layout, surface, image, low));
-        let own = PushLine { at_m: place.at.to_array(), normal: place.normal.to_array(), force };
+        let own = pushed(place.at.to_array(), place.normal.to_array(), force, scale);
         Some(LandedLine { id: contact.id, link: name(place.link), own, base: None, uncertain: None })
     };
     let pressed: Vec<f64> = image.iter().map(|counts| f64::from(*counts)).collect();
@@ -64,14 +68,16 @@ pub fn computed<'a>(
         contacts: client.contacts().iter().filter_map(contact).collect(),
         links: links
             .map(|wrench| WrenchLine {
-                link: name(wrench.link),
-                force: counts(wrench.force),
-                moment: wrench.moment.to_array(),
-                pressed: wrench.pressed as u32,
                 center_m: wrench.center.to_array(),
                 uncertain: None,
+                ..wrench_line(
+                    name(wrench.link),
+                    (counts(wrench.force), wrench.moment.to_array(), wrench.pressed as u32),
+                    scale,
+                )
             })
             .collect(),
+        force_basis: client.force_basis(),
     })
 }
 
@@ -97,15 +103,38 @@ fn force_of(contact: &Contact, layout: &Layout, surface: &Surface, image: &[u16]
     if total > 0.0 { force * (f64::from(contact.total) / total) } else { DVec3::ZERO }
 }
 
-fn wrench<'a>(wrench: &'a Wrench, report: &PressingReport) -> WrenchLine<'a> {
+fn wrench<'a>(wrench: &'a Wrench, report: &PressingReport, scale: Option<f64>) -> WrenchLine<'a> {
+    let moment = wrench.moment.map(|moment| moment as f64 / 1000.0);
     WrenchLine {
-        link: &wrench.name,
-        force: wrench.force,
-        moment: wrench.moment.map(|moment| moment as f64 / 1000.0),
-        pressed: wrench.pressed,
         center_m: metres(wrench.center),
         uncertain: uncertain(&report.link_bounds, &wrench.link),
+        ..wrench_line(&wrench.name, (wrench.force, moment, wrench.pressed), scale)
     }
+}
+
+/// Force, moment and sum of magnitudes on a link, in counts and, with counts per newton, in newtons; without its
+/// place.
+fn wrench_line(
+    link: &str,
+    (force, moment, pressed): ([i32; 3], [f64; 3], u32),
+    scale: Option<f64>,
+) -> WrenchLine<'_> {
+    WrenchLine {
+        link,
+        force_counts: force,
+        moment_counts_m: moment,
+        pressed_counts: pressed,
+        force_n: newtons(force, scale),
+        moment_nm: scale.map(|scale| moment.map(|part| part / scale)),
+        pressed_n: scale.map(|scale| f64::from(pressed) / scale),
+        center_m: [0.0; 3],
+        uncertain: None,
+    }
+}
+
+/// A force in newtons; none if the counts per newton are unknown.
+fn newtons(force: [i32; 3], scale: Option<f64>) -> Option<[f64; 3]> {
+    scale.map(|scale| force.map(|part| f64::from(part) / scale))
 }
 
 /// The most by which a place in the base is off, m, because joints are not known exactly and move on; none if
@@ -119,11 +148,21 @@ pub fn pose_error(report: &PressingReport) -> Option<f64> {
 fn uncertain<T: PartialEq>(all: &[(T, Uncertainty)], of: &T) -> Option<UncertainLine> {
     let (_, it) = all.iter().find(|(named, _)| named == of)?;
     let Uncertainty { saturated, faulty, less, more, off } = *it;
-    Some(UncertainLine { saturated, faulty, less, more, off_m: f64::from(off) / 1e6 })
+    Some(UncertainLine {
+        saturated,
+        faulty,
+        less_counts: less,
+        more_counts: more,
+        off_m: f64::from(off) / 1e6,
+    })
 }
 
-fn push(at: Micrometres, normal: UnitVector, force: [i32; 3]) -> PushLine {
-    PushLine { at_m: metres(at), normal: normal.map(|part| f64::from(part) / f64::from(ONE)), force }
+fn push(at: Micrometres, normal: UnitVector, force: [i32; 3], scale: Option<f64>) -> PushLine {
+    pushed(metres(at), normal.map(|part| f64::from(part) / f64::from(ONE)), force, scale)
+}
+
+fn pushed(at_m: [f64; 3], normal: [f64; 3], force: [i32; 3], scale: Option<f64>) -> PushLine {
+    PushLine { at_m, normal, force_counts: force, force_n: newtons(force, scale) }
 }
 
 fn metres(at: Micrometres) -> [f64; 3] {

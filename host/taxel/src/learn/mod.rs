@@ -5,4 +5,5 @@ pub mod confusion;
 pub mod doubts;
 pub mod fingerprint;
 pub mod folds;
+pub mod model;
 pub mod shapes;

@@ -4,7 +4,7 @@ use super::mover::SurfaceSpot;
 use super::place::{BoardPlaces, BodyPlace};
 use crate::client::{Client, Event};
 use crate::fcm::map::MapFile;
-use crate::robot::{BoardContact, ContactReader, ReadRobot, RobotBoard};
+use crate::robot::{BoardContact, ReadRobot, RobotBoard};
 use std::sync::Arc;
 use taxel_core::garment::cell_mm2;
 use taxel_core::wire::IntentReport;
@@ -18,7 +18,7 @@ pub struct FeltContact {
     pub place: Arc<BodyPlace>,
     /// The point of the robot's surface; none unless the board has a body.
     pub spot: Option<SurfaceSpot>,
-    /// Pressure, counts; with a calibration in force the force, thousandths of a newton.
+    /// Force, thousandths of a newton; pressure, counts, if newtons are unknown.
     pub load: u32,
     /// Area, mm2.
     pub cover_mm2: u32,
@@ -56,7 +56,6 @@ pub enum BoardSense {
 #[derive(Debug, Clone)]
 pub struct MindReader {
     board: RobotBoard,
-    contacts: ContactReader,
     places: BoardPlaces,
 }
 
@@ -64,8 +63,7 @@ impl MindReader {
     /// Makes the reader of a board of a robot.
     pub fn new(robot: &ReadRobot, board: usize) -> MindReader {
         let board = robot.boards[board].clone();
-        let contacts = ContactReader::new(&board);
-        MindReader { board, contacts, places: BoardPlaces::default() }
+        MindReader { board, places: BoardPlaces::default() }
     }
 
     /// Returns what an event says, which the client already includes; none if it says nothing of touches.
@@ -75,7 +73,7 @@ impl MindReader {
             Event::Intent(report) => Some(BoardSense::Intent(report.clone())),
             Event::Frame { .. } => Some(BoardSense::Alive),
             _ => {
-                let contacts = self.contacts.contacts(client, event)?;
+                let contacts = BoardContact::all(client, event)?;
                 let felt = contacts.iter().filter_map(|contact| self.felt(client, contact));
                 Some(BoardSense::Contacts(felt.collect()))
             }

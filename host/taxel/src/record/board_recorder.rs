@@ -28,7 +28,7 @@ impl Observer for BoardRecorder {
     fn opened(&mut self, source: &Source) -> Result<()> {
         let mut board = self.recording.lock(self.board);
         board.origin.label.clone_from(&source.label);
-        board.origin.counts_per_newton = source.counts_per_newton;
+        board.origin.scale = source.scale.with(board.origin.scale.calibration());
         board.is_real_time = source.real_time;
         Ok(())
     }

@@ -98,15 +98,8 @@ impl BoardPart {
     }
 
     /// Adds an event as JSON and, if requested, as ROS 2 messages.
-    pub fn event(
-        &mut self,
-        client: &Client,
-        event: &Event,
-        stamp: Stamp,
-        counts_per_newton: Option<f32>,
-    ) -> Result<()> {
-        let ros2 = self.ros2.as_mut();
-        ros2.map_or(Ok(()), |ros2| ros2.event(client, event, stamp, counts_per_newton))?;
+    pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
+        self.ros2.as_mut().map_or(Ok(()), |ros2| ros2.event(client, event, stamp))?;
         self.messages.event(client, event, stamp)
     }
 

@@ -48,7 +48,7 @@ pub use limit::Rotate;
 pub use message::json_message;
 pub use plan::{Plan, PlannedBoard, PlannedRobot};
 pub use play::Play;
-pub use provenance::{CALIBRATION, Origin, attach};
+pub use provenance::{Origin, attach};
 pub use raw_image::{PROTOBUF, RAW_IMAGE, append as append_image, schema as image_schema};
 pub use recorder::Recorder;
 pub use robot_topic::RobotTopic;

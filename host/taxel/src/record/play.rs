@@ -15,9 +15,11 @@ pub struct Play {
 }
 
 impl Play {
-    /// Opens the recording of a board.
+    /// Opens the recording of a board, whose forces are by the scale that it holds.
     pub fn open(recording: &BoardRecording) -> Result<Play> {
-        Ok(Play { wire: WireReader::open(recording)?, client: Client::new(), header: None })
+        let mut client = Client::new();
+        client.weigh_by(recording.overview()?.scale(recording)?);
+        Ok(Play { wire: WireReader::open(recording)?, client, header: None })
     }
 
     /// The client after the last event.

@@ -2,26 +2,21 @@
 
 use crate::client::BoardDescription;
 use crate::error::Result;
-use crate::files::calibrate::Calibration;
+use crate::files::calibrate::{Calibration, ForceScale};
 use crate::files::garments;
-use crate::recording::{Store, Writer, attachment_of};
+use crate::recording::{CALIBRATION, Store, Writer, attachment_of};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use taxel_core::garment::Layout;
 use taxel_core::wire::PROTOCOL;
-
-/// Attachment with the calibration.
-pub const CALIBRATION: &str = "calibration.toml";
 
 /// Properties of a source that its board does not report.
 #[derive(Debug, Default, Clone)]
 pub struct Origin {
     /// Short name.
     pub label: String,
-    /// Counts per newton on a taxel, if known.
-    pub counts_per_newton: Option<f32>,
-    /// Calibration that was sent to the board.
-    pub calibration: Option<Calibration>,
+    /// Scale from counts to newtons, with the calibration that was sent to the board.
+    pub scale: ForceScale,
 }
 
 /// Attaches garment, scene, geometry and the calibration in use; writes versions, source, calibration and
@@ -44,8 +39,8 @@ pub fn attach<S: Store>(
     )?;
     let geometry = serde_json::to_vec(&geometry(&description.layout))?;
     writer.attach(&named("geometry.json"), "application/json", &geometry, ns)?;
-    let scale = origin.counts_per_newton.map_or(String::new(), |counts| counts.to_string());
-    let calibration = origin.calibration.as_ref().filter(|made| made.is_in_force(&description.calibration));
+    let scale = origin.scale.counts_per_newton().map_or(String::new(), |counts| counts.to_string());
+    let calibration = origin.scale.calibration().filter(|made| made.is_in_force(&description.calibration));
     if let Some(made) = calibration {
         writer.attach(&named(CALIBRATION), "application/toml", made.text()?.as_bytes(), ns)?;
     }

@@ -31,12 +31,12 @@ pub struct RecordedContact<'a> {
     /// Mean slope over those taxels, counts per taxel.
     edge: u16,
     /// Centroid along the columns, taxels from the first column.
-    x: f64,
+    column: f64,
     /// Centroid along the rows, taxels from the first row.
-    y: f64,
+    row: f64,
     /// Direction of the long axis, rad; absent if there is no clear direction.
     #[serde(skip_serializing_if = "Option::is_none")]
-    azimuth: Option<f64>,
+    azimuth_rad: Option<f64>,
     /// Elongation, 0 (round) to 1 (a line).
     anisotropy: f64,
     /// Width across the long axis, mm.
@@ -50,19 +50,19 @@ pub struct RecordedContact<'a> {
     /// Share of the votes for that shape, 0 to 1; of an unknown shape, how far it is from all known ones.
     confidence: f64,
     /// Displacement along the columns since the onset, taxels.
-    dx: f64,
+    moved_columns: f64,
     /// Displacement along the rows since the onset, taxels.
-    dy: f64,
+    moved_rows: f64,
     /// Velocity along the columns, taxels/s.
-    vx: f64,
+    columns_per_s: f64,
     /// Velocity along the rows, taxels/s.
-    vy: f64,
+    rows_per_s: f64,
     /// True if it slides over the surface.
     slip: bool,
     /// True if all of it may be drift of the baseline.
     unsure: bool,
-    /// Time since the onset, s.
-    duration: f64,
+    /// Time since the onset, ms.
+    duration_ms: u32,
     /// Greatest total so far, counts.
     peak_total: u32,
     /// Width at the greatest total, mm.
@@ -95,22 +95,22 @@ impl<'a> RecordedContact<'a> {
             area: line.area,
             perimeter: line.perimeter,
             edge: line.edge,
-            x: rounded(line.x, 1e3),
-            y: rounded(line.y, 1e3),
-            azimuth: line.azimuth.map(|azimuth| rounded(azimuth, 1e3)),
+            column: rounded(line.column, 1e3),
+            row: rounded(line.row, 1e3),
+            azimuth_rad: line.azimuth_rad.map(|azimuth| rounded(azimuth, 1e3)),
             anisotropy: rounded(line.anisotropy, 1e3),
             breadth_mm: line.breadth_mm,
             nmi: rounded(line.nmi, 1e5),
             nmi_s2: rounded(line.nmi_s2, 1e3),
             shape: line.shape,
             confidence: rounded(line.confidence, 1e3),
-            dx: rounded(line.dx, 1e3),
-            dy: rounded(line.dy, 1e3),
-            vx: rounded(line.vx, 1e3),
-            vy: rounded(line.vy, 1e3),
+            moved_columns: rounded(line.moved_columns, 1e3),
+            moved_rows: rounded(line.moved_rows, 1e3),
+            columns_per_s: rounded(line.columns_per_s, 1e3),
+            rows_per_s: rounded(line.rows_per_s, 1e3),
             slip: line.slip,
             unsure: line.unsure,
-            duration: line.duration,
+            duration_ms: line.duration_ms,
             peak_total: line.peak_total,
             peak_breadth_mm: line.peak_breadth_mm,
             top: line.top,

@@ -92,7 +92,7 @@ impl Recording {
             files.close(board)?;
         }
         board.part.put(|messages| messages.frames(client, stamp))?;
-        board.part.event(client, event, stamp, board.origin.counts_per_newton)?;
+        board.part.event(client, event, stamp)?;
         if matches!(event, Event::Other { .. }) && files.rotates().is_some() {
             // A file is of one board: the `Hello` of this one follows.
             (board.retained, board.description) = (RetainedState::default(), None);

@@ -118,7 +118,7 @@ impl Ros2Messages {
     }
 
     /// Force and moment on each link that something has pressed on.
-    fn pressing(&mut self, report: &PressingReport, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
+    fn pressing(&mut self, report: &PressingReport, stamp: Stamp, scale: Option<f64>) -> Vec<Sent> {
         self.links.extend(report.links.iter().map(|wrench| wrench.name.clone()));
         let of = if scale.is_some() { LINK_WRENCH } else { LINK_COUNTS };
         let sent = |link: &LinkName| {
@@ -142,7 +142,8 @@ impl Ros2Messages {
     }
 
     /// Adds the messages for an event.
-    pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp, scale: Option<f32>) -> Result<()> {
+    pub fn event(&mut self, client: &Client, event: &Event, stamp: Stamp) -> Result<()> {
+        let scale = client.counts_per_newton();
         let all = match event {
             Event::Frame { image: ImageNews::Whole, .. } => {
                 let mut all = Vec::from_iter(self.frames(client, stamp)?);
@@ -182,14 +183,14 @@ impl Ros2Messages {
     }
 
     /// Force on a panel.
-    fn wrench(&self, area: &Area, values: &[u16], stamp: Stamp, scale: f32) -> Sent {
+    fn wrench(&self, area: &Area, values: &[u16], stamp: Stamp, scale: f64) -> Sent {
         let data = messages::wrench(&self.board, stamp.host_us, area, values, scale);
         let topic = self.topic(&format!("tactile/{}/wrench", topic_part(&area.name)));
         Sent { topic, schema: "geometry_msgs/msg/WrenchStamped", text: schemas::WRENCH, data }
     }
 
     /// Image, points and force of each panel.
-    fn images(&self, client: &Client, stamp: Stamp, scale: Option<f32>) -> Vec<Sent> {
+    fn images(&self, client: &Client, stamp: Stamp, scale: Option<f64>) -> Vec<Sent> {
         let (Some(layout), Some((_, image))) = (client.layout(), client.image()) else { return Vec::new() };
         let (board, surface) = (self.board.as_str(), self.surface.as_ref());
         let mut all = Vec::new();

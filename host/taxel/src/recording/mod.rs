@@ -75,7 +75,7 @@ pub use damage::Skipped;
 pub use filler::Filler;
 pub use gap_mark::{GapMark, gap_marks};
 pub use messages::{Message, Messages};
-pub use overview::Overview;
+pub use overview::{CALIBRATION, Overview, calibration};
 pub use records::{Head, Inside, RawRecord, Records};
 pub use renumber::{lost, renumbered, sequence};
 pub use repair::repair;

@@ -82,11 +82,10 @@ impl RobotBoard {
         recognised(self.open_any(options)?, &self.identity())
     }
 
-    /// Opens its source, whatever board is there; with a calibration, the source uses its counts per newton.
+    /// Opens its source, whatever board is there; with a calibration, it scales the forces.
     pub fn open_any(&self, options: &SourceOptions) -> Result<Source> {
         let mut source = source::open(&self.source, &self.options(options))?;
-        let known = self.calibration.as_ref().and_then(Calibration::counts_per_newton);
-        source.counts_per_newton = known.or(source.counts_per_newton);
+        source.scale = source.scale.with(self.calibration.as_ref());
         Ok(source)
     }
 

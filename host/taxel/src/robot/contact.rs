@@ -1,6 +1,7 @@
-//! A contact of a board, with its force if a calibration is in force.
+//! A contact of a board, with its force if newtons are known.
 
-use taxel_core::contact::Contact;
+use crate::client::{Client, Event};
+use taxel_core::body::Placed;
 use taxel_core::garment::Rect;
 
 /// A contact of a board.
@@ -22,12 +23,19 @@ pub struct BoardContact {
     pub centroid: [f64; 2],
     /// Velocity of the centroid, taxels per second.
     pub velocity: [f64; 2],
-    /// Newtons per count of the total; none without a calibration in force.
+    /// Newtons per count of the total; none if they are unknown.
     pub newtons_per_count: Option<f64>,
 }
 
-impl From<&Contact> for BoardContact {
-    fn from(contact: &Contact) -> BoardContact {
+impl BoardContact {
+    /// A present contact of a client.
+    pub fn of(client: &Client, placed: &Placed) -> BoardContact {
+        let contact = &placed.contact;
+        let image = client.image().map_or(&[][..], |(_, image)| image);
+        let newtons = client.newtons().zip(client.description()).and_then(|(newtons, description)| {
+            let low = description.scene.contact.low;
+            newtons.per_count(&description.layout, image, low, &contact.bounds)
+        });
         BoardContact {
             id: contact.id,
             panel: contact.panel,
@@ -37,7 +45,13 @@ impl From<&Contact> for BoardContact {
             bounds: contact.bounds,
             centroid: [contact.x, contact.y].map(|place| place.to_f64()),
             velocity: [contact.vx, contact.vy].map(|speed| speed.to_f64()),
-            newtons_per_count: None,
+            newtons_per_count: newtons,
         }
+    }
+
+    /// Present contacts of a list, which the client already includes; none if the event is no list of contacts.
+    pub fn all(client: &Client, event: &Event) -> Option<Vec<BoardContact>> {
+        let is_list = matches!(event, Event::Contacts { .. });
+        is_list.then(|| client.contacts().iter().map(|placed| BoardContact::of(client, placed)).collect())
     }
 }

@@ -18,8 +18,7 @@
 //! | `plans.rs` | the boards of a file, to be followed |
 //! | `order.rs` | [`BoardOrder`]: what boards are asked while they are followed |
 //! | `stream.rs` | [`RobotStream`]: all boards as one stream |
-//! | `contact.rs` | [`BoardContact`]: a contact of a board, with its force if a calibration is in force |
-//! | `contact_reader.rs` | [`ContactReader`]: the contacts of a board's events |
+//! | `contact.rs` | [`BoardContact`]: a contact of a board, with its force if newtons are known |
 //! | `moments.rs` | [`RobotMoments`]: what boards have said lately, aligned by the time that they share |
 //! | `alone.rs` | a board that is followed alone |
 //!
@@ -34,7 +33,6 @@ mod board_queue;
 mod board_reader;
 mod config;
 mod contact;
-mod contact_reader;
 mod event;
 mod feed;
 mod file;
@@ -57,7 +55,6 @@ pub use board_queue::BoardQueue;
 pub use board_reader::ConfigPlace;
 pub use config::{BoardConfig, RobotConfig};
 pub use contact::BoardContact;
-pub use contact_reader::ContactReader;
 pub use event::{BoardEvent, BoardState, RobotEvent};
 pub use feed::feed;
 pub use file::ReadRobot;

@@ -6,6 +6,7 @@ use super::follow::BoardPlan;
 use super::refused::Required;
 use crate::body;
 use crate::error::Result;
+use crate::files::calibrate::ForceScale;
 use crate::record::{Origin, Plan, PlannedBoard, PlannedRobot};
 use crate::session::{PATIENCE, Returns, RunLimit};
 use crate::source::SourceOptions;
@@ -46,7 +47,8 @@ impl ReadRobot {
     /// Plan of a recording of all boards, into this file. Error if a body cannot be read.
     pub fn recording(&self, path: PathBuf) -> Result<Plan> {
         let board = |board: &RobotBoard| {
-            let origin = Origin { calibration: board.calibration.clone(), ..Origin::default() };
+            let origin =
+                Origin { scale: ForceScale::new(board.calibration.clone(), None), ..Origin::default() };
             let body = board.body.as_deref().map(body::read).transpose()?;
             Ok(PlannedBoard { name: Some(board.name.clone()), origin, body, is_there: !board.is_real() })
         };

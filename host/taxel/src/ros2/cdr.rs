@@ -47,6 +47,11 @@ impl Cdr {
         self.aligned(value.to_le_bytes())
     }
 
+    /// `uint64`
+    pub fn u64(self, value: u64) -> Cdr {
+        self.aligned(value.to_le_bytes())
+    }
+
     /// `float64`
     pub fn f64(self, value: f64) -> Cdr {
         self.aligned(value.to_le_bytes())

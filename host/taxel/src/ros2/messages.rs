@@ -93,7 +93,7 @@ pub(super) fn cloud<const N: usize>(
 
 /// `geometry_msgs/msg/WrenchStamped` of a panel that is pressed with these counts: the force, N, along z, into the
 /// robot, and its moment about the panel's first taxel, N m; NaN if the pitch is unknown.
-pub fn wrench(board: &str, host_us: u64, area: &Area, values: &[u16], per_newton: f32) -> Vec<u8> {
+pub fn wrench(board: &str, host_us: u64, area: &Area, values: &[u16], per_newton: f64) -> Vec<u8> {
     let columns = usize::from(area.columns).max(1);
     let mut sums = [0u64; 3];
     for (index, value) in values.iter().enumerate() {
@@ -102,7 +102,7 @@ pub fn wrench(board: &str, host_us: u64, area: &Area, values: &[u16], per_newton
         sums[1] += value * (index % columns) as u64;
         sums[2] += value * (index / columns) as u64;
     }
-    let [force, by_columns, by_rows] = sums.map(|sum| sum as f64 / f64::from(per_newton));
+    let [force, by_columns, by_rows] = sums.map(|sum| sum as f64 / per_newton);
     let is_known = !area.pitch_um.contains(&0);
     let [x, y] = area.pitch_um.map(|um| if is_known { f64::from(um) / f64::from(UM) } else { f64::NAN });
     // A component of 0 has no sign.

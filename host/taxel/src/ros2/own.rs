@@ -14,8 +14,7 @@ use taxel_core::shape::Class;
 use taxel_core::symbol::{RegionState, Symbol};
 use taxel_core::wire::{Health, IntentReport, ReactionReport, SymbolList};
 
-/// Metres per 0.1 mm, and per micrometre.
-const TENTH_MM: f64 = 1e-4;
+/// Metres per micrometre.
 const UM: f64 = 1e-6;
 
 /// Header of a message about the whole garment.
@@ -24,30 +23,31 @@ fn head(us: u64) -> Cdr {
 }
 
 /// `taxel_msgs/msg/Contacts`: the present contacts of a client, and the `released` ones; with a body also
-/// their places on links, with counts per newton also their forces. `board`: as of [`messages`](super::messages).
+/// their places on links, if newtons are known also their forces. `board`: as of [`messages`](super::messages).
 pub fn contacts(
     board: &str,
     us: u64,
     client: &Client,
     list_of: (u32, u16),
     released: &[Placed],
-    (surface, per_newton): (Option<&Surface>, Option<f32>),
+    surface: Option<&Surface>,
 ) -> Vec<u8> {
     let (frame, dropped) = list_of;
     let each = |cdr: Cdr, placed: &Placed| {
-        let (at, force) = (&placed.contact, newtons(placed, per_newton));
+        let (at, force) = (&placed.contact, newtons(client, placed));
         let on = surface.zip(client.layout()).and_then(|(surface, layout)| {
             let place = surface.at(layout, at.panel, at.x.to_f64(), at.y.to_f64())?;
             Some((surface.links().get(place.link)?.as_str(), place))
         });
-        on_link(contact(cdr, (board, us), client, placed, per_newton), on, force)
+        on_link(contact(cdr, (board, us), client, placed, force), on, force)
     };
-    head(us).u32(frame).list(client.contacts(), each).list(released, each).u16(dropped).finish()
+    let basis = client.force_basis().unwrap_or_default();
+    head(us).u32(frame).text(basis).list(client.contacts(), each).list(released, each).u16(dropped).finish()
 }
 
 /// Normal force of a contact; NaN if it is not known.
-fn newtons(placed: &Placed, per_newton: Option<f32>) -> f64 {
-    per_newton.map_or(f64::NAN, |counts| f64::from(placed.contact.total) / f64::from(counts))
+fn newtons(client: &Client, placed: &Placed) -> f64 {
+    client.force(placed).unwrap_or(f64::NAN)
 }
 
 /// The last fields of `taxel_msgs/msg/Contact`: the place on a link.
@@ -60,13 +60,7 @@ fn on_link(cdr: Cdr, on: Option<(&str, TaxelPlace)>, force: f64) -> Cdr {
 }
 
 /// `taxel_msgs/msg/Contact`, but for its place on a link.
-fn contact(
-    cdr: Cdr,
-    (board, us): (&str, u64),
-    client: &Client,
-    placed: &Placed,
-    per_newton: Option<f32>,
-) -> Cdr {
+fn contact(cdr: Cdr, (board, us): (&str, u64), client: &Client, placed: &Placed, force: f64) -> Cdr {
     let Placed { contact, shape, region } = placed;
     let area = client.layout().and_then(|layout| layout.areas().get(usize::from(contact.panel)));
     let (x, y) = (contact.x.to_f64(), contact.y.to_f64());
@@ -74,7 +68,6 @@ fn contact(
     let position = pitch.map_or([f64::NAN, f64::NAN, 0.0], |[x_um, y_um]| {
         [x * (f64::from(x_um) * UM), y * (f64::from(y_um) * UM), 0.0]
     });
-    let force = newtons(placed, per_newton);
     let name = |name: fn(&Area) -> &Name| area.map_or("", |area| name(area).as_str());
     cdr.time(us)
         .text(&area.map_or_else(String::new, |area| frame(board, area)))
@@ -101,16 +94,16 @@ fn contact(
         .f64s([x, y])
         .f64(contact.azimuth.map_or(f64::NAN, |azimuth| azimuth.to_radians()))
         .f64(contact.anisotropy.to_f64())
-        .f64(f64::from(contact.breadth) * TENTH_MM)
+        .f64(f64::from(contact.breadth) / 10.0)
         .f64s([shape.nmi.to_f64(), shape.nmi_peak.to_f64(), shape.nmi_s2.to_f64()])
         .text(&client.shape_name(shape.class))
         .f64(shape.confidence.to_f64())
         .f64s([contact.dx.to_f64(), contact.dy.to_f64(), contact.vx.to_f64(), contact.vy.to_f64()])
         .u8(contact.slip.into())
         .u8(client.is_unsure(contact.id).into())
-        .f64(f64::from(contact.duration_ms) / 1000.0)
+        .u32(contact.duration_ms)
         .u32(contact.peak_total)
-        .f64(f64::from(contact.peak_breadth) * TENTH_MM)
+        .f64(f64::from(contact.peak_breadth) / 10.0)
 }
 
 /// Number of a phase in `Contact.msg`.
@@ -135,7 +128,7 @@ pub fn symbols(us: u64, client: &Client, list: &SymbolList) -> Vec<u8> {
             .u8(words.moving.into())
             .text(&client.shape_name(Class(words.class.0)))
             .u32(symbol.peak_total)
-            .f64(f64::from(symbol.duration_ms) / 1000.0)
+            .u32(symbol.duration_ms)
     };
     let region = |cdr: Cdr, region: &RegionState| {
         cdr.text(client.region_name(region.region))
@@ -143,7 +136,7 @@ pub fn symbols(us: u64, client: &Client, list: &SymbolList) -> Vec<u8> {
             .u32(region.total)
             .u16(region.peak)
             .u8(region.moving.into())
-            .f64(region.since.0 as f64 / 1e6)
+            .u64(region.since.0)
     };
     head(us).u32(list.frame).list(&list.events, symbol).list(&list.regions, region).finish()
 }
@@ -190,11 +183,11 @@ pub fn health(us: u64, client: &Client, health: &Health) -> Vec<u8> {
         health.refused,
     ];
     let faulty: Vec<u16> = client.faulty().keys().copied().collect();
-    let seconds = [health.scan_us, health.process_us].map(|us| f64::from(us) / 1e6);
     counters
         .into_iter()
         .fold(head(us), Cdr::u32)
-        .f64s(seconds)
+        .u32(health.scan_us)
+        .u32(health.process_us)
         .list(&faulty, |cdr, taxel| cdr.u16(*taxel))
         .finish()
 }

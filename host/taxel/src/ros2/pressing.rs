@@ -5,6 +5,7 @@ use super::cdr::Cdr;
 use super::messages::{self, cloud};
 use crate::body::{Surface, TaxelPlace};
 use crate::client::Client;
+use crate::files::calibrate::{ForceBasis, Newtons};
 use crate::json::pose_error;
 use taxel_core::format::Micros;
 use taxel_core::garment::Area;
@@ -14,18 +15,18 @@ use taxel_core::wire::{PressingReport, RegionsReport};
 /// Fields of a point.
 const FIELDS: [&str; 7] = ["x", "y", "z", "normal_x", "normal_y", "normal_z", "pressure"];
 
-/// `taxel_msgs/msg/Pressing`: `base` is the frame of the robot's base, if there is a robot. Forces are
-/// newtons with counts per newton, else counts.
-pub fn pressing(us: u64, report: &PressingReport, base: &str, per_newton: Option<f32>) -> Vec<u8> {
-    let scale = scale(per_newton);
-    let age = |posed: Micros| report.time.0.wrapping_sub(posed.0) as i64 as f64 * 1e-6;
+/// `taxel_msgs/msg/Pressing`: `base` is the frame of the robot's base, if there is a robot. Forces whose newtons are
+/// unknown are NaN.
+pub fn pressing(us: u64, report: &PressingReport, base: &str, newtons: Option<&Newtons>) -> Vec<u8> {
+    let scale = newtons.and_then(Newtons::counts_per_newton).unwrap_or(f64::NAN);
+    let age = |posed: Micros| report.time.0.wrapping_sub(posed.0) as i64 as f64;
     let name =
         |link: u8| report.links.iter().find(|one| one.link == link).map_or("", |one| one.name.as_str());
     Cdr::default()
         .time(us)
         .text(base)
         .u32(report.frame)
-        .u8(per_newton.is_some().into())
+        .text(newtons.and_then(Newtons::basis).map_or("", ForceBasis::as_str))
         .f64(report.posed.map_or(f64::NAN, age))
         .f64(pose_error(report).unwrap_or(f64::NAN))
         .list(&report.contacts, |cdr, contact| {
@@ -37,11 +38,6 @@ pub fn pressing(us: u64, report: &PressingReport, base: &str, per_newton: Option
             uncertain(cdr, &report.link_bounds, &link.link, scale)
         })
         .finish()
-}
-
-/// Counts of the unit of forces: of a newton, or of a count.
-fn scale(per_newton: Option<f32>) -> f64 {
-    per_newton.map_or(1.0, f64::from)
 }
 
 /// `taxel_msgs/msg/Landed`, but for what is uncertain of it.
@@ -64,7 +60,7 @@ fn push(cdr: Cdr, at: Micrometres, normal: UnitVector, force: [i32; 3], scale: f
 fn link_wrench(cdr: Cdr, wrench: &Wrench, scale: f64) -> Cdr {
     let [force, moment] = vectors(wrench, scale);
     let cdr = cdr.text(&wrench.name).f64s(force).f64s(moment);
-    cdr.f64(f64::from(wrench.pressed) / scale).f64s(metres(wrench.center))
+    cdr.f64(f64::from(wrench.pressed) / scale).u32(wrench.pressed).f64s(metres(wrench.center))
 }
 
 /// `taxel_msgs/msg/Uncertain` of a contact or of a link.
@@ -87,8 +83,8 @@ fn metres(at: Micrometres) -> [f64; 3] {
 
 /// `geometry_msgs/msg/WrenchStamped` of a link, about its origin; zero if nothing presses on it. Newtons and
 /// newton metres with counts per newton, else counts and counts times metres.
-pub fn wrench(us: u64, link: &str, wrench: Option<&Wrench>, per_newton: Option<f32>) -> Vec<u8> {
-    let parts = wrench.map_or([[0.0; 3]; 2], |wrench| vectors(wrench, scale(per_newton)));
+pub fn wrench(us: u64, link: &str, wrench: Option<&Wrench>, per_newton: Option<f64>) -> Vec<u8> {
+    let parts = wrench.map_or([[0.0; 3]; 2], |wrench| vectors(wrench, per_newton.unwrap_or(1.0)));
     Cdr::default().time(us).text(link).f64s(parts.concat()).finish()
 }
 
@@ -107,7 +103,7 @@ pub fn regions(us: u64, client: &Client, report: &RegionsReport) -> Vec<u8> {
                 .text(region.strength.as_str())
                 .text(region.extent.as_str())
                 .text(&client.shape_name(region.class))
-                .f64(region.since.0 as f64 / 1e6)
+                .u64(region.since.0)
         })
         .finish()
 }

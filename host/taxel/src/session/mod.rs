@@ -151,6 +151,7 @@ impl Session {
         let mut client = Client::new();
         client.linked(&source.label, source.usb_serial.as_deref());
         client.expect(source.scene.clone());
+        client.weigh_by(source.scale.clone());
         Session {
             source,
             client,

@@ -34,6 +34,7 @@ pub(crate) use stranger::Stranger;
 pub use usb::{PortKind, listed as ports};
 
 use crate::error::{Result, UsageError};
+use crate::files::calibrate::ForceScale;
 use crate::recording::GapMark;
 use crate::sim::Script;
 use crate::text::verbose;
@@ -113,8 +114,8 @@ pub struct Source {
     pub tare: u16,
     /// True if its board runs in real time, so that its clock can be compared with the host's.
     pub real_time: bool,
-    /// Counts per newton on a taxel, if known.
-    pub counts_per_newton: Option<f32>,
+    /// Scale from counts to newtons, as far as it is known.
+    pub scale: ForceScale,
     /// True if its board already has the requested garment.
     pub has_asked_garment: bool,
     /// True if its board already has the requested body.
@@ -143,7 +144,7 @@ impl Source {
             port: Box::new(port),
             tare: 0,
             real_time: false,
-            counts_per_newton: None,
+            scale: ForceScale::default(),
             has_asked_garment: false,
             has_body: false,
             scene: None,

@@ -59,14 +59,14 @@ pub fn open(recording: &BoardRecording, speed: Speed, options: &SourceOptions) -
     if overview.topics().all(|topic| topic != recording.topic(WIRE)) {
         return Err(RecordingError::NotTaxel { path: recording.path.clone(), topic: WIRE }.into());
     }
-    let scale = overview.counts_per_newton(recording.board.as_deref()).map(|counts| counts as f32);
+    let scale = overview.scale(recording)?;
     let wire = WireReader::open(recording)?;
     let progress = || Progress::of(format!("playing {recording}"), Unit::Bytes, Some(wire.passed()[1]));
     let progress = (!io::stdout().is_terminal()).then(progress);
     let replay =
         Player { wire, speed, began: None, next: Vec::new(), gap: None, due: None, passed: None, progress };
     let label = format!("replay:{recording}");
-    Ok(Source { counts_per_newton: scale, listens: false, ..Source::new(label, replay) })
+    Ok(Source { scale, listens: false, ..Source::new(label, replay) })
 }
 
 /// A recording being played.

@@ -8,6 +8,7 @@ use super::{Source, SourceOptions, scene_of};
 use crate::body;
 use crate::client::SIMULATED;
 use crate::error::{Context, Error, Result, SourceError};
+use crate::files::calibrate::ForceScale;
 use crate::files::{self, garments, input, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use std::ops::Range;
@@ -113,7 +114,7 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         .with_context(|| label.clone())?;
     Ok(Source {
         tare,
-        counts_per_newton: Some(COUNTS_PER_NEWTON),
+        scale: ForceScale::new(None, Some(COUNTS_PER_NEWTON)),
         has_asked_garment: options.garment.is_some(),
         has_body: options.body.is_some(),
         scene,

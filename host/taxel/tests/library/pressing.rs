@@ -30,11 +30,11 @@ impl Both {
                 let line = computed_pressing(client, *time, &description.layout, &surface).unwrap();
                 assert_eq!((line.frame, line.time_us), (*frame, time.0));
                 let push = |landed: &taxel::json::lines::LandedLine<'_>| {
-                    let force = DVec3::from(landed.own.force.map(f64::from));
+                    let force = DVec3::from(landed.own.force_counts.map(f64::from));
                     (landed.id, (landed.link.to_string(), DVec3::from(landed.own.at_m), force))
                 };
                 self.computed.insert(*frame, line.contacts.iter().map(push).collect());
-                self.pressed.insert(*frame, line.links.iter().map(|wrench| wrench.pressed).sum());
+                self.pressed.insert(*frame, line.links.iter().map(|wrench| wrench.pressed_counts).sum());
             }
             Event::Pressing(report) => self.reported.push((**report).clone()),
             _ => {}

@@ -38,14 +38,14 @@ pub fn check(image: &[u16], case: &Value) {
     ] {
         close(&have[key], want, 2f64.powi(-25) + 4.001e-9 * want, key);
     }
-    close(&have["x"], float(&reference["cx"]), 1e-12, "x");
-    close(&have["y"], float(&reference["cy"]), 1e-12, "y");
+    close(&have["column"], float(&reference["cx"]), 1e-12, "column");
+    close(&have["row"], float(&reference["cy"]), 1e-12, "row");
     // ecc^2 = 1 - minor / major, D / J = (major - minor) / (major + minor)
     let square = float(&exact["ecc"]).powi(2);
     close(&have["anisotropy"], square / (2.0 - square), 1.0 / 65536.0 + 1e-8, "anisotropy");
     // None exactly where D / J < clamp(1 / area, 0.02, 0.15).
     let limit = (1.0 / float(&reference["area"])).clamp(0.02, 0.15);
-    match have["azimuth"].as_f64() {
+    match have["azimuth_rad"].as_f64() {
         None => assert!(square / (2.0 - square) < limit + 1e-4, "no azimuth"),
         Some(azimuth) => {
             assert!(square / (2.0 - square) > limit - 1e-4, "an azimuth");

@@ -2,9 +2,11 @@
 
 use serde_json::Value;
 use taxel::client::Event;
+use taxel::files::calibrate::ForceScale;
 use taxel::files::scripts;
 use taxel::json::message;
 use taxel::session::Session;
+use taxel::sim::COUNTS_PER_NEWTON;
 use taxel::source::{self, SourceOptions, SourceSpec, scene_of};
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
@@ -35,6 +37,7 @@ fn stepped(scene: &str, scans: &[(Micros, Vec<u16>)]) -> Vec<Value> {
     let script = scripts::load(scene).unwrap();
     let mut board =
         VirtualBoard::new(scripts::garment(&script).unwrap(), scene_of(&script).unwrap()).unwrap();
+    board.client().weigh_by(ForceScale::new(None, Some(COUNTS_PER_NEWTON)));
     let tare = Request::Tare { frames: script.tare_frames as u16 };
     if script.tare_frames > 0 {
         board.client().request(&tare).unwrap();

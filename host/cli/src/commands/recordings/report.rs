@@ -96,11 +96,9 @@ fn recorded(
     shown_robot: Option<ShownRobot>,
     folding: Option<Folding>,
 ) -> Result<Seen> {
-    let overview = recording.overview()?;
     let mut play = Play::open(recording)?;
     let mut progress = Progress::of(format!("reading {recording}"), Unit::Bytes, Some(play.passed()[1]));
-    let scale = overview.counts_per_newton(recording.board.as_deref()).map(|counts| counts as f32);
-    let mut seen = Seen::new(recording.to_string(), scale).on(shown_robot).folding(folding);
+    let mut seen = Seen::new(recording.to_string()).on(shown_robot).folding(folding);
     let mut began = None;
     let mut stamp = Stamp::recorded(0, 0);
     while let Some((header, event)) = play.next_event()? {
@@ -130,7 +128,7 @@ fn watched(
     let options = SourceOptions { seconds, folds, ..SourceOptions::default() };
     let source = source::open(&spec, &options)?;
     let seconds = seconds.or(source.real_time.then_some(WATCHED));
-    let mut seen = Seen::new(source.label.clone(), source.counts_per_newton).on(shown_robot).folding(folding);
+    let mut seen = Seen::new(source.label.clone()).on(shown_robot).folding(folding);
     watch::watch(&WatchOptions { seconds, ..WatchOptions::of(spec) }, source, &mut seen)?;
     Ok(seen)
 }

@@ -315,12 +315,12 @@ export function facing(seen, faces, normals, [x, y, z]) {
 /**
  * A force as an arrow: from where it comes to where it presses, mm of the scene.
  * @param {PoseOfLink} pose of the link
- * @param {{ at_m: Triple, normal: Triple, force: Triple }} push in the frame of the link; the force in counts
+ * @param {{ at_m: Triple, normal: Triple, force_counts: Triple }} push in the frame of the link; the force in counts
  * @param {number} perMetre counts
  * @param {Bounds} bounds of the standing cloth
  * @returns {{ tip: Triple, tail: Triple, normal: Triple }}
  */
-export function arrowOf(pose, { at_m: at, normal, force }, perMetre, { least }) {
+export function arrowOf(pose, { at_m: at, normal, force_counts: force }, perMetre, { least }) {
   /** @type {(point: Triple) => Triple} */
   const shifted = ([x, y, z]) => [x - least[0] + AROUND, y - least[1] + AROUND, z - least[2] + AROUND];
   const long = Math.hypot(...force);

@@ -1,7 +1,7 @@
 // The contacts in words and numbers.
 
 import { say } from "./dom.js";
-import { force } from "./units.js";
+import { touchForce } from "./units.js";
 
 /**
  * The table of contacts.
@@ -20,10 +20,10 @@ export function contacts(table, count, store) {
   list.forEach((touch, at) => {
     const row = body.rows[at] ?? body.insertRow();
     const mm = garment.panels[touch.panel]?.mm ?? [10, 10];
-    const speed = Math.hypot(touch.vx * mm[0], touch.vy * mm[1]);
+    const speed = Math.hypot(touch.columns_per_s * mm[0], touch.rows_per_s * mm[1]);
     const cells = [
       touch.region,
-      force(garment, touch.total),
+      touchForce(garment, touch),
       shown?.head.frame.shapes[at] ?? "",
       String(touch.area),
       `${touch.slip ? "slips " : ""}${speed.toFixed(0)}`,

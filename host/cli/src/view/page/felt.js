@@ -30,6 +30,6 @@ export function felt(store) {
   leading.classList.toggle("means", Boolean(colour));
   leading.style.background = colour ?? "";
   $("sentence").classList.toggle("quiet", ["nothing touches", NOBODY.what].includes(what));
-  say($("basis"), BASES[/** @type {keyof typeof BASES} */ (garment?.basis)] ?? "");
+  say($("basis"), BASES[/** @type {keyof typeof BASES} */ (garment?.force_basis ?? "counts")] ?? "");
   $("why").hidden = !garment?.map;
 }

@@ -44,9 +44,9 @@ function stroke(context, width, path) {
  * @param {number} sy
  */
 export function contact(context, touch, sx, sy) {
-  const [x, y] = [(touch.x + 0.5) * sx, (touch.y + 0.5) * sy];
+  const [x, y] = [(touch.column + 0.5) * sx, (touch.row + 0.5) * sy];
   const [major, minor] = halfAxes(touch);
-  const angle = touch.azimuth ?? 0;
+  const angle = touch.azimuth_rad ?? 0;
   /** @type {(along: number, across: number) => [number, number]} */
   const to = (along, across) => [
     x + (along * Math.cos(angle) - across * Math.sin(angle)) * sx,
@@ -58,13 +58,13 @@ export function contact(context, touch, sx, sy) {
       context.lineTo(...to(major * Math.cos(turn), minor * Math.sin(turn)));
     }
   });
-  if (touch.azimuth !== null) {
+  if (touch.azimuth_rad !== null) {
     stroke(context, 1, () => {
       context.moveTo(...to(-major, 0));
       context.lineTo(...to(major, 0));
     });
   }
-  if (Math.hypot(touch.vx, touch.vy) > STILL) arrow(context, touch, x, y, sx, sy);
+  if (Math.hypot(touch.columns_per_s, touch.rows_per_s) > STILL) arrow(context, touch, x, y, sx, sy);
   label(context, String(touch.id), x, y);
 }
 
@@ -77,7 +77,7 @@ export function contact(context, touch, sx, sy) {
  * @param {number} sx
  * @param {number} sy
  */
-function arrow(context, { vx, vy, slip }, x, y, sx, sy) {
+function arrow(context, { columns_per_s: vx, rows_per_s: vy, slip }, x, y, sx, sy) {
   const [dx, dy] = [vx * AHEAD * sx, vy * AHEAD * sy];
   const length = Math.max(18, Math.hypot(dx, dy));
   const angle = Math.atan2(dy, dx);

@@ -68,8 +68,8 @@ export type PageHello = {
   };
   /** Counts per newton on a taxel; null if unknown. */
   counts_per_newton: number | null;
-  /** Basis of forces: `simulated`, `calibrated`, `nominal` or `counts`. */
-  basis: string;
+  /** Basis of forces: `calibrated`, `nominal` or `simulated`; null if they are in counts. */
+  force_basis: string | null;
   /** Counts at which a contact ends. */
   low: number;
   /** Rectangles of positions without a taxel. */
@@ -224,11 +224,15 @@ export type ImageHead = {
       /** Mean slope over those taxels, counts per taxel. */
       edge: number;
       /** Centroid along the columns, taxels from the first column. */
-      x: number;
+      column: number;
       /** Centroid along the rows, taxels from the first row. */
-      y: number;
+      row: number;
+      /** Centroid along the columns, mm from the first column; absent if the pitch is unknown. */
+      x_mm?: number | null;
+      /** Centroid along the rows, mm from the first row; absent if the pitch is unknown. */
+      y_mm?: number | null;
       /** Direction of the long axis, rad; null if there is no clear direction. */
-      azimuth: number | null;
+      azimuth_rad: number | null;
       /** Elongation, 0 (round) to 1 (a line). */
       anisotropy: number;
       /** Width across the long axis, mm. */
@@ -244,27 +248,23 @@ export type ImageHead = {
       /** Share of the votes for that shape, 0 to 1; of an unknown shape, how far it is from all known ones. */
       confidence: number;
       /** Displacement along the columns since the onset, taxels. */
-      dx: number;
+      moved_columns: number;
       /** Displacement along the rows since the onset, taxels. */
-      dy: number;
+      moved_rows: number;
       /** Velocity along the columns, taxels/s. */
-      vx: number;
+      columns_per_s: number;
       /** Velocity along the rows, taxels/s. */
-      vy: number;
+      rows_per_s: number;
       /** True if it slides over the surface. */
       slip: boolean;
       /** True if all of it may be drift of the baseline. */
       unsure: boolean;
-      /** Time since the onset, s. */
-      duration: number;
+      /** Time since the onset, ms. */
+      duration_ms: number;
       /** Greatest total so far, counts. */
       peak_total: number;
       /** Width at the greatest total, mm. */
       peak_breadth_mm: number;
-      /** Centroid along the columns, mm from the first column; absent if the pitch is unknown. */
-      x_mm?: number | null;
-      /** Centroid along the rows, mm from the first row; absent if the pitch is unknown. */
-      y_mm?: number | null;
       /** First row of the box around its taxels on its panel. */
       top: number;
       /** Last row of the box. */
@@ -275,7 +275,7 @@ export type ImageHead = {
       right: number;
       /** Age of the form, frames; absent unless ages were requested. */
       form_age?: number | null;
-      /** Force by the calibration in force, N; null where the panel has none, absent without a calibration. */
+      /** Normal force, N; absent if it is unknown. */
       force_n?: number | null;
     }[];
     /** Meaning of the touch. */
@@ -302,8 +302,10 @@ export type ImageHead = {
       /** Pressure of each taxel by row, counts. */
       rows: number[][];
     }[] | null;
-    /** Force on each panel by the calibration in force, N; null where a panel has none, absent without a calibration. */
+    /** Force on each panel, N; null where a panel has none, absent if it is unknown. */
     force_n?: (number | null)[] | null;
+    /** Basis of the forces: `calibrated`, `nominal` or `simulated`; absent if they are unknown. */
+    force_basis?: string | null;
     /** Touch that is felt, for people. */
     felt: {
       /** The strongest touch, its place and force, and the number of others: `a touch on the back, 8 N, and 2 more`. */
@@ -344,7 +346,9 @@ export type ImageHead = {
         /** Direction away from the robot. */
         normal: [number, number, number];
         /** Force, counts. */
-        force: [number, number, number];
+        force_counts: [number, number, number];
+        /** Force, N; absent if it is unknown. */
+        force_n?: [number, number, number] | null;
         /** Place in the frame of the poses; null without a pose of the link. */
         base: {
           /** Place, m. */
@@ -352,7 +356,9 @@ export type ImageHead = {
           /** Direction away from the robot. */
           normal: [number, number, number];
           /** Force, counts. */
-          force: [number, number, number];
+          force_counts: [number, number, number];
+          /** Force, N; absent if it is unknown. */
+          force_n?: [number, number, number] | null;
         } | null;
         /** Uncertainty by saturated and faulty taxels; null if there is none. */
         uncertain: {
@@ -361,9 +367,9 @@ export type ImageHead = {
           /** Number of faulty taxels under the contact, or at its edge. */
           faulty: number;
           /** The most by which the faulty ones press less than is counted for them, counts. */
-          less: number;
+          less_counts: number;
           /** The most by which they press more, counts. */
-          more: number;
+          more_counts: number;
           /** The most by which they move the centre of pressure, m. */
           off_m: number;
         } | null;
@@ -373,11 +379,17 @@ export type ImageHead = {
         /** Name of the link. */
         link: string;
         /** Sum of the taxels' forces along their normals, counts. */
-        force: [number, number, number];
+        force_counts: [number, number, number];
         /** Their moment about the link's origin, counts times m. */
-        moment: [number, number, number];
+        moment_counts_m: [number, number, number];
         /** Sum of their magnitudes, counts. */
-        pressed: number;
+        pressed_counts: number;
+        /** The force, N; absent if it is unknown, as are the two below. */
+        force_n?: [number, number, number] | null;
+        /** The moment, N m. */
+        moment_nm?: [number, number, number] | null;
+        /** The sum of the magnitudes, N. */
+        pressed_n?: number | null;
         /** Centre of pressure, m. */
         center_m: [number, number, number];
         /** Uncertainty by saturated and faulty taxels; null if there is none. */
@@ -387,13 +399,15 @@ export type ImageHead = {
           /** Number of faulty taxels under the contact, or at its edge. */
           faulty: number;
           /** The most by which the faulty ones press less than is counted for them, counts. */
-          less: number;
+          less_counts: number;
           /** The most by which they press more, counts. */
-          more: number;
+          more_counts: number;
           /** The most by which they move the centre of pressure, m. */
           off_m: number;
         } | null;
       }[];
+      /** Basis of the forces in newtons: `calibrated`, `nominal` or `simulated`; absent if they are unknown. */
+      force_basis?: string | null;
     };
     /** True if the image is from before the page was opened. */
     past?: boolean;
@@ -681,8 +695,6 @@ export type RobotLine = {
     contacts: number;
     /** Counts per newton on its taxels; null if unknown. */
     counts_per_newton: number | null;
-    /** True if the loads of its touches are thousandths of a newton, by a calibration in force. */
-    is_calibrated: boolean;
   }[];
 };
 

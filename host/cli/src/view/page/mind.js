@@ -16,8 +16,7 @@ const MOVERS = { own: "the robot", other: "what touches it", unsure: "unsure" };
 export function cells({ board, contact, region, link, load, mover, approach }, robot) {
   const of = robot?.boards[board];
   const name = of?.name ?? String(board);
-  const scale = of?.is_calibrated ? 1000 : of?.counts_per_newton;
-  const force = scale ? `${(load / scale).toFixed(1)} N` : `${load} counts`;
+  const force = of?.counts_per_newton ? `${(load / 1000).toFixed(1)} N` : `${load} counts`;
   const moved = MOVERS[/** @type {keyof typeof MOVERS} */ (mover)] ?? mover;
   const speed = approach ? (1000 * approach.normal_m_s).toFixed(0) : "?";
   return [`${name} ${contact}`, `${region} (${link})`, moved, force, speed];

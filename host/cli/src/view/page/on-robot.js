@@ -294,7 +294,7 @@ export class OnRobot {
         // One of two sides shows it.
         if (isBehind && !this.turns) return [];
         const name = touch.board ? `${touch.board} ${touch.id}` : String(touch.id);
-        const words = `${name} · ${scene.force(Math.hypot(...touch.force))}`;
+        const words = `${name} · ${scene.force(Math.hypot(...touch.force_counts))}`;
         return [{ d: arrow(pixel(aspect, tail), pixel(aspect, tip)), at: pixel(aspect, tail), name, isBehind, words }];
       }),
     );
@@ -330,7 +330,7 @@ export class OnRobot {
   name({ body, figure, pressing, force }) {
     grown(this.names, this.named.length, () => draw("text")).forEach((words, at) => {
       const name = this.named[at] ?? "";
-      const pressed = pressing?.links.find(({ link }) => link === name)?.pressed ?? 0;
+      const pressed = pressing?.links.find(({ link }) => link === name)?.pressed_counts ?? 0;
       const isKnown = figure && body.links.some((link) => link.name === name);
       say(words, pressed > 0 ? `${name} ${force(pressed)}` : isKnown ? "" : name);
     });

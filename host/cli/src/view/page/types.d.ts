@@ -114,9 +114,9 @@ export interface Pushed {
     link: string;
     at_m: Triple;
     normal: Triple;
-    force: Triple;
+    force_counts: Triple;
   }[];
-  links: { link: string; pressed: number }[];
+  links: { link: string; pressed_counts: number }[];
 }
 
 export type PlayerState = PlayerLine;

@@ -47,12 +47,21 @@ export function force(garment, counts) {
 }
 
 /**
+ * The force of a contact: by the calibration's curves where the board's message has it.
+ * @param {import("./types.d.ts").Garment} garment
+ * @param {import("./types.d.ts").Contact} touch
+ */
+export function touchForce(garment, { force_n: newtons, total }) {
+  return typeof newtons === "number" ? `${digits(newtons)} N` : force(garment, total);
+}
+
+/**
  * The unit, and how reliable it is.
  * @param {import("./types.d.ts").Garment} garment
  */
-export function provenance({ basis, calibration }) {
+export function provenance({ force_basis: basis, calibration }) {
   if (basis === "calibrated") return `calibrated: ${calibration}`;
-  return basis === "counts" ? "counts: not calibrated" : `${basis} newtons, not calibrated`;
+  return basis === null ? "counts: not calibrated" : `${basis} newtons, not calibrated`;
 }
 
 /** Seconds of board time. */

@@ -110,14 +110,14 @@ function pushed(parts) {
   /** @type {Map<string, number>} */
   const links = new Map();
   const contacts = parts.flatMap(({ name, pressing, scale }) => {
-    for (const { link, pressed } of pressing?.links ?? []) {
+    for (const { link, pressed_counts: pressed } of pressing?.links ?? []) {
       links.set(link, (links.get(link) ?? 0) + pressed * scale.force);
     }
-    return (pressing?.contacts ?? []).map(({ id, link, at_m, normal, force }) => {
+    return (pressing?.contacts ?? []).map(({ id, link, at_m, normal, force_counts: force }) => {
       const [x, y, z] = force;
       const scaled = /** @type {Triple} */ ([x * scale.force, y * scale.force, z * scale.force]);
-      return { id, board: name, link, at_m, normal, force: scaled };
+      return { id, board: name, link, at_m, normal, force_counts: scaled };
     });
   });
-  return { contacts, links: [...links].map(([link, pressed]) => ({ link, pressed })) };
+  return { contacts, links: [...links].map(([link, pressed_counts]) => ({ link, pressed_counts })) };
 }

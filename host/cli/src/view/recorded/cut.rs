@@ -31,7 +31,8 @@ impl Cut {
 
 impl Saved for Cut {
     fn write(&self, [from, to]: [u64; 2], store: &mut dyn Store) -> Result<()> {
-        let mut reel = Reel::new(self.clips.again()?, self.survey.clone(), Vec::new());
+        let mut reel =
+            Reel::new(self.clips.again()?, self.survey.clone(), Vec::new(), self.origin.scale.clone());
         let mut copy = Copy::begin(store, self.origin.clone())?;
         let no_image = "the recording holds no image";
         let (_, event) = reel.seek(from).context(no_image)?;

@@ -29,7 +29,7 @@ pub use cut::Cut;
 use super::hub::PageHub;
 use super::tape::Tape;
 use crate::folding::Folding;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use deck::{Deck, Go};
 use reel::Reel;
 use screen::PageScreen;
@@ -38,9 +38,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use survey::{RecordedTime, Survey};
 use taxel::client::Event;
-use taxel::files::calibrate::Calibration;
-use taxel::record::{CALIBRATION, Origin};
-use taxel::recording::{BoardRecording, Clips, WIRE, gap_marks};
+use taxel::files::calibrate::{Calibration, ForceScale};
+use taxel::record::Origin;
+use taxel::recording::{self, BoardRecording, CALIBRATION, Clips, WIRE, gap_marks};
 
 /// Time between two messages about the position.
 const UPDATE: Duration = Duration::from_millis(250);
@@ -80,15 +80,15 @@ impl Player {
             bail!("{recording} has no topic {WIRE}: it is not a recording of taxel");
         }
         let origin = origin(&clips, recording, calibration)?;
-        let scale = origin.counts_per_newton;
+        let scale = origin.scale.clone();
         let clock = RecordedTime::of(&clips);
-        let survey = Survey::start(clips.again()?, clock, scale, hub.clone())?;
+        let survey = Survey::start(clips.again()?, clock, scale.clone(), hub.clone())?;
         let cut = Cut::new(clips.again()?, survey.clone(), origin);
         hub.tape(Tape::Recorded(Arc::new(cut)));
         let mut player = Player {
             deck: Deck::new(clock.duration(), speed, Instant::now()),
-            reel: Reel::new(clips, survey, gap_marks(recording)?),
-            screen: PageScreen::new(hub.clone(), recording.to_string(), scale, folding),
+            reel: Reel::new(clips, survey, gap_marks(recording)?, scale),
+            screen: PageScreen::new(hub.clone(), recording.to_string(), folding),
             sent: Instant::now(),
             pages: 0,
             hub,
@@ -196,15 +196,10 @@ impl Player {
 /// Origin of a recording, and its calibration.
 fn origin(clips: &Clips, recording: &BoardRecording, calibration: Option<Calibration>) -> Result<Origin> {
     let name = format!("{CALIBRATION} of {recording}");
-    let attached = clips.attached(CALIBRATION).map(|bytes| {
-        let text = std::str::from_utf8(bytes).with_context(|| format!("{name} is not text"))?;
-        anyhow::Ok(Calibration::parse(text, &name)?)
-    });
+    let attached = clips.attached(CALIBRATION).map(|bytes| recording::calibration(bytes, &name));
     let calibration = calibration.or(attached.transpose()?);
     let words = clips.words("taxel");
     let word = |name: &str| words.and_then(|words| words.get(name)).cloned().unwrap_or_default();
-    let sent =
-        word("counts_per_newton").parse().ok().filter(|counts: &f32| counts.is_finite() && *counts > 0.0);
-    let counts_per_newton = calibration.as_ref().and_then(Calibration::counts_per_newton).or(sent);
-    Ok(Origin { label: word("source"), counts_per_newton, calibration })
+    let scale = ForceScale::new(calibration, word("counts_per_newton").parse().ok());
+    Ok(Origin { label: word("source"), scale })
 }

@@ -5,6 +5,7 @@ use super::wire_message::with_report;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use taxel::client::{Client, Event, RetainedState};
+use taxel::files::calibrate::ForceScale;
 use taxel::recording::{ClipMessage, Clips, GapMark};
 use taxel_core::wire::Report;
 
@@ -43,6 +44,7 @@ pub struct Reel {
     clock: RecordedTime,
     survey: Arc<Survey>,
     client: Client,
+    scale: ForceScale,
     next: Cursor,
     /// Begins and ends of gaps with their times, us, and the number of those passed.
     gaps: Vec<(u64, GapMark)>,
@@ -55,11 +57,12 @@ pub struct Reel {
 
 impl Reel {
     /// Starts at the beginning. `gaps` have the host's times, ns.
-    pub fn new(clips: Clips, survey: Arc<Survey>, gaps: Vec<(u64, GapMark)>) -> Reel {
+    pub fn new(clips: Clips, survey: Arc<Survey>, gaps: Vec<(u64, GapMark)>, scale: ForceScale) -> Reel {
         let (clock, next) = (RecordedTime::of(&clips), Cursor { chunk: 0, index: 0 });
         let gaps = gaps.into_iter().map(|(ns, mark)| (clock.at(ns), mark)).collect();
-        let (client, glow) = (Client::new(), Vec::new());
-        Reel { clips, clock, survey, client, next, gaps, passed: 0, shown: None, glow }
+        let (mut client, glow) = (Client::new(), Vec::new());
+        client.weigh_by(scale.clone());
+        Reel { clips, clock, survey, client, scale, next, gaps, passed: 0, shown: None, glow }
     }
 
     /// The client after the last message.
@@ -141,6 +144,7 @@ impl Reel {
         let first = self.image_at(shown_at.saturating_sub(FADE_US)).unwrap_or(image).min(image);
         let key = self.key_of(first);
         self.client = Client::new();
+        self.client.weigh_by(self.scale.clone());
         self.glow.clear();
         let retained = self.survey.known(key.chunk).unwrap_or_else(|| self.gathered(key.chunk));
         for frame in retained.frames() {

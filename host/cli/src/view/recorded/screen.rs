@@ -16,7 +16,6 @@ use taxel_core::format::Micros;
 pub struct PageScreen {
     hub: Arc<PageHub>,
     label: String,
-    scale: Option<f32>,
     /// Folds of the garment; none without a table.
     folding: Option<Folding>,
     rate: Rate,
@@ -26,8 +25,8 @@ pub struct PageScreen {
 
 impl PageScreen {
     /// Shows a recording with this label.
-    pub fn new(hub: Arc<PageHub>, label: String, scale: Option<f32>, folding: Option<Folding>) -> PageScreen {
-        PageScreen { hub, label, scale, folding, rate: Rate::default(), last: (0, Micros(0)) }
+    pub fn new(hub: Arc<PageHub>, label: String, folding: Option<Folding>) -> PageScreen {
+        PageScreen { hub, label, folding, rate: Rate::default(), last: (0, Micros(0)) }
     }
 
     /// Shows another moment and its afterglow; earlier messages are no longer valid.
@@ -76,7 +75,7 @@ impl PageScreen {
             self.hub.state("folding", line);
         }
         let total = client.contacts().iter().fold(0u32, |sum, p| sum.saturating_add(p.contact.total));
-        let Some(line) = message::frame(client, event, self.scale) else { return };
+        let Some(line) = message::frame(client, event) else { return };
         let shown_robot = self.hub.shown_robot();
         let pressing = shown_robot.as_ref().and_then(|shown_robot| shown_robot.pressing(client, *time));
         let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), pressing, ..line });
@@ -87,14 +86,14 @@ impl PageScreen {
     fn nothing(&self, client: &Client, at: u64, seeks: u32) {
         let (frame, time) = (self.last.0, Micros(self.last.1.0 + 1));
         let nothing = Event::Frame { frame, time, alone: true, image: ImageNews::NoBase };
-        let line = message::frame(client, &nothing, self.scale);
+        let line = message::frame(client, &nothing);
         let Some((line, layout)) = line.zip(client.layout()) else { return };
         let line = text(&PageFrame { at_us: Some(at), seeks: Some(seeks), ..line });
         self.hub.show(Shot { line, image: vec![0; layout.taxels()].into(), time_us: time.0, total: 0 });
     }
 
     fn hello(&mut self, client: &Client) {
-        self.hub.greet(client, &self.label, self.scale);
+        self.hub.greet(client, &self.label);
         let folds = match (&mut self.folding, client.description()) {
             (Some(folding), Some(description)) => folding.use_garment(description),
             _ => Ok(()),

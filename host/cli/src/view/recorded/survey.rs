@@ -9,6 +9,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel::client::{Client, Event, RetainedState};
+use taxel::files::calibrate::ForceScale;
 use taxel::recording::{ClipMessage, Clips, HELLO, lost};
 use taxel::source::shared::Shared;
 use taxel::text::words;
@@ -35,18 +36,20 @@ impl Survey {
     pub fn start(
         mut clips: Clips,
         clock: RecordedTime,
-        scale: Option<f32>,
+        scale: ForceScale,
         hub: Arc<PageHub>,
     ) -> anyhow::Result<Arc<Survey>> {
         let beginning = beginning(&mut clips);
         let survey = Arc::new(Survey { beginning: beginning.clone(), ..Survey::default() });
+        let mut client = Client::new();
+        client.weigh_by(scale);
         let mut surveyor = Surveyor {
             clips,
             clock,
             overview: Overview::new(clock.duration()),
             retained: beginning,
-            client: Client::new(),
-            lines: EventLines::new(scale),
+            client,
+            lines: EventLines::default(),
         };
         for frame in surveyor.retained.frames() {
             surveyor.report(0, &frame);

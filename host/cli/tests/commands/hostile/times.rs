@@ -99,7 +99,7 @@ fn shown(name: &str, ros2: bool) -> PathBuf {
     shows.opened(&source).unwrap();
     let mut stamps = Stamps::start();
     let (mut client, mut view) = (Client::new(), View::new(&source));
-    let mut seen = Seen::new("it".into(), Some(1000.0));
+    let mut seen = Seen::new("it".into());
     // A host that requests the time, so that answers count as round trips.
     client.start(0).unwrap();
     for (now, part) in (1_000_000u64..).step_by(50_000).zip(said().chunks(200)) {

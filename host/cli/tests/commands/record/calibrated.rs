@@ -4,7 +4,9 @@ use super::stage::{file, plan};
 use crate::mat::{box_for, knee};
 use std::path::Path;
 use taxel::files::calibrate::Calibration;
-use taxel::record::{CALIBRATION, Origin, Plan, PlannedBoard, Recorder};
+use taxel::files::calibrate::ForceScale;
+use taxel::record::{Origin, Plan, PlannedBoard, Recorder};
+use taxel::recording::CALIBRATION;
 use taxel::recording::Overview;
 use taxel::robot::BoardConfig;
 use taxel::source::{self, SourceOptions};
@@ -18,7 +20,7 @@ fn recorded(name: &str, calibration: &Calibration) {
     calibration.write(&certificate).unwrap();
     let spec: source::SourceSpec = format!("sim:{}", scene.display()).parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
-    let origin = Origin { calibration: Some(calibration.clone()), ..Origin::default() };
+    let origin = Origin { scale: ForceScale::new(Some(calibration.clone()), None), ..Origin::default() };
     let recorder = recorder(origin, &format!("{name}.mcap"));
     let config = BoardConfig { calibration: Some(certificate), raw: true, ..BoardConfig::of(spec) };
     watch(&WatchOptions::on(BoardArgs { config, ..BoardArgs::default() }), source, &mut recorder.board(0))
@@ -65,7 +67,7 @@ fn one_that_is_not_in_force_is_not_in_it() {
     let calibration = knee();
     let spec: source::SourceSpec = "sim:pat".parse().unwrap();
     let source = source::open(&spec, &SourceOptions::default()).unwrap();
-    let origin = Origin { calibration: Some(calibration), ..Origin::default() };
+    let origin = Origin { scale: ForceScale::new(Some(calibration), None), ..Origin::default() };
     let recorder = recorder(origin, "unstated.mcap");
     watch(&WatchOptions::of(spec), source, &mut recorder.board(0)).unwrap();
     recorder.finish().unwrap();

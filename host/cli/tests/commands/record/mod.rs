@@ -4,6 +4,7 @@
 mod belonging;
 mod calibrated;
 mod exports;
+mod one_value;
 mod replayed;
 mod report;
 mod rotate;

@@ -1,12 +1,12 @@
 //! The report page has the figures of the source.
 
-use super::stage::play;
+use super::stage::{play, play_in_counts};
 use taxel_cli::on_robot::ShownRobot;
 use taxel_cli::report::{Seen, page};
 
 #[test]
 fn the_figures_of_the_source_are_drawn() {
-    let mut seen = Seen::new("sim:source".into(), Some(1000.0));
+    let mut seen = Seen::new("sim:source".into());
     play("sim:source", &mut seen);
     let html = page(&seen).unwrap();
     let count = |what: &str| html.matches(what).count();
@@ -34,32 +34,32 @@ fn the_figures_of_the_source_are_drawn() {
 
 #[test]
 fn a_page_is_in_one_unit() {
-    let mut seen = Seen::new("sim:pat".into(), Some(1000.0));
+    let mut seen = Seen::new("sim:pat".into());
     play("sim:pat", &mut seen);
     let html = page(&seen).unwrap();
     assert!(html.contains("<th>total, N</th><th>peak, N</th>"));
     let printed = "the source knows that 1000 counts are a newton";
     assert_eq!(
-        (html.matches("counts").count(), html.matches(printed).count()),
+        (html.matches(" counts").count(), html.matches(printed).count()),
         (1, 1),
         "only what the unit is"
     );
-    let mut seen = Seen::new("sim:pat".into(), None);
-    play("sim:pat", &mut seen);
+    let mut seen = Seen::new("sim:pat".into());
+    play_in_counts("sim:pat", &mut seen);
     let html = page(&seen).unwrap();
     assert!(html.contains("<th>total, counts</th><th>peak, counts</th>") && !html.contains(" N<"));
 }
 
 #[test]
 fn without_an_image_there_is_no_page() {
-    let error = page(&Seen::new("replay:x".into(), None)).unwrap_err().to_string();
+    let error = page(&Seen::new("replay:x".into())).unwrap_err().to_string();
     assert_eq!(error, "replay:x: no image was received, so there is nothing to report");
 }
 
 #[test]
 fn a_garment_is_shown_on_its_robot() {
     let shown_robot = ShownRobot::read("reference", Some("reference"), "waist=20deg").unwrap();
-    let mut seen = Seen::new("sim:five".into(), Some(1000.0)).on(Some(shown_robot));
+    let mut seen = Seen::new("sim:five".into()).on(Some(shown_robot));
     play("sim:five", &mut seen);
     let html = page(&seen).unwrap();
     assert_eq!(html.matches("<h2>On the robot</h2>").count(), 1);
@@ -69,7 +69,7 @@ fn a_garment_is_shown_on_its_robot() {
     let sin = data["poses"]["links"]["torso"]["turn"][2].as_f64().unwrap();
     assert!((sin - 10f64.to_radians().sin()).abs() < 1e-9, "{sin}");
     assert_eq!(data["body"]["taxels"].as_array().unwrap().len(), data["image"].as_array().unwrap().len());
-    let mut without = Seen::new("sim:idle".into(), None);
+    let mut without = Seen::new("sim:idle".into());
     play("sim:idle", &mut without);
     let html = page(&without).unwrap();
     assert!(!html.contains("On the robot") && html.contains("\"body\":null"));

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use taxel::client::{Client, Event, ImageNews, Stamp};
+use taxel::files::calibrate::ForceScale;
 use taxel::record::{Origin, Plan, PlannedBoard, Recorder, Rotate};
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
@@ -46,7 +47,7 @@ pub fn file(name: &str) -> PathBuf {
 
 /// Plan of a recording.
 pub fn plan(name: &str, label: &str, rotate: Option<Rotate>, ros2: bool) -> Plan {
-    let origin = Origin { label: label.into(), counts_per_newton: Some(1000.0), calibration: None };
+    let origin = Origin { label: label.into(), scale: ForceScale::new(None, Some(1000.0)) };
     let board = PlannedBoard { origin, ..PlannedBoard::default() };
     Plan { rotate, ros2, force: true, ..Plan::of(file(name), board) }
 }
@@ -58,6 +59,14 @@ pub fn record(spec: &str, plan: Plan) -> Seen {
     play(spec, &mut vec![&mut seen as &mut dyn Observer, &mut board]);
     recorder.finish().unwrap();
     seen
+}
+
+/// Shows a source to its end whose newtons nobody knows.
+pub fn play_in_counts(spec: &str, observer: &mut dyn Observer) {
+    let spec = spec.parse().unwrap();
+    let source = source::open(&spec, &SourceOptions::default()).unwrap();
+    let source = source::Source { scale: ForceScale::default(), ..source };
+    watch(&WatchOptions::of(spec), source, observer).unwrap();
 }
 
 /// Shows a source to its end.

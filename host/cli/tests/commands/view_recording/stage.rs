@@ -64,7 +64,7 @@ pub fn moments(path: &Path) -> Vec<Moment> {
 /// An event as a page reads it, with numbers converted to text and back.
 fn as_read(client: &Client, event: &Event) -> Value {
     let line = match event {
-        Event::Frame { .. } => serde_json::to_value(message::frame(client, event, Some(1000.0))).unwrap(),
+        Event::Frame { .. } => serde_json::to_value(message::frame(client, event)).unwrap(),
         event => json::message(client, event),
     };
     serde_json::from_str(&line.to_string()).unwrap()

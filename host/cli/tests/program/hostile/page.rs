@@ -32,7 +32,7 @@ fn page() -> u16 {
     let board = WatchOptions::on(BoardArgs { config, ..BoardArgs::default() });
     watch(&WatchOptions { seconds: Some(25.0), ..board }, source, &mut Keeper(hub.clone())).unwrap();
     assert!(hub.recording().unwrap().len() > 4 << 20);
-    let origin = Origin { label: "sim:five".into(), counts_per_newton: None, calibration: None };
+    let origin = Origin { label: "sim:five".into(), ..Origin::default() };
     hub.tape(Tape::Live(Arc::new(origin)));
     serve(TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap(), hub).unwrap()
 }

@@ -34,10 +34,12 @@ pub struct FrameLine<'a> {
     /// Pressure by panel; absent unless requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub panels: Option<Vec<PanelPixels<'a>>>,
-    /// Force on each panel by the calibration in force, N; null where a panel has none, absent without a
-    /// calibration.
+    /// Force on each panel, N; null where a panel has none, absent if it is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<Vec<Option<f64>>>,
+    /// Basis of the forces: `calibrated`, `nominal` or `simulated`; absent if they are unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_basis: Option<&'static str>,
 }
 
 /// Pressure of a panel.
@@ -66,6 +68,9 @@ pub struct ContactsLine<'a> {
     pub released: Vec<ContactLine<'a>>,
     /// Number of contacts that did not fit.
     pub dropped: u16,
+    /// Basis of the forces: `calibrated`, `nominal` or `simulated`; absent if they are unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_basis: Option<&'static str>,
 }
 
 /// Raw codes have come.

@@ -26,6 +26,9 @@ pub struct PressingLine<'a> {
     pub contacts: Vec<LandedLine<'a>>,
     /// The links that something presses on.
     pub links: Vec<WrenchLine<'a>>,
+    /// Basis of the forces in newtons: `calibrated`, `nominal` or `simulated`; absent if they are unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_basis: Option<&'static str>,
 }
 
 /// A contact on the robot.
@@ -54,9 +57,9 @@ pub struct UncertainLine {
     /// Number of faulty taxels under the contact, or at its edge.
     pub faulty: u16,
     /// The most by which the faulty ones press less than is counted for them, counts.
-    pub less: u32,
+    pub less_counts: u32,
     /// The most by which they press more, counts.
-    pub more: u32,
+    pub more_counts: u32,
     /// The most by which they move the centre of pressure, m.
     pub off_m: f64,
 }
@@ -70,7 +73,10 @@ pub struct PushLine {
     /// Direction away from the robot.
     pub normal: [f64; 3],
     /// Force, counts.
-    pub force: [i32; 3],
+    pub force_counts: [i32; 3],
+    /// Force, N; absent if it is unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<[f64; 3]>,
 }
 
 /// Force and moment on a link, in its frame.
@@ -80,11 +86,20 @@ pub struct WrenchLine<'a> {
     /// Name of the link.
     pub link: &'a str,
     /// Sum of the taxels' forces along their normals, counts.
-    pub force: [i32; 3],
+    pub force_counts: [i32; 3],
     /// Their moment about the link's origin, counts times m.
-    pub moment: [f64; 3],
+    pub moment_counts_m: [f64; 3],
     /// Sum of their magnitudes, counts.
-    pub pressed: u32,
+    pub pressed_counts: u32,
+    /// The force, N; absent if it is unknown, as are the two below.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<[f64; 3]>,
+    /// The moment, N m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_nm: Option<[f64; 3]>,
+    /// The sum of the magnitudes, N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressed_n: Option<f64>,
     /// Centre of pressure, m.
     pub center_m: [f64; 3],
     /// Uncertainty by saturated and faulty taxels; null if there is none.

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use taxel::client::Event;
-use taxel::files::calibrate::{Calibration, Curve, Fitted, Residuals, Rest};
-use taxel::robot::{BoardContact, ContactReader, ReadRobot};
+use taxel::files::calibrate::{Calibration, Curve, Fitted, ForceScale, Residuals, Rest};
+use taxel::robot::{BoardContact, ReadRobot};
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::condition::UNITY;
 use taxel_core::format::Micros;
@@ -56,8 +56,8 @@ fn read(calibrations: [Option<&str>; 2]) -> taxel::Result<ReadRobot> {
 /// The contact of a board that is pressed on four taxels.
 fn reported(robot: &ReadRobot, number: usize) -> BoardContact {
     let of = &robot.boards[number];
-    let reader = ContactReader::new(of);
     let mut board = VirtualBoard::new(Garment::block(), Scene::shipped()).unwrap();
+    board.client().weigh_by(ForceScale::new(of.calibration.clone(), None));
     let requests = of.calibration.iter().flat_map(Calibration::requests);
     requests.chain([Request::Tare { frames: 8 }]).for_each(|it| board.client().request(&it).unwrap());
     let (mut codes, mut reported) = (vec![200; TAXELS], Vec::new());
@@ -66,7 +66,7 @@ fn reported(robot: &ReadRobot, number: usize) -> BoardContact {
             PRESSED.into_iter().for_each(|taxel| codes[taxel] += 700);
         }
         let mut hear = |client: &taxel::client::Client, event: &Event| {
-            reported = reader.contacts(client, event).unwrap_or_else(|| std::mem::take(&mut reported));
+            reported = BoardContact::all(client, event).unwrap_or_else(|| std::mem::take(&mut reported));
             Ok(())
         };
         board.step(&codes, Micros(5_000 * scan), &mut hear).unwrap();

@@ -79,6 +79,7 @@ impl Definitions {
             "uint8" | "byte" => json!(reader.number::<1>()[0]),
             "uint16" => json!(u16::from_le_bytes(reader.number())),
             "uint32" => json!(u32::from_le_bytes(reader.number())),
+            "uint64" => json!(u64::from_le_bytes(reader.number())),
             "int32" => json!(i32::from_le_bytes(reader.number())),
             // NaN is null.
             "float64" => json!(f64::from_le_bytes(reader.number())),

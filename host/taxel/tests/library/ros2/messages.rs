@@ -18,14 +18,14 @@ use taxel_core::wire::{Health, ReactionReport};
 const US: u64 = 1_700_000_000_000_123;
 const STAMP: [u64; 2] = [1_700_000_000, 123_000];
 /// Counts per newton.
-const SCALE: f32 = 1000.0;
+const SCALE: f64 = 1000.0;
 
 fn stamp() -> Value {
     json!({ "sec": STAMP[0], "nanosec": STAMP[1] })
 }
 
 /// Fields of `Contact.msg` that are keys of a contact's JSON.
-const SAME: [&str; 33] = [
+const SAME: [&str; 35] = [
     "id",
     "panel",
     "panel_name",
@@ -42,23 +42,25 @@ const SAME: [&str; 33] = [
     "area",
     "perimeter",
     "edge",
-    "x",
-    "y",
-    "azimuth",
+    "column",
+    "row",
+    "azimuth_rad",
     "anisotropy",
+    "breadth_mm",
     "nmi",
     "nmi_peak",
     "nmi_s2",
     "shape",
     "confidence",
-    "dx",
-    "dy",
-    "vx",
-    "vy",
+    "moved_columns",
+    "moved_rows",
+    "columns_per_s",
+    "rows_per_s",
     "slip",
     "unsure",
-    "duration",
+    "duration_ms",
     "peak_total",
+    "peak_breadth_mm",
 ];
 
 /// Fails unless a contact says what its JSON says.
@@ -72,9 +74,7 @@ fn same_contact(read: &Value, line: &Value) {
     };
     metres(&read["position"]["x"], "x_mm");
     metres(&read["position"]["y"], "y_mm");
-    metres(&read["breadth"], "breadth_mm");
-    metres(&read["peak_breadth"], "peak_breadth_mm");
-    assert_eq!(read["force"], json!(line["total"].as_f64().unwrap() / f64::from(SCALE)));
+    assert_eq!([&read["force"], &json!(line["total"].as_f64().unwrap() / SCALE)], [&line["force_n"]; 2]);
     let phase = ["onset", "held", "released"][read["phase"].as_u64().unwrap() as usize];
     assert_eq!(phase, line["phase"]);
     assert_eq!(read["contact"], json!(phase != "released"));
@@ -89,14 +89,15 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
     let line = message(client, event);
     match event {
         Event::Contacts { frame, dropped, released, .. } => {
-            let bytes = own::contacts("", US, client, (*frame, *dropped), released, (None, Some(SCALE)));
+            let bytes = own::contacts("", US, client, (*frame, *dropped), released, None);
             let read = all.read("Contacts", &bytes);
             for list in ["contacts", "released"] {
                 let (read, line) = (read[list].as_array().unwrap(), line[list].as_array().unwrap());
                 assert_eq!(read.len(), line.len());
                 read.iter().zip(line).for_each(|(read, line)| same_contact(read, line));
             }
-            assert_eq!([&read["frame"], &read["dropped"]], [&line["frame"], &line["dropped"]]);
+            let keys = ["frame", "dropped", "force_basis"];
+            assert_eq!(keys.map(|key| &read[key]), keys.map(|key| &line[key]));
             Some("Contacts")
         }
         Event::Symbols(list) => {
@@ -110,13 +111,13 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
                 {
                     assert_eq!(read[field], words[reported]);
                 }
-                assert_eq!(read["duration"], json!(line["duration_ms"].as_f64().unwrap() / 1000.0));
+                assert_eq!(read["duration_ms"], line["duration_ms"]);
                 assert_eq!([&read["contact"], &read["peak_total"]], [&line["contact"], &line["peak_total"]]);
             }
             for (read, line) in
                 read["regions"].as_array().unwrap().iter().zip(line["regions"].as_array().unwrap())
             {
-                for key in ["region", "contacts", "total", "peak", "moving"] {
+                for key in ["region", "contacts", "total", "peak", "moving", "since_us"] {
                     assert_eq!(read[key], line[key], "{key}");
                 }
             }
@@ -134,12 +135,19 @@ fn same(all: &Definitions, client: &Client, event: &Event) -> Option<&'static st
         }
         Event::Health(health) => {
             let read = all.read("Health", &own::health(US, client, health));
-            for key in
-                ["scans", "failed", "overruns", "thinned_frames", "thinned_contacts", "lost", "refused"]
-            {
+            for key in [
+                "scans",
+                "failed",
+                "overruns",
+                "thinned_frames",
+                "thinned_contacts",
+                "lost",
+                "refused",
+                "scan_us",
+                "process_us",
+            ] {
                 assert_eq!(read[key], line[key], "{key}");
             }
-            assert_eq!(read["scan"], json!(line["scan_us"].as_f64().unwrap() / 1e6));
             let reported = messages::diagnostics("", US, "x", DiagnosticState::Reports(health, 3));
             let read = Definitions::of_text("D", schemas::DIAGNOSTICS).read("D", &reported);
             assert_eq!(read["status"][0]["values"][9], json!({ "key": "faulty_taxels", "value": "3" }));
@@ -181,7 +189,7 @@ fn same_wrench(area: &Area, values: &[u16]) {
         let [x, y] = [index % area.columns, index / area.columns].map(f64::from);
         let at = DVec3::new(x * f64::from(area.pitch_um[0]), y * f64::from(area.pitch_um[1]), 0.0) * 1e-6;
         // Into the robot.
-        let force = DVec3::Z * f64::from(*value) / f64::from(SCALE);
+        let force = DVec3::Z * f64::from(*value) / SCALE;
         want = [want[0] + force, want[1] + at.cross(force)];
     }
     for (part, want) in ["force", "torque"].into_iter().zip(want) {

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use taxel::body::{self, Surface};
 use taxel::client::{Client, Event};
+use taxel::files::calibrate::ForceScale;
 use taxel::json::message;
 use taxel::ros2::{messages, own, pressing, schemas};
 use taxel::session::{Session, setting};
@@ -13,7 +14,6 @@ use taxel::source::{self, SourceOptions};
 use taxel_core::wire::{PressingReport, RegionsReport};
 
 const US: u64 = 1_700_000_000_000_123;
-const SCALE: f32 = 1000.0;
 /// A region that holds all of the torso.
 const REGION: &str = "\n[[regions]]\nname = \"torso\"\nlink = \"torso\"\n\
                       within.box = { from = [-1, -1, -1], to = [1, 1, 1] }\n";
@@ -27,12 +27,13 @@ fn same(read: &Value, want: &Value, scale: f64) {
 }
 
 /// Fails unless a message says of a contact or a link what its line leaves uncertain.
-fn same_uncertain(read: &Value, line: &Value, scale: f64) {
+fn same_uncertain(read: &Value, line: &Value, scale: Option<f64>) {
     let of = |key: &str| line["uncertain"][key].as_f64().unwrap_or(0.0);
-    let reported = [of("saturated"), of("faulty"), of("less") / scale, of("more") / scale, of("off_m")];
-    let own =
-        ["saturated", "faulty", "less", "more", "off"].map(|key| read["uncertain"][key].as_f64().unwrap());
-    assert_eq!(own, reported, "{line}");
+    let newtons = |key| scale.map(|scale| of(key) / scale);
+    let (less, more) = (newtons("less_counts"), newtons("more_counts"));
+    let reported = [Some(of("saturated")), Some(of("faulty")), less, more, Some(of("off_m"))];
+    let own = ["saturated", "faulty", "less_n", "more_n", "off_m"];
+    assert_eq!(own.map(|key| read["uncertain"][key].as_f64()), reported, "{line}");
 }
 
 /// Fails unless the message of the surface's regions says what their line says.
@@ -59,19 +60,24 @@ fn same_regions(all: &Definitions, client: &Client, report: &RegionsReport) {
         ] {
             assert_eq!(own[key], reported[other]);
         }
-        assert_eq!(own["since"], json!(reported["since_us"].as_f64().unwrap() / 1e6));
+        assert_eq!(own["since_us"], reported["since_us"]);
     }
 }
 
 /// Fails unless a report's message and its links' forces say what its line says.
-fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_newton: Option<f32>) {
-    let scale = f64::from(per_newton.unwrap_or(1.0));
+fn same_report(all: &Definitions, client: &Client, report: &PressingReport) {
+    let scale = client.counts_per_newton();
     let line = message(client, &Event::Pressing(Box::new(report.clone())));
-    let read = all.read("Pressing", &pressing::pressing(US, report, "base_link", per_newton));
+    let read = all.read("Pressing", &pressing::pressing(US, report, "base_link", client.newtons()));
     assert_eq!([&read["header"]["frame_id"], &read["frame"]], [&json!("base_link"), &line["frame"]]);
-    assert_eq!(read["newtons"], json!(per_newton.is_some()));
-    let age = line["pose_age_us"].as_i64().map(|us| us as f64 * 1e-6);
-    assert_eq!((read["pose_age"].as_f64(), &read["pose_error"]), (age, &line["pose_error_m"]));
+    assert_eq!(read["force_basis"].as_str().unwrap(), line["force_basis"].as_str().unwrap_or(""));
+    assert_eq!(read["pose_age_us"].as_f64(), line["pose_age_us"].as_f64());
+    assert_eq!(read["pose_error_m"], line["pose_error_m"]);
+    // Newtons; none while nobody knows the counts per newton.
+    let same_force = |read: &Value, line: &Value| match scale {
+        Some(_) => same(read, line, 1.0),
+        None => assert!(read["x"].is_null() && line.is_null(), "{read}, {line}"),
+    };
     let [contacts, links] = ["contacts", "links"].map(|key| {
         let (own, reported) = (read[key].as_array().unwrap(), line[key].as_array().unwrap());
         assert_eq!(own.len(), reported.len());
@@ -81,38 +87,36 @@ fn same_report(all: &Definitions, client: &Client, report: &PressingReport, per_
         assert_eq!([&read["id"], &read["link"]], [&line["id"], &line["link"]]);
         same(&read["position"], &line["at_m"], 1.0);
         same(&read["normal"], &line["normal"], 1.0);
-        same(&read["force"], &line["force"], scale);
+        same_force(&read["force"], &line["force_n"]);
         same_uncertain(&read, &line, scale);
         if line["base"].is_null() {
             assert_eq!([&read["base_position"]["x"], &read["base_force"]["z"]], [&Value::Null; 2]);
         } else {
             same(&read["base_position"], &line["base"]["at_m"], 1.0);
             same(&read["base_normal"], &line["base"]["normal"], 1.0);
-            same(&read["base_force"], &line["base"]["force"], scale);
+            same_force(&read["base_force"], &line["base"]["force_n"]);
         }
     }
     for ((read, line), wrench) in links.iter().zip(&report.links) {
         assert_eq!(read["link"], line["link"]);
         same_uncertain(read, line, scale);
         same(&read["center"], &line["center_m"], 1.0);
-        assert_eq!(read["pressed"], json!(line["pressed"].as_f64().unwrap() / scale));
-        let reported = pressing::wrench(US, &wrench.name, Some(wrench), per_newton);
+        assert_eq!(read["pressed_n"].as_f64(), line["pressed_n"].as_f64());
+        assert_eq!(read["pressed_counts"], line["pressed_counts"]);
+        same_force(&read["force"], &line["force_n"]);
+        same_force(&read["moment"], &line["moment_nm"]);
+        let reported = pressing::wrench(US, &wrench.name, Some(wrench), scale);
         let reported = Definitions::of_text("W", schemas::WRENCH).read("W", &reported);
         assert_eq!(reported["header"]["frame_id"], line["link"]);
-        for (own, other) in
-            [(&read["force"], &read["moment"]), (&reported["wrench"]["force"], &reported["wrench"]["torque"])]
-        {
-            same(own, &line["force"], scale);
-            same(other, &line["moment"], scale);
-        }
+        same(&reported["wrench"]["force"], &line["force_counts"], scale.unwrap_or(1.0));
+        same(&reported["wrench"]["torque"], &line["moment_counts_m"], scale.unwrap_or(1.0));
     }
 }
 
 /// Fails unless the contacts of a list lie where the board says that they do.
 fn same_contacts(all: &Definitions, session: &Session, surface: &Surface, report: &PressingReport) -> usize {
     let client = session.client();
-    let read =
-        all.read("Contacts", &own::contacts("", US, client, (0, 0), &[], (Some(surface), Some(SCALE))));
+    let read = all.read("Contacts", &own::contacts("", US, client, (0, 0), &[], Some(surface)));
     let mut seen = 0;
     for contact in read["contacts"].as_array().unwrap() {
         let Some(landed) = report.contacts.iter().find(|landed| contact["id"] == json!(landed.id)) else {
@@ -180,9 +184,10 @@ fn places_and_forces_on_links_are_those_of_the_board() {
                         [("torso", [0.0, 0.1, 1.0], turn), ("left_upper_arm", [0.1, 0.0, 0.0], turn)];
                     setting::set_poses(session.parts().0, reported).unwrap();
                 }
-                for per_newton in [None, Some(SCALE)] {
-                    same_report(&all, session.client(), report, per_newton);
-                }
+                same_report(&all, session.client(), report);
+                let mut counts = session.client().clone();
+                counts.weigh_by(ForceScale::default());
+                same_report(&all, &counts, report);
                 contacts += same_contacts(&all, &session, surface.as_ref().unwrap(), report);
                 posed += report.contacts.iter().filter(|landed| landed.base.is_some()).count();
                 reports += 1;

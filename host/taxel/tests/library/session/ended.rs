@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use taxel::client::{Client, Event, Stamps};
+use taxel::files::calibrate::ForceScale;
 use taxel::json::message;
 use taxel::record::{Origin, Plan, PlannedBoard, Play, Recorder};
 use taxel::recording::Messages;
@@ -186,7 +187,7 @@ fn is_zero(wrench: &[u8]) -> bool {
 /// Records a board that is lost while it is pressed. Returns the file, and the board's session.
 fn recorded(name: &str) -> (PathBuf, Session) {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let origin = Origin { counts_per_newton: Some(100.0), ..Origin::default() };
+    let origin = Origin { scale: ForceScale::new(None, Some(100.0)), ..Origin::default() };
     let board = PlannedBoard { origin, ..PlannedBoard::default() };
     let recorder = Recorder::create(Plan { ros2: true, force: true, ..Plan::of(&path, board) }).unwrap();
     let (mut board, mut stamps) = (recorder.board(0), Stamps::start());

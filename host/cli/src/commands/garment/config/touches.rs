@@ -23,9 +23,9 @@ pub fn run(args: &TouchesArgs) -> Result<()> {
     Ok(())
 }
 
-/// `[{"name", "title", "duration"}]`, durations in seconds.
+/// `[{"name", "title", "duration_s"}]`.
 pub fn report(scenes: &[SceneInfo]) -> Value {
-    let scene = |s: &SceneInfo| json!({ "name": s.name, "title": s.title, "duration": s.duration });
+    let scene = |s: &SceneInfo| json!({ "name": s.name, "title": s.title, "duration_s": s.duration });
     scenes.iter().map(scene).collect()
 }
 

@@ -2,15 +2,18 @@
 //!
 //! | column | what |
 //! |---|---|
-//! | `time`, `frame` | start of the scan in board time, s; its number |
-//! | `id`, `panel`, `link` | the contact, by its persistent number; its place |
+//! | `time_us`, `frame` | start of the scan in board time, us; its number |
+//! | `id`, `panel_name`, `link` | the contact, by its persistent number; its place |
 //! | `column`, `row` | its centroid, taxels |
-//! | `x`, `y` | its centroid, mm from the first taxel; empty if the pitch is unknown |
-//! | `total`, `force` | sum of its pressure, counts, and N; empty if no scale for a sum is known |
+//! | `x_mm`, `y_mm` | its centroid, mm from the first taxel; empty if the pitch is unknown |
+//! | `total` | sum of its pressure, counts |
+//! | `force_n`, `force_basis` | normal force, N, and what it rests on: `calibrated`, `nominal`, `simulated`; empty if unknown |
 //! | `peak`, `area` | greatest pressure, counts; taxels |
-//! | `azimuth`, `nmi` | azimuth of its major axis, rad, empty if none; normalised moment of inertia |
+//! | `azimuth_rad`, `nmi` | azimuth of its major axis, empty if none; normalised moment of inertia |
+//!
+//! A column has the name, the unit and the value of the key in a contact's JSON, rounded.
 
-use super::csv::{quoted, time};
+use super::csv::quoted;
 use super::frames::{Frame, Frames};
 use anyhow::Result;
 use std::fmt::Display;
@@ -19,7 +22,10 @@ use taxel_core::body::Placed;
 
 /// Writes the table. Returns the number of frames.
 pub fn write(frames: &Frames<'_>, out: &mut impl Write) -> Result<u64> {
-    writeln!(out, "time,frame,id,panel,link,column,row,x,y,total,force,peak,area,azimuth,nmi")?;
+    writeln!(
+        out,
+        "time_us,frame,id,panel_name,link,column,row,x_mm,y_mm,total,force_n,force_basis,peak,area,azimuth_rad,nmi"
+    )?;
     frames.each("exporting", |frame| frame.contacts.iter().try_for_each(|placed| row(frame, placed, out)))
 }
 
@@ -30,12 +36,15 @@ fn row(frame: &Frame, placed: &Placed, out: &mut impl Write) -> Result<()> {
     let [column, row] = [contact.x.to_f64(), contact.y.to_f64()];
     let pitch = area.map_or([0.0; 2], |area| area.pitch_um.map(|um| f64::from(um) / 1000.0));
     let mm = |at: f64, pitch: f64| (pitch > 0.0).then(|| format!("{:.3}", at * pitch));
-    let force = frame.recorded.units.newtons(contact.total).map(|newtons| format!("{newtons:.4}"));
+    let units = &frame.recorded.units;
+    let force = units.force(&frame.recorded.layout, &frame.values, placed);
+    let basis = if force.is_some() { units.basis() } else { "" };
+    let force = force.map(|newtons| format!("{newtons:.4}"));
     let azimuth = contact.azimuth.map(|turn| format!("{:.4}", turn.to_radians()));
     Ok(writeln!(
         out,
-        "{},{},{},{name},{link},{column:.4},{row:.4},{},{},{},{},{},{},{},{:.6}",
-        time(frame.board_us),
+        "{},{},{},{name},{link},{column:.4},{row:.4},{},{},{},{},{basis},{},{},{},{:.6}",
+        frame.board_us,
         frame.number,
         contact.id,
         or_empty(mm(column, pitch[0])),

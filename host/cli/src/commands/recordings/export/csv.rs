@@ -2,13 +2,14 @@
 //!
 //! | column | what |
 //! |---|---|
-//! | `time` | board time, s |
-//! | `panel`, `row`, `column` | place of the taxel |
-//! | `x`, `y` | on its panel, mm from the first taxel; empty if the pitch is unknown |
+//! | `time_us` | start of the scan in board time, us |
+//! | `panel_name`, `row`, `column` | place of the taxel |
+//! | `x_mm`, `y_mm` | on its panel, mm from the first taxel; empty if the pitch is unknown |
 //! | `link` | link of the robot |
-//! | `X`, `Y`, `Z` | in the link's frame, m; empty, because a garment does not give the place of a panel on its link |
+//! | `x_m`, `y_m`, `z_m` | in the link's frame, m; empty, because a garment does not give the place of a panel on its link |
 //! | `volts` | at the converter; empty if the scan's raw codes were not recorded (`taxel record --raw`) |
-//! | `pressure`, `unit` | conditioned: `kPa`, `N` on the taxel if the pitch is unknown, `counts` if the counts per newton are unknown |
+//! | `pressure`, `unit` | conditioned: `kPa`, `N` on the taxel if the pitch is unknown, `counts` if newtons are unknown |
+//! | `force_basis` | what kPa and N rest on: `calibrated`, `nominal`, `simulated`; empty for counts |
 //!
 //! Rows are assembled from texts that are formatted once: the beginning of a taxel's rows, each voltage, each
 //! pressure.
@@ -37,7 +38,9 @@ impl ContactTable {
     /// Writes the table. Returns the number of frames, and of those with voltages.
     pub fn write(&self, frames: &Frames<'_>, out: &mut impl Write) -> Result<[u64; 2]> {
         let mut texts = Texts::default();
-        texts.buffer.extend(b"time,panel,row,column,x,y,link,X,Y,Z,volts,pressure,unit\n");
+        texts.buffer.extend(
+            b"time_us,panel_name,row,column,x_mm,y_mm,link,x_m,y_m,z_m,volts,pressure,unit,force_basis\n",
+        );
         let mut with_volts = 0;
         let count = frames.each("exporting", |frame| {
             with_volts += u64::from(!frame.codes.is_empty());
@@ -48,7 +51,7 @@ impl ContactTable {
     }
 
     fn frame(&self, frame: &Frame, texts: &mut Texts, out: &mut impl Write) -> Result<()> {
-        let time = time(frame.board_us);
+        let time = frame.board_us.to_string();
         let recorded = &frame.recorded;
         for (panel, area) in recorded.layout.areas().iter().enumerate() {
             let values = frames::panel(area, &frame.values);
@@ -84,7 +87,8 @@ impl ContactTable {
 fn tail(recorded: &Rc<RecordedGarment>, panel: usize, counts: u16) -> String {
     let (unit, value) = (recorded.units.name(panel), recorded.units.value(panel, counts));
     let pressure = if unit == "counts" { value.to_string() } else { format!("{value:.4}") };
-    format!(",{pressure},{unit}\n")
+    let basis = if unit == "counts" { "" } else { recorded.units.basis() };
+    format!(",{pressure},{unit},{basis}\n")
 }
 
 /// Texts of a recording, and rows to be written.
@@ -129,11 +133,6 @@ impl Memo {
         let text = self.0[index].get_or_insert_with(|| make().into());
         out.extend_from_slice(text.as_bytes());
     }
-}
-
-/// Formats a time in us as seconds.
-pub fn time(us: u64) -> String {
-    format!("{}.{:06}", us / 1_000_000, us % 1_000_000)
 }
 
 /// Formats a name as a field. An apostrophe precedes a name that a spreadsheet would take for a formula.

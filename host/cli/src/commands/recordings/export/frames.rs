@@ -1,6 +1,6 @@
 //! Images of a recording, with the data that belongs to each.
 
-use super::units::{Scale, Units};
+use super::units::Units;
 use anyhow::{Context, Result, bail};
 use std::cell::Cell;
 use std::num::NonZeroU64;
@@ -18,8 +18,8 @@ use taxel_core::garment::{Area, Layout};
 pub struct Frames<'a> {
     recording: &'a BoardRecording,
     every: NonZeroU64,
-    /// Scale; none for counts.
-    scale: Option<Scale>,
+    /// True for counts even if newtons are known.
+    counts: bool,
     /// Damage found in the last pass.
     skipped: Cell<Skipped>,
 }
@@ -61,9 +61,7 @@ pub struct Frame {
 impl<'a> Frames<'a> {
     /// Every N-th image of a recording, in counts or in the unit that the file knows.
     pub fn new(recording: &'a BoardRecording, every: NonZeroU64, counts: bool) -> Result<Frames<'a>> {
-        let overview = recording.overview()?;
-        let scale = if counts { None } else { Some(Scale::of(&overview, recording)?) };
-        Ok(Frames { recording, every, scale, skipped: Cell::default() })
+        Ok(Frames { recording, every, counts, skipped: Cell::default() })
     }
 
     /// The recording.
@@ -130,13 +128,13 @@ impl<'a> Frames<'a> {
         match known {
             Some(known) if known.layout != now.layout => bail!("the garment changes at frame {frame}"),
             Some(known) if known.concepts != client.concepts() => bail!("the map changes at frame {frame}"),
-            Some(known) if self.scale.is_some() && known.calibration != now.calibration => {
+            Some(known) if !self.counts && known.calibration != now.calibration => {
                 bail!("the calibration changes at frame {frame}: --counts exports counts")
             }
             Some(known) => Ok(Some(known.clone())),
             None => {
-                let scale = self.scale.as_ref().map(|scale| scale.on(&now.layout, &now.calibration));
-                let units = scale.unwrap_or_else(|| Ok(Units::counts(&now.layout)))?;
+                let low = now.scene.contact.low;
+                let units = Units::new(&now.layout, low, client.newtons().filter(|_| !self.counts).cloned());
                 let concepts = client.concepts().to_vec();
                 let (layout, calibration) = (now.layout.clone(), now.calibration.clone());
                 Ok(Some(Rc::new(RecordedGarment { layout, units, concepts, calibration })))

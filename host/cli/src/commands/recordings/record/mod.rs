@@ -14,6 +14,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use taxel::body;
 use taxel::files::calibrate::Calibration;
+use taxel::files::calibrate::ForceScale;
 use taxel::record::{Origin, Plan, PlannedBoard, Recorder, Rotate};
 use taxel::session::Observer;
 use taxel::source::SourceOptions;
@@ -105,7 +106,7 @@ pub fn run(args: RecordArgs) -> Result<()> {
     let pages = args.view.then(|| Pages::prepare(&args)).transpose()?;
     stop::catch()?;
     let body = args.board.config.body.as_deref().map(body::read).transpose()?;
-    let origin = Origin { calibration: calibration.clone(), ..Origin::default() };
+    let origin = Origin { scale: ForceScale::new(calibration.clone(), None), ..Origin::default() };
     let recorder = Recorder::create(Plan {
         rotate: args.rotate,
         ros2: args.ros2,

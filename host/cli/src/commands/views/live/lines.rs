@@ -34,7 +34,7 @@ impl JsonLines {
         mind: Option<MindReader>,
         queue: &BoardQueue<BoardNews>,
     ) -> JsonLines {
-        let printer = MessagePrinter::new(pixels, std::io::empty()).calibrated(board.calibration.clone());
+        let printer = MessagePrinter::new(pixels, std::io::empty());
         JsonLines { board: board.name.clone(), printer, mind, queue: queue.clone() }
     }
 }

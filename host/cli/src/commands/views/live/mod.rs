@@ -84,12 +84,12 @@ fn show(args: LiveArgs, or_simulated: bool) -> Result<()> {
         seconds: args.seconds,
         ..SourceOptions::default()
     };
-    let (source, calibration) = args.board.open_to_show(options, or_simulated || is_seen)?;
+    let (source, _) = args.board.open_to_show(options, or_simulated || is_seen)?;
     let out = std::io::BufWriter::new(stdout());
     let mut observer: Box<dyn Observer> = if let Some(place) = &args.taxel {
         Box::new(TaxelLines::new(place.clone(), args.json, out))
     } else if args.json {
-        Box::new(MessagePrinter::new(args.pixels, out).calibrated(calibration))
+        Box::new(MessagePrinter::new(args.pixels, out))
     } else if terminal {
         Box::new(Screen::open(View::new(&source))?)
     } else {
