@@ -6,7 +6,7 @@ use crate::mcap;
 use crate::scratch::Scratch;
 use std::path::Path;
 use taxel::recording::{
-    BoardRecording, Clips, Messages, Overview, chunk_indexes, footer, repair, scan, summary,
+    BoardRecording, Clips, Messages, Overview, chunk_indexes, footer, force_scale, repair, scan, summary,
 };
 
 /// How many bytes a recording may hold per byte of its file: LZ4 packs 255 into one.
@@ -30,7 +30,11 @@ fn read(data: &[u8]) {
     let messages = count(path, data.len());
     if let Ok(overview) = Overview::of(path) {
         let board = BoardRecording { board: Some("x".into()), ..path.display().to_string().as_str().into() };
-        let _ = (overview.messages("/taxel/wire"), overview.scale(&board).is_ok(), overview.attached("x"));
+        let _ = (
+            overview.messages("/taxel/wire"),
+            force_scale(&overview, &board).is_ok(),
+            overview.attached("x"),
+        );
     }
     clips(path);
     let Ok(found) = scan(path) else { return };

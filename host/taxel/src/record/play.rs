@@ -2,7 +2,7 @@
 
 use crate::client::{Client, Event};
 use crate::error::Result;
-use crate::recording::{BoardRecording, LinkRecord, Skipped, WireReader};
+use crate::recording::{BoardRecording, LinkRecord, Skipped, WireReader, force_scale};
 use mcap::records::MessageHeader;
 
 /// A recording being played.
@@ -18,7 +18,7 @@ impl Play {
     /// Opens the recording of a board, whose forces are by the scale that it holds.
     pub fn open(recording: &BoardRecording) -> Result<Play> {
         let mut client = Client::new();
-        client.weigh_by(recording.overview()?.scale(recording)?);
+        client.weigh_by(force_scale(&recording.overview()?, recording)?);
         Ok(Play { wire: WireReader::open(recording)?, client, header: None })
     }
 

@@ -23,6 +23,7 @@
 //! | `source.rs` | bytes of a file at any offset |
 //! | `summary.rs` | the end of a file, read: footer and summary |
 //! | `clips.rs` | the messages of any chunk |
+//! | `force_scale.rs` | scale of forces of a recorded board |
 //! | `overview.rs` | contents of a file, by its summary or a scan |
 //! | `attached.rs` | one attachment |
 //! | `salvage/` | the records of a file that may be damaged |
@@ -44,6 +45,7 @@ mod contents;
 mod damage;
 mod ending;
 mod filler;
+mod force_scale;
 mod found;
 mod gap_mark;
 mod library;
@@ -73,9 +75,10 @@ pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};
 pub use damage::Skipped;
 pub use filler::Filler;
+pub use force_scale::{CALIBRATION, calibration, force_scale};
 pub use gap_mark::{GapMark, gap_marks};
 pub use messages::{Message, Messages};
-pub use overview::{CALIBRATION, Overview, calibration};
+pub use overview::Overview;
 pub use records::{Head, Inside, RawRecord, Records};
 pub use renumber::{lost, renumbered, sequence};
 pub use repair::repair;

@@ -1,14 +1,12 @@
 //! Contents of a recording, by the summary at its end, or else by a scan.
 
 use super::attached::attached;
-use super::board_recording::BoardRecording;
 use super::contents::{ChannelInfo, Stretch};
 use super::records::Records;
 use super::summary::{Summary, summary};
 use super::texts::{LONGEST, parse_record};
 use super::{Scan, scan};
 use crate::error::{RecordingError, Result};
-use crate::files::calibrate::{Calibration, ForceScale};
 use mcap::records::{AttachmentIndex, Metadata, Record};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -29,16 +27,6 @@ pub struct Overview {
     pub metadata: Vec<Metadata>,
     /// Bytes behind the intact part of a file without its end; none if it has its end.
     pub torn: Option<u64>,
-}
-
-/// Attachment with the calibration.
-pub const CALIBRATION: &str = "calibration.toml";
-
-/// Reads an attached calibration; errors call it by this name.
-pub fn calibration(bytes: &[u8], name: &str) -> Result<Calibration> {
-    let text = str::from_utf8(bytes);
-    let text = text.map_err(|_| error!(RecordingError::Record, "{name} is not text"))?;
-    Calibration::parse(text, name)
 }
 
 impl Overview {
@@ -97,16 +85,6 @@ impl Overview {
     /// Newest metadata of this name.
     pub fn words(&self, name: &str) -> Option<&BTreeMap<String, String>> {
         self.metadata.iter().rfind(|words| words.name == name).map(|words| &words.metadata)
-    }
-
-    /// Scale of forces of the recording's board: its attached calibration, and the counts per newton of its source.
-    pub fn scale(&self, recording: &BoardRecording) -> Result<ForceScale> {
-        let name = format!("{CALIBRATION} of {recording}");
-        let attached = self.attached(&recording.attachment(CALIBRATION))?;
-        let calibration = attached.map(|bytes| calibration(&bytes, &name)).transpose()?;
-        let words = self.words(&recording.attachment("taxel"));
-        let counts = words.and_then(|words| words.get("counts_per_newton")?.parse().ok());
-        Ok(ForceScale::new(calibration, counts))
     }
 
     /// Newest attachment of this name; none if there is none.

@@ -2,7 +2,7 @@
 
 use super::{Port, Source, SourceOptions};
 use crate::error::{Context, RecordingError, Result};
-use crate::recording::{BoardRecording, GapMark, LinkRecord, WIRE, WireReader};
+use crate::recording::{BoardRecording, GapMark, LinkRecord, WIRE, WireReader, force_scale};
 use crate::text::progress::{Progress, Unit};
 use std::fmt;
 use std::io::{self, IsTerminal};
@@ -59,7 +59,7 @@ pub fn open(recording: &BoardRecording, speed: Speed, options: &SourceOptions) -
     if overview.topics().all(|topic| topic != recording.topic(WIRE)) {
         return Err(RecordingError::NotTaxel { path: recording.path.clone(), topic: WIRE }.into());
     }
-    let scale = overview.scale(recording)?;
+    let scale = force_scale(&overview, recording)?;
     let wire = WireReader::open(recording)?;
     let progress = || Progress::of(format!("playing {recording}"), Unit::Bytes, Some(wire.passed()[1]));
     let progress = (!io::stdout().is_terminal()).then(progress);

@@ -45,10 +45,12 @@ impl Newtons {
 
     /// Normal force of a contact, N: its total times [`Newtons::per_count`]; none if it is unknown.
     pub fn contact(&self, layout: &Layout, image: &[u16], low: u16, contact: &Contact) -> Option<f64> {
-        if contact.total == 0 {
-            return self.basis.map(|_| 0.0);
+        let total = f64::from(contact.total);
+        match self.forces {
+            Some(_) if contact.total == 0 => Some(0.0),
+            Some(_) => Some(total * self.per_count(layout, image, low, &contact.bounds)?),
+            None => self.straight.map(|counts| total / counts),
         }
-        Some(f64::from(contact.total) * self.per_count(layout, image, low, &contact.bounds)?)
     }
 
     /// Newtons per count of the totals of contacts in a box; none if it is unknown. By the curves of a calibration:
