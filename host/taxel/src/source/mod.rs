@@ -1,5 +1,6 @@
 //! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, Zenoh, a recording.
 
+pub mod array;
 mod auto;
 mod hand;
 mod heard;
