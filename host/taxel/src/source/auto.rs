@@ -52,12 +52,16 @@ pub fn numbered(number: &str, options: &SourceOptions) -> Result<Source> {
 /// Opens a serial port by name.
 pub fn port(path: &str, baud: u32, options: &SourceOptions) -> Result<Source> {
     let link = Heard::new(options.ports.open(path, baud)?, Vec::new());
-    // A name that leads to the port (`/dev/serial/by-id/...`) is not listed, and needs no search when the
-    // port comes back.
-    let listed = options.ports.list().into_iter().find(|port| port.port_name == path);
-    let port = listed
-        .unwrap_or_else(|| SerialPortInfo { port_name: path.into(), port_type: SerialPortType::Unknown });
+    let port = listed(path, &options.ports)?;
     Ok(named(format!("serial:{path}@{baud}"), port, link, baud, &options.ports))
+}
+
+/// Description of the port of this name. A name that leads to the port (`/dev/serial/by-id/...`) is not listed, and
+/// needs no search when the port comes back.
+pub fn listed(path: &str, ports: &SerialPorts) -> Result<SerialPortInfo> {
+    let listed = ports.list().into_iter().find(|port| port.port_name == path);
+    Ok(listed
+        .unwrap_or_else(|| SerialPortInfo { port_name: path.into(), port_type: SerialPortType::Unknown }))
 }
 
 /// Boards on USB, and probes that may forward a board's UART.
@@ -136,20 +140,26 @@ fn named(label: String, port: SerialPortInfo, link: Heard, baud: u32, ports: &Se
     Source { usb_serial, ..Source::real(label, link, move || returned(&port, &ports, baud)) }
 }
 
-/// Opens the port of an unplugged board: the port with the same USB description under any name, or the port
-/// with the same name if ports have no description.
+/// Finds the port of an unplugged device: the port with the same USB description under any name, or the port with the
+/// same name if ports have no description.
+pub fn found(lost: &SerialPortInfo, ports: &SerialPorts) -> Result<SerialPortInfo> {
+    Ok(match usb_of(lost) {
+        Some(_) => back(lost, &ports.list())
+            .cloned()
+            .ok_or_else(|| SourceError::NoBoard("it is not plugged in".into()))?,
+        None => lost.clone(),
+    })
+}
+
+/// Opens the port of an unplugged board.
 fn returned(lost: &SerialPortInfo, ports: &SerialPorts, baud: u32) -> Result<Source> {
-    let listed = ports.list();
-    let found = match usb_of(lost) {
-        Some(_) => back(lost, &listed).ok_or_else(|| SourceError::NoBoard("it is not plugged in".into()))?,
-        None => lost,
-    };
+    let found = found(lost, ports)?;
     let link = Heard::new(ports.open(&found.port_name, baud)?, Vec::new());
-    let label = match PortKind::of(found) {
-        PortKind::Board => label(found),
+    let label = match PortKind::of(&found) {
+        PortKind::Board => label(&found),
         _ => format!("serial:{}@{baud}", found.port_name),
     };
-    Ok(named(label, found.clone(), link, baud, ports))
+    Ok(named(label, found, link, baud, ports))
 }
 
 /// Opens a port, and returns it with the bytes heard once a board sends on it: a `Hello`, or anything that it

@@ -20,7 +20,7 @@ pub type FrameSink<'a> = dyn FnMut(ArrayFrame) + 'a;
 #[derive(Debug)]
 pub struct ArrayDecoder {
     cutter: Cutter,
-    placed: Placed,
+    placed: FramePlacer,
 }
 
 #[derive(Debug)]
@@ -75,14 +75,7 @@ impl ArrayDecoder {
         let order = ValueOrder::new(rows.into(), columns.into(), snake, orientation);
         ArrayDecoder {
             cutter,
-            placed: Placed { order, count, clock, loss: ArrayLoss::default(), cut: 0, since: 0 },
-        }
-    }
-
-    /// Declares that the stream begins with a whole line, as that of a datagram does.
-    pub fn begin(&mut self) {
-        if let Cutter::Rows(rows) = &mut self.cutter {
-            rows.begin();
+            placed: FramePlacer { order, count, clock, loss: ArrayLoss::default(), cut: 0, since: 0 },
         }
     }
 
@@ -110,6 +103,18 @@ impl ArrayDecoder {
                 let [dropped, missed] = packets.lost();
                 placed.loss = ArrayLoss { dropped, missed };
             }
+        }
+    }
+
+    /// Takes a datagram, which begins with a whole line; one with a frame in a line may lack the end of the line.
+    pub fn datagram(&mut self, bytes: &[u8], arrival_us: u64, found: &mut FrameSink<'_>) {
+        let mut lacks_end = false;
+        if let Cutter::Rows(rows) = &mut self.cutter {
+            lacks_end = rows.begin() && !bytes.ends_with(b"\n");
+        }
+        self.push(bytes, arrival_us, found);
+        if lacks_end {
+            self.push(b"\n", arrival_us, found);
         }
     }
 
@@ -143,7 +148,7 @@ impl BytesForm {
 
 /// Frames on the panel, in time.
 #[derive(Debug)]
-struct Placed {
+struct FramePlacer {
     order: ValueOrder,
     count: Option<SensorCount>,
     clock: Option<SensorTime>,
@@ -153,7 +158,7 @@ struct Placed {
     since: u64,
 }
 
-impl Placed {
+impl FramePlacer {
     /// Takes the number of frames that the cutter has dropped so far.
     fn lose(&mut self, cut: u64) {
         let lost = cut - self.cut;

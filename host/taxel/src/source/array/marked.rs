@@ -55,7 +55,7 @@ impl RecordForm {
 }
 
 /// Verdict on the bytes at a place.
-enum Verdict {
+enum RecordVerdict {
     /// More bytes are needed.
     Open,
     /// No frame begins here.
@@ -94,17 +94,17 @@ impl Marked {
             let mut at = 0;
             loop {
                 match self.verdict(&self.waiting.bytes()[at..]) {
-                    Verdict::Open => break,
-                    Verdict::Not => {
+                    RecordVerdict::Open => break,
+                    RecordVerdict::Not => {
                         at += 1;
                         self.is_locked = false;
                         self.skipped = self.skipped.map(|count| count + 1);
                     }
-                    Verdict::Ambiguous => {
+                    RecordVerdict::Ambiguous => {
                         at += self.form.step();
                         self.skipped = self.skipped.map(|count| count + self.form.step());
                     }
-                    Verdict::Frame => {
+                    RecordVerdict::Frame => {
                         let (skipped, step) = (self.skipped.unwrap_or(0), self.form.step());
                         // Bytes may be missing, or have come in addition.
                         let lost = ((skipped + step / 2) / step).max(usize::from(skipped > 0));
@@ -121,26 +121,26 @@ impl Marked {
         }
     }
 
-    fn verdict(&self, bytes: &[u8]) -> Verdict {
+    fn verdict(&self, bytes: &[u8]) -> RecordVerdict {
         let form = &self.form;
         if !bytes.starts_with(&form.open) {
-            return if form.open.starts_with(bytes) { Verdict::Open } else { Verdict::Not };
+            return if form.open.starts_with(bytes) { RecordVerdict::Open } else { RecordVerdict::Not };
         }
         if bytes.len() < form.length() {
-            return Verdict::Open;
+            return RecordVerdict::Open;
         }
         if !form.is_marked(bytes) || !form.is_checked(bytes) {
-            return Verdict::Not;
+            return RecordVerdict::Not;
         }
         if self.is_locked || form.check != FrameCheck::None {
-            return Verdict::Frame;
+            return RecordVerdict::Frame;
         }
         let mut others = (1..form.step()).filter(|at| bytes[*at..].starts_with(&form.open));
         let length = form.length();
         let worst = others.find_map(|at| match bytes.get(at..at + length) {
-            None => Some(Verdict::Open),
-            Some(other) => form.is_marked(other).then_some(Verdict::Ambiguous),
+            None => Some(RecordVerdict::Open),
+            Some(other) => form.is_marked(other).then_some(RecordVerdict::Ambiguous),
         });
-        worst.unwrap_or(Verdict::Frame)
+        worst.unwrap_or(RecordVerdict::Frame)
     }
 }

@@ -46,9 +46,10 @@ impl Rows {
         }
     }
 
-    /// Declares that the stream begins with a whole line: that of a datagram does.
-    pub fn begin(&mut self) {
+    /// Declares that a whole line begins. Returns true if it is a whole frame.
+    pub fn begin(&mut self) -> bool {
         self.has_begun = true;
+        self.down.is_none()
     }
 
     /// Takes bytes; hands over each frame.

@@ -1,7 +1,8 @@
 //! The name of an array's source: `FORMAT:LINK[,key=value...]`.
 
+use super::formats;
 use super::link::ArrayLink;
-use super::sensor;
+
 use crate::text::words;
 use std::fmt;
 use std::str::FromStr;
@@ -20,12 +21,12 @@ pub struct ArraySpec {
 impl ArraySpec {
     /// Reads a source's name; none if it begins with no format.
     pub fn read(text: &str) -> Option<Result<ArraySpec, String>> {
-        let known = sensor::NAMES.iter().copied().find(|name| text == *name || is_before_link(text, name));
+        let known = formats::NAMES.iter().copied().find(|name| text == *name || is_before_link(text, name));
         let file = || text.find(".toml:").map(|at| &text[..at + ".toml".len()]);
         let format = known.or_else(file)?;
         Some(text[format.len()..].strip_prefix(':').unwrap_or("").parse::<LinkAndKeys>().and_then(|rest| {
             let LinkAndKeys(link, keys) = rest;
-            let allowed = sensor::keys(format, &link);
+            let allowed = formats::keys(format, &link);
             for (at, (key, _)) in keys.iter().enumerate() {
                 if keys[..at].iter().any(|(other, _)| other == key) {
                     return Err(format!("{text}: `{key}` is given twice"));
@@ -36,6 +37,16 @@ impl ArraySpec {
             }
             Ok(ArraySpec { format: format.into(), link, keys })
         }))
+    }
+
+    /// Names of the formats that come with the program: `numbers, flexitac, ...`.
+    pub fn formats() -> String {
+        formats::NAMES.join(", ")
+    }
+
+    /// True if its format is a file.
+    pub fn is_described_by_file(&self) -> bool {
+        !formats::NAMES.contains(&self.format.as_str())
     }
 
     /// Value of a key.

@@ -20,7 +20,7 @@ const TRAILER: &[u8] = b"wr";
 #[derive(Debug)]
 pub struct Packets {
     cutter: PacketCutter,
-    images: Images,
+    images: PacketImages,
 }
 
 #[derive(Debug)]
@@ -32,7 +32,7 @@ enum PacketCutter {
 }
 
 #[derive(Debug)]
-struct Images {
+struct PacketImages {
     /// Values of an image.
     length: usize,
     /// The sensor that is followed: the first one, unless it is named.
@@ -64,7 +64,7 @@ impl Packets {
         };
         let numbers = SensorCount::new(NumberForm::U32le);
         let images =
-            Images { length, id, numbers, values: Vec::new(), is_whole: false, dropped: 0, missed: 0 };
+            PacketImages { length, id, numbers, values: Vec::new(), is_whole: false, dropped: 0, missed: 0 };
         Packets { cutter, images }
     }
 
@@ -105,7 +105,7 @@ fn fields(packet: &[u8]) -> (u32, usize) {
     (number, NumberForm::U16le.count(&packet[1..]) as usize)
 }
 
-impl Images {
+impl PacketImages {
     /// True if its start follows from its number: all packets are sent.
     fn is_packet(&self, packet: &[u8]) -> bool {
         let ((number, start), nodes) = (fields(packet), (packet.len() - BESIDE) / 2);
