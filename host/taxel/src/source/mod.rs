@@ -5,6 +5,7 @@ pub mod array;
 mod auto;
 mod hand;
 mod heard;
+mod overhear;
 mod pipe;
 #[cfg(feature = "port-table")]
 mod port_table;
@@ -27,6 +28,7 @@ mod zenoh;
 
 pub use hand::{FingerPress, HAND_ORDERS, Hand};
 pub(crate) use heard::Heard;
+pub use overhear::overheard;
 pub use ports::Ports;
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};

@@ -1,10 +1,10 @@
 //! Opens an array as a source: the very board on this host perceives its frames.
 
-use super::super::auto;
 use super::super::pipe::pipe;
 use super::super::shared::Shared;
 use super::super::stepped_board::SteppedBoard;
 use super::super::tcp;
+use super::super::usb;
 use super::super::{Port, Source, SourceOptions};
 use super::datagrams::Datagrams;
 use super::description::ArrayDescription;
@@ -51,10 +51,10 @@ fn opened(
     let port: Box<dyn Port> = match &spec.link {
         ArrayLink::Serial { path, baud } => {
             let baud = baud.unwrap_or(description.link.baud);
-            let info = lost.map_or_else(
-                || auto::listed(path, &options.ports),
-                |lost| auto::found(lost, &options.ports),
-            )?;
+            let info = match lost {
+                Some(lost) => usb::found_again(lost, &options.ports)?,
+                None => usb::named_port(path, &options.ports),
+            };
             let port = options.ports.open(&info.port_name, baud)?;
             serial = Some(info);
             port
