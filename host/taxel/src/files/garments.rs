@@ -9,7 +9,7 @@ use crate::error::{Context, Error, Result, SettingError, UsageError};
 use crate::text::{toml_key, words};
 use std::fmt::Display;
 use std::path::Path;
-use taxel_core::garment::{Garment, GarmentError};
+use taxel_core::garment::{Garment, GarmentError, Pins};
 
 /// Names and texts of the presets.
 const PRESETS: [(&str, &str); 3] = [
@@ -39,6 +39,11 @@ impl Read {
     pub fn error_at(&self, key: &str, error: impl Display) -> Error {
         let key = if self.is_grid() { grid::key_in(key) } else { key.into() };
         toml_key::error(&self.name, &self.text, &key, error).into()
+    }
+
+    /// Pins to check the wiring against: any, without a converter for a grid.
+    pub fn pins(&self) -> Pins {
+        if self.is_grid() { Pins { inputs: 0, ..Pins::ANY } } else { Pins::ANY }
     }
 
     /// True if the file has a grid in place of wiring.

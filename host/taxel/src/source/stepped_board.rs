@@ -15,7 +15,7 @@ use taxel_core::selftest::Findings;
 /// A board is boxed, but built on the stack.
 const STACK: usize = 8 << 20;
 /// Reason why settings are not kept.
-const NO_FLASH: &str = "a board that is stepped by hand has no flash";
+const NO_FLASH: &str = "this board is code on the host and has no flash";
 /// Jobs between two scans: pins to drive, and works that wait. A board never has that many.
 const MOST_JOBS: usize = 1000;
 

@@ -64,6 +64,34 @@ fn an_array_is_recorded_and_played() {
 }
 
 #[test]
+fn an_array_has_a_garment_and_is_examined_as_a_board_is() {
+    let here = folder("array-examined");
+    let is_out = Arc::new(AtomicBool::new(false));
+    let (device, name) = array(Arc::clone(&is_out));
+    let grid = "name = \"sole\"\n[grid]\nrows = 4\ncolumns = 6\npitch_um = [5000, 8000]\n";
+    std::fs::write(here.join("sole.toml"), grid).unwrap();
+    let words = ["live", "--source", SOURCE, "--garment", "sole.toml", "--json", "--frames", "20"];
+    let end = ended(command(&here, &ports(&name), &words));
+    assert!(
+        end.status == Some(0) && end.output.contains("\"garment\":\"sole\""),
+        "{}{}",
+        end.output,
+        end.error
+    );
+    let end = ended(command(&here, &ports(&name), &["health", "--source", SOURCE]));
+    assert_eq!(end.status, Some(0), "{}{}", end.output, end.error);
+    let end = ended(command(&here, &ports(&name), &["doctor", "--source", SOURCE]));
+    assert!(
+        end.output.contains("version      taxel-host ") && end.output.contains("It works"),
+        "{}{}",
+        end.output,
+        end.error
+    );
+    is_out.store(true, Ordering::Relaxed);
+    device.join().unwrap();
+}
+
+#[test]
 fn a_wrong_key_is_reported_with_those_there_are() {
     let here = folder("array-wrong");
     for (source, why) in [
