@@ -72,6 +72,7 @@ impl SourceSpec {
                 ArrayLink::Serial { path, .. } => {
                     SourceSpec::Serial { path: path.clone(), baud: BAUD }.place()
                 }
+                ArrayLink::Tcp(address) => Some(address.clone()),
                 ArrayLink::File(_) => None,
                 link => Some(link.to_string()),
             },

@@ -11,6 +11,7 @@ use taxel_core::format::{Code, Micros};
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
+use taxel_core::wire::{Request, encode, frame_bound};
 
 /// A board is boxed, but built on the stack.
 const STACK: usize = 8 << 20;
@@ -61,6 +62,13 @@ impl SteppedBoard {
     /// Number of taxels: the length of a scan.
     pub fn taxels(&self) -> usize {
         self.board.setup().layout.taxels()
+    }
+
+    /// Begins a tare before anybody listens: the first frames are its baseline, whatever is asked for later.
+    pub fn tare(&mut self, frames: u16, time: Micros) -> Result<()> {
+        let mut room = [0; frame_bound(8)];
+        let request = encode(&Request::Tare { frames }, &mut room)?;
+        self.attend(request, time, &mut |_| Ok(()))
     }
 
     /// Passes requests, and does what waits. Error if the time is before the last one.

@@ -23,6 +23,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 use taxel_core::capacity::TAXELS;
+use taxel_core::format::Micros;
 use taxel_core::garment::{ASSUMED_PITCH_UM, Garment, Layout};
 use taxel_core::scene::Scene;
 
@@ -69,7 +70,8 @@ fn opened(
     let name = short(spec);
     let firmware: &'static str =
         Box::leak(format!("taxel-host {} {name}", env!("CARGO_PKG_VERSION")).into_boxed_str());
-    let board = SteppedBoard::new(garment, Scene::shipped(), firmware)?;
+    let mut board = SteppedBoard::new(garment, Scene::shipped(), firmware)?;
+    board.tare(TARE, Micros(0))?;
     let (host, link) = pipe();
     let report = Arc::new(Shared::default());
     let perceiver = Perceiver {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant};
 use taxel::client::Event;
-use taxel::session::{Poll, Session};
+use taxel::session::{Poll, Returns, Session};
 use taxel::source::{SourceOptions, open};
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
@@ -161,6 +161,23 @@ fn a_lost_array_is_back_once_it_is() {
     }
     assert_eq!(seen, ["lost", "back"]);
     touched(&mut session);
+}
+
+#[test]
+fn nothing_is_felt_before_the_first_tare() {
+    let lines: String = std::iter::once("\n".into()).chain((0..40).map(line)).collect();
+    let path = file("untared.txt", lines.as_bytes());
+    let source = format!("numbers:file:{},{KEYS}", path.display());
+    let mut session =
+        Session::new(open(&source.parse().unwrap(), &SourceOptions::default()).unwrap(), Returns::Never);
+    // As a robot's boards are recognised: their stream is begun before it is tared.
+    session.request(&Request::Start).unwrap();
+    let mut frames = 0;
+    while let Some(event) = session.wait().unwrap() {
+        frames += u32::from(matches!(event, Event::Frame { .. }));
+        assert!(session.client().contacts().is_empty());
+    }
+    assert_eq!(frames, 40);
 }
 
 /// A serial port whose name is a link to a terminal, so that it may come back as another one.
