@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Where an array's bytes come from.
+/// Source of an array's bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ArrayLink {
     /// A serial port.

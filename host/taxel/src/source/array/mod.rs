@@ -22,6 +22,7 @@ mod order;
 mod pace;
 mod perceiver;
 mod piped;
+mod polling;
 mod recognise;
 mod report;
 mod rows;

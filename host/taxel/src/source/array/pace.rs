@@ -18,7 +18,7 @@ pub struct Pace {
     offset_us: Option<i64>,
     /// Time of the last frame or of what was attended to last.
     last: Micros,
-    /// When the last frame came.
+    /// Arrival of the last frame, us.
     heard_us: u64,
 }
 

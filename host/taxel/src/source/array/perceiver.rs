@@ -9,6 +9,7 @@ use super::decoder::ArrayDecoder;
 use super::description::ArrayDescription;
 use super::frame::ArrayFrame;
 use super::pace::Pace;
+use super::polling::Polling;
 use super::report::ArrayReport;
 use crate::error::Result;
 use crate::text::words;
@@ -19,10 +20,8 @@ use taxel_core::run::Link;
 
 /// Bytes that are read at once: a datagram.
 const READ: usize = 64 << 10;
-/// Silence that ends an answer.
-const QUIET: Duration = Duration::from_millis(30);
-/// Time after which an answer is no longer awaited.
-const ANSWER: Duration = Duration::from_secs(1);
+/// Longest time to send a request to the array.
+const SEND: Duration = Duration::from_secs(1);
 /// Time between two looks at requests while frames come.
 const ATTEND_US: u64 = 100_000;
 
@@ -147,7 +146,7 @@ impl Perceiver {
 
     fn write(&mut self, mut bytes: &[u8]) -> io::Result<()> {
         let began = Instant::now();
-        while !bytes.is_empty() && began.elapsed() < ANSWER {
+        while !bytes.is_empty() && began.elapsed() < SEND {
             bytes = &bytes[self.port.write(bytes)?..];
         }
         Ok(())
@@ -157,44 +156,4 @@ impl Perceiver {
 fn pass(mut link: &BoardEnd, bytes: &[u8]) -> Result<()> {
     link.try_write(bytes);
     Ok(())
-}
-
-/// Requests to the array, each once the last one was answered.
-struct Polling {
-    text: Option<String>,
-    every: Duration,
-    asked: Option<Instant>,
-    heard: Option<Instant>,
-    is_answered: bool,
-}
-
-impl Polling {
-    fn new(description: &ArrayDescription) -> Polling {
-        let (text, every) = (description.link.poll.clone(), description.link.every_ms.into());
-        Polling { text, every: Duration::from_millis(every), asked: None, heard: None, is_answered: true }
-    }
-
-    /// Text to send now.
-    fn due(&mut self) -> Option<String> {
-        let text = self.text.clone()?;
-        let waited = self.asked.map_or(Duration::MAX, |asked| asked.elapsed());
-        if waited < self.every || !self.is_answered && waited < ANSWER {
-            return None;
-        }
-        (self.asked, self.is_answered) = (Some(Instant::now()), false);
-        Some(text)
-    }
-
-    fn heard(&mut self) {
-        self.heard = Some(Instant::now());
-    }
-
-    /// True once after bytes, when nothing has come for a while.
-    fn is_quiet(&mut self) -> bool {
-        let is_quiet = self.heard.is_some_and(|heard| heard.elapsed() >= QUIET);
-        if is_quiet {
-            (self.heard, self.is_answered) = (None, true);
-        }
-        is_quiet
-    }
 }

@@ -13,7 +13,7 @@ const REPORTED: Duration = Duration::from_secs(5);
 /// Time after which bytes without any frame are reported.
 const FRAMELESS: Duration = Duration::from_secs(3);
 
-/// What has come of an array.
+/// Counts of what an array has sent.
 #[derive(Debug, Default)]
 pub struct ArrayReport {
     /// Bytes.
@@ -44,7 +44,7 @@ pub struct ArrayPort {
     about: Option<String>,
     loss: ArrayLoss,
     reported: Instant,
-    /// When it was opened; none once frames have come, or their absence was reported.
+    /// Time of its opening; none once frames have come, or their absence was reported.
     opened: Option<Instant>,
 }
 

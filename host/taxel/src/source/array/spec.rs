@@ -12,7 +12,7 @@ use std::str::FromStr;
 pub struct ArraySpec {
     /// Name of the format, or path of a description (.toml).
     pub format: String,
-    /// Where its bytes come from.
+    /// Source of its bytes.
     pub link: ArrayLink,
     /// Further keys in the order of the user.
     pub keys: Vec<(String, String)>,

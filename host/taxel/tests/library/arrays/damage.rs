@@ -23,8 +23,13 @@ fn streams(random: &mut Noise) -> Vec<(ArrayDescription, Vec<u8>)> {
         });
         [&[0xA5, 0x5A][..], frame, &crc.to_le_bytes()].concat()
     };
+    let summed = |frame: &[u8]| -> Vec<u8> {
+        let sum = frame.iter().fold(0xAA_u8, |sum, byte| sum.wrapping_add(*byte));
+        [&[0xAA][..], frame, &[sum]].concat()
+    };
     type Written<'a> = &'a dyn Fn(&[u8]) -> Vec<u8>;
-    let forms: [(&str, Written<'_>); 6] = [
+    let forms: [(&str, Written<'_>); 7] = [
+        ("kind = \"bytes\"\nhead = \"AA\"\nvalue = \"u8\"\ncheck = \"sum8\"", &summed),
         ("kind = \"bytes\"\nhead = \"AA 55\"\nvalue = \"u8\"", &|frame| [&[0xAA, 0x55], frame].concat()),
         ("kind = \"bytes\"\ntail = \"00 00 80 7F\"\nvalue = \"u8\"", &|frame| {
             [frame, &[0, 0, 0x80, 0x7F]].concat()
@@ -45,7 +50,7 @@ fn cuts_change_nothing() {
     let mut random = Noise(61);
     for (description, stream) in streams(&mut random) {
         let whole = decoded(&description, [&stream[..]]);
-        assert!(whole.0.len() >= 38, "{description:?}: {}", whole.0.len());
+        assert!(whole.0.len() >= 37, "{description:?}: {}", whole.0.len());
         for _ in 0..1000 {
             let mut pieces = Vec::new();
             let mut rest = &stream[..];
@@ -86,6 +91,9 @@ fn damage_stays_where_it_is() {
             lost = lost.max(whole.len().saturating_sub(frames.len()));
         }
         assert!(lost <= 3, "{lost} frames are lost in {description:?}");
+        // A candidate in 256 passes one byte of sum; damage makes a few.
+        let has_byte = format!("{description:?}").contains("Sum8");
+        assert!(!has_byte || wrong <= 20, "{wrong} frames are wrong in {description:?}");
         assert!(!has_sum || wrong == 0, "{wrong} frames are wrong in {description:?}");
         assert!(wrong <= 1000, "{wrong} frames are wrong in {description:?}");
     }

@@ -1,6 +1,6 @@
 //! Arrays as sources: what a board of this host makes of them, over each link.
 
-use std::io::Write;
+use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream, UdpSocket};
 use std::path::PathBuf;
 use std::thread;
@@ -121,6 +121,29 @@ fn a_device_connects_and_sends_packets() {
     assert!((contact.contact.x.to_f64() - 3.0).abs() < 0.3, "{contact:?}");
     drop(session);
     device.join().unwrap();
+}
+
+#[test]
+fn an_array_that_is_polled_answers_with_frames() {
+    let form = "rows = 6\ncolumns = 8\nrange = [0, 255]\n[link]\npoll = \"A\"\n[frame]\nkind = \"bytes\"\nvalue = \"u8\"\n";
+    let description = file("polled.toml", form.as_bytes());
+    let server = TcpListener::bind("127.0.0.1:0").unwrap();
+    let mut session = session(&format!("{}:tcp:{}", description.display(), server.local_addr().unwrap()));
+    thread::spawn(move || {
+        let (mut device, _) = server.accept().unwrap();
+        // A greeting is no answer.
+        device.write_all(b"ready\r\n").unwrap();
+        let mut asked = [0];
+        for frame in 40.. {
+            if device.read_exact(&mut asked).is_err() || asked != *b"A" {
+                return;
+            }
+            let codes: Vec<u8> = codes(frame).iter().map(|code| (code / 16) as u8).collect();
+            // In two pieces.
+            let _ = device.write_all(&codes[..20]).and_then(|()| device.write_all(&codes[20..]));
+        }
+    });
+    touched(&mut session);
 }
 
 #[test]
