@@ -9,6 +9,7 @@
 //! | [`recording`] | a recording | no reader fails on what `repair` has written |
 //! | [`robots`] | a robot's description (URDF) or a mesh | a robot is a tree with poses, an error names the file |
 //! | [`arrays`] | an array file | frames are as large as they say |
+//! | [`streams`] | a description and the stream of an array of others | its frames are the same however it is cut |
 //! | [`texts`] | a garment, scene, script, map, table or calibration | what was read and is written is read again |
 //! | [`store`] | what a flash holds | what is saved then is loaded |
 //! | [`network`] | what others in the network send: frames, stamps, requests, names, answers | only what a program sends is taken, in its order; memory is bounded |
@@ -27,13 +28,14 @@ pub mod recording;
 pub mod robots;
 mod scratch;
 pub mod store;
+pub mod streams;
 pub mod texts;
 
 /// A function of any bytes.
 pub type Target = fn(&[u8]);
 
 /// All of them by the names of their corpora.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 10] = [
     ("arrays", arrays::run),
     ("board", board::run),
     ("client", client::run),
@@ -42,5 +44,6 @@ pub const TARGETS: [(&str, Target); 9] = [
     ("recording", recording::run),
     ("robots", robots::run),
     ("store", store::run),
+    ("streams", streams::run),
     ("texts", texts::run),
 ];

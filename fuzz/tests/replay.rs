@@ -48,7 +48,7 @@ macro_rules! replays {
     };
 }
 
-replays!(arrays, board, client, network, page, recording, robots, store, texts);
+replays!(arrays, board, client, network, page, recording, robots, store, streams, texts);
 
 #[test]
 fn the_inputs_are_small() {

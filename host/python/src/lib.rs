@@ -19,6 +19,7 @@
 //! | `virtual_robot` | `VirtualRobot`: the very boards of a robot and its mind, stepped by hand |
 //! | `recording` | recordings: contents, events, messages |
 //! | `features` | features of a touch, moments of an image |
+//! | `touch_model` | `TouchModel`: models of touches, made, judged and saved |
 //! | `folds` | what the garment's folds press |
 //! | `map` | fuzzy cognitive maps |
 //! | `program` | the command `taxel` (feature `cli`) |
@@ -26,7 +27,6 @@
 
 mod error;
 
-mod touch_model;
 mod value;
 
 mod array;
@@ -54,6 +54,8 @@ mod virtual_robot;
 mod recording;
 
 mod features;
+
+mod touch_model;
 
 mod folds;
 

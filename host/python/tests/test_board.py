@@ -134,3 +134,33 @@ def test_requests_reach_it_with_the_next_step() -> None:
     events = [event for frame in range(8, 40) for event in board.step([100] * 64, frame * 5000)]
     refusals = [event.refusal for event in events if isinstance(event, taxel.Answer)]
     assert len(refusals) == 1 and "no flash" in str(refusals[0])
+
+
+def test_a_program_pushes_frames_of_any_numbers(tmp_path: Path) -> None:
+    file = tmp_path / "mat.mcap"
+    with taxel.Source(4, 6, range=(-1, 1), falling=True, name="sole", record=file) as source:
+        known = taxel.VirtualBoard(taxel.Garment.grid(4, 6, name="sole"))
+        known.tare(frames=32)
+        frame, codes = np.full((4, 6), 0.9, np.float32), np.full((4, 6), 205, np.uint16)
+        for number in range(50):
+            if number == 40:
+                frame[1:3, 2:4], codes[1:3, 2:4] = -0.25, 2559
+            events = source.push(frame, number * 10_000)
+            again = known.step(codes, number * 10_000)
+        [contact] = next(event for event in events if isinstance(event, taxel.Frame)).contacts
+        [same] = next(event for event in again if isinstance(event, taxel.Frame)).contacts
+        assert contact.tobytes() == same.tobytes() and contact["area"] == 4
+        with pytest.raises(taxel.UsageError, match=r"the value at \[0, 5\] is no number"):
+            frame[0, 5] = np.nan
+            source.push(frame, 500_000)
+        with pytest.raises(taxel.UsageError, match="codes of shape"):
+            source.push(np.zeros((4, 5)), 500_000)
+    assert taxel.read(file).metadata["taxel"]["garment"] == "sole"
+    with pytest.raises(taxel.UsageError, match="low < high"):
+        taxel.Source(4, 6, range=(1, 1))
+
+
+def test_frames_without_a_time_have_that_of_the_host() -> None:
+    source = taxel.Source(2, 2, range=(0, 1))
+    first = [event for _ in range(3) for event in source.push(np.zeros((2, 2))) if isinstance(event, taxel.Frame)]
+    assert 0 == first[0].time_us <= first[-1].time_us < 10_000_000

@@ -17,8 +17,8 @@ const SET: &str = "Set";
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Default, Args)]
 pub struct BoardArgs {
-    /// The same as --source: a board, the path of a port, a recording (.mcap) or a robot's file (.toml: all its boards;
-    /// .toml#BOARD: one)
+    /// The same as --source: a board, the path of a port, a recording (.mcap), a robot's file (.toml: all its boards;
+    /// .toml#BOARD: one), or another tactile array (FORMAT:LINK, such as flexitac:/dev/ttyUSB0)
     #[arg(value_name = "SOURCE", conflicts_with = "source")]
     pub place: Option<SourceSpec>,
     /// The board.

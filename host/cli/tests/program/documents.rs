@@ -153,3 +153,13 @@ fn no_page_installs_a_package_that_no_index_has() {
     }
     assert!(count > 4, "{count} packages of ours");
 }
+
+#[test]
+fn the_sketch_of_the_page_is_the_one_that_is_loaded() {
+    let page = read("docs/your-own-sensor.md");
+    let shown =
+        page.split("   ```cpp\n").nth(1).and_then(|rest| rest.split("   ```").next()).expect("a sketch");
+    let shown: String =
+        shown.lines().map(|line| format!("{}\n", line.strip_prefix("   ").unwrap())).collect();
+    assert!(read("examples/arduino/tactile_mat/tactile_mat.ino").ends_with(&shown), "{shown}");
+}

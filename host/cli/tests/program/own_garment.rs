@@ -86,3 +86,20 @@ fn a_script_that_is_not_known_is_reported_with_the_one_that_was_meant() {
     let garment = refused(2, &["live", "--source", "sim:pat", "--garment", "mat-64x23"]);
     assert!(garment.contains("there is no garment \"mat-64x23\": did you mean \"mat-64x32\"?"), "{garment}");
 }
+
+#[test]
+fn a_grid_takes_the_place_of_wiring() {
+    let path = file("grid.toml");
+    let name = path.to_str().unwrap();
+    std::fs::write(&path, "name = \"sole\"\n[grid]\nrows = 12\ncolumns = 21\npitch_um = [5000, 8000]\n")
+        .unwrap();
+    assert!(
+        said(&["config", "check", name]).contains("garment sole, 252 taxels in 1 panel and 0 blocks: fits")
+    );
+    std::fs::write(&path, "name = \"sole\"\n[grid]\nrows = 0\ncolumns = 21\n").unwrap();
+    let why = refused(1, &["config", "check", name]);
+    assert!(why.contains("line 3, `grid.rows`"), "{why}");
+    std::fs::write(&path, "name = \"sole\"\nblocks = []\n[grid]\nrows = 2\ncolumns = 2\n").unwrap();
+    let why = refused(1, &["config", "check", name]);
+    assert!(why.contains("line 2, `blocks`: a garment has either wiring and panels, or [grid]"), "{why}");
+}

@@ -22,6 +22,9 @@ fn the_schema_of_garments_takes_what_ships_and_nothing_wrong() {
     }
     let block = std::fs::read_to_string(root().join("host/taxel/garments/block-4x16.toml")).unwrap();
     assert_eq!(wrong(&toml_value(&block), &schema), None);
+    let grid = toml_value("name = \"mat\"\n[grid]\nrows = 2\ncolumns = 3\npitch_um = [5000, 8000]\n");
+    assert_eq!(wrong(&grid, &schema), None);
+    assert!(wrong(&toml_value("name = \"mat\"\n"), &schema).is_some());
     for (from, to, place) in [
         ("columns = 16\n", "colums = 16\n", "/panels/0"),
         ("settle_ns = 8000", "settle_ns = \"8000\"", "/wiring/settle_ns"),

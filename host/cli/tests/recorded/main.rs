@@ -1,6 +1,7 @@
 //! Recordings through the pipeline. `cargo xtask test --recorded` runs these
 //! tests on the folders listed by TAXEL_DATA.
 
+mod arrays;
 mod data;
 #[path = "../../../../core/tests/core/dense.rs"]
 mod dense;

@@ -6,17 +6,18 @@
 >>> frames[0].panels["back"].shape
 (32, 16)
 
-``taxel.open`` iterates over the events of a board, ``taxel.VirtualBoard`` is the board itself, ``taxel.read``
-reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
+``taxel.open`` iterates over the events of a board, ``taxel.VirtualBoard`` is the board itself, ``taxel.Source`` an
+array that a program reads, ``taxel.read`` reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
 docs/python.md of the project.
 """
 
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Mapping
 from types import TracebackType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -55,6 +56,7 @@ __all__ = [
     "Recording",
     "Requests",
     "Robot",
+    "Source",
     "TouchDecision",
     "TouchModel",
     "UsageError",
@@ -210,6 +212,74 @@ class VirtualBoard(_taxel.VirtualBoard, Requests):
             wanted = f"{shape} or ({self.taxels},)" if shape else f"({self.taxels},)"
             raise UsageError(f"codes of shape {scan.shape} for a garment that takes {wanted}")
         return super().step(scan.ravel(), time_us)
+
+
+class Source(VirtualBoard):
+    """A tactile array that a program of yours reads: frames in, events out, shown and recorded as a board's.
+
+    - ``rows``, ``columns``, ``pitch_mm``, ``name``: as of ``Garment.grid``
+    - ``range``: values of no pressure and of the greatest, which become 0 and 4095; others are clipped
+    - ``falling``: pressure lowers the value
+    - ``scene``, ``record``, ``overwrite``, ``view``: as of ``VirtualBoard``
+
+    The first 32 frames are the baseline: nobody may touch it then.
+
+    >>> import numpy as np, taxel
+    >>> with taxel.Source(4, 6, range=(0, 5.0), pitch_mm=8) as source:
+    ...     frame = np.full((4, 6), 0.1)
+    ...     for number in range(50):
+    ...         frame[1:3, 2:4] = 0.9 if number > 39 else 0.1
+    ...         events = source.push(frame, number * 10_000)
+    >>> [int(contact["area"]) for event in events if isinstance(event, taxel.Frame) for contact in event.contacts]
+    [4]
+    """
+
+    _low: float
+    _high: float
+    _falling: bool
+    _began: int | None
+
+    def __new__(
+        cls,
+        rows: int,
+        columns: int,
+        *,
+        range: tuple[float, float],
+        falling: bool = False,
+        pitch_mm: float | tuple[float, float] | None = None,
+        name: str = "grid",
+        scene: str | os.PathLike[str] | None = None,
+        record: str | os.PathLike[str] | None = None,
+        overwrite: bool = False,
+        view: bool = False,
+    ) -> Source:
+        low, high = (float(limit) for limit in range)
+        if not (np.isfinite([low, high]).all() and low < high):
+            raise UsageError(f"range must be (low, high) with low < high, not ({low}, {high})")
+        garment = Garment.grid(rows, columns, pitch_mm=pitch_mm, name=name)
+        made = super().__new__(cls, garment, scene, record=record, overwrite=overwrite, view=view)
+        source = cast(Source, made)
+        source._low, source._high, source._falling, source._began = low, high, falling, None
+        source.tare(frames=32)
+        return source
+
+    def __enter__(self) -> Source:
+        return self
+
+    def push(self, frame: npt.ArrayLike, time_us: int | None = None) -> list[Event]:
+        """Takes one frame, (rows, columns) of any numbers, and its time in microseconds, which never goes back; without
+        it, the time since the first frame. Returns the events that it causes."""
+        values = np.asarray(frame, np.float64)
+        if not np.isfinite(values).all():
+            place = ", ".join(str(at) for at in np.argwhere(~np.isfinite(values))[0])
+            raise UsageError(f"the value at [{place}] is no number")
+        if time_us is None:
+            now = time.monotonic_ns() // 1000
+            self._began = now if self._began is None else self._began
+            time_us = now - self._began
+        codes = np.clip(4095.0 * (values - self._low) / (self._high - self._low), 0.0, 4095.0)
+        whole = np.floor(codes + 0.5).astype(np.uint16)
+        return self.step(4095 - whole if self._falling else whole, time_us)
 
 
 def open(

@@ -1,13 +1,15 @@
-//! Garment files.
+//! Garment files: panels, blocks and wiring, or a grid without wiring.
 
+mod grid;
 mod key;
 
+use self::grid::GridFile;
 use super::input;
 use crate::error::{Context, Error, Result, SettingError, UsageError};
 use crate::text::{toml_key, words};
 use std::fmt::Display;
 use std::path::Path;
-use taxel_core::garment::{Garment, GarmentError};
+use taxel_core::garment::{Garment, GarmentError, Pins};
 
 /// Names and texts of the presets.
 const PRESETS: [(&str, &str); 3] = [
@@ -35,7 +37,18 @@ impl Read {
 
     /// Error about one of its keys, with its line.
     pub fn error_at(&self, key: &str, error: impl Display) -> Error {
-        toml_key::error(&self.name, &self.text, key, error).into()
+        let key = if self.is_grid() { grid::key_in(key) } else { key.into() };
+        toml_key::error(&self.name, &self.text, &key, error).into()
+    }
+
+    /// Pins to check the wiring against: any, without a converter for a grid.
+    pub fn pins(&self) -> Pins {
+        if self.is_grid() { Pins { inputs: 0, ..Pins::ANY } } else { Pins::ANY }
+    }
+
+    /// True if the file has a grid in place of wiring.
+    pub fn is_grid(&self) -> bool {
+        GridFile::is_one(&self.text)
     }
 }
 
@@ -51,9 +64,18 @@ pub fn read(name_or_path: &str) -> Result<Read> {
         fail!(UsageError::Unknown, "{unknown}, or give a .toml file");
     }
     let text = input::text(&name).with_context(|| format!("cannot read {name}"))?;
-    let garment =
-        toml::from_str(&text).map_err(|error| SettingError::Malformed(words::toml(&error, &text, &name)))?;
+    let garment = parse(&text, &name)?;
     Ok(Read { name, text, garment })
+}
+
+/// Reads the text of a garment's file; errors call it by this name.
+pub fn parse(text: &str, name: &str) -> Result<Garment> {
+    if GridFile::is_one(text) {
+        return Ok(GridFile::read(text, name)?);
+    }
+    let garment =
+        toml::from_str(text).map_err(|error| SettingError::Malformed(words::toml(&error, text, name)))?;
+    Ok(garment)
 }
 
 /// Loads a preset or a garment's TOML file, see [`read`].
@@ -74,7 +96,11 @@ pub fn is_passive(garment: &Garment) -> bool {
 /// Encodes a garment as TOML, below a comment of one or more lines.
 pub fn text(garment: &Garment, comment: &str) -> Result<String> {
     let comment: String = comment.lines().map(|line| format!("# {line}\n")).collect();
-    Ok(comment + &toml::to_string(garment).context("the garment cannot be written as TOML")?)
+    let text = match GridFile::of(garment) {
+        Some(grid) => toml::to_string(&grid),
+        None => toml::to_string(garment),
+    };
+    Ok(comment + &text.context("the garment cannot be written as TOML")?)
 }
 
 #[cfg(test)]

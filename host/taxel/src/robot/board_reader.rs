@@ -13,7 +13,7 @@ use crate::session::setting;
 use crate::source::{SceneFile, SourceSpec};
 use std::path::Path;
 use std::sync::Arc;
-use taxel_core::garment::{Circuit, Layout, Pins};
+use taxel_core::garment::{Circuit, Layout};
 use taxel_core::gesture::GestureConfig;
 
 /// Longest tare, frames.
@@ -201,7 +201,7 @@ fn garment(named: &str) -> Result<BoardGarment> {
     let read = garments::read(named)?;
     let layout =
         Layout::build(&read.garment, usize::from(u16::MAX), 4095).map_err(|error| read.error(&error))?;
-    Circuit::build(&read.garment, &layout, Pins::ANY).map_err(|error| read.error(&error))?;
+    Circuit::build(&read.garment, &layout, read.pins()).map_err(|error| read.error(&error))?;
     Ok(BoardGarment { name: read.name, garment: read.garment, layout })
 }
 

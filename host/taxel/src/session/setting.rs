@@ -10,7 +10,7 @@ use crate::text::verbose;
 use std::path::Path;
 use taxel_core::board::TableKind;
 use taxel_core::format::Micros;
-use taxel_core::garment::{Circuit, Garment, Layout, Pins};
+use taxel_core::garment::{Circuit, Garment, Layout};
 use taxel_core::gesture::{GestureConfig, GestureError, Gestures, ShippedModel};
 use taxel_core::pipeline::Pipeline;
 use taxel_core::shape::GalleryHead;
@@ -22,7 +22,7 @@ use taxel_core::wire::{Poses, Request, SHAPES_ADDED, TABLE_PIECE, TablePiece};
 pub fn set_garment(client: &mut Client, name_or_path: &str) -> Result<()> {
     let read = garments::read(name_or_path)?;
     Layout::build(&read.garment, usize::from(u16::MAX), 4095)
-        .and_then(|layout| Circuit::build(&read.garment, &layout, Pins::ANY))
+        .and_then(|layout| Circuit::build(&read.garment, &layout, read.pins()))
         .map_err(|error| read.error(&error))?;
     let bytes = postcard::to_allocvec(&read.garment).context("the garment cannot be written")?;
     verbose::print(format_args!("sending garment {}, {} bytes", read.garment.name, bytes.len()));

@@ -4,13 +4,13 @@
 use super::heard::Heard;
 use super::serial_ports::SerialPorts;
 use super::stranger::Stranger;
-use super::usb::{BAUD, PortKind, back, label, serial_of, usb_of};
+use super::usb::{BAUD, PortKind, found_again, label, named_port, serial_of};
 use super::{Source, SourceOptions};
 use crate::client::{Client, Event};
 use crate::error::{Error, Result, SourceError};
 use crate::text::verbose;
 use crate::text::words::printable;
-use serialport::{SerialPortInfo, SerialPortType};
+use serialport::SerialPortInfo;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -52,11 +52,7 @@ pub fn numbered(number: &str, options: &SourceOptions) -> Result<Source> {
 /// Opens a serial port by name.
 pub fn port(path: &str, baud: u32, options: &SourceOptions) -> Result<Source> {
     let link = Heard::new(options.ports.open(path, baud)?, Vec::new());
-    // A name that leads to the port (`/dev/serial/by-id/...`) is not listed, and needs no search when the
-    // port comes back.
-    let listed = options.ports.list().into_iter().find(|port| port.port_name == path);
-    let port = listed
-        .unwrap_or_else(|| SerialPortInfo { port_name: path.into(), port_type: SerialPortType::Unknown });
+    let port = named_port(path, &options.ports);
     Ok(named(format!("serial:{path}@{baud}"), port, link, baud, &options.ports))
 }
 
@@ -136,20 +132,15 @@ fn named(label: String, port: SerialPortInfo, link: Heard, baud: u32, ports: &Se
     Source { usb_serial, ..Source::real(label, link, move || returned(&port, &ports, baud)) }
 }
 
-/// Opens the port of an unplugged board: the port with the same USB description under any name, or the port
-/// with the same name if ports have no description.
+/// Opens the port of an unplugged board.
 fn returned(lost: &SerialPortInfo, ports: &SerialPorts, baud: u32) -> Result<Source> {
-    let listed = ports.list();
-    let found = match usb_of(lost) {
-        Some(_) => back(lost, &listed).ok_or_else(|| SourceError::NoBoard("it is not plugged in".into()))?,
-        None => lost,
-    };
+    let found = found_again(lost, ports)?;
     let link = Heard::new(ports.open(&found.port_name, baud)?, Vec::new());
-    let label = match PortKind::of(found) {
-        PortKind::Board => label(found),
+    let label = match PortKind::of(&found) {
+        PortKind::Board => label(&found),
         _ => format!("serial:{}@{baud}", found.port_name),
     };
-    Ok(named(label, found.clone(), link, baud, ports))
+    Ok(named(label, found, link, baud, ports))
 }
 
 /// Opens a port, and returns it with the bytes heard once a board sends on it: a `Hello`, or anything that it

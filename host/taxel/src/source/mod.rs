@@ -1,8 +1,11 @@
-//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, Zenoh, a recording.
+//! Sources of a stream: a simulated board, a board on USB, a serial port, TCP, Zenoh, a recording, an
+//! array of others.
 
+pub mod array;
 mod auto;
 mod hand;
 mod heard;
+mod overhear;
 mod pipe;
 #[cfg(feature = "port-table")]
 mod port_table;
@@ -15,6 +18,7 @@ mod serial_ports;
 pub mod shared;
 mod sim;
 mod spec;
+mod stepped_board;
 mod stranger;
 mod tcp;
 mod touching;
@@ -24,12 +28,13 @@ mod zenoh;
 
 pub use hand::{FingerPress, HAND_ORDERS, Hand};
 pub(crate) use heard::Heard;
+pub use overhear::overheard;
 pub use ports::Ports;
 pub use replay::Speed;
 pub use scene::{SceneFile, read_scene, scene_of};
 pub use serial_ports::SerialPorts;
-pub(crate) use sim::{info as simulated_info, lasting};
 pub use spec::SourceSpec;
+pub use stepped_board::{SteppedBoard, WireSink};
 pub(crate) use stranger::Stranger;
 pub use usb::{PortKind, listed as ports};
 
@@ -209,6 +214,7 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
             let file = file.display();
             fail!(UsageError::Argument, "{file} is a robot's file, and this takes one board: name its source")
         }
+        SourceSpec::Array(spec) => array::open(spec, options),
         SourceSpec::Replay { recording, speed } => replay::open(recording, *speed, options),
     }
 }

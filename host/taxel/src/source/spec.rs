@@ -1,5 +1,6 @@
 //! A source by its name: `sim:pat`, the path of a port, of a recording or of a robot's file.
 
+use super::array::{ArrayLink, ArraySpec};
 use super::replay::Speed;
 use crate::network::BoardPlace;
 use crate::recording::BoardRecording;
@@ -45,6 +46,8 @@ pub enum SourceSpec {
         /// Name of the board; none for all.
         board: Option<String>,
     },
+    /// An array of others, perceived by this host.
+    Array(ArraySpec),
     /// A recording.
     Replay {
         /// The file, and the board to play of a robot's.
@@ -65,6 +68,14 @@ impl SourceSpec {
     pub fn place(&self) -> Option<String> {
         match self {
             SourceSpec::Usb(number) => number.clone(),
+            SourceSpec::Array(ArraySpec { link, .. }) => match link {
+                ArrayLink::Serial { path, .. } => {
+                    SourceSpec::Serial { path: path.clone(), baud: BAUD }.place()
+                }
+                ArrayLink::Tcp(address) => Some(address.clone()),
+                ArrayLink::File(_) => None,
+                link => Some(link.to_string()),
+            },
             SourceSpec::Serial { path, .. } => {
                 let resolved = std::fs::canonicalize(path);
                 // A port that is not there has at least no doubled slashes.
@@ -89,6 +100,15 @@ impl SourceSpec {
             SourceSpec::Zenoh { place, config } => {
                 SourceSpec::Zenoh { place, config: config.map(|file| path(&file)) }
             }
+            SourceSpec::Array(mut spec) => {
+                if spec.is_described_by_file() {
+                    spec.format = beside(&spec.format);
+                }
+                if let ArrayLink::File(file) = &spec.link {
+                    spec.link = ArrayLink::File(beside(&file.display().to_string()).into());
+                }
+                SourceSpec::Array(spec)
+            }
             other => other,
         }
     }
@@ -100,6 +120,8 @@ impl SourceSpec {
             SourceSpec::Sim(scene) => Some(scene.into()),
             SourceSpec::Robot { file, .. } => Some(file.clone()),
             SourceSpec::Zenoh { config, .. } => config.clone(),
+            SourceSpec::Array(ArraySpec { link: ArrayLink::File(file), .. }) => Some(file.clone()),
+            SourceSpec::Array(spec) if spec.is_described_by_file() => Some(spec.format.clone().into()),
             _ => None,
         }
     }
@@ -109,6 +131,9 @@ impl FromStr for SourceSpec {
     type Err = String;
 
     fn from_str(text: &str) -> Result<SourceSpec, String> {
+        if let Some(array) = ArraySpec::read(text) {
+            return array.map(SourceSpec::Array);
+        }
         let (kind, rest) = text.split_once(':').map_or((text, None), |(kind, rest)| (kind, Some(rest)));
         match (kind, rest) {
             ("auto", None) => Ok(SourceSpec::Auto),
@@ -149,8 +174,10 @@ fn unknown(kind: &str, rest: Option<&str>) -> String {
     let meant = meant.map_or(String::new(), |meant| format!("did you mean {meant}? "));
     meant
         + "known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, \
-           zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED], and the path of a port, of a recording (.mcap) or of a \
-           robot's file (.toml[#BOARD])"
+           zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED], the path of a port, of a recording (.mcap) or of a \
+           robot's file (.toml[#BOARD]), and FORMAT:LINK[,KEY=VALUE...] for another tactile array, of FORMAT "
+        + &ArraySpec::formats()
+        + " or a description (.toml)"
 }
 
 fn serial(port: &str) -> Result<SourceSpec, String> {
@@ -206,6 +233,7 @@ impl fmt::Display for SourceSpec {
                 let board = board.as_ref().map_or(String::new(), |board| format!("#{board}"));
                 write!(f, "{}{board}", file.display())
             }
+            SourceSpec::Array(spec) => spec.fmt(f),
             SourceSpec::Replay { recording, speed } => write!(f, "replay:{recording}{speed}"),
         }
     }
@@ -255,6 +283,8 @@ mod tests {
             "replay:a#b.mcap",
             "a/robot.toml",
             "robot.toml#left-arm",
+            "flexitac:/dev/ttyUSB0,rows=12",
+            "mat.toml:COM5@9600",
         ] {
             assert_eq!(text.parse::<SourceSpec>().unwrap().to_string(), text);
         }

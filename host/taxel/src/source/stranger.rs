@@ -1,5 +1,6 @@
 //! Something that speaks, but not a board's wire.
 
+use super::array::{KnownArray, numbers};
 use std::time::{Duration, Instant};
 
 /// Bytes that are examined.
@@ -38,15 +39,35 @@ impl Stranger {
         self.began.map_or(Duration::ZERO, |began| began.elapsed())
     }
 
-    /// Describes the bytes of the source with this label: `388,481 bytes of text lines of 252 numbers: no taxel board`.
+    /// Describes the bytes of the source with this label: `388,481 bytes of text lines of 252 numbers: no taxel board`,
+    /// and says how they are read if they are likely to be an array's.
     pub fn describe(&self, label: &str) -> String {
         let count = grouped(self.count);
+        let known = self.known().map_or(String::new(), |known| format!("; {}", known.advice(link(label))));
         let Some(text) = text(&self.sample) else {
+            if !known.is_empty() {
+                return format!("{label}: {count} bytes: no taxel board{known}");
+            }
             let speed = if label.starts_with("serial:") { ", or another speed" } else { "" };
             return format!("{label}: {count} bytes of unknown form: no taxel board{speed}");
         };
-        let numbers = numbers(&text).map_or(String::new(), |count| format!(" lines of {count} numbers"));
-        format!("{label}: {count} bytes of text{numbers}: no taxel board")
+        let numbers =
+            numbers(text.as_bytes()).map_or(String::new(), |count| format!(" lines of {count} numbers"));
+        format!("{label}: {count} bytes of text{numbers}: no taxel board{known}")
+    }
+
+    /// The array that the bytes are likely to come from.
+    pub fn known(&self) -> Option<KnownArray> {
+        KnownArray::of(&self.sample)
+    }
+}
+
+/// Link of an array in place of a board's source: a port's path, or an address.
+fn link(label: &str) -> &str {
+    match label.split_once(':') {
+        Some(("serial", port)) => port,
+        Some(("tcp", _)) => label,
+        _ => "PORT",
     }
 }
 
@@ -55,21 +76,6 @@ fn text(bytes: &[u8]) -> Option<String> {
     let is_text = |byte: &&u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace();
     let damaged = bytes.len() - bytes.iter().filter(is_text).count();
     (damaged * DAMAGED <= bytes.len()).then(|| String::from_utf8_lossy(bytes).into_owned())
-}
-
-/// Numbers in each line; none if lines hold something else, or not equally many.
-fn numbers(text: &str) -> Option<usize> {
-    // The first line may have begun before, and the last has not ended.
-    let mut whole = text.lines();
-    whole.next();
-    whole.next_back();
-    let count = |line: &str| {
-        let words = line.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';'));
-        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-        words.iter().all(|word| word.parse::<f64>().is_ok()).then_some(words.len())
-    };
-    let first = count(whole.next()?)?;
-    whole.all(|line| count(line) == Some(first)).then_some(first).filter(|count| *count > 0)
 }
 
 /// A number with its thousands apart: `388,481`.
@@ -101,7 +107,8 @@ mod tests {
         let rows = format!("{row}\r\n").repeat(700);
         assert_eq!(
             reported("tcp:x:1", &rows.as_bytes()[20..]),
-            "tcp:x:1: 353,480 bytes of text lines of 252 numbers: no taxel board"
+            "tcp:x:1: 353,480 bytes of text lines of 252 numbers: no taxel board; `taxel live \
+             numbers:tcp:x:1,rows=14,columns=18` reads it as numbers: the shape is a guess, 12 x 21, 9 x 28, 7 x 36 are as many"
         );
         let words = "boot ok\n> 1 2\n".repeat(4);
         assert_eq!(reported("usb:a", words.as_bytes()), "usb:a: 56 bytes of text: no taxel board");

@@ -27,18 +27,20 @@ impl Tcp {
             |_| SourceError::NoBoard(format!("tcp:{address} cannot be reached: its name has no address"));
         for target in address.to_socket_addrs().map_err(unknown)? {
             match TcpStream::connect_timeout(&target, longest) {
-                Ok(stream) => {
-                    stream
-                        .set_nodelay(true)
-                        .and_then(|()| stream.set_read_timeout(Some(PATIENCE)))
-                        .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
-                        .map_err(wrong)?;
-                    return Ok(Tcp(stream));
-                }
+                Ok(stream) => return Ok(Tcp::of(stream).map_err(wrong)?),
                 Err(error) => last = error,
             }
         }
         Err(wrong(last).into())
+    }
+
+    /// An open connection.
+    pub fn of(stream: TcpStream) -> io::Result<Tcp> {
+        stream.set_nonblocking(false)?;
+        stream.set_nodelay(true)?;
+        stream.set_read_timeout(Some(PATIENCE))?;
+        stream.set_write_timeout(Some(PATIENCE))?;
+        Ok(Tcp(stream))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Boards and probes among the serial ports, by their USB ids.
 
 use super::serial_ports::SerialPorts;
+use crate::error::SourceError;
 use crate::text::words::printable;
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 
@@ -87,7 +88,7 @@ pub fn label(port: &SerialPortInfo) -> String {
 }
 
 /// Finds the port of an unplugged device: by its serial number if it has one, else the only port of its kind.
-pub fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'a SerialPortInfo> {
+fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'a SerialPortInfo> {
     let known = usb_of(lost)?;
     let is_alike = |usb: &UsbPortInfo| {
         (usb.vid, usb.pid, &usb.serial_number) == (known.vid, known.pid, &known.serial_number)
@@ -97,6 +98,24 @@ pub fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'
         [one] => Some(one),
         many => many.iter().find(|port| port.port_name == lost.port_name).copied(),
     }
+}
+
+/// Description of the port of this name. A name that leads to the port (`/dev/serial/by-id/...`) is not listed, and
+/// needs no search when the port comes back.
+pub fn named_port(path: &str, ports: &SerialPorts) -> SerialPortInfo {
+    let listed = ports.list().into_iter().find(|port| port.port_name == path);
+    listed.unwrap_or_else(|| SerialPortInfo { port_name: path.into(), port_type: SerialPortType::Unknown })
+}
+
+/// Finds the port of an unplugged device: the port with the same USB description under any name, or the port with the
+/// same name if ports have no description.
+pub fn found_again(lost: &SerialPortInfo, ports: &SerialPorts) -> Result<SerialPortInfo, SourceError> {
+    Ok(match usb_of(lost) {
+        Some(_) => back(lost, &ports.list())
+            .cloned()
+            .ok_or_else(|| SourceError::NoBoard("it is not plugged in".into()))?,
+        None => lost.clone(),
+    })
 }
 
 #[cfg(test)]

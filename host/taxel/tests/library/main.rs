@@ -1,5 +1,6 @@
 //! Tests of the library: simulated boards and garments, maps, shapes, touches, sessions.
 
+mod arrays;
 mod bases;
 mod body;
 mod clock;

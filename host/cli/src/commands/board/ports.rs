@@ -4,11 +4,12 @@ use super::flash;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
-use taxel::source::{PortKind, ports};
+use taxel::source::{PortKind, overheard, ports};
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
   taxel ports
+  taxel ports --listen
   taxel ports --json";
 
 /// List serial ports, and which of them is a board
@@ -18,6 +19,9 @@ pub struct PortsArgs {
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
+    /// Open the ports that are no board's, and name what speaks there: some devices restart when they are opened
+    #[arg(long, conflicts_with = "json")]
+    pub listen: bool,
 }
 
 /// Runs the command.
@@ -34,6 +38,9 @@ pub fn run(args: PortsArgs) -> Result<()> {
     }
     for (name, kind, usb) in &found {
         println!("{name:<20} {:<12} {usb}", kind.word());
+        if args.listen && *kind == PortKind::Other {
+            println!("{:<20} {}", "", overheard(name));
+        }
     }
     for drive in &drives {
         println!("{:<20} boot loader  `taxel flash` writes the firmware there", drive.display());
@@ -52,7 +59,7 @@ fn advice(kinds: impl Iterator<Item = PortKind> + Clone, drives: usize) -> &'sta
         }
         (_, _, 1..) => "A board waits for its firmware: `taxel flash FILE.uf2`.",
         _ if kinds.clone().next().is_some() => {
-            "None of these identifies itself as a taxel board; over a UART adapter: `taxel live --source serial:PORT`."
+            "None of these identifies itself as a taxel board; over a UART adapter: `taxel live --source serial:PORT`; `taxel ports --listen` names other sensors."
         }
         _ => {
             "No serial port and no boot loader's drive: is the board plugged in, with a cable that carries data?"

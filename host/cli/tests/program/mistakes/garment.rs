@@ -297,6 +297,16 @@ const MISTAKES: &[Mistake] = &[
     ),
 ];
 
+/// A garment without wiring, with every key.
+const GRID: &str = "name = \"mat\"\n\n[grid]\nrows = 12\ncolumns = 21\npitch_um = [5000, 8000]\n";
+
+const GRID_MISTAKES: &[Mistake] = &[
+    ("/grid", "\n[grid]", "seams = []\n[grid]", "`seams`: a garment has either wiring and panels, or [grid]"),
+    ("/grid/rows", "rows = 12", "rows = 0", "`grid.rows`: "),
+    ("/grid/columns", "columns = 21", "columns = -1", "`columns`: must be"),
+    ("/grid/pitch_um", "[5000, 8000]", "[5000, 8]", "`grid.pitch_um`: "),
+];
+
 fn refused(text: &str) -> String {
     let file = file("garment.toml", text);
     format!("{:#}", check(file.to_str().expect("a name in UTF-8"), None).expect_err("it is refused"))
@@ -308,7 +318,9 @@ fn each_key_of_a_garment_has_a_mistake_that_is_reported_with_its_line() {
     let said = check(good.to_str().unwrap(), None).unwrap();
     assert!(said.ends_with("garment mine, 128 taxels in 2 panels and 2 blocks: fits."), "{said}");
     each(BASE, MISTAKES, refused);
-    assert_eq!(keys::of(FileKind::Garment.schema()), keys::of_mistakes(MISTAKES));
+    each(GRID, GRID_MISTAKES, refused);
+    let all = [MISTAKES, GRID_MISTAKES].concat();
+    assert_eq!(keys::of(FileKind::Garment.schema()), keys::of_mistakes(&all));
 }
 
 #[test]
@@ -330,5 +342,7 @@ fn a_preset_is_checked_by_its_name() {
 #[test]
 fn the_schema_has_the_keys_of_a_garment_and_no_others() {
     let all: Garment = toml::from_str(BASE).unwrap();
+    let mut all = serde_json::to_value(&all).unwrap();
+    all["grid"] = toml::from_str::<serde_json::Value>(GRID).unwrap()["grid"].take();
     keys::assert_all(&all, FileKind::Garment.schema());
 }

@@ -33,6 +33,11 @@ fn a_port_that_speaks_otherwise_is_reported_as_that() {
                 error.contains(" bytes of text lines of 252 numbers: no taxel board"),
                 "{line}: {output}{error}"
             );
+            let advice = format!(
+                "`taxel live numbers:{}@115200,rows=14,columns=18` reads it as numbers",
+                &source[7..source.len() - 7]
+            );
+            assert!(error.contains(&advice), "{line}: {output}{error}");
             assert!(!error.contains("flash") && !output.contains("flash"), "{line}: {output}{error}");
             assert!(end.seconds < 20.0, "{line}: {:.1} s", end.seconds);
         })
@@ -48,4 +53,13 @@ fn bytes_at_another_speed_are_reported_as_that() {
     let end = ended(command(&here, "", &["live", "--source", &source]));
     assert_eq!(end.status, Some(3), "{}", end.error);
     assert!(end.error.contains(" bytes of unknown form: no taxel board, or another speed"), "{}", end.error);
+}
+
+#[test]
+fn a_stranger_is_named_with_the_command_that_reads_it() {
+    let here = folder("overheard");
+    let ports = format!("[[port]]\nname = \"/dev/ttyMAT\"\nopens = \"{}\"\n", stranger(rows()));
+    let end = ended(command(&here, &ports, &["ports", "--listen"]));
+    let wanted = "`taxel live numbers:/dev/ttyMAT@115200,rows=14,columns=18` reads it as numbers: the shape is a guess";
+    assert!(end.status == Some(0) && end.output.contains(wanted), "{}{}", end.output, end.error);
 }

@@ -89,7 +89,7 @@ const MISTAKES: [(&str, &str, &str); 25] = [
     (
         "sim:pat",
         "sum:pat",
-        "robot.toml, line 6, `source`: there is no source \"sum:pat\": did you mean sim:pat? known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED], and the path of a port, of a recording (.mcap) or of a robot's file (.toml[#BOARD]) (board torso)",
+        "robot.toml, line 6, `source`: there is no source \"sum:pat\": did you mean sim:pat? known are auto, usb[:SERIAL], sim[:TOUCHES], serial:PATH[@BAUD], tcp:HOST:PORT, zenoh:ROBOT/BOARD[@FILE], replay:FILE[#BOARD][@SPEED], the path of a port, of a recording (.mcap) or of a robot's file (.toml[#BOARD]), and FORMAT:LINK[,KEY=VALUE...] for another tactile array, of FORMAT numbers, flexitac, vitac, wiresens, anyskin, reskin, eflesh, m0404s, m1616 or a description (.toml) (board torso)",
     ),
     (
         "sim:pat",

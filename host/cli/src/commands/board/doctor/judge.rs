@@ -36,7 +36,7 @@ pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
             "`taxel ports` lists what is plugged in",
         ));
     }
-    found.push(match firmware.ends_with(version) {
+    found.push(match firmware.split(' ').nth(1) == Some(version) {
         true => Finding::good("version", firmware.clone()),
         false => Finding::weak(
             "version",

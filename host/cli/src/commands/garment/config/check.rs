@@ -7,7 +7,7 @@ use taxel::source::SceneFile;
 use taxel_core::acquire::Depth;
 use taxel_core::board::{BoardInfo, Setup, SetupError};
 use taxel_core::capacity::TAXELS;
-use taxel_core::garment::{Garment, Layout};
+use taxel_core::garment::{Garment, Layout, Pins};
 use taxel_core::pipeline::SceneError;
 use taxel_core::scene::Scene;
 
@@ -25,14 +25,17 @@ pub fn check(garment: &str, scene: Option<&Path>) -> Result<String> {
         SetupError::Scene(error) => taxel::Error::from(error).context(name),
         SetupError::Interlaced(_) => read.error_at("wiring", error),
     };
-    let mut setup = Setup::build(&BOARD, garment.clone(), bare(), TAXELS).map_err(refused)?;
+    // A grid is perceived on the host, and never scanned.
+    let board =
+        if read.is_grid() { BoardInfo { pins: Pins { inputs: 0, ..BOARD.pins }, ..BOARD } } else { BOARD };
+    let mut setup = Setup::build(&board, garment.clone(), bare(), TAXELS).map_err(refused)?;
     let said = match scene {
         None => String::new(),
         Some(file) => {
             let file = SceneFile::read(file)?;
             let slow = scans_slowly(garment, &file.scene);
             let mut scene = file.scene.clone();
-            setup.change_scene(&BOARD, &mut scene).map_err(|error| match error {
+            setup.change_scene(&board, &mut scene).map_err(|error| match error {
                 SetupError::Scene(error) => file.error(&scene_key(&error), error),
                 SetupError::Slow(error) if slow => read.error_at("wiring.settle_ns", error),
                 error => file.error("plan.depth", error),

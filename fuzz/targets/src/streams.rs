@@ -1,0 +1,4 @@
+//! See `taxel_fuzz::streams`.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| taxel_fuzz::streams::run(data));

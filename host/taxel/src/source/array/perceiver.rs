@@ -1,0 +1,159 @@
+//! The thread that reads an array and steps the very board with its frames.
+
+use super::super::Port;
+use super::super::pipe::BoardEnd;
+use super::super::shared::Shared;
+use super::super::stepped_board::SteppedBoard;
+use super::codes::CodeMap;
+use super::decoder::ArrayDecoder;
+use super::description::ArrayDescription;
+use super::frame::ArrayFrame;
+use super::pace::Pace;
+use super::polling::Polling;
+use super::report::ArrayReport;
+use crate::error::Result;
+use crate::text::words;
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use taxel_core::run::Link;
+
+/// Bytes that are read at once: a datagram.
+const READ: usize = 64 << 10;
+/// Longest time to send a request to the array.
+const SEND: Duration = Duration::from_secs(1);
+/// Time between two looks at requests while frames come.
+const ATTEND_US: u64 = 100_000;
+
+/// An array, its decoder and its board.
+pub struct Perceiver {
+    pub description: ArrayDescription,
+    pub port: Box<dyn Port>,
+    pub board: SteppedBoard,
+    pub link: BoardEnd,
+    pub report: Arc<Shared<ArrayReport>>,
+    /// Each read is one datagram.
+    pub has_datagrams: bool,
+    /// Frames per second of a file.
+    pub rate: Option<f64>,
+    /// Frames of a file are paced to real time.
+    pub is_paced: bool,
+}
+
+impl Perceiver {
+    /// Runs until one of both ends is gone.
+    pub fn run(mut self) {
+        if self.link.begin()
+            && let Err(why) = self.follow()
+        {
+            self.report.lock().fault = Some(words::sentence(&why));
+        }
+    }
+
+    fn follow(&mut self) -> Result<()> {
+        let (mut decoder, mut map) = (ArrayDecoder::new(&self.description), CodeMap::new(&self.description));
+        let (mut pace, mut polling) = (Pace::start(self.rate), Polling::new(&self.description));
+        let (mut buffer, mut frames) = (vec![0; READ], Vec::new());
+        if let Some(text) = self.description.link.send.clone() {
+            self.write(text.as_bytes())?;
+        }
+        let mut attended = 0;
+        while !self.link.is_alone() {
+            if let Some(text) = polling.due() {
+                self.write(text.as_bytes())?;
+            }
+            let read = self.port.read(&mut buffer)?;
+            let now = pace.now_us();
+            let take = &mut |frame: ArrayFrame| frames.push(frame);
+            match read {
+                None => {
+                    decoder.quiet(take);
+                }
+                Some(0) => {
+                    if polling.is_quiet() {
+                        decoder.quiet(take);
+                    }
+                }
+                Some(count) => {
+                    polling.heard();
+                    self.report.lock().bytes += count as u64;
+                    match self.has_datagrams {
+                        true => decoder.datagram(&buffer[..count], now, take),
+                        false => decoder.push(&buffer[..count], now, take),
+                    }
+                }
+            }
+            let lost = decoder.loss();
+            let before = std::mem::replace(&mut self.report.lock().loss, lost);
+            let mut missed = (lost.missed - before.missed).try_into().unwrap_or(u32::MAX);
+            for frame in frames.drain(..) {
+                self.perceive(&frame, &mut map, &mut pace, std::mem::take(&mut missed))?;
+                attended = now;
+            }
+            let link = &self.link;
+            for _ in before.dropped..lost.dropped {
+                self.board.fail(pace.between(), &mut |bytes| pass(link, bytes))?;
+            }
+            if read.is_none() {
+                return Ok(());
+            }
+            if read == Some(0) || now > attended + ATTEND_US {
+                attended = now;
+                let (requests, time) = (self.requests(), pace.between());
+                let link = &self.link;
+                self.board.attend(&requests, time, &mut |bytes| pass(link, bytes))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn perceive(
+        &mut self,
+        frame: &ArrayFrame,
+        map: &mut CodeMap,
+        pace: &mut Pace,
+        missed: u32,
+    ) -> Result<()> {
+        let mut codes = Vec::new();
+        let time = pace.of(frame);
+        if !map.codes(frame, &mut codes) {
+            return Ok(());
+        }
+        if self.is_paced {
+            self.link.sleep(pace.until(time));
+        }
+        let requests = self.requests();
+        let link = &self.link;
+        let stepped = self.board.step(&requests, &codes, missed, time, &mut |bytes| pass(link, bytes));
+        let mut report = self.report.lock();
+        report.frames += 1;
+        if let Err(why) = stepped {
+            // The garment was changed to one of another size.
+            report.fault = Some(words::sentence(&why));
+        }
+        Ok(())
+    }
+
+    fn requests(&self) -> Vec<u8> {
+        let (mut requests, mut buffer) = (Vec::new(), [0; 4096]);
+        loop {
+            match (&self.link).try_read(&mut buffer) {
+                0 => return requests,
+                count => requests.extend_from_slice(&buffer[..count]),
+            }
+        }
+    }
+
+    fn write(&mut self, mut bytes: &[u8]) -> io::Result<()> {
+        let began = Instant::now();
+        while !bytes.is_empty() && began.elapsed() < SEND {
+            bytes = &bytes[self.port.write(bytes)?..];
+        }
+        Ok(())
+    }
+}
+
+fn pass(mut link: &BoardEnd, bytes: &[u8]) -> Result<()> {
+    link.try_write(bytes);
+    Ok(())
+}
