@@ -72,7 +72,7 @@ test("what was pressed is played again, saved as a script, and forgotten", async
   });
   const touched = seen.filter(({ contacts }) => contacts.length).map(({ contacts: [touch] }) => touch);
   assert.equal(touched[0].panel, 2);
-  near(touched.at(-1).y - touched[0].y, 12, 1.5, "taxels");
+  near(touched.at(-1).row - touched[0].row, 12, 1.5, "taxels");
   const saved = await fetch(await browser.value("document.getElementById('save-touches').href"));
   assert.match(saved.headers.get("content-disposition"), /attachment/);
   const script = await saved.text();

@@ -32,7 +32,7 @@ test("a pat appears on the back, at its place, in the colours of its pressure", 
   assert.equal(frame.contacts.length, 1);
   const [touch] = frame.contacts;
   assert.equal(touch.panel_name, "back");
-  assert.ok(Math.hypot(touch.x - COLUMN, touch.y - ROW) < 1, `${touch.x}, ${touch.y}`);
+  assert.ok(Math.hypot(touch.column - COLUMN, touch.row - ROW) < 1, `${touch.column}, ${touch.row}`);
   const values = await browser.value("[...taxel.store.shown().image]");
   const seen = await screen(browser);
   // At rest: nothing but the colour of no pressure.

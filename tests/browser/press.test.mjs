@@ -27,8 +27,8 @@ test("the palm presses where the pointer is, with its force, for as long as it i
   t.diagnostic(`view: a press of the mouse is in the picture's data after ${Date.now() - began} ms`);
   const [touch] = await felt(browser, `touches[0]?.total > ${7 * NEWTON}`);
   assert.equal(touch.panel, BACK);
-  near(touch.x, 7.5, 0.3, "x");
-  near(touch.y, 11, 0.3, "y");
+  near(touch.column, 7.5, 0.3, "x");
+  near(touch.row, 11, 0.3, "y");
   // It has grown while the test was looking, but stands there in newtons.
   assert.match(await browser.value("document.querySelector('#tool-marks g:nth-child(2) text').textContent"), /^\d+(\.\d)? N$/);
   assert.equal(await browser.value("document.getElementById('hover').hidden"), true);
@@ -48,7 +48,7 @@ test("a pen presses as hard as it is pressed, however long", async () => {
     return browser.send("Input.dispatchMouseEvent", { type, x, y, ...pressed });
   };
   await pen("mousePressed", 0.5);
-  await felt(browser, "touches[0]?.duration > 1");
+  await felt(browser, "touches[0]?.duration_ms > 1000");
   near(force((await contacts(browser))[0]), 8, 1, "N");
   await pen("mouseMoved", 0.75);
   await felt(browser, `Math.abs(touches[0]?.total - ${12 * NEWTON}) < ${1.5 * NEWTON}`);
@@ -77,8 +77,8 @@ test("a drag is one touch that moves at the pointer's speed", async () => {
   const seen = await watch(browser, () => drag(browser, 2, [7.5, 6], [7.5, 26], 1000));
   const touched = seen.filter(({ contacts }) => contacts.length).map(({ contacts: [touch] }) => touch);
   assert.equal(new Set(touched.map(({ id }) => id)).size, 1);
-  near(touched.at(-1).y - touched[0].y, 20, 1.5, "taxels");
-  const speeds = touched.filter(({ duration }) => duration > 0.3 && duration < 0.9).map(({ vy }) => vy);
+  near(touched.at(-1).row - touched[0].row, 20, 1.5, "taxels");
+  const speeds = touched.filter(({ duration_ms: ms }) => ms > 300 && ms < 900).map(({ rows_per_s: speed }) => speed);
   near(speeds.reduce((sum, speed) => sum + speed, 0) / speeds.length, 20, 4, "taxels/s");
   for (const touch of touched) assert.ok(force(touch) < 9.5, `${force(touch)} N`);
   // A stroke is kind, and nothing else.
@@ -122,11 +122,11 @@ test("several fingers are several touches, and do not scroll the page", async ()
   const places = await Promise.all(wanted.map(([panel, at]) => onPanel(browser, panel, at)));
   for (const count of [1, 2, 3]) await browser.fingers("touchStart", places.slice(0, count));
   const touches = await felt(browser, `touches.length === 3 && touches.every(({ total }) => total > ${2.4 * NEWTON})`);
-  const [first] = touches.filter(({ panel }) => panel === 0).sort((a, b) => a.y - b.y);
-  near(first.x, 4, 0.4, "x");
-  near(first.y, 6, 0.4, "y");
+  const [first] = touches.filter(({ panel }) => panel === 0).sort((a, b) => a.row - b.row);
+  near(first.column, 4, 0.4, "x");
+  near(first.row, 6, 0.4, "y");
   await browser.fingers("touchMove", [...places.slice(0, 2), await onPanel(browser, 1, [8, 20])]);
-  await felt(browser, "touches.some(({ panel, y }) => panel === 1 && Math.abs(y - 20) < 0.5)");
+  await felt(browser, "touches.some(({ panel, row }) => panel === 1 && Math.abs(row - 20) < 0.5)");
   await browser.fingers("touchEnd", []);
   await rest(browser);
 });
@@ -153,10 +153,10 @@ test("the keys choose a taxel and press it, and space does not pause meanwhile",
   await browser.keyEvent("keyDown", " ");
   const [touch] = await felt(browser, `touches[0]?.total > ${2.4 * NEWTON}`);
   assert.equal(touch.panel, BACK);
-  near(touch.x, 7, 0.4, "x");
-  near(touch.y, 15, 0.4, "y");
+  near(touch.column, 7, 0.4, "x");
+  near(touch.row, 15, 0.4, "y");
   await browser.key("ArrowDown");
-  await felt(browser, "Math.abs(touches[0]?.y - 16) < 0.4");
+  await felt(browser, "Math.abs(touches[0]?.row - 16) < 0.4");
   assert.equal(await browser.value("taxel.store.paused"), false);
   await browser.keyEvent("keyUp", " ");
   await rest(browser);
@@ -187,8 +187,8 @@ for (const [view, panel, at] of [
     await browser.pointer(x, y, "mousePressed");
     const [touch] = await felt(browser, `touches[0]?.total > ${2.4 * NEWTON}`);
     assert.equal(touch.panel, panel);
-    near(touch.x, at[0], 0.6, "x");
-    near(touch.y, at[1], 0.6, "y");
+    near(touch.column, at[0], 0.6, "x");
+    near(touch.row, at[1], 0.6, "y");
     assert.match(await browser.value("document.querySelector('#tool-marks text').textContent"), /^\d\.\d N$/);
     await browser.pointer(x + 4, y + 4);
     await browser.pointer(x + 4, y + 4, "mouseReleased");

@@ -20,7 +20,7 @@ pub struct TouchModel {
     bytes: Vec<u8>,
 }
 
-/// What a model says of a touch.
+/// Decision of a model about a touch.
 #[pyclass(frozen, get_all, module = "taxel")]
 pub struct TouchDecision {
     /// Name of the class with the greatest score.

@@ -13,7 +13,7 @@ use taxel_core::gesture::{Model, ShippedModel};
 /// Arguments of `train`.
 #[derive(Debug, Clone, Args)]
 pub struct TouchesTrainArgs {
-    /// What to learn from
+    /// Recorded touches to learn from
     #[command(flatten)]
     pub files: Files,
     /// File to write
@@ -35,7 +35,7 @@ impl TouchesTrainArgs {
 /// Arguments of `eval`; `C` names the groups that may be left out.
 #[derive(Debug, Clone, Args)]
 pub struct TouchesEvalArgs<C: ValueEnum + Clone + Send + Sync + 'static> {
-    /// What to recognise
+    /// Recorded touches to recognise
     #[command(flatten)]
     pub files: Files,
     /// Model to evaluate [default: the shipped one]; unused with --cross

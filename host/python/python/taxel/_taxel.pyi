@@ -275,7 +275,7 @@ class RecordedEvents:
     def __next__(self) -> Event: ...
 
 class TouchDecision:
-    """What a model says of a touch."""
+    """Decision of a model about a touch."""
 
     @property
     def name(self) -> str:

@@ -1,8 +1,20 @@
 //! The report page has the figures of the source.
 
-use super::stage::{play, play_in_counts};
+use super::stage::play;
+use taxel::files::calibrate::ForceScale;
+use taxel::session::Observer;
+use taxel::source::{self, SourceOptions};
 use taxel_cli::on_robot::ShownRobot;
 use taxel_cli::report::{Seen, page};
+use taxel_cli::watch::{WatchOptions, watch};
+
+/// Shows a source to its end whose newtons nobody knows.
+fn play_in_counts(spec: &str, observer: &mut dyn Observer) {
+    let spec = spec.parse().unwrap();
+    let source = source::open(&spec, &SourceOptions::default()).unwrap();
+    let source = source::Source { scale: ForceScale::default(), ..source };
+    watch(&WatchOptions::of(spec), source, observer).unwrap();
+}
 
 #[test]
 fn the_figures_of_the_source_are_drawn() {

@@ -61,14 +61,6 @@ pub fn record(spec: &str, plan: Plan) -> Seen {
     seen
 }
 
-/// Shows a source to its end whose newtons nobody knows.
-pub fn play_in_counts(spec: &str, observer: &mut dyn Observer) {
-    let spec = spec.parse().unwrap();
-    let source = source::open(&spec, &SourceOptions::default()).unwrap();
-    let source = source::Source { scale: ForceScale::default(), ..source };
-    watch(&WatchOptions::of(spec), source, observer).unwrap();
-}
-
 /// Shows a source to its end.
 pub fn play(spec: &str, observer: &mut dyn Observer) {
     let spec = spec.parse().unwrap();

@@ -22,7 +22,7 @@ impl ForceScale {
         ForceScale { calibration: calibration.map(Arc::new), counts_per_newton }
     }
 
-    /// The same with this calibration, if there is one.
+    /// A copy with this calibration, if there is one.
     pub fn with(&self, calibration: Option<&Calibration>) -> ForceScale {
         let calibration = calibration.cloned().map(Arc::new).or_else(|| self.calibration.clone());
         ForceScale { calibration, ..self.clone() }

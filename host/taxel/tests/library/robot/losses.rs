@@ -75,14 +75,16 @@ impl Bench {
 
     /// Plugs boards in: at each place the one of this number.
     fn plug(&self, boards: [Option<usize>; 3]) {
-        let before = std::mem::replace(&mut *self.plugged.lock().unwrap(), boards);
-        for (place, board) in before.into_iter().enumerate() {
+        // Nobody finds a board in its new place before it is out of the old one.
+        let mut plugged = self.plugged.lock().unwrap();
+        for (place, board) in plugged.into_iter().enumerate() {
             if boards[place] != board
                 && let Some(board) = board
             {
                 self.rigs[board].lock().unwrap().cut();
             }
         }
+        *plugged = boards;
     }
 
     fn cut(&self, board: usize, restart: bool) {
