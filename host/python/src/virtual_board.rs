@@ -5,7 +5,7 @@ use crate::error::{argument, raised, usage};
 use crate::event::{self, Fact, FactReader};
 use crate::garment::GarmentOrName;
 use crate::{request, value};
-use numpy::PyReadonlyArray1;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use std::io;
 use std::path::PathBuf;
@@ -14,8 +14,10 @@ use taxel::client::Stamps;
 use taxel::files::calibrate::ForceScale;
 use taxel::record::{Plan, PlannedBoard, Recorder};
 use taxel::session::Observer;
+use taxel::source::array::NoiseMeter;
 use taxel::source::{Port, SceneFile, Source};
 use taxel::virtual_board;
+use taxel_core::condition::Filter;
 use taxel_core::format::Micros;
 use taxel_core::garment::Garment;
 use taxel_core::scene::Scene;
@@ -85,6 +87,20 @@ fn build(garment: Garment, scene: Option<&str>) -> anyhow::Result<virtual_board:
     let scene =
         scene.map_or_else(|| Ok(Scene::shipped()), |scene| SceneFile::named(scene).map(|file| file.scene))?;
     Ok(virtual_board::VirtualBoard::new(garment, scene)?)
+}
+
+/// Scene with limits for the noise of these frames, (n, taxels) codes; None if it cannot be told.
+#[pyfunction]
+pub fn scene_for_noise(frames: PyReadonlyArray2<'_, u16>) -> Option<String> {
+    let mut meter = NoiseMeter::default();
+    let frames = frames.as_array();
+    let noise = frames.outer_iter().find_map(|codes| meter.add(&codes.to_vec()))?;
+    let Scene { condition, contact, .. } = noise.scene();
+    let filter = if condition.filter == Filter::Square { "square" } else { "persistent" };
+    Some(format!(
+        "[condition]\nfilter = \"{filter}\"\nfloor = {}\n[contact]\nlow = {}\nhigh = {}\n",
+        condition.floor, contact.low, contact.high
+    ))
 }
 
 /// Shows the board in the browser, on the page of the address that is returned.

@@ -222,7 +222,8 @@ class Source(VirtualBoard):
     - ``falling``: pressure lowers the value
     - ``scene``, ``record``, ``overwrite``, ``view``: as of ``VirtualBoard``
 
-    The first 32 frames are the baseline: nobody may touch it then.
+    The first 32 frames are the baseline, and their noise sets the limits of contacts unless there is a ``scene``: nobody
+    may touch it then.
 
     >>> import numpy as np, taxel
     >>> with taxel.Source(4, 6, range=(0, 5.0), pitch_mm=8) as source:
@@ -238,6 +239,7 @@ class Source(VirtualBoard):
     _high: float
     _falling: bool
     _began: int | None
+    _first: list[npt.NDArray[np.uint16]] | None
 
     def __new__(
         cls,
@@ -260,6 +262,7 @@ class Source(VirtualBoard):
         made = super().__new__(cls, garment, scene, record=record, overwrite=overwrite, view=view)
         source = cast(Source, made)
         source._low, source._high, source._falling, source._began = low, high, falling, None
+        source._first = [] if scene is None else None
         source.tare(frames=32)
         return source
 
@@ -277,9 +280,17 @@ class Source(VirtualBoard):
             now = time.monotonic_ns() // 1000
             self._began = now if self._began is None else self._began
             time_us = now - self._began
-        codes = np.clip(4095.0 * (values - self._low) / (self._high - self._low), 0.0, 4095.0)
-        whole = np.floor(codes + 0.5).astype(np.uint16)
-        return self.step(4095 - whole if self._falling else whole, time_us)
+        scaled = np.clip(4095.0 * (values - self._low) / (self._high - self._low), 0.0, 4095.0)
+        whole = np.floor(scaled + 0.5).astype(np.uint16)
+        codes = 4095 - whole if self._falling else whole
+        events = self.step(codes, time_us)
+        if self._first is not None:
+            self._first.append(codes.ravel())
+            if len(self._first) == 32:
+                limits, self._first = _taxel.scene_for_noise(np.array(self._first)), None
+                if limits is not None:
+                    self.set_scene(limits)
+        return events
 
 
 def open(

@@ -377,6 +377,8 @@ def overview(path: str) -> dict[str, Any]:
     """Contents of a recording: topics, times, attachments, metadata."""
 def attachment(path: str, name: str) -> bytes | None:
     """An attachment of a recording; None if there is none of this name."""
+def scene_for_noise(frames: npt.NDArray[np.uint16]) -> str | None:
+    """Scene with limits for the noise of these frames, (n, taxels) codes; None if it cannot be told."""
 def features(frames: npt.NDArray[np.uint16], pressed: int = 0) -> npt.NDArray[np.uint16]:
     """The 127 features of a touch, from its frames of one panel."""
 def moments(image: npt.NDArray[np.uint16]) -> dict[str, Any]:

@@ -10,6 +10,7 @@ use super::datagrams::Datagrams;
 use super::description::ArrayDescription;
 use super::link::ArrayLink;
 use super::listener::Listener;
+use super::noise::NoiseMeter;
 use super::perceiver::Perceiver;
 use super::piped::Piped;
 use super::report::ArrayPort;
@@ -83,6 +84,8 @@ fn opened(
         rate: matches!(spec.link, ArrayLink::File(_)).then_some(rate),
         is_paced: matches!(spec.link, ArrayLink::File(_)) && options.realtime,
         description: description.clone(),
+        limits: Vec::new(),
+        noise: NoiseMeter::default(),
     };
     let label = spec.to_string();
     thread::Builder::new().name(label.clone()).spawn(move || perceiver.run())?;

@@ -8,15 +8,19 @@ use super::codes::CodeMap;
 use super::decoder::ArrayDecoder;
 use super::description::ArrayDescription;
 use super::frame::ArrayFrame;
+use super::noise::{ArrayNoise, NoiseMeter};
 use super::pace::Pace;
 use super::polling::Polling;
 use super::report::ArrayReport;
+use crate::client::scene_bytes;
 use crate::error::Result;
 use crate::text::words;
 use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use taxel_core::run::Link;
+use taxel_core::scene::Scene;
+use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 
 /// Bytes that are read at once: a datagram.
 const READ: usize = 64 << 10;
@@ -38,6 +42,10 @@ pub struct Perceiver {
     pub rate: Option<f64>,
     /// Frames of a file are paced to real time.
     pub is_paced: bool,
+    /// A request with limits of contacts that is not passed yet.
+    pub limits: Vec<u8>,
+    /// Noise of the first frames.
+    pub noise: NoiseMeter,
 }
 
 impl Perceiver {
@@ -122,7 +130,12 @@ impl Perceiver {
         if self.is_paced {
             self.link.sleep(pace.until(time));
         }
-        let requests = self.requests();
+        let mut requests = self.requests();
+        // With the frame after those that were measured.
+        requests.extend(std::mem::take(&mut self.limits));
+        if let Some(noise) = self.noise.add(&codes) {
+            self.limits = self.adapt(noise)?;
+        }
         let link = &self.link;
         let stepped = self.board.step(&requests, &codes, missed, time, &mut |bytes| pass(link, bytes));
         let mut report = self.report.lock();
@@ -132,6 +145,20 @@ impl Perceiver {
             report.fault = Some(words::sentence(&why));
         }
         Ok(())
+    }
+
+    /// Returns the request that fits the limits of contacts to a noise, and reports them; none if a scene was set.
+    fn adapt(&self, noise: ArrayNoise) -> Result<Vec<u8>> {
+        if self.board.board().setup().scene != Scene::shipped() {
+            return Ok(Vec::new());
+        }
+        let scene = noise.scene();
+        self.report.lock().limits = Some(format!(
+            "{:.1} counts of noise at rest: contacts from {} counts on (--scene sets limits of your own)",
+            noise.deviation, scene.contact.high
+        ));
+        let mut room = vec![0; frame_bound(LONGEST_REQUEST)];
+        Ok(encode(&Request::SetScene(&scene_bytes(&scene)?), &mut room)?.to_vec())
     }
 
     fn requests(&self) -> Vec<u8> {

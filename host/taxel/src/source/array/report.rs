@@ -22,6 +22,8 @@ pub struct ArrayReport {
     pub frames: u64,
     /// Frames that were not.
     pub loss: ArrayLoss,
+    /// Limits of contacts by the measured noise, in words.
+    pub limits: Option<String>,
     /// Reason why a frame cannot be perceived, or why the link has ended.
     pub fault: Option<String>,
 }
@@ -77,8 +79,8 @@ impl Port for ArrayPort {
             return Some(about);
         }
         let mut report = self.report.lock();
-        if let Some(fault) = report.fault.take() {
-            return Some(fault);
+        if let Some(text) = report.limits.take().or_else(|| report.fault.take()) {
+            return Some(text);
         }
         if let Some(opened) = self.opened
             && (report.frames > 0 || opened.elapsed() > FRAMELESS && report.bytes > 0)

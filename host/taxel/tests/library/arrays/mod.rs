@@ -3,6 +3,7 @@
 mod damage;
 mod descriptions;
 mod forms;
+mod limits;
 mod sources;
 
 use taxel::source::array::{ArrayDecoder, ArrayDescription, ArrayFrame, ArrayLoss};

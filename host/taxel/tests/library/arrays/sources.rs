@@ -5,8 +5,9 @@ use std::net::{TcpListener, TcpStream, UdpSocket};
 use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant};
-use taxel::client::Event;
+use taxel::client::{Event, scene_bytes};
 use taxel::session::{Poll, Returns, Session};
+use taxel::source::array::NoiseMeter;
 use taxel::source::{SourceOptions, open};
 use taxel::virtual_board::VirtualBoard;
 use taxel_core::format::Micros;
@@ -82,13 +83,17 @@ fn a_file_is_perceived_as_the_same_codes_at_the_same_times() {
     let mut board =
         VirtualBoard::new(Garment::grid("numbers", ROWS, COLUMNS, [0, 0]), Scene::shipped()).unwrap();
     board.client().request(&Request::Tare { frames: 32 }).unwrap();
-    let mut known = Felt::default();
+    let (mut known, mut meter) = (Felt::default(), NoiseMeter::default());
     for frame in 0..200 {
         let noted = &mut |client: &taxel::client::Client, event: &Event| {
             known.note(client, event);
             Ok(())
         };
         board.step(&codes(frame), Micros(frame * 10_000), noted).unwrap();
+        if let Some(noise) = meter.add(&codes(frame)) {
+            let scene = scene_bytes(&noise.scene()).unwrap();
+            board.client().request(&Request::SetScene(&scene)).unwrap();
+        }
     }
     assert_eq!(felt.0.len(), 200);
     assert!(felt.0.iter().filter(|frame| frame.contains("total")).count() > 40, "{:?}", felt.0[70]);
