@@ -89,7 +89,6 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(recording::overview, module)?)?;
     module.add_function(wrap_pyfunction!(recording::attachment, module)?)?;
     module.add_function(wrap_pyfunction!(recording::images, module)?)?;
-    module.add_function(wrap_pyfunction!(virtual_board::scene_for_noise, module)?)?;
     module.add_function(wrap_pyfunction!(features::features, module)?)?;
     module.add_function(wrap_pyfunction!(features::moments, module)?)?;
     module.add_function(wrap_pyfunction!(folds::learn_folds, module)?)?;

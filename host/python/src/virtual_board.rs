@@ -89,20 +89,6 @@ fn build(garment: Garment, scene: Option<&str>) -> anyhow::Result<virtual_board:
     Ok(virtual_board::VirtualBoard::new(garment, scene)?)
 }
 
-/// Scene with limits for the noise of these frames, (n, taxels) codes; None if it cannot be told.
-#[pyfunction]
-pub fn scene_for_noise(frames: PyReadonlyArray2<'_, u16>) -> Option<String> {
-    let mut meter = NoiseMeter::default();
-    let frames = frames.as_array();
-    let noise = frames.outer_iter().find_map(|codes| meter.add(&codes.to_vec()))?;
-    let Scene { condition, contact, .. } = noise.scene();
-    let filter = if condition.filter == Filter::Square { "square" } else { "persistent" };
-    Some(format!(
-        "[condition]\nfilter = \"{filter}\"\nfloor = {}\n[contact]\nlow = {}\nhigh = {}\n",
-        condition.floor, contact.low, contact.high
-    ))
-}
-
 /// Shows the board in the browser, on the page of the address that is returned.
 #[cfg(feature = "cli")]
 fn viewer() -> anyhow::Result<(Box<dyn Observer + Send>, String)> {
@@ -190,6 +176,23 @@ impl VirtualBoard {
             [area] => Some((area.rows, area.columns)),
             _ => None,
         })
+    }
+
+    /// Scene with limits for the noise of these frames, (n, taxels) codes; None if it cannot be told.
+    fn _scene_for_noise(&self, frames: PyReadonlyArray2<'_, u16>) -> Option<String> {
+        let mut meter = NoiseMeter::default();
+        let frames = frames.as_array();
+        let noise = frames.outer_iter().find_map(|codes| meter.add(&codes.to_vec()))?;
+        let Scene { condition, contact, .. } = noise.scene(self.lock().board.areas());
+        let filter = match condition.filter {
+            Filter::Square => "square",
+            Filter::Off => "off",
+            _ => "persistent",
+        };
+        Some(format!(
+            "[condition]\nfilter = \"{filter}\"\nfloor = {}\n[contact]\nlow = {}\nhigh = {}\n",
+            condition.floor, contact.low, contact.high
+        ))
     }
 
     /// Address of the page that shows the board, in a browser of this machine; None without `view`.

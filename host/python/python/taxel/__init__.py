@@ -287,7 +287,7 @@ class Source(VirtualBoard):
         if self._first is not None:
             self._first.append(codes.ravel())
             if len(self._first) == 32:
-                limits, self._first = _taxel.scene_for_noise(np.array(self._first)), None
+                limits, self._first = self._scene_for_noise(np.array(self._first)), None
                 if limits is not None:
                     self.set_scene(limits)
         return events

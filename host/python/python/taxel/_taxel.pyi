@@ -219,6 +219,8 @@ class VirtualBoard:
         record: tuple[str | PathLike[str], bool] | None,
         view: bool,
     ) -> _B: ...
+    def _scene_for_noise(self, frames: npt.NDArray[np.uint16]) -> str | None:
+        """Scene with limits for the noise of these frames, (n, taxels) codes; None if it cannot be told."""
     @property
     def shape(self) -> tuple[int, int] | None:
         """Rows and columns of a garment of one panel; None of one of several."""
@@ -377,8 +379,6 @@ def overview(path: str) -> dict[str, Any]:
     """Contents of a recording: topics, times, attachments, metadata."""
 def attachment(path: str, name: str) -> bytes | None:
     """An attachment of a recording; None if there is none of this name."""
-def scene_for_noise(frames: npt.NDArray[np.uint16]) -> str | None:
-    """Scene with limits for the noise of these frames, (n, taxels) codes; None if it cannot be told."""
 def features(frames: npt.NDArray[np.uint16], pressed: int = 0) -> npt.NDArray[np.uint16]:
     """The 127 features of a touch, from its frames of one panel."""
 def moments(image: npt.NDArray[np.uint16]) -> dict[str, Any]:

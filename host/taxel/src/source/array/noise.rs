@@ -1,5 +1,7 @@
 //! Noise of an array at rest, and the limits of contacts that follow from it.
 
+use taxel_core::condition::Filter;
+use taxel_core::garment::{Area, cell_mm2};
 use taxel_core::scene::Scene;
 
 /// Frames that are measured: those of the first tare.
@@ -11,6 +13,12 @@ const LEAST: f64 = 1.0;
 /// Floor of the image, and the limits of a contact's taxels and of its peak, in standard deviations: no noise reaches
 /// the peak, and a touch of 20 does on taxels of any size.
 const LIMITS: [f64; 3] = [3.5, 4.0, 10.0];
+/// Area of a taxel that a fingertip presses alone, mm2.
+const FINGERTIP_MM2: f64 = 100.0;
+/// Noise whose twentyfold does not stand out from its neighbours as the filter wants it to, counts rms.
+const FAINT: f64 = 6.0;
+/// Area of a taxel whose peak the high threshold is, mm2; it grows with the area up to twice that.
+const REFERENCE_MM2: f64 = 120.0;
 /// Share of the taxels that are no noisier, and of the changes of a taxel that are noise: the others may be a touch.
 const NEARLY_ALL: f64 = 0.9;
 /// Root mean square of that share of the changes of Gaussian noise, the smallest, in standard deviations of the noise.
@@ -74,9 +82,9 @@ fn nearly_all(count: usize) -> usize {
 }
 
 impl ArrayNoise {
-    /// The shipped scene with limits for this noise, above one step of the converter; those of
+    /// The shipped scene with limits for this noise on panels, above one step of the converter; those of
     /// [`Scene::against_noise`] if it is loud.
-    pub fn scene(self) -> Scene {
+    pub fn scene(self, areas: &[Area]) -> Scene {
         let mut scene = Scene::shipped();
         if self.deviation > LOUD {
             return scene.against_noise(self.deviation.ceil().min(1000.0) as u16);
@@ -84,7 +92,17 @@ impl ArrayNoise {
         let [floor, low, high] = LIMITS.map(|limit| (limit * self.deviation.max(LEAST)).ceil() as u16);
         scene.condition.floor = floor;
         scene.contact.low = low.max(self.step.saturating_add(1));
-        scene.contact.high = high.max(self.step.saturating_mul(5) / 2).max(scene.contact.low);
+        let peak = high.max(self.step.saturating_mul(5) / 2).max(scene.contact.low);
+        // The high threshold is a pressure, and this peak is that of the smallest taxels.
+        let sizes = areas.iter().map(|area| f64::from(cell_mm2(area.pitch_um)));
+        let size_mm2 = sizes.fold(f64::MAX, f64::min);
+        // The filter takes a faint touch of a single taxel for noise.
+        if size_mm2 >= FINGERTIP_MM2 && self.deviation < FAINT {
+            scene.condition.filter = Filter::Off;
+        }
+        let size = size_mm2.clamp(REFERENCE_MM2, 2.0 * REFERENCE_MM2) / REFERENCE_MM2;
+        let noise = scene.contact.low / 2;
+        scene.contact.high = (noise + (f64::from(peak - noise) / size).ceil() as u16).max(scene.contact.low);
         scene
     }
 }
@@ -92,6 +110,7 @@ impl ArrayNoise {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use taxel_core::garment::{Garment, Layout};
 
     /// Noise of 40 frames of 48 codes.
     fn measured(mut code: impl FnMut(usize, usize) -> u16) -> Option<ArrayNoise> {
@@ -123,15 +142,20 @@ mod tests {
 
     #[test]
     fn limits_follow_the_noise() {
-        let limits = |deviation, step| {
-            let scene = ArrayNoise { deviation, step }.scene();
+        let limits_of = |deviation, step, pitch_um| {
+            let garment = Garment::grid("grid", 4, 4, [pitch_um; 2]);
+            let layout = Layout::build(&garment, 16, 4095).unwrap();
+            let scene = ArrayNoise { deviation, step }.scene(layout.areas());
             (scene.condition.floor, scene.contact.low, scene.contact.high)
         };
+        let limits = |deviation, step| limits_of(deviation, step, 5_000);
         // A quiet array; one of 8 bits; noise of 3 and of 9 counts.
         assert_eq!(limits(0.2, 1), (4, 4, 10));
         assert_eq!(limits(0.2, 16), (4, 17, 40));
         assert_eq!(limits(3.0, 1), (11, 12, 30));
         assert_eq!(limits(9.0, 1), (18, 20, 40));
+        // On taxels of 400 mm2, twice the threshold's pressure is the same peak.
+        assert_eq!(limits_of(3.0, 1, 20_000), (11, 12, 18));
     }
 
     #[test]

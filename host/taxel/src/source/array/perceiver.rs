@@ -152,7 +152,7 @@ impl Perceiver {
         if self.board.board().setup().scene != Scene::shipped() {
             return Ok(Vec::new());
         }
-        let scene = noise.scene();
+        let scene = noise.scene(self.board.board().setup().layout.areas());
         self.report.lock().limits = Some(format!(
             "{:.1} counts of noise at rest: contacts from {} counts on (--scene sets limits of your own)",
             noise.deviation, scene.contact.high

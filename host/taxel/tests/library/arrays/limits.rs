@@ -1,5 +1,5 @@
 //! Limits of contacts by the noise of an array, without a number set by hand: on any of 4 x 4 to 32 x 32 taxels nothing
-//! is felt at rest, and a fingertip of 20 times the noise is up to a pitch of 10 mm.
+//! is felt at rest, and a fingertip of 20 times the noise is, whatever their pitch.
 
 use crate::random::Noise;
 use taxel::client::{Client, Event, scene_bytes};
@@ -34,7 +34,7 @@ impl Array {
         Array {
             rows,
             columns,
-            pitch_um: 1_500 + random.below(8_500) as u16,
+            pitch_um: [2_000, 5_000, 8_000, 10_000, 14_000, 20_000, 25_000][random.below(7) as usize],
             bits,
             noise: step * 0.4 + random.range(0.0, 12.0),
             period_us: 2_500 + random.below(47_500),
@@ -77,7 +77,7 @@ fn on_any_array_nothing_is_felt_at_rest_and_a_fingertip_is() {
             };
             board.step(&codes, Micros(frame * array.period_us), &mut note).unwrap();
             if let Some(noise) = meter.add(&codes) {
-                let scene = scene_bytes(&noise.scene()).unwrap();
+                let scene = scene_bytes(&noise.scene(board.areas())).unwrap();
                 board.client().request(&Request::SetScene(&scene)).unwrap();
             }
         }

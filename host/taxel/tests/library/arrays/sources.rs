@@ -91,7 +91,7 @@ fn a_file_is_perceived_as_the_same_codes_at_the_same_times() {
         };
         board.step(&codes(frame), Micros(frame * 10_000), noted).unwrap();
         if let Some(noise) = meter.add(&codes(frame)) {
-            let scene = scene_bytes(&noise.scene()).unwrap();
+            let scene = scene_bytes(&noise.scene(board.areas())).unwrap();
             board.client().request(&Request::SetScene(&scene)).unwrap();
         }
     }
