@@ -57,6 +57,7 @@ struct PageShared {
     circuit: Option<Box<Circuit>>,
     /// Scale of forces, for images of the past.
     scale: ForceScale,
+    counts_per_newton: Option<f64>,
     /// The map of the scene.
     map: Option<Arc<MapFile>>,
     tares: VecDeque<u16>,
@@ -227,8 +228,14 @@ impl PageHub {
             shared.circuit = circuit.map(Box::new);
             shared.map = intent.map(|intent| Arc::new(MapFile::from_config(&intent.map)));
             shared.scale = client.scale().clone();
+            shared.counts_per_newton = client.counts_per_newton();
         }
         self.state("hello", &message::hello(client, label));
+    }
+
+    /// Counts per newton on the garment; none if unknown.
+    pub fn counts_per_newton(&self) -> Option<f64> {
+        self.lock().counts_per_newton
     }
 
     /// Scale of forces.

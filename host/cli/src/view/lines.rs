@@ -471,7 +471,7 @@ pub struct RobotBoardLine<'a> {
     /// Contacts on it.
     pub contacts: usize,
     /// Counts per newton on its taxels; null if unknown.
-    pub counts_per_newton: Option<f32>,
+    pub counts_per_newton: Option<f64>,
 }
 
 /// Meaning of the touches of all boards to the robot.

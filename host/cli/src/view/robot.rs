@@ -150,7 +150,7 @@ impl<'a> RobotPages<'a> {
     fn announce_boards(&mut self) {
         (self.is_new, self.sent_boards) = (false, Instant::now());
         for (hub, board) in self.hubs.iter().zip(&mut self.boards) {
-            board.counts_per_newton = hub.scale().counts_per_newton();
+            board.counts_per_newton = hub.counts_per_newton();
         }
         for (hub, board) in self.hubs.iter().zip(&self.boards) {
             let line = RobotLine { name: &self.robot.name, board: board.name, boards: &self.boards };

@@ -39,7 +39,7 @@ pub fn attach<S: Store>(
     )?;
     let geometry = serde_json::to_vec(&geometry(&description.layout))?;
     writer.attach(&named("geometry.json"), "application/json", &geometry, ns)?;
-    let scale = origin.scale.counts_per_newton().map_or(String::new(), |counts| counts.to_string());
+    let scale = origin.scale.source_counts_per_newton().map_or(String::new(), |counts| counts.to_string());
     let calibration = origin.scale.calibration().filter(|made| made.is_in_force(&description.calibration));
     if let Some(made) = calibration {
         writer.attach(&named(CALIBRATION), "application/toml", made.text()?.as_bytes(), ns)?;

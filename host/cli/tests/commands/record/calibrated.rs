@@ -74,6 +74,9 @@ fn one_that_is_not_in_force_is_not_in_it() {
     let scan = taxel::recording::scan(&file("unstated.mcap")).unwrap();
     assert!(Overview::of(&file("unstated.mcap")).unwrap().attached(CALIBRATION).unwrap().is_none());
     assert!(scan.metadata.iter().all(|metadata| !metadata.metadata.contains_key("calibration_by")));
+    // Newtons of the simulation, and not those of the calibration.
+    let words = &scan.metadata.iter().rfind(|words| words.name == "taxel").unwrap().metadata;
+    assert_eq!(words["counts_per_newton"], "1000");
 }
 
 #[test]

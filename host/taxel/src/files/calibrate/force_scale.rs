@@ -33,16 +33,17 @@ impl ForceScale {
         self.calibration.as_deref()
     }
 
-    /// Counts per newton: the mean of the calibration, else that of the source.
-    pub fn counts_per_newton(&self) -> Option<f32> {
-        self.calibration().and_then(Calibration::counts_per_newton).or(self.counts_per_newton)
+    /// Counts per newton of the source, whatever the calibration says.
+    pub fn source_counts_per_newton(&self) -> Option<f32> {
+        self.counts_per_newton
     }
 
     /// Newtons on a garment whose board reports this calibration. A calibration of another garment counts as none.
     pub fn on(&self, layout: &Layout, in_force: &str, is_simulated: bool) -> Newtons {
         let calibration = self.calibration().filter(|calibration| calibration.is_in_force(in_force));
         let forces = calibration.and_then(|calibration| Forces::new(calibration, layout).ok());
-        let straight = if forces.is_some() { self.counts_per_newton() } else { self.counts_per_newton };
+        let mean = calibration.filter(|_| forces.is_some()).and_then(Calibration::counts_per_newton);
+        let straight = mean.or(self.counts_per_newton);
         let basis = match (&forces, is_simulated) {
             (Some(_), _) => Some(ForceBasis::Calibrated),
             (None, true) => straight.map(|_| ForceBasis::Simulated),
