@@ -91,7 +91,6 @@ pub mod run;
     feature = "folds",
     feature = "gallery",
     feature = "gesture",
-    feature = "intent",
-    feature = "slip"
+    feature = "intent"
 ))]
 mod memory;

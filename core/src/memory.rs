@@ -35,7 +35,7 @@ macro_rules! states {
 
 states! {
     ConditionState<TAXELS>, "condition/mod.rs", 34488, 34520;
-    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 65312, 65368;
+    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 58024, 58080;
     HardnessCue, "measure/hardness.rs", 20, 20;
     PostureState, "fold/mod.rs", 96, 96;
     FoldState, "fold/mod.rs", 12896, 12928;

@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-/// What is left of them.
+/// The bytes of an input that are left.
 #[derive(Debug, Clone)]
 pub struct Bytes<'a>(&'a [u8]);
 

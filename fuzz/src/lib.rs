@@ -1,4 +1,4 @@
-//! What must hold whatever a board, a host, a file or a page says: functions of any bytes, which panic where it
+//! Properties that hold whatever a board, a host, a file or a page says: functions of any bytes, which panic where one
 //! does not. A fuzzer calls them (`cargo xtask fuzz`), and tests with the inputs that it found worth keeping
 //! (`corpus/`).
 //!

@@ -1,4 +1,4 @@
-//! What others in the network send, before it reaches a viewer's client or a board: all readers of it that need no
+//! Bytes from the network, before they reach a viewer's client or a board: all readers of them that need no
 //! network themselves.
 
 use crate::bytes::Bytes;
@@ -79,7 +79,7 @@ fn in_order(got: &VecDeque<(PieceKind, PieceStamp)>) {
     }
 }
 
-/// It is what a program that offers a board publishes as one sample.
+/// Reads a piece that a program which offers a board publishes as one sample.
 fn one_piece(kind: PieceKind, bytes: &[u8]) {
     let mut pieces = Vec::new();
     FrameCutter::default().push(bytes, |kind, piece| pieces.push((kind, piece.to_vec())));

@@ -1,4 +1,4 @@
-//! What a browser sends to the page's port: the head of a request, and what follows it on a WebSocket.
+//! Bytes that a browser sends to the page's port: the head of a request, and what follows it on a WebSocket.
 
 use crate::bytes::Bytes;
 use std::sync::{Mutex, OnceLock};

@@ -20,12 +20,12 @@ impl Scratch {
         Scratch(path)
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.0
     }
 
-    /// Where it is, as a name.
+    /// Path of the folder, as text.
     pub fn name(&self) -> &str {
         self.0.to_str().expect("the folder for temporary files has a name in UTF-8")
     }

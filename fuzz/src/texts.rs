@@ -19,7 +19,7 @@ use taxel_core::intent::{CONCEPTS, EDGES};
 use taxel_learn::shapes::labels;
 use taxel_learn::touches::Table;
 
-/// What reads a file.
+/// A reader of a file.
 type Reader = fn(&Scratch, &[u8]);
 
 const READERS: [Reader; 13] = [

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::path::Path;
 use taxel_bench::stages::case::Variant;
-use taxel_bench::stages::format::{INFERENCE, SUBTRACTION};
+use taxel_bench::stages::format::INFERENCE;
 use taxel_bench::stages::row::Row;
 use taxel_bench::stages::table::Table;
 use taxel_core::fold::FOLDED;
@@ -24,25 +24,25 @@ fn chain(table: &Table, scene: &str, of: fn(&Row) -> u64) -> Option<u64> {
     table.rows.iter().find(|row| row.name == scene && row.variant == Variant::Shipped).map(of)
 }
 
+/// The condition stage of an empty frame.
+fn condition(table: &Table, variant: Variant) -> Option<u64> {
+    let mut rows = table.rows.iter().filter(|row| row.name == TouchPattern::Empty.name());
+    Some(rows.find(|row| row.variant == variant)?.stage(Stage::Condition))
+}
+
 /// The dearest of the kernels of a name.
 fn kernel(table: &Table, what: &str) -> Option<u64> {
     table.forms.iter().filter(|row| row.form.what == what).map(|row| row.cost).max()
 }
 
 /// Of what ships.
-const BARS: [Bar; 8] = [
+const BARS: [Bar; 6] = [
     Bar { scene: "empty", what: "all", most: 60_000, of: |table, scene| chain(table, scene, Row::whole) },
     Bar {
         scene: "5 contacts",
         what: "all",
         most: 150_000,
         of: |table, scene| chain(table, scene, Row::whole),
-    },
-    Bar {
-        scene: "5 contacts",
-        what: "largest",
-        most: 150_000,
-        of: |table, scene| chain(table, scene, |row| row.largest),
     },
     Bar {
         scene: "saturated",
@@ -57,12 +57,11 @@ const BARS: [Bar; 8] = [
         of: |table, scene| chain(table, scene, Row::whole),
     },
     Bar { scene: INFERENCE, what: "ten concepts", most: 25_000, of: kernel },
-    Bar { scene: SUBTRACTION, what: "a taxel and frame", most: 20, of: kernel },
     Bar {
-        scene: "change of posture",
-        what: "a taxel",
-        most: 60,
-        of: |table, _| Bending::of(table).map(|bending| bending.posture),
+        scene: "a bending arm",
+        what: "condition",
+        most: 70_000,
+        of: |table, _| condition(table, Variant::Bending),
     },
 ];
 
@@ -100,12 +99,8 @@ struct Bending {
 
 impl Bending {
     fn of(table: &Table) -> Option<Bending> {
-        let condition = |variant| {
-            let mut rows = table.rows.iter().filter(|row| row.name == TouchPattern::Empty.name());
-            Some(rows.find(|row| row.variant == variant)?.stage(Stage::Condition))
-        };
-        let shipped = condition(Variant::Shipped)?;
-        let swaying = condition(Variant::Swaying)?;
+        let condition = |variant| condition(table, variant);
+        let (shipped, swaying) = (condition(Variant::Shipped)?, condition(Variant::Swaying)?);
         let by_taxel =
             |more: u64, than: u64| (more.saturating_sub(than) * 20_000).div_ceil(FOLDED as u64 * PERIOD_US);
         Some(Bending {

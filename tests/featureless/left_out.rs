@@ -2,7 +2,6 @@
 
 use taxel_core_featureless::acquire::Depth;
 use taxel_core_featureless::board::{Board, BoardInfo, Input};
-use taxel_core_featureless::contact::ContactConfig;
 use taxel_core_featureless::format::{Micros, Q15};
 use taxel_core_featureless::garment::{Garment, Pins};
 use taxel_core_featureless::gesture::GestureConfig;
@@ -53,8 +52,6 @@ fn answer_to_scene(edit: impl FnOnce(&mut Scene)) -> Option<String> {
 fn a_scene_is_refused_by_the_name_of_what_it_asks_for() {
     assert_eq!(answer_to_scene(|scene| scene.contact.low = 20), None, "contacts are all that is left");
     let refused = |edit: fn(&mut Scene)| answer_to_scene(edit).unwrap();
-    let slip = refused(|scene| scene.contact = ContactConfig { slip_speed: 64, ..scene.contact });
-    assert_eq!(slip, "scene: contact.slip_speed is left out of this firmware");
     let pressing = refused(|scene| scene.stream = StreamConfig { pressing_hz: 10, ..scene.stream });
     assert_eq!(pressing, "scene: stream.pressing_hz is left out of this firmware");
     let gestures = refused(|scene| scene.gestures = Some(GestureConfig::default()));

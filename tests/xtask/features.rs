@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// All features of the firmware but `bench`.
-const ALL: [&str; 8] = ["folds", "gallery", "gesture", "intent", "raw", "reflex", "slip", "surface"];
+const ALL: [&str; 7] = ["folds", "gallery", "gesture", "intent", "raw", "reflex", "surface"];
 /// Name of the image with all of them, and of that without any.
 const EVERYTHING: &str = "everything";
 const ALONE: &str = "contacts alone";

@@ -805,7 +805,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
             certificate: calibration.certificate(),
             present: state.present(),
             form_ages: state.form_ages(),
-            took_picture: state.took_picture(),
             unsure: state.unsure(),
             taught: &state.taught,
             image: &image,

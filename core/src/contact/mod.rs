@@ -6,12 +6,12 @@
 //! | output | [`Touches`]: contacts in integers and fixed point, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
-//! | RAM | [`ContactState`]: 65,312 bytes |
-//! | M0+ cycles | 2 k where nothing touches, 21 k with a contact of 29 taxels, 62 k with five |
+//! | RAM | [`ContactState`]: 58,024 bytes |
+//! | M0+ cycles | 2 k where nothing touches, 22 k with a contact of 29 taxels, 70 k with five |
 //!
 //! The RAM is that of the [capacities](crate::capacity) that ship, with what later stages keep in the table of
-//! contacts. The cycles are of the reference garment, where forty contacts of 4 to 9 taxels take 232 k, all
-//! 2,048 taxels 190 k, and a checkerboard of 1,024 runs 223 k.
+//! contacts. The cycles are of the reference garment, where forty contacts of 4 to 9 taxels take 234 k, all
+//! 2,048 taxels 195 k, and a checkerboard of 1,024 runs, the most that there can be, 764 k.
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
 //! taxel of the component, in its panel or across a seam. A component is a contact if its peak reaches the
@@ -28,19 +28,13 @@
 //! quarter of the total comes or goes at once, the centroid jumps, and the jump counts neither as
 //! displacement nor as velocity.
 //!
-//! Motion is that of the centroid or, where the pressure inside a contact has a pattern, that of the pattern
-//! (`track::pattern`): a flat object that slides under a constant outline moves and slips. A pattern needs 36
-//! taxels that are two taxels clear of the outline (a contact of 10 x 10), structures of at least five
-//! taxels, and a step of less than half a structure (in an outline just as large, less than one taxel). There
-//! is memory for 20 patterns, as many contacts of 10 x 10 as 2,048 taxels hold (`track::album`). A
-//! slip begins when three steps in a row go the same way, and together are at least as fast as the slip speed
+//! Motion is that of the centroid. A slip begins when three steps in a row go the same way, and together are at least as fast as the slip speed
 //! and three times the contact's own jitter (`track::slip`). It lasts as long as the velocity is above the
-//! slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`] and saves up to 16 k M0+ cycles for each
-//! contact with a pattern, 400 for any other.
+//! slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`].
 //!
 //! The stage makes four passes: each active row as bits (`segment::threshold`), its runs summed up and joined
 //! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
-//! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
+//! (`measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
 //! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
 //! `track::tracks`), and the form of one contact is measured (`measure::form`, `measure::quartic`): it costs
 //! as much as the rest of a contact together, and changes slowly.

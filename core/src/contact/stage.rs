@@ -1,21 +1,23 @@
 //! The stage: segmentation and tracking of a frame.
 
 use crate::baseline::feedback::Feedback;
-use crate::format::{Invalid, LEFT_OUT, Micros};
+use crate::format::{Invalid, Micros};
 use crate::garment::{Area, Layout};
 use crate::image::view::Image;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
 use crate::measure::forms::Forms;
+use crate::measure::frame_view::FrameView;
 use crate::measure::moments::Moments;
 use crate::measure::quartic::Quartic;
-use crate::measure::sight::Sight;
-use crate::segment::config::{ContactConfig, NO_SLIP};
+use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
 use crate::segment::run::Run;
+use crate::segment::scan::scan;
 use crate::segment::seams::Joins;
 use crate::track::assign::Matching;
 use crate::track::motion::Trail;
+use crate::track::reunite::reunite;
 use crate::track::slot::Slot;
 use crate::track::tracks::Tracks;
 
@@ -194,11 +196,6 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         self.tracks.ages()
     }
 
-    /// True if the last frame took a picture of a contact's pattern.
-    pub(crate) fn took_picture(&self) -> bool {
-        self.tracks.took_picture()
-    }
-
     /// Index in [`Touches::present`] of the last frame's contact at a taxel.
     pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
         let area = layout.areas().get(usize::from(place.panel))?;
@@ -229,9 +226,6 @@ impl ContactConfig {
         }
         if self.slip_speed == 0 {
             return refuse("contact.slip_speed", "must be at least 1 (1/16 cm/s)");
-        }
-        if !cfg!(feature = "slip") && self.slip_speed != NO_SLIP {
-            return refuse("contact.slip_speed", LEFT_OUT);
         }
         Ok(Contacts { config: *self })
     }
@@ -265,7 +259,7 @@ impl Contacts {
         image: &Image,
     ) -> &'a [Component] {
         let ContactState { labeller, joins, components, feedback, .. } = state;
-        labeller.scan(layout, image, self.config.low);
+        scan(labeller, layout, image, self.config.low);
         labeller.mark_held(layout, feedback, self.config.high);
         joins.find(labeller, layout);
         components.select(&self.config, labeller, layout);
@@ -285,10 +279,10 @@ impl Contacts {
     ) -> Touches<'a, S> {
         let ContactState { labeller, joins, components, matching, tracks, .. } = state;
         matching.assign(&self.config, tracks, &components.list, layout, now);
-        components.reunite(labeller, layout, tracks);
+        reunite(components, labeller, layout, tracks);
         tracks.merge(labeller, layout);
-        let sight = Sight { labeller, layout, image };
-        tracks.update(&self.config, &components.list, &sight, (now, Forms::of(self.config.forms_in_frame)));
+        let view = FrameView { labeller, layout, image };
+        tracks.update(&self.config, &components.list, &view, (now, Forms::of(self.config.forms_in_frame)));
         Touches {
             present: tracks.contacts(),
             ages: tracks.ages(),

@@ -22,7 +22,6 @@ mod crc32;
 mod extremes;
 mod invalid;
 mod inverse;
-mod log;
 mod machine;
 mod product;
 mod root;

@@ -131,11 +131,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         self.contact.form_ages()
     }
 
-    /// True if the last frame took a picture of a contact's pattern.
-    pub(crate) fn took_picture(&self) -> bool {
-        self.contact.took_picture()
-    }
-
     /// Places and forces of the contacts of the last frame, whose image has these values.
     pub(crate) fn press(
         &self,

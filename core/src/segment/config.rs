@@ -21,20 +21,15 @@ pub struct ContactConfig {
     pub gate: u16,
     /// Time constant of the velocity, ms; 0 takes the velocity from one frame to the next.
     pub smoothing_ms: u16,
-    /// Speed from which a contact slips, 1/16 cm/s. [`NO_SLIP`] turns slip off and saves the cycles of
-    /// following the pattern inside contacts.
+    /// Speed from which a contact slips, 1/16 cm/s. [`NO_SLIP`] turns slip off.
     pub slip_speed: u16,
     /// Number of held contacts that have their form measured in a frame, in turn; 0: all. See
     /// [`Forms`](crate::contact::Forms).
     pub forms_in_frame: u8,
 }
 
-/// The [`slip_speed`](ContactConfig::slip_speed) of a scene without slip; the only one of a build without the
-/// feature `slip`.
+/// The [`slip_speed`](ContactConfig::slip_speed) of a scene without slip.
 pub const NO_SLIP: u16 = u16::MAX;
-
-/// The default: 4 cm/s.
-const SLIP: u16 = if cfg!(feature = "slip") { 64 } else { NO_SLIP };
 
 impl ContactConfig {
     /// Returns the peak from which on a contact begins on a panel. However small its taxels are, it is clear
@@ -60,7 +55,7 @@ impl ContactConfig {
     /// True if the scene looks for slip.
     #[inline(always)]
     pub(crate) const fn slips(&self) -> bool {
-        cfg!(feature = "slip") && self.slip_speed != NO_SLIP
+        self.slip_speed != NO_SLIP
     }
 }
 
@@ -74,7 +69,7 @@ impl Default for ContactConfig {
             min_area: 1,
             gate: 4,
             smoothing_ms: 40,
-            slip_speed: SLIP,
+            slip_speed: 64,
             forms_in_frame: 1,
         }
     }

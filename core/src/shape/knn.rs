@@ -29,23 +29,6 @@ pub struct Prototype {
     pub features: ShapeFeatures,
 }
 
-/// A base of shapes, which stays in flash. What a board is taught later is a [`Gallery`](super::Gallery).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Base {
-    /// Names of the classes, from 1.
-    pub names: &'static [&'static str],
-    /// Examples; ties go to the earlier one.
-    pub prototypes: &'static [Prototype],
-}
-
-impl Base {
-    /// Name of a class; "unknown" if the base does not have it.
-    pub fn name(&self, class: Class) -> &'static str {
-        let index = usize::from(class.0).checked_sub(1);
-        index.and_then(|index| self.names.get(index)).copied().unwrap_or("unknown")
-    }
-}
-
 /// Greatest number of neighbours that vote.
 pub(super) const VOTERS: usize = 9;
 

@@ -27,12 +27,13 @@ mod spread;
 mod stage;
 mod taught;
 
+pub use base::Base;
 pub use confidence::{ConfidenceTable, STEPS};
 pub use config::ShapeConfig;
 pub use descriptor::{Descriptor, MEASURE_NAMES, MEASURES, descriptor};
 pub use features::{FEATURES, ShapeFeatures, features};
 pub use gallery::{Exemplar, GALLERY_CLASSES, GALLERY_PROTOTYPES, Gallery, Recognised};
-pub use knn::{Base, Class, Prototype};
+pub use knn::{Class, Prototype};
 pub use nmi::{Nmi, nmi};
 pub use outline::Outline;
 pub use patch::Patch;

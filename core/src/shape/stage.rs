@@ -1,8 +1,9 @@
 //! The stage: recognises the shape of a contact.
 
+use super::base::Base;
 use super::config::ShapeConfig;
 use super::features::features;
-use super::knn::{Base, Class, VOTERS, vote};
+use super::knn::{Class, VOTERS, vote};
 use super::nmi::nmi;
 use crate::contact::{Contact, Moments, Quartic};
 use crate::format::{Fixed24, Invalid, Q15};

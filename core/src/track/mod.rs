@@ -2,16 +2,11 @@
 //!
 //! [`assign`] pairs this frame's components with the last frame's contacts by the distances of [`point`];
 //! [`reunite`] keeps what has hardly parted together; [`tracks`] updates, merges, splits and releases.
-//! [`motion`] follows the centroid or the [`pattern`] inside a contact, by the optical [`flow`] of its
-//! [`gradient`], from pictures in an [`album`]; [`slip`] reports when it slips.
-//! [`slot`] is an entry of the table of contacts.
+//! [`motion`] follows the centroid, [`slip`] reports when it slips. [`slot`] is an entry of the table of
+//! contacts.
 
-pub(crate) mod album;
 pub(crate) mod assign;
-pub(crate) mod flow;
-pub(crate) mod gradient;
 pub(crate) mod motion;
-pub(crate) mod pattern;
 pub(crate) mod point;
 pub(crate) mod reunite;
 pub(crate) mod slip;

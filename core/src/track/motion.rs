@@ -1,12 +1,9 @@
 //! State of a track beside its public record, and the update of motion.
 
-use super::album::Album;
-use super::pattern::{Pattern, Way};
 use super::point::{PanelPoint, nearest_way};
-use super::slip::{SLIP_STEPS, Slip};
+use super::slip::{SLIP_STEPS, Slip, Way};
 use crate::format::{Fixed16, Inverse, Micros, signed_wide};
 use crate::garment::{Area, Layout, Transform};
-use crate::image::view::Image;
 use crate::measure::component::Component;
 use crate::measure::contact::Contact;
 use crate::segment::config::ContactConfig;
@@ -22,48 +19,25 @@ pub(crate) struct Trail {
     pub looked: u32,
     /// Frames since its form was measured; saturates at 255.
     pub age: u8,
-    /// Nothing in a build without the feature `slip`.
-    sliding: [Sliding; SLIDING],
-}
-
-const SLIDING: usize = if cfg!(feature = "slip") { 1 } else { 0 };
-
-/// Evidence that a contact slides.
-#[derive(Debug, Clone)]
-struct Sliding {
-    pattern: Pattern,
     slip: Slip,
 }
 
 /// Per-frame inputs shared by all tracks.
-pub(crate) struct Scenery<'a> {
+pub(crate) struct TrackInputs<'a> {
     pub config: &'a ContactConfig,
     pub layout: &'a Layout,
-    pub image: &'a Image<'a>,
     pub pace: VelocityFilter,
 }
 
 impl Trail {
     pub const fn new(component: u16) -> Self {
-        const NEW: Sliding = Sliding { pattern: Pattern::new(), slip: Slip::new() };
-        Trail { component, leaps: false, looked: 0, age: 0, sliding: [NEW; SLIDING] }
-    }
-
-    /// Gives the picture of its pattern back.
-    pub fn drop_picture(&mut self, album: &mut Album) {
-        self.sliding.iter_mut().for_each(|sliding| sliding.pattern.drop_picture(album));
+        Trail { component, leaps: false, looked: 0, age: 0, slip: Slip::new() }
     }
 
     /// Updates displacement, velocity and slip from the contact's component; the other measures follow later.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn follow(
-        &mut self,
-        contact: &mut Contact,
-        component: &Component,
-        album: &mut Album,
-        scenery: &Scenery,
-    ) {
-        let Scenery { config, layout, image, pace } = scenery;
+    pub fn follow(&mut self, contact: &mut Contact, component: &Component, inputs: &TrackInputs) {
+        let TrackInputs { config, layout, pace } = inputs;
         let from = PanelPoint::of(contact.panel, contact.x, contact.y);
         let to = PanelPoint::of(component.bounds.panel, component.x, component.y);
         if let Some((Some(way), _)) = nearest_way(layout, from, to) {
@@ -73,18 +47,8 @@ impl Trail {
         // Motion leaves the pressure as it is. A quarter more or less at once moves the centroid for another
         // reason.
         let change = component.total.abs_diff(contact.total);
-        let leaps = self.leaps || change > contact.total / 4;
-        let step = if leaps { [0; 2] } else { step };
+        let step = if self.leaps || change > contact.total / 4 { [0; 2] } else { step };
         let area = layout.areas().get(usize::from(component.bounds.panel));
-        let step = match (area, self.sliding.first_mut()) {
-            (Some(area), Some(Sliding { pattern, .. })) if config.slips() => {
-                if leaps {
-                    pattern.forget(album);
-                }
-                pattern.follow(component, (album, area, image), config.low, step)
-            }
-            _ => step,
-        };
         self.leaps = false;
         contact.dx = Fixed16(contact.dx.0.saturating_add(step[0]));
         contact.dy = Fixed16(contact.dy.0.saturating_add(step[1]));
@@ -92,19 +56,19 @@ impl Trail {
         contact.vy = pace.velocity(contact.vy, step[1]);
         // If the pressure changes by more than a sixteenth, the outline changes too and moves the centroid.
         let sliding = if change > contact.total / 16 { [0; 2] } else { step };
-        let slides = |area| config.slips() && self.slips(contact, sliding, area, scenery);
+        let slides = |area| config.slips() && self.slips(contact, sliding, area, inputs);
         contact.slip = area.is_some_and(slides);
     }
 
     /// Returns true during a slip: it begins with three steps, and lasts as long as the contact is fast.
-    fn slips(&mut self, contact: &Contact, step: Way, area: &Area, scenery: &Scenery) -> bool {
+    fn slips(&mut self, contact: &Contact, step: Way, area: &Area, inputs: &TrackInputs) -> bool {
         let is_fast = || {
-            let least = u64::from(area.taxels(scenery.config.slip_speed.into())).pow(2);
+            let least = u64::from(area.taxels(inputs.config.slip_speed.into())).pow(2);
             let square = |v: Fixed16| u64::from(v.0.unsigned_abs() >> 12).pow(2);
             square(contact.vx) + square(contact.vy) >= least
         };
-        let limit = area.taxels(scenery.pace.limit.min(LONGEST_WAY));
-        self.sliding.iter_mut().any(|sliding| sliding.slip.begins(step, limit)) || (contact.slip && is_fast())
+        let limit = area.taxels(inputs.pace.limit.min(LONGEST_WAY));
+        self.slip.begins(step, limit) || (contact.slip && is_fast())
     }
 }
 

@@ -9,61 +9,45 @@ use crate::segment::labeller::Labeller;
 use crate::segment::run::Run;
 use crate::segment::union_find::NONE;
 
-impl<const CONTACTS: usize> Components<CONTACTS> {
-    /// Adds each unassigned component to the component of the contact that it has just come off: it peaks
-    /// where that contact was, and hardly a gap has opened.
-    #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn reunite<const RUNS: usize, const LABELS: usize, S: Slot>(
-        &mut self,
-        labeller: &mut Labeller<RUNS, LABELS>,
-        layout: &Layout,
-        tracks: &mut Tracks<CONTACTS, S>,
-    ) {
-        if tracks.trails.iter().filter(|trail| trail.component != NONE).count() == self.list.len() {
-            // The usual case: each component is assigned.
-            return;
-        }
-        let known = tracks.known();
-        // In descending order, because removal moves up the components behind.
-        for lost in (0..self.list.len()).rev().filter(|index| known.get(*index) == Some(&false)) {
-            let whole = self.whole_of(lost, labeller, layout, tracks);
-            if let Some(whole) = whole {
-                self.join(usize::from(whole), lost);
-                labeller.renumber(whole, lost as u16);
-                tracks.renumber(lost as u16);
-            }
+/// Adds each unassigned component to the component of the contact that it has just come off: it peaks
+/// where that contact was, and hardly a gap has opened.
+#[inline(never)] // own frame: locals stay within short SP offsets
+pub(crate) fn reunite<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
+    components: &mut Components<CONTACTS>,
+    labeller: &mut Labeller<RUNS, LABELS>,
+    layout: &Layout,
+    tracks: &mut Tracks<CONTACTS, S>,
+) {
+    if tracks.trails.iter().filter(|trail| trail.component != NONE).count() == components.list.len() {
+        // The usual case: each component is assigned.
+        return;
+    }
+    let known = tracks.known();
+    // In descending order, because removal moves up the components behind.
+    for lost in (0..components.list.len()).rev().filter(|index| known.get(*index) == Some(&false)) {
+        let whole = whole_of(components, lost, labeller, layout, tracks);
+        if let Some(whole) = whole {
+            components.join(usize::from(whole), lost);
+            labeller.renumber(whole, lost as u16);
+            tracks.renumber(lost as u16);
         }
     }
+}
 
-    /// Returns the component that `lost` belongs to, if hardly a gap separates it from a contact.
-    fn whole_of<const RUNS: usize, const LABELS: usize, S: Slot>(
-        &self,
-        lost: usize,
-        labeller: &Labeller<RUNS, LABELS>,
-        layout: &Layout,
-        tracks: &Tracks<CONTACTS, S>,
-    ) -> Option<u16> {
-        let part = self.list.get(lost)?;
-        let whole = tracks.component_of(only_at(tracks.contacts(), part.peak_at?)?)?;
-        let mut runs = part.runs(labeller, layout).map(|(_, run)| run);
-        let near = are_near(&part.bounds, &self.list.get(usize::from(whole))?.bounds)
-            && runs
-                .any(|run| labeller.contact_of(run) == Some(lost as u16) && labeller.is_beside(run, whole));
-        near.then_some(whole)
-    }
-
-    /// Merges component `lost` into `whole`.
-    fn join(&mut self, whole: usize, lost: usize) {
-        let part = self.list.get(lost).cloned();
-        if let (Some(whole), Some(part)) = (self.list.get_mut(whole), part) {
-            whole.absorb(&part);
-        }
-        let mut index = 0;
-        self.list.retain(|_| {
-            index += 1;
-            index - 1 != lost
-        });
-    }
+/// Returns the component that `lost` belongs to, if hardly a gap separates it from a contact.
+fn whole_of<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>(
+    components: &Components<CONTACTS>,
+    lost: usize,
+    labeller: &Labeller<RUNS, LABELS>,
+    layout: &Layout,
+    tracks: &Tracks<CONTACTS, S>,
+) -> Option<u16> {
+    let part = components.list.get(lost)?;
+    let whole = tracks.component_of(only_at(tracks.contacts(), part.peak_at?)?)?;
+    let mut runs = part.runs(labeller, layout).map(|(_, run)| run);
+    let near = are_near(&part.bounds, &components.list.get(usize::from(whole))?.bounds)
+        && runs.any(|run| labeller.contact_of(run) == Some(lost as u16) && is_beside(labeller, run, whole));
+    near.then_some(whole)
 }
 
 /// Index of the contact that covered a place, if only one did.
@@ -85,53 +69,35 @@ fn are_near(a: &Rect, b: &Rect) -> bool {
         && near([a.top, a.bottom], [b.top, b.bottom])
 }
 
-impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
-    /// Component of a contact.
-    fn component_of(&self, contact: usize) -> Option<u16> {
-        self.trails.get(contact).map(|trail| trail.component).filter(|component| *component != NONE)
-    }
-
-    /// Renumbers components after `lost`, which was unassigned, is removed: those after it move up.
-    fn renumber(&mut self, lost: u16) {
-        for trail in self.trails.iter_mut().filter(|trail| trail.component != NONE && trail.component > lost)
-        {
-            trail.component -= 1;
-        }
-    }
-}
-
-impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
-    /// True if a run has a taxel at most two away from one of a component, in the same panel.
-    fn is_beside(&self, run: &Run, component: u16) -> bool {
-        let panel = |run: &Run| self.labels.get(usize::from(run.label)).map(|label| label.panel);
-        let mut near = self.in_rows(run.row.saturating_sub(2), run.row.saturating_add(2));
-        near.any(|(_, other)| {
-            self.contact_of(other) == Some(component)
-                && panel(other) == panel(run)
-                && have_near_columns(run, other)
-        })
-    }
+/// True if a run has a taxel at most two away from one of a component, in the same panel.
+fn is_beside<const RUNS: usize, const LABELS: usize>(
+    labeller: &Labeller<RUNS, LABELS>,
+    run: &Run,
+    component: u16,
+) -> bool {
+    let panel = |run: &Run| labeller.labels.get(usize::from(run.label)).map(|label| label.panel);
+    let mut near = labeller.in_rows(run.row.saturating_sub(2), run.row.saturating_add(2));
+    near.any(|(_, other)| {
+        labeller.contact_of(other) == Some(component)
+            && panel(other) == panel(run)
+            && have_near_columns(run, other)
+    })
 }
 
 /// True if some of their columns are at most two apart.
-fn have_near_columns(a: &Run, b: &Run) -> bool {
-    let first = a.column().min(b.column());
-    let bits = |run: &Run| u64::from(run.taxels).checked_shl((run.column() - first).into());
-    let (Some(a), Some(b)) = (bits(a), bits(b)) else { return false };
-    (a | a << 1 | a << 2 | a >> 1 | a >> 2) & b != 0
+const fn have_near_columns(a: &Run, b: &Run) -> bool {
+    a.left <= b.right.saturating_add(2) && b.left <= a.right.saturating_add(2)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::segment::bits::WORD;
     use crate::segment::sums::RunSums;
 
     /// A run of one taxel.
     fn at(column: u16) -> Run {
-        let taxels = 1 << (column % WORD);
-        let (row, label, area, peak, sums) = (0, 0, 1, 1, RunSums::NONE);
-        Run { taxels, row, label, left: column, right: column, area, peak, sums }
+        let (row, label, peak, sums) = (0, 0, 1, RunSums::NONE);
+        Run { taxels: 1 << (column % 32), row, label, left: column, right: column, peak, sums }
     }
 
     #[test]

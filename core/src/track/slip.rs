@@ -1,7 +1,9 @@
 //! Onset of slip, from the steps of a contact.
 
-use super::pattern::Way;
 use crate::format::wide;
+
+/// A step along x and y, in 2^-16 taxel.
+pub(crate) type Way = [i32; 2];
 
 /// Number of steps that make a slip.
 pub(crate) const SLIP_STEPS: usize = 3;

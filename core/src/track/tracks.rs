@@ -1,15 +1,14 @@
 //! Track management: update, merge, split, release.
 
-use super::album::Album;
-use super::motion::{FrameTimes, Scenery, Trail};
+use super::motion::{FrameTimes, TrackInputs, Trail};
 use super::slot::Slot;
 use crate::format::{Fixed16, Micros, Q15};
 use crate::garment::{Layout, Place, Rect};
 use crate::measure::component::Component;
 use crate::measure::contact::{Contact, Phase};
 use crate::measure::forms::Forms;
+use crate::measure::frame_view::FrameView;
 use crate::measure::quartic::Quartic;
-use crate::measure::sight::Sight;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
 use crate::segment::union_find::NONE;
@@ -20,7 +19,6 @@ use heapless::Vec;
 pub(crate) struct Tracks<const CONTACTS: usize, S = Contact> {
     pub contacts: Vec<S, CONTACTS>,
     pub trails: Vec<Trail, CONTACTS>,
-    album: Album,
     released: Vec<S, CONTACTS>,
     /// Age of the form of each contact, frames; saturates at 255.
     ages: Vec<u8, CONTACTS>,
@@ -37,7 +35,6 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         Tracks {
             contacts: Vec::new(),
             trails: Vec::new(),
-            album: Album::new(),
             released: Vec::new(),
             ages: Vec::new(),
             quartics: Vec::new(),
@@ -56,7 +53,6 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         core::mem::swap(&mut self.contacts, &mut self.released);
         self.contacts.clear();
         self.trails.clear();
-        self.album.clear();
         self.ages.clear();
         self.quartics.clear();
     }
@@ -71,11 +67,6 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
 
     pub fn ages(&self) -> &[u8] {
         &self.ages
-    }
-
-    /// True if a picture was taken in the last frame, or was tried.
-    pub fn took_picture(&self) -> bool {
-        self.album.busy
     }
 
     pub fn quartics(&self) -> &[Quartic] {
@@ -143,20 +134,18 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         &mut self,
         config: &ContactConfig,
         components: &[Component],
-        sight: &Sight<'_, RUNS, LABELS>,
+        view: &FrameView<'_, RUNS, LABELS>,
         (now, forms): (Micros, Forms),
     ) {
-        let Sight { layout, image, .. } = *sight;
-        let scenery = Scenery { config, layout, image, pace: self.clock.tick(config, now) };
+        let inputs = TrackInputs { config, layout: view.layout, pace: self.clock.tick(config, now) };
         let known = self.known();
         self.part(components, &known);
         self.released.clear();
-        self.album.busy = false;
         for (slot, trail) in self.contacts.iter_mut().zip(&mut self.trails) {
             let contact = slot.contact_mut();
             match components.get(usize::from(trail.component)) {
                 Some(component) => {
-                    trail.follow(contact, component, &mut self.album, &scenery);
+                    trail.follow(contact, component, &inputs);
                     describe(contact, component);
                     contact.phase = Phase::Held;
                     contact.duration_ms = now.millis_since(contact.onset);
@@ -166,7 +155,6 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
                     contact.duration_ms = now.millis_since(contact.onset);
                     // Always room: as many places as contacts.
                     let _ = self.released.push(slot.clone());
-                    trail.drop_picture(&mut self.album);
                 }
             }
         }
@@ -183,7 +171,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
                 self.begin(index, component, now);
             }
         }
-        self.look(held, forms, components, sight);
+        self.look(held, forms, components, view);
     }
 
     /// Measures the form of new contacts, and of as many of the `held` older ones as have their turn.
@@ -192,7 +180,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
         held: usize,
         forms: Forms,
         components: &[Component],
-        sight: &Sight<'_, RUNS, LABELS>,
+        view: &FrameView<'_, RUNS, LABELS>,
     ) {
         let (next, count) = (self.turn + forms.in_frame(), forms.in_frame());
         self.turn = if next < held { next } else { 0 };
@@ -208,10 +196,23 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
                 continue;
             };
             let contact = slot.contact_mut();
-            let _ = self.quartics.push(sight.look(contact, trail.component, component));
+            let _ = self.quartics.push(view.measure_form(contact, trail.component, component));
             if contact.total >= trail.looked {
                 (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
             }
+        }
+    }
+
+    /// Component of a contact.
+    pub fn component_of(&self, contact: usize) -> Option<u16> {
+        self.trails.get(contact).map(|trail| trail.component).filter(|component| *component != NONE)
+    }
+
+    /// Renumbers components after `lost`, which was unassigned, is removed: those after it move up.
+    pub fn renumber(&mut self, lost: u16) {
+        for trail in self.trails.iter_mut().filter(|trail| trail.component != NONE && trail.component > lost)
+        {
+            trail.component -= 1;
         }
     }
 

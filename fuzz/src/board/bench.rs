@@ -21,13 +21,13 @@ pub struct Bench<const T: usize, const R: usize, const P: usize> {
     board: Box<Board<T, R, P>>,
     client: Client,
     flash: SimFlash,
-    /// What the flash holds: garment and scene.
+    /// Contents of the flash: garment and scene.
     stored: Option<(Garment, Scene)>,
     now: Micros,
     codes: [Code; T],
     /// Frames that the converter has made since the last scan and nobody fetched.
     pub overruns: u32,
-    /// What the next scan reports of the converter.
+    /// The converter's temperature, as the next scan reports it.
     pub temperature: Option<Celsius>,
 }
 
@@ -57,7 +57,7 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
         &self.board.setup().garment
     }
 
-    /// What it plays.
+    /// The scene that it plays.
     pub fn scene(&self) -> &Scene {
         &self.board.setup().scene
     }
@@ -148,7 +148,7 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
         self.ask();
     }
 
-    /// What the host asks by itself: to start, for an image that stands alone, for the time.
+    /// Requests that the host makes by itself: to start, for an image that stands alone, for the time.
     fn ask(&mut self) {
         let requests = self.client.take_requests();
         self.receive(&requests);
@@ -172,7 +172,7 @@ impl<const T: usize, const R: usize, const P: usize> Bench<T, R, P> {
         }
     }
 
-    /// What the board says is understood.
+    /// Checks that the host understands what the board says.
     fn hear(&self, event: &Event) {
         match event {
             Event::Refused(why) => panic!("a message of the board cannot be read: {why}"),

@@ -1,4 +1,4 @@
-//! What a board begins with.
+//! Garments and scenes that a board begins with.
 
 use taxel_core::acquire::Depth;
 use taxel_core::garment::Garment;
@@ -9,7 +9,7 @@ use taxel_core::scene::Scene;
 pub struct Outfit {
     /// The garment.
     pub garment: Garment,
-    /// What for.
+    /// The scene for it.
     pub scene: Scene,
 }
 

@@ -105,7 +105,7 @@ fn viewer() -> anyhow::Result<(Box<dyn Observer + Send>, String)> {
     Err(argument("view: this package was built without the program").into())
 }
 
-/// Where no bytes come from: the board's code is here.
+/// A link without bytes: the board runs in this process.
 struct Nowhere;
 
 impl Port for Nowhere {

@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 /// A hand on the garment of a [`SimBoard`](super::SimBoard).
 ///
-/// What it does is felt from the next sample on. Touches and traces are numbered, each kind from those of the
+/// Its touches are felt from the next sample on. Touches and traces are numbered, each kind from those of the
 /// script on: one after the other, in the order in which a script would list them. Then forces are added as they
 /// are when that script is played, to the last bit. A touch must fit the garment, as a script's.
 #[derive(Debug, Clone)]

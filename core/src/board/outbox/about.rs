@@ -27,8 +27,6 @@ pub(crate) struct About<'a> {
     pub present: &'a [Placed],
     /// Age of their forms, frames, in the same order.
     pub form_ages: &'a [u8],
-    /// True if the last frame took a picture of a contact's pattern.
-    pub took_picture: bool,
     /// Contacts that may be drift.
     pub unsure: &'a UnsureState<CONTACTS>,
     /// Taught shapes.

@@ -42,7 +42,7 @@ impl<const TAXELS: usize> ImageQueue<TAXELS> {
     ) -> bool {
         let Some((frame, time)) = self.due.take() else { return true };
         let rest_us = key_us.saturating_sub(time.since(self.key));
-        let is_light = || !about.took_picture && measures_little(about.present, about.form_ages);
+        let is_light = || measures_little(about.present, about.form_ages);
         let is_key_due = rest_us == 0 || rest_us <= key_us / 16 && is_light();
         let against = self.base.filter(|_| !is_key_due);
         let layout = &about.setup.layout;

@@ -102,11 +102,6 @@ impl Texture {
         Texture((0..8).map(wave).collect())
     }
 
-    /// Ridges along y, `length` taxels apart.
-    pub fn ridges(length: f64) -> Texture {
-        Texture(vec![[std::f64::consts::TAU / length, 0.0, 0.3]])
-    }
-
     /// Half of full scale on average, with a standard deviation of about 0.14.
     pub fn at(&self, x: f64, y: f64) -> f64 {
         let waves = self.0.iter().map(|[kx, ky, phase]| (kx * x + ky * y + phase).cos()).sum::<f64>();

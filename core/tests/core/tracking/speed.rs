@@ -99,35 +99,6 @@ fn discs_and_fingers() {
 }
 
 #[test]
-fn a_texture_that_slides_under_the_whole_panel() {
-    let seeds = if crate::is_campaign() { 1..=6 } else { 1..=1 };
-    for seed in seeds {
-        let texture = Texture::new(seed);
-        let sliding = |at: [f64; 2], way: [f64; 2]| texture.at(at[0] - way[0], at[1] - way[1]);
-        check("a texture", &SPEEDS, NoisyMotion::clean, &sliding);
-        check("a noisy texture", &SPEEDS, NoisyMotion::noisy, &sliding);
-    }
-    let ridges = Texture::ridges(6.0);
-    let sliding = |at: [f64; 2], way: [f64; 2]| ridges.at(at[0] - way[0], at[1] - way[1]);
-    check("ridges", &SPEEDS, |speed, _| NoisyMotion::clean(speed, 0.0), &sliding);
-    check("noisy ridges", &SPEEDS, |speed, _| NoisyMotion::noisy(speed, 0.0), &sliding);
-}
-
-#[test]
-fn a_texture_that_slides_inside_a_constant_outline() {
-    // Half the side; a taxel a frame is what the picture of the smaller ones can measure.
-    for (seed, half) in [(5, 5.0), (6, 6.0), (7, 8.0)] {
-        let texture = Texture::new(seed);
-        let pad = |at: [f64; 2], way: [f64; 2]| {
-            if at[0].abs().max(at[1].abs()) < half { texture.at(at[0] - way[0], at[1] - way[1]) } else { 0.0 }
-        };
-        check(&format!("a texture inside {half}"), &SPEEDS[..7], NoisyMotion::clean, &pad);
-        let noisy = if half < 6.0 { &SPEEDS[..4] } else { &SPEEDS[..7] };
-        check(&format!("a noisy texture inside {half}"), noisy, NoisyMotion::noisy, &pad);
-    }
-}
-
-#[test]
 fn a_textured_thing_that_moves_as_a_whole() {
     for (seed, half) in [(4, 4.0), (5, 6.5), (6, 8.0)] {
         let texture = Texture::new(seed);

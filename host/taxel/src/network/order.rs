@@ -198,7 +198,7 @@ mod tests {
     use super::*;
     use PieceKind::{Image, Main};
 
-    /// What a board has sent: kinds in its order, each with its number.
+    /// Pieces that a board has sent: kinds in its order, each with its number.
     fn published(kinds: &[PieceKind]) -> Vec<WirePiece> {
         let mut stamp = PieceStamp { publisher: 5, main: 0, images: 0 };
         let next = |(number, kind): (usize, &PieceKind)| {

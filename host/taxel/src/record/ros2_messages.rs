@@ -11,7 +11,7 @@
 //! | `/diagnostics` | diagnostic_msgs/DiagnosticArray | the board's counters, each second; stale once it is lost |
 //!
 //! A board of a robot has its topics below its name, as its node has: `/BOARD/tactile/PANEL/image`.
-//! When the board is lost, a last wrench of each panel and link is 0.
+//! A lost board ends with a last wrench of 0 on each panel and link.
 //!
 //! The frame of a panel's messages is `tactile/PANEL`, whose parent is its link. Stamps are the host's time.
 

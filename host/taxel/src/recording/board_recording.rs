@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Place of a recorded board, as text `FILE`, or `FILE#BOARD` for a board of a robot.
 ///
-/// What follows the last `#` and cannot be the name of a board, such as `b.mcap`, belongs to the name of the
+/// A part after the last `#` that cannot be the name of a board, such as `b.mcap`, belongs to the name of the
 /// file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BoardRecording {

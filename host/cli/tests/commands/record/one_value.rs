@@ -15,11 +15,11 @@ use taxel_cli::watch::{BoardArgs, Overwrite, WatchOptions, watch};
 use taxel_core::condition::UNITY;
 use taxel_core::garment::Layout;
 
-/// A calibration of a garment, whose curves have a knee.
+/// A calibration of a garment, whose curves have a knee at 200 counts, which every touch is above.
 fn calibration(garment: &str) -> Calibration {
     let read = garments::read(garment).unwrap().garment;
     let layout = Layout::build(&read, 2048, 4095).unwrap();
-    let curve = || Curve::new(vec![[16_000, 1_000_000], [24_000, 2_000_000]]).unwrap();
+    let curve = || Curve::new(vec![[3_200, 200_000], [11_200, 1_200_000]]).unwrap();
     let fitted = Fitted {
         gains: vec![UNITY; layout.taxels()],
         curves: layout.areas().iter().map(|_| Some(curve())).collect(),
@@ -98,7 +98,7 @@ fn a_contact_has_one_value_in_one_unit_everywhere() {
             };
             let most = rows.iter().map(share).fold(0.0, f64::max);
             // Above the knee 500 counts are a newton.
-            assert_eq!(is_calibrated, most > 1.01, "{name}: {most}");
+            assert_eq!(is_calibrated, most > 1.2, "{name}: {most}");
         }
     }
 }

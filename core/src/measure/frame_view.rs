@@ -5,13 +5,22 @@ use super::component::Component;
 use super::contact::Contact;
 use super::contour::Contour;
 use super::quartic::Quartic;
-use super::sight::Sight;
+use crate::garment::Layout;
+use crate::image::view::Image;
+use crate::segment::labeller::Labeller;
 
-impl<const RUNS: usize, const LABELS: usize> Sight<'_, RUNS, LABELS> {
+/// The frame in which forms are measured.
+pub(crate) struct FrameView<'a, const RUNS: usize, const LABELS: usize> {
+    pub labeller: &'a Labeller<RUNS, LABELS>,
+    pub layout: &'a Layout,
+    pub image: &'a Image<'a>,
+}
+
+impl<const RUNS: usize, const LABELS: usize> FrameView<'_, RUNS, LABELS> {
     /// Measures the contour, axis and breadth of a contact from its component, number `index`. Returns its
     /// ratios of the fourth order, which are not part of the record.
     #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn look(&self, contact: &mut Contact, index: u16, component: &Component) -> Quartic {
+    pub fn measure_form(&self, contact: &mut Contact, index: u16, component: &Component) -> Quartic {
         let Contour { length, slope } = Contour::of(index, component, self.labeller, self.layout, self.image);
         contact.perimeter = length as u16;
         contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
