@@ -4,11 +4,12 @@ mod completions;
 mod groups;
 
 use crate::commands::{board::*, body, garment::*, maps, process, recordings::*, shapes, views::*};
+use crate::steps;
 use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
 use std::ffi::OsString;
-use taxel::text::{verbose, words};
+use taxel::text::words;
 
 /// Shown below the help.
 const EXAMPLES: &str = "Examples:
@@ -26,7 +27,7 @@ Exit status:
 #[derive(Debug, Parser)]
 #[command(name = "taxel", version, after_help = EXAMPLES)]
 pub struct Cli {
-    /// What to do [default: live]
+    /// Command to run [default: live]
     #[command(subcommand)]
     command: Option<Command>,
     /// Report on standard error what the program does
@@ -111,9 +112,7 @@ impl Cli {
 
     /// Runs what was asked for.
     pub fn run(self) -> Result<()> {
-        if self.verbose {
-            verbose::on();
-        }
+        steps::print(self.verbose);
         match self.command {
             None => live::run_bare(),
             Some(Command::Look(command)) => command.run(),

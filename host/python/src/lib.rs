@@ -4,6 +4,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | `logger` | warnings of the library, for Python's `logging` |
 //! | `error` | errors as exceptions |
 //! | `value` | JSON values as Python objects |
 //! | `array` | NumPy arrays that own their buffer and that nobody can write |
@@ -24,6 +25,8 @@
 //! | `map` | fuzzy cognitive maps |
 //! | `program` | the command `taxel` (feature `cli`) |
 #![forbid(unsafe_code)]
+
+mod logger;
 
 mod error;
 
@@ -69,6 +72,7 @@ use pyo3::prelude::*;
 /// The extension module.
 #[pymodule]
 fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    logger::begin();
     error::add(module)?;
     event::add(module)?;
     module.add("CONTACT", contact::dtype(module.py())?)?;

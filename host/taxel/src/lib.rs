@@ -52,10 +52,6 @@
 //! ```
 #![forbid(unsafe_code)]
 
-// First: the modules below use its macros.
-#[macro_use]
-mod stderr;
-
 #[macro_use]
 pub mod error;
 

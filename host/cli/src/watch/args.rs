@@ -17,8 +17,8 @@ const SET: &str = "Set";
 /// A board, and what is requested of it before it is watched.
 #[derive(Debug, Clone, Default, Args)]
 pub struct BoardArgs {
-    /// The same as --source: a board, the path of a port, a recording (.mcap), a robot's file (.toml: all its boards;
-    /// .toml#BOARD: one), or another tactile array (FORMAT:LINK, such as flexitac:/dev/ttyUSB0)
+    /// A source, as --source takes it: a board, the path of a port, a recording (.mcap), a robot's file (.toml: all
+    /// its boards; .toml#BOARD: one), or another tactile array (FORMAT:LINK, such as flexitac:/dev/ttyUSB0)
     #[arg(value_name = "SOURCE", conflicts_with = "source")]
     pub place: Option<SourceSpec>,
     /// The board.
@@ -38,7 +38,7 @@ pub struct BoardArgs {
     /// Poses of the links sent to the board per second [default: 50]
     #[arg(long, value_name = "HZ", value_parser = poses_hz, allow_negative_numbers = true, help_heading = SET)]
     pub poses: Option<f64>,
-    /// What bounds the joints' motion, for the error of places in the base: angular=20 rad/s2, linear=5 m/s2,
+    /// Bounds of the joints' motion, for the error of places in the base: angular=20 rad/s2, linear=5 m/s2,
     /// angular_velocity=10 rad/s, angular_error=0 rad, linear_error=0 m
     #[arg(long, value_name = "NAME=VALUE,...", help_heading = SET)]
     pub motion: Option<Motion>,

@@ -1,7 +1,6 @@
 //! Files that are read. A device need not end, and a FIFO waits for whoever writes into it: both are refused.
 
 use crate::error::FileError;
-use crate::text::verbose;
 use std::fs::{File, FileType, metadata};
 use std::io::Read;
 use std::path::Path;
@@ -9,7 +8,7 @@ use std::path::Path;
 /// Opens a file. Error if it is something else: a folder, a device, a FIFO, a socket.
 pub fn open(path: impl AsRef<Path>) -> Result<File, FileError> {
     let path = path.as_ref();
-    verbose::reads(path);
+    log::info!("reads {}", path.display());
     let unread = |error| FileError::read(path, error);
     let kind = metadata(path).map_err(unread)?.file_type();
     if !kind.is_file() {

@@ -7,7 +7,6 @@ use crate::error::{Error, Result, SourceError, UsageError};
 use crate::json;
 use crate::network::{self, BoardPlace, FrameCutter, PieceKind, PieceStamp};
 use crate::session::Observer;
-use crate::text::verbose;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -159,7 +158,7 @@ impl BoardOffer {
         if self.token.is_none() {
             let token = self.session.liveliness().declare_token(self.place.alive(self.publisher()));
             self.token = Some(token.wait()?);
-            verbose::print(format_args!("{} is offered as {:016x}", self.place, self.publisher()));
+            log::info!("{} is offered as {:016x}", self.place, self.publisher());
         }
         Ok(())
     }
@@ -220,7 +219,7 @@ fn note_rivals(place: BoardPlace, publisher: u64) -> impl Fn(Sample) + Send + Sy
         let is_new = sample.kind() == SampleKind::Put && id != publisher && !reported.contains(&id);
         if is_new && reported.len() < MOST_REPORTED {
             reported.push(id);
-            eprintln!(
+            log::warn!(
                 "{place} is offered by another program, too ({id:016x}): whoever follows it stays with the one that \
                  it has."
             );

@@ -9,7 +9,7 @@ use crate::client::{Buses, Client, Event, Identity, Stamp, Stamps, request_name}
 use crate::error::{ErrorKind, RecordingError, Result, SourceError};
 use crate::session::{Observer, PATIENCE, Returns, RunLimit, Session, Turn};
 use crate::source::Source;
-use crate::text::{verbose, words};
+use crate::text::words;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 use taxel_core::wire::Level;
@@ -334,14 +334,14 @@ fn say(client: &Client, event: &Event) {
             if let Some(description) = client.description() {
                 let (firmware, garment, scene) =
                     (&description.firmware, &description.garment.name, &description.scene.name);
-                verbose::print(format_args!("board {firmware}: garment {garment}, scene {scene}"));
+                log::info!("board {firmware}: garment {garment}, scene {scene}");
             }
         }
         Event::Answer { request, refusal: None } => {
-            verbose::print(format_args!("the board has done {}", request_name(*request)));
+            log::info!("the board has done {}", request_name(*request));
         }
         Event::Answer { request, refusal: Some(why) } => {
-            verbose::print(format_args!("the board refuses {}: {why}", request_name(*request)));
+            log::info!("the board refuses {}: {why}", request_name(*request));
         }
         _ => {}
     }

@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use crate::source::{Return, Source};
-use crate::text::verbose;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -48,7 +47,7 @@ impl Absence {
         match opened {
             Ok(source) => Some(source),
             Err(error) => {
-                verbose::print(format_args!("not back yet: {error:#}"));
+                log::info!("not back yet: {error:#}");
                 None
             }
         }

@@ -6,7 +6,6 @@ use crate::error::{Context, Result, SettingError, UsageError};
 use crate::files::bases::Base;
 use crate::files::{folds, garments};
 use crate::source::SceneFile;
-use crate::text::verbose;
 use std::path::Path;
 use taxel_core::board::TableKind;
 use taxel_core::format::Micros;
@@ -25,7 +24,7 @@ pub fn set_garment(client: &mut Client, name_or_path: &str) -> Result<()> {
         .and_then(|layout| Circuit::build(&read.garment, &layout, read.pins()))
         .map_err(|error| read.error(&error))?;
     let bytes = postcard::to_allocvec(&read.garment).context("the garment cannot be written")?;
-    verbose::print(format_args!("sending garment {}, {} bytes", read.garment.name, bytes.len()));
+    log::info!("sending garment {}, {} bytes", read.garment.name, bytes.len());
     client.request(&Request::SetGarment(&bytes)).with_context(|| name_or_path.to_string())
 }
 
@@ -44,7 +43,7 @@ pub fn set_body(client: &mut Client, body: &str, garment: &str) -> Result<()> {
             table(&garment.garment, &layout.map_err(|error| garment.error(&error))?)?
         }
     };
-    verbose::print(format_args!("sending body {body}, {} bytes", table.len()));
+    log::info!("sending body {body}, {} bytes", table.len());
     send_table(client, TableKind::Surface, &table)
 }
 
@@ -70,7 +69,7 @@ pub fn set_shapes(client: &mut Client, base: &Base) -> Result<()> {
 /// makes them. The board checks it.
 pub fn set_folds(client: &mut Client, file: &Path) -> Result<()> {
     let table = folds::read(file)?;
-    verbose::print(format_args!("sending folds {}, {} bytes", file.display(), table.len()));
+    log::info!("sending folds {}, {} bytes", file.display(), table.len());
     send_table(client, TableKind::Folds, &table)
 }
 
@@ -137,7 +136,7 @@ pub fn check_scene(file: &SceneFile) -> Result<()> {
 /// Queues `SetScene` for a scene's file.
 pub fn set_scene(client: &mut Client, file: &SceneFile) -> Result<()> {
     check_scene(file)?;
-    verbose::print(format_args!("sending scene {}", file.scene.name));
+    log::info!("sending scene {}", file.scene.name);
     client.use_for(&file.scene).with_context(|| file.name().to_string())
 }
 

@@ -8,7 +8,6 @@ use super::usb::{BAUD, PortKind, found_again, label, named_port, serial_of};
 use super::{Source, SourceOptions};
 use crate::client::{Client, Event};
 use crate::error::{Error, Result, SourceError};
-use crate::text::verbose;
 use crate::text::words::printable;
 use serialport::SerialPortInfo;
 use std::thread;
@@ -147,7 +146,7 @@ fn returned(lost: &SerialPortInfo, ports: &SerialPorts, baud: u32) -> Result<Sou
 /// still streams to an earlier program.
 fn listen(port: &SerialPortInfo, ports: &SerialPorts) -> Result<Heard, SourceError> {
     let label = label(port);
-    verbose::print(format_args!("listening for a board on {label}"));
+    log::info!("listening for a board on {label}");
     let mut link = ports.open(&port.port_name, BAUD)?;
     let (mut client, mut heard, mut stranger) = (Client::new(), Vec::new(), Stranger::default());
     let (mut buffer, begun) = ([0; 1024], Instant::now());

@@ -42,7 +42,6 @@ use crate::error::{Result, UsageError};
 use crate::files::calibrate::ForceScale;
 use crate::recording::GapMark;
 use crate::sim::Script;
-use crate::text::verbose;
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -189,7 +188,7 @@ pub fn simulated(script: Script, options: &SourceOptions) -> Result<Source> {
 /// Opens a source. Errors are one sentence.
 pub fn open(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
     let source = opened(spec, options)?;
-    verbose::print(format_args!("source {} is open", source.label));
+    log::info!("source {} is open", source.label);
     Ok(source)
 }
 

@@ -53,7 +53,7 @@ impl PortTable {
         let table =
             text.and_then(|text| toml::from_str::<ListedPorts>(&text).map_err(|error| error.to_string()));
         table.map(|table| table.port).unwrap_or_else(|why| {
-            eprintln!("TAXEL_PORTS: {}: {why}", self.0.display());
+            log::error!("TAXEL_PORTS: {}: {why}", self.0.display());
             std::process::exit(70)
         })
     }

@@ -153,7 +153,7 @@ fn fitted(
     let lacking = sim::lacking(&script, &layout);
     if let (Some(largest), false) = (sim::largest(&layout), lacking.is_empty()) {
         let (name, lacking) = (&garment.name, lacking.join(", "));
-        eprintln!(
+        log::warn!(
             "{label}: the garment {name} has no panel {lacking}: what touches there touches {}.",
             largest.name
         );
@@ -161,9 +161,10 @@ fn fitted(
     let script = scripts::fit(script, &layout)?;
     for row in &mut scene.react {
         if let Some(line) = row.output.filter(|line| circuit.lines().contains(&line.pin)) {
-            eprintln!(
+            log::warn!(
                 "{label}: the reaction {} drives no pin: GP{} is a line of the garment.",
-                row.name, line.pin
+                row.name,
+                line.pin
             );
             row.output = None;
         }

@@ -1,6 +1,5 @@
 //! Progress of long tasks, on standard error from the third second on, if it is a terminal.
 
-use super::verbose;
 use std::fmt;
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
@@ -62,7 +61,7 @@ impl Progress {
     /// Starts now; `total` is the final count, if known.
     pub fn of(what: impl fmt::Display, unit: Unit, total: Option<u64>) -> Progress {
         let terminal = stderr().is_terminal();
-        let due = if terminal { Some(QUIET) } else { verbose::is_on().then_some(LINE) };
+        let due = if terminal { Some(QUIET) } else { log::log_enabled!(log::Level::Info).then_some(LINE) };
         let total = total.filter(|total| *total > 0);
         Progress { what: what.to_string(), unit, total, began: Instant::now(), due, terminal, shown: false }
     }

@@ -28,7 +28,7 @@ pub struct DrapeArgs {
     /// Take the link's collision shape, not how it looks
     #[arg(long, requires = "robot")]
     collision: bool,
-    /// Where the files of package://NAME/ are [default: sought in the folders above the URDF]
+    /// Folder of the files of package://NAME/ [default: sought in the folders above the URDF]
     #[arg(long, value_name = "NAME=DIR", value_parser = package, requires = "robot")]
     package: Vec<(String, PathBuf)>,
     /// The panel
@@ -40,7 +40,7 @@ pub struct DrapeArgs {
     /// Metres of one unit of the mesh: 0.001 for millimetres
     #[arg(long, value_name = "M", default_value_t = 1.0, conflicts_with = "robot")]
     scale: f64,
-    /// Where the middle of the panel lies, m: the nearest point of the mesh is taken
+    /// Middle of the panel, m: the nearest point of the mesh is taken
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     at: DVec3,
     /// The direction in which the panel's rows are counted

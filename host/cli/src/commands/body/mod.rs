@@ -79,7 +79,7 @@ enum BodyTask {
         after_help = "Examples:\n  taxel body check reference\n  taxel body check reference --robot reference"
     )]
     Check {
-        /// What is checked.
+        /// The garment and the body that are checked.
         #[command(flatten)]
         dressed: DressedArgs,
         /// The robot, whose links it must lie on: a URDF file or `reference`

@@ -26,7 +26,7 @@ const EXAMPLES: &str = "Examples:
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(after_help = EXAMPLES)]
 pub struct FcmArgs {
-    /// What to do with maps [default: run one]
+    /// Command for maps [default: run one]
     #[command(subcommand)]
     command: Option<MapCommand>,
     #[command(flatten)]

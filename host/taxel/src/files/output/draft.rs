@@ -4,7 +4,6 @@ use super::named::{Named, folder};
 use super::part::{self, Part};
 use super::place::{self, Place};
 use crate::error::{Context, Result};
-use crate::text::verbose;
 use std::fs::File;
 use std::io::{self, BufWriter, Error, ErrorKind, Seek, SeekFrom, Stdout, Write, stdout};
 
@@ -42,7 +41,7 @@ impl Draft {
     /// Puts the content into the output; it is on the disk when this returns.
     pub fn keep(mut self) -> Result<()> {
         self.flush()?;
-        verbose::print(format_args!("has written {}", self.output.name.display()));
+        log::info!("has written {}", self.output.name.display());
         let Sink::File(file, part) = self.sink else { return Ok(()) };
         let place = || format!("{} cannot be written", self.output.name.display());
         file.get_ref().sync_all().with_context(place)?;

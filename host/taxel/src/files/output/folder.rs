@@ -5,7 +5,6 @@ use super::named::folder as parent;
 use super::part;
 use super::same::is_same;
 use crate::error::{Context, FileError, Result, UsageError};
-use crate::text::verbose;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -127,7 +126,7 @@ impl Folder {
             self.take_place().with_context(place)?;
         }
         part::sync_folder(parent(&self.part)).with_context(place)?;
-        verbose::print(format_args!("has written {shown}"));
+        log::info!("has written {shown}");
         let left = || format!("{shown} is written, but {} is left", self.part.display());
         remove(&self.part).with_context(left)
     }

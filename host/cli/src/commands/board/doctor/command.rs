@@ -23,7 +23,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct DoctorArgs {
-    /// The same as --source, or a robot's file (.toml): all its boards
+    /// A source, as --source takes it, or a robot's file (.toml): all its boards
     #[arg(value_name = "SOURCE", conflicts_with = "source")]
     pub place: Option<SourceSpec>,
     /// The board: `auto`, `usb[:SERIAL]`, `serial:PATH[@BAUD]`, `tcp:HOST:PORT`, `zenoh:ROBOT/BOARD`, `sim[:TOUCHES]`

@@ -45,7 +45,7 @@ pub struct CalibrateArgs {
     /// The garment, a preset or a TOML file [default: the board's]
     #[arg(long, value_name = "G")]
     pub garment: Option<String>,
-    /// What the plate under the weights covers
+    /// Area that the plate under the weights covers
     #[arg(long, value_enum, default_value_t = Cover::Panel)]
     pub over: Cover,
     /// Weights with their plate, N, put on one after the other and taken off again

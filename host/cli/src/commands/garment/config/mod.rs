@@ -93,7 +93,7 @@ enum What {
         /// The garment: a TOML file or a preset; or a robot's file, whose boards are listed
         #[arg(value_name = "FILE")]
         file: String,
-        /// Of a robot's file: print JSON instead of tables
+        /// Print JSON instead of tables (for a robot's file)
         #[arg(long)]
         json: bool,
         /// A scene for this garment

@@ -26,7 +26,7 @@ pub struct WhyArgs {
     /// has causes]
     #[arg(long)]
     pub of: Option<String>,
-    /// What if: another value of an input, or a concept held at a value against its causes, as NAME=VALUE
+    /// Change to try: another value of an input, or a concept held at a value against its causes, as NAME=VALUE
     #[arg(long, value_parser = load::assignment)]
     pub set: Vec<(String, Decimal)>,
     /// Paths to list

@@ -34,7 +34,7 @@ pub struct Ros2Args {
     pub seconds: Option<f64>,
 }
 
-/// Where nodes are, and what they publish.
+/// Names of the nodes, and what they publish.
 #[derive(Debug, Clone, Args)]
 pub struct RosNodeArgs {
     /// Domain of ROS, 0 to 232 [default: ROS_DOMAIN_ID, else 0]
