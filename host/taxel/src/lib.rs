@@ -31,6 +31,7 @@
 //! | [`record`] | recordings of a stream and their topics |
 //! | [`robot`] | a robot of several boards: its file, and all their streams as one |
 //! | [`mind`] | what touches mean to a robot of several boards |
+//! | [`motion`] | from touch to motion: velocities of the robot's joints |
 //! | [`learn`] | training of what a board recognises |
 //!
 //! Every error is an [`Error`]: sentences for people, and a [kind](Error::kind) that a program can match:
@@ -92,6 +93,8 @@ pub mod record;
 pub mod robot;
 
 pub mod mind;
+
+pub mod motion;
 
 pub mod learn;
 

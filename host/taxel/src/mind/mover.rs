@@ -6,7 +6,7 @@
 
 use super::speeds::{LinkSpeeds, LinksAt};
 use crate::body::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Speed along the normal from which on the robot itself has moved into what it touches, m/s.
 const OWN_M_S: f64 = 0.02;
@@ -32,7 +32,7 @@ pub(super) const REACH_M: f64 = BESIDE_M;
 const FACING: f64 = -0.5;
 
 /// Motion that has caused a touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mover {
     /// Motion of the robot.

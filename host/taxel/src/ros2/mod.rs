@@ -8,12 +8,14 @@
 //! | `messages.rs` | what a board reports, as standard messages |
 //! | `own.rs` | what a board reports, as messages of the package `taxel_msgs` |
 //! | `pressing.rs` | what presses on the robot, by link |
+//! | `motion.rs` | what a robot is commanded |
 //! | `parameters.rs` | names of the node's parameters |
 //! | `topics.rs` | topics and services of the node, with their types and qualities of service |
 //! | `schemas.rs` | definitions of the standard messages |
 
 mod cdr;
 pub mod messages;
+pub mod motion;
 mod names;
 pub mod own;
 pub mod parameters;

@@ -109,6 +109,23 @@ pub const HOST_INPUT: RosTopic = topic("~/host_input/NAME", "std_msgs", "Float64
 /// Topics to which the nodes subscribe.
 pub const TAKEN: [RosTopic; 3] = [JOINT_STATES, CONCEPT, HOST_INPUT];
 
+/// Velocities of the joints, for MoveIt Servo.
+pub const JOINT_JOG: RosTopic = topic("~/joint_jog", "control_msgs", "JointJog", CONTROL);
+/// Velocity of a link, for MoveIt Servo.
+pub const TWIST: RosTopic = topic("~/twist", "geometry_msgs", "TwistStamped", CONTROL);
+/// Factor on the speed of a trajectory controller.
+pub const SPEED_SCALING: RosTopic = topic("~/speed_scaling", "control_msgs", "SpeedScalingFactor", CONTROL);
+/// Velocities of the joints, for forward velocity controllers.
+pub const VELOCITIES: RosTopic = topic("~/velocities", "std_msgs", "Float64MultiArray", CONTROL);
+/// Force and moment of all touches in the base, for compliance controllers.
+pub const TOUCH_WRENCH: RosTopic = topic("~/wrench", "geometry_msgs", "WrenchStamped", CONTROL);
+/// What is commanded and why, as a line of JSON.
+pub const MOTION: RosTopic = topic("~/motion", "std_msgs", "String", EVERY);
+
+/// Topics that the node of `taxel motion` publishes.
+pub const MOTION_PUBLISHED: [RosTopic; 6] =
+    [JOINT_JOG, TWIST, SPEED_SCALING, VELOCITIES, TOUCH_WRENCH, MOTION];
+
 /// A service: its name, and package and name of its type.
 pub type RosService = (&'static str, (&'static str, &'static str));
 
@@ -118,6 +135,11 @@ pub const TARE: RosService = ("~/tare", ("std_srvs", "Trigger"));
 pub const SAVE: RosService = ("~/save", ("std_srvs", "Trigger"));
 /// Sends a scene.
 pub const SET_SCENE: RosService = ("~/set_scene", ("taxel_msgs", "SetScene"));
+
+/// Arms and disarms the node of `taxel motion`.
+pub const ARM: RosService = ("~/arm", ("std_srvs", "Trigger"));
+/// See [`ARM`].
+pub const DISARM: RosService = ("~/disarm", ("std_srvs", "Trigger"));
 
 /// Services that the node offers.
 pub const SERVICES: [RosService; 3] = [TARE, SAVE, SET_SCENE];

@@ -21,6 +21,7 @@ mod maps;
 mod meaning;
 mod mind;
 mod moments;
+mod motion;
 mod people;
 mod points;
 mod pressing;

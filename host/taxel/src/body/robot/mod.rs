@@ -7,6 +7,7 @@
 //! | `model.rs` | the robot |
 //! | `tree.rs` | links and joints joined to a robot |
 //! | `kinematics.rs` | where the links are |
+//! | `jacobian.rs` | how the joints move a point of a link |
 //! | `reach.rs` | how far a point is off if the joints are |
 //! | `positions.rs` | positions of joints by name, limits |
 //! | `shapes.rs` | meshes that a link names, and other shapes |
@@ -14,6 +15,7 @@
 
 mod element;
 mod file;
+mod jacobian;
 mod kinematics;
 mod model;
 mod positions;

@@ -4,6 +4,7 @@ use super::model::{JointKind, Robot, RobotJoint};
 use crate::error::{Result, RobotError, UsageError};
 use crate::text::words;
 use std::fmt::Display;
+use std::ops::RangeInclusive;
 
 /// Share of a joint's range by which a measured position may be beyond its limits: encoders are set to zero by
 /// hand, and stops yield.
@@ -83,6 +84,21 @@ impl Robot {
             self.within(joint, drive.position(posture), 0.0)?;
         }
         Ok(())
+    }
+
+    /// Positions of a joint of [`Robot::free`] that are at least `margin`, rad or m, within its limits, and within those
+    /// of the joints that mimic it; the middle of its range if it is not wide enough. None if nothing limits it.
+    pub fn range(&self, free: usize, margin: f64) -> Option<RangeInclusive<f64>> {
+        let limited = self.joints.iter().filter_map(|joint| Some((joint.drive?, joint.limits.as_ref()?)));
+        let own = limited.filter(|(drive, _)| drive.free == free && drive.multiplier != 0.0);
+        let ranges = own.map(|(drive, limits)| {
+            let at = |position: f64| (position - drive.offset) / drive.multiplier;
+            let (a, b) = (at(*limits.start()), at(*limits.end()));
+            (a.min(b), a.max(b))
+        });
+        let (least, most) = ranges.reduce(|a, b| (a.0.max(b.0), a.1.min(b.1)))?;
+        let middle = least.midpoint(most);
+        Some((least + margin).min(middle)..=(most - margin).max(middle))
     }
 
     /// Checks a measured position of [`Robot::free`], which may be beyond the limits by a fiftieth of the range.
