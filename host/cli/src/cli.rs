@@ -3,7 +3,7 @@
 mod completions;
 mod groups;
 
-use crate::commands::{board::*, body, garment::*, maps, process, recordings::*, shapes, views::*};
+use crate::commands::{board::*, body, garment::*, maps, motion, process, recordings::*, shapes, views::*};
 use crate::steps;
 use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -69,6 +69,7 @@ macro_rules! group {
 group!(Look {
     Live(live, LiveArgs),
     View(view, ViewArgs),
+    Motion(motion, MotionArgs),
     Ros2(ros2, Ros2Args),
     Foxglove(foxglove, FoxgloveArgs),
     Serve(serve, ServeArgs),

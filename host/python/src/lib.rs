@@ -18,6 +18,7 @@
 //! | `robot` | `Robot`: all boards of a robot as one stream |
 //! | `virtual_board` | `VirtualBoard`: a board's own code, stepped by hand |
 //! | `virtual_robot` | `VirtualRobot`: the very boards of a robot and its mind, stepped by hand |
+//! | `motion` | `Motion`: from touch to motion |
 //! | `recording` | recordings: contents, events, messages |
 //! | `features` | features of a touch, moments of an image |
 //! | `touch_model` | `TouchModel`: models of touches, made, judged and saved |
@@ -54,6 +55,8 @@ mod virtual_board;
 
 mod virtual_robot;
 
+mod motion;
+
 mod recording;
 
 mod features;
@@ -86,6 +89,9 @@ fn _taxel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::Robot>()?;
     module.add_class::<virtual_board::VirtualBoard>()?;
     module.add_class::<virtual_robot::VirtualRobot>()?;
+    module.add_class::<motion::Motion>()?;
+    module.add_class::<motion::MotionTouch>()?;
+    module.add_class::<motion::MotionCommand>()?;
     module.add_class::<touch_model::TouchModel>()?;
     module.add_class::<touch_model::TouchDecision>()?;
     module.add_class::<recording::RecordedEvents>()?;

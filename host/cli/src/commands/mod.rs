@@ -4,6 +4,7 @@ pub mod board;
 pub mod body;
 pub mod garment;
 pub mod maps;
+pub mod motion;
 pub mod process;
 pub mod recordings;
 pub mod shapes;

@@ -18,12 +18,14 @@
 //! | `services.rs` | services, and the board's answers to them |
 //! | `show.rs` | [`RosShow`]: hands the stream to all of them |
 //! | `host_input.rs` | what others send a robot of several boards, on its way to its mind |
+//! | `motion.rs` | [`MotionNode`]: the node of a robot that is moved by touch |
 //! | `robot.rs` | [`RobotNode`]: the node of a robot of several boards |
 
 mod concepts;
 mod host_input;
 mod inbox;
 mod links;
+mod motion;
 mod names;
 mod node;
 mod panels;
@@ -34,6 +36,7 @@ mod robot;
 mod services;
 mod show;
 
+pub use motion::MotionNode;
 pub use names::RosPlace;
 pub use node::{DOMAINS, RosNode};
 pub use parameters::RosParameters;

@@ -11,6 +11,7 @@ from . import _events
 from ._field import Field
 
 _B = TypeVar("_B", bound=VirtualBoard)
+_M = TypeVar("_M", bound=Motion)
 _R = TypeVar("_R", bound=Robot)
 _S = TypeVar("_S", bound=VirtualRobot)
 
@@ -263,6 +264,134 @@ class VirtualRobot:
         It is what ``taxel fcm why --json`` prints: the causes in units that add up, what each input heard down to
         the contacts of each board, and why each board announced what it did.
         """
+
+@final
+class MotionTouch:
+    """A contact on a robot, for ``Motion``.
+
+    ``at`` (m) and ``normal``, away from the robot and of any length, are in the frame of the link; ``newtons`` is what
+    presses along the normal. ``touch`` is its number from onset to release, among all contacts of the robot.
+    """
+
+    def __new__(
+        cls,
+        link: str,
+        at: Sequence[float] | npt.NDArray[np.float64],
+        normal: Sequence[float] | npt.NDArray[np.float64],
+        newtons: float,
+        *,
+        touch: int = 0,
+        region: str = "",
+        mover: str = "other",
+    ) -> MotionTouch: ...
+    @property
+    def link(self) -> str:
+        """Name of its link."""
+    @property
+    def at(self) -> list[float]:
+        """Place in the frame of the link, m."""
+    @property
+    def normal(self) -> list[float]:
+        """Direction away from the robot there."""
+    @property
+    def newtons(self) -> float:
+        """Force along the normal, N."""
+    @property
+    def touch(self) -> int:
+        """Number from onset to release."""
+    @property
+    def region(self) -> str:
+        """Name of its region."""
+    @property
+    def mover(self) -> str:
+        """Whose motion has caused it: ``own``, ``other`` or ``unsure``."""
+
+@final
+class MotionCommand:
+    """What a robot is commanded at a cycle, and why."""
+
+    @property
+    def phase(self) -> str:
+        """``disarmed``, ``armed``, or ``stopped`` by a fault until it is armed again."""
+    @property
+    def deed(self) -> str:
+        """What is done: ``nothing``, ``stop``, ``clamped``, ``retreat``, ``yield``, ``slow``, ``resume``, ``free``."""
+    @property
+    def fault(self) -> str | None:
+        """The fault that has stopped it, such as ``stale_posture``; None if none has."""
+    @property
+    def speed(self) -> float | None:
+        """Factor on the speed of the robot's own motion, 0 to 1; None while it is disarmed."""
+    @property
+    def velocities(self) -> npt.NDArray[np.float64]:
+        """Velocities in the order of ``Motion.joints``, rad/s or m/s; 0 unless it is armed."""
+    @property
+    def tank_j(self) -> float:
+        """Energy that is left in the tank, J."""
+    @property
+    def share(self) -> float:
+        """Share to which the tank, or two links that are kept apart, have cut the velocities."""
+    @property
+    def causes(self) -> list[dict[str, Any]]:
+        """Touches about which something is done: ``touch``, ``region``, ``link``, ``newtons``, ``do``, ``row``."""
+
+class Motion:
+    """From touch to motion: called with a posture and touches at each cycle, it returns velocities of the joints.
+
+    ``robot`` is a URDF file, a robot's file that names one, or ``reference``; ``behaviour`` a file or ``people``
+    (docs/motion.md of the project). It begins disarmed, and commands nothing until ``arm``. It is no safety function.
+
+    Positions are in rad or m, by name or in the order of ``joints``; joints that are left out rest. Times are
+    microseconds of one clock: of the cycle, of the posture and of the newest scan (those of the cycle if left out).
+    A posture of more than 50 ms, a scan of more than 20 ms, cycles more than 50 ms apart, times that jump, and numbers
+    that are none stop it.
+
+    >>> import taxel
+    >>> motion = taxel.Motion("reference")
+    >>> posture = {"left_shoulder_pitch": 0.8, "left_shoulder_roll": 0.7, "left_elbow": 1.2}
+    >>> press = taxel.MotionTouch("left_forearm", (0.03, 0, -0.15), (1, 0, 0), 40.0, touch=1)
+    >>> motion(posture, 5000, [press]).deed
+    'nothing'
+    >>> motion.arm(posture, 10_000)
+    >>> command = motion(posture, 15_000, [press])
+    >>> command.deed, command.speed, bool(command.velocities.any())
+    ('retreat', 0.0, True)
+    """
+
+    def __new__(
+        cls: type[_M], robot: str | PathLike[str], behaviour: str | PathLike[str] = "people"
+    ) -> _M: ...
+    @property
+    def joints(self) -> list[str]:
+        """Names of the joints that have a position of their own."""
+    @property
+    def phase(self) -> str:
+        """``disarmed``, ``armed`` or ``stopped``."""
+    @property
+    def faults(self) -> dict[str, int]:
+        """Times that each fault has stopped it."""
+    def arm(
+        self,
+        positions: dict[str, float] | Sequence[float] | npt.NDArray[np.float64],
+        time_us: int,
+        *,
+        posture_us: int | None = None,
+        frame_us: int | None = None,
+    ) -> None:
+        """Arms it, from standstill and with a full tank. Raises ``Error`` while what is known would stop it."""
+    def disarm(self) -> None:
+        """Disarms it: it says nothing more."""
+    def __call__(
+        self,
+        positions: dict[str, float] | Sequence[float] | npt.NDArray[np.float64],
+        time_us: int,
+        touches: Sequence[MotionTouch] = (),
+        *,
+        leading: str = "none",
+        posture_us: int | None = None,
+        frame_us: int | None = None,
+    ) -> MotionCommand:
+        """Advances to a cycle at a time. ``leading`` is what touches mean: none, kindness, threat or attack."""
 
 def images(
     path: str, raw: bool, first: int, last: int

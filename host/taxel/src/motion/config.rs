@@ -112,11 +112,13 @@ pub struct YieldConfig {
     pub after_s: f64,
     /// Greatest speed, m/s.
     pub speed: f64,
+    /// Time constant with which a link comes to rest that is let go, s.
+    pub rest_s: f64,
 }
 
 impl Default for YieldConfig {
     fn default() -> YieldConfig {
-        YieldConfig { mass: 0.8, damping: 18.0, after_s: 0.3, speed: 0.4 }
+        YieldConfig { mass: 5.0, damping: 16.0, after_s: 0.3, speed: 0.4, rest_s: 0.04 }
     }
 }
 

@@ -156,11 +156,13 @@ impl MotionControl {
                 TouchAction::Retreat => {
                     begin_retreat(&mut state.retreats, it, after(config.retreat.seconds));
                 }
-                TouchAction::Yield
-                    if it.is_present && now_us >= it.since_us + micros(config.yields.after_s) =>
-                {
+                TouchAction::Yield if it.is_present => {
+                    // A link that is led already is led on: a hand loses it for a moment.
+                    let is_led = state.led.iter().any(|led| led.link == it.touch.link);
+                    let is_new = now_us < it.since_us + micros(config.yields.after_s);
                     let spot = spots.iter().find(|(touch, _)| touch.touch == it.touch.touch);
-                    forces.extend(spot.map(|(touch, spot)| LeadingForce {
+                    let leads = spot.filter(|_| is_led || !is_new);
+                    forces.extend(leads.map(|(touch, spot)| LeadingForce {
                         link: touch.link,
                         at: touch.at,
                         force: -spot.normal * touch.newtons.max(0.0),

@@ -86,6 +86,7 @@ impl BehaviourText<'_> {
             ("yield.damping", yields.damping, 1.0, 1000.0),
             ("yield.after_s", yields.after_s, LEADS_AFTER_S, 60.0),
             ("yield.speed", yields.speed, 0.01, 2.0),
+            ("yield.rest_s", yields.rest_s, 0.005, 0.2),
             ("clamp.newtons", clamp.newtons, 0.1, 100.0),
             ("clamp.cosine", clamp.cosine, -1.0, 0.0),
             ("clamp.seconds", clamp.seconds, 0.0, 60.0),

@@ -7,6 +7,8 @@ use taxel_core::intent::Leading;
 
 /// Time for which a touch that has ended still counts, us: what it meant is known only then.
 const HELD_US: u64 = 1_000_000;
+/// Time for which a touch may be gone and still be the same, us: a contact flickers where cloth slides.
+const FLICKERS_US: u64 = 50_000;
 /// Most touches that are kept: a hundred boards have fewer.
 const MOST: usize = 1024;
 
@@ -43,6 +45,9 @@ pub(super) fn take(known: &mut Vec<KnownTouch>, input: &MotionInput<'_>) {
         let has_room = known.len() < MOST;
         match known.iter_mut().find(|it| it.touch.touch == touch.touch) {
             Some(it) => {
+                if now_us.saturating_sub(it.seen_us) > FLICKERS_US {
+                    (it.since_us, it.most) = (now_us, touch.newtons);
+                }
                 it.most = it.most.max(touch.newtons);
                 (it.touch, it.seen_us, it.is_present) = (touch.clone(), now_us, true);
             }

@@ -32,13 +32,15 @@ pub(super) fn advance(led: &mut Vec<Led>, forces: &[LeadingForce], config: &Yiel
             led.push(Led { link: force.link, at: force.at, velocity: DVec3::ZERO });
         }
     }
-    let decay = (-config.damping * seconds / config.mass).exp();
+    let led_decay = (-config.damping * seconds / config.mass).exp();
+    let free_decay = (-seconds / config.rest_s).exp();
     for it in led.iter_mut() {
         let own = || forces.iter().filter(|force| force.link == it.link);
         let sizes: f64 = own().map(|force| force.force.length()).sum();
         if sizes > 0.0 {
             it.at = own().map(|force| force.at * force.force.length()).sum::<DVec3>() / sizes;
         }
+        let decay = if sizes > 0.0 { led_decay } else { free_decay };
         let steady = own().map(|force| force.force).sum::<DVec3>() / config.damping;
         it.velocity = (steady + (it.velocity - steady) * decay).clamp_length_max(config.speed);
     }
@@ -54,13 +56,13 @@ mod tests {
     fn a_steady_hand_leads_steadily_and_leaves_it_at_rest() {
         let (config, mut led) = (YieldConfig::default(), Vec::new());
         let force = LeadingForce { link: 3, at: DVec3::Z, force: DVec3::X * 0.2 * config.damping };
-        for _ in 0..100 {
+        for _ in 0..1000 {
             advance(&mut led, &[force], &config, 0.005);
         }
         assert!((led[0].velocity - DVec3::X * 0.2).length() < 1e-4 && led[0].at == DVec3::Z);
-        // Let go: less than a fiftieth of the speed after 0.2 s.
+        // Let go: a hundredth of the speed after 0.2 s.
         advance(&mut led, &[], &config, 0.2);
-        assert!(led[0].velocity.length() < 0.004, "{}", led[0].velocity);
+        assert!(led.is_empty() || led[0].velocity.length() < 0.002, "{led:?}");
         advance(&mut led, &[], &config, 0.2);
         assert!(led.is_empty());
     }

@@ -11,11 +11,12 @@ fn a_hand_leads_after_a_while_and_leaves_the_arm_at_rest() {
     let command = rig.run(0.29);
     // It waits for the hand, and stands still meanwhile.
     assert!(!command.moves() && command.speed == Some(0.0));
-    let command = rig.run(0.3);
+    let command = rig.run(1.4);
     assert_eq!(command.deed, MotionDeed::Yield);
     let velocity = rig.velocity(&rig.touches[0], &command.velocities);
     let (_, normal) = rig.in_base(&rig.touches[0]);
-    assert!((velocity.length() - 4.0 / 18.0).abs() < 0.01, "{}", velocity.length());
+    // 4 N through a damping of 16 N s/m.
+    assert!((0.2..=0.25).contains(&velocity.length()), "{}", velocity.length());
     assert!(velocity.angle_between(-normal).to_degrees() < 10.0);
     let touch = rig.touches.remove(0);
     let command = rig.run(0.2);
@@ -30,7 +31,8 @@ fn pats_do_not_move_it() {
     let mut rig = Rig::armed("people", &LIFTED);
     rig.leading = Leading::Kindness;
     for pat in 0..10 {
-        rig.touches = vec![rig.touch(pat, "left_forearm", [0.03, 0.0, -0.2], [1.0, 0.0, 0.0], 9.0)];
+        // Also if a number is used again.
+        rig.touches = vec![rig.touch(pat / 2, "left_forearm", [0.03, 0.0, -0.2], [1.0, 0.0, 0.0], 9.0)];
         assert!(!rig.run(0.2).moves());
         rig.touches.clear();
         assert!(!rig.run(0.2).moves());
