@@ -90,10 +90,17 @@ def _body(joints: list[Joint], parent: str) -> str:
         at, axis = (" ".join(f"{number:g}" for number in vector) for vector in (joint.at, joint.axis))
         text += (
             f'<body name="{joint.link}" pos="{at}"><joint name="{joint.name}" axis="{axis}" armature="1e6"/>'
-            f'<geom name="{joint.link}" type="capsule" fromto="0 0 0 0 0 {joint.length:g}" size="{joint.radius:g}" mass="1" '
-            f'contype="1" conaffinity="2"/>{_body(joints, joint.link)}</body>'
+            f'<geom name="{joint.link}" type="capsule" fromto="0 0 0 0 0 {joint.length:g}" size="{joint.radius:g}" '
+            f'mass="1" contype="1" conaffinity="2"/>{_body(joints, joint.link)}</body>'
         )
     return text
+
+
+def _hand(number: int) -> str:
+    ways = zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), strict=True)
+    slides = "".join(f'<joint name="hand{number}{way}" type="slide" axis="{axis}"/>' for way, axis in ways)
+    ball = f'<geom name="hand{number}" size="{HAND_M}" mass="{HAND_KG}" contype="2" conaffinity="1"/>'
+    return f'<body name="hand{number}" pos="9 9 {9 + number}">{slides}{ball}</body>'
 
 
 @dataclass
@@ -130,16 +137,12 @@ class TouchedRobot:
     data: mujoco.MjData = field(init=False)
 
     def __post_init__(self) -> None:
-        balls = "".join(
-            f'<body name="hand{number}" pos="9 9 {9 + number}">'
-            + "".join(f'<joint name="hand{number}{way}" type="slide" axis="{axis}"/>' for way, axis in zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), strict=True))
-            + f'<geom name="hand{number}" size="{HAND_M}" mass="{HAND_KG}" contype="2" conaffinity="1"/></body>'
-            for number in range(len(self.hands))
-        )
+        balls = "".join(_hand(number) for number in range(len(self.hands)))
         damping = 1.5 * self.skin**0.5
         self.model = mujoco.MjModel.from_xml_string(
-            f'<mujoco><option timestep="{STEP_S}" gravity="0 0 0" cone="elliptic"/><default><geom solref="-{self.skin:g} -{damping:g}" '
-            f'solimp="0.95 0.95 0.001" friction="0.4"/></default><worldbody>{_body(self.joints, "base")}{balls}</worldbody></mujoco>'
+            f'<mujoco><option timestep="{STEP_S}" gravity="0 0 0" cone="elliptic"/><default>'
+            f'<geom solref="-{self.skin:g} -{damping:g}" solimp="0.95 0.95 0.001" friction="0.4"/></default>'
+            f'<worldbody>{_body(self.joints, "base")}{balls}</worldbody></mujoco>'
         )
         self.data = mujoco.MjData(self.model)
         self.count = len(self.joints)
@@ -173,8 +176,7 @@ class TouchedRobot:
     def step(self, velocities: Array) -> None:
         """Half a millisecond in which the joints go as fast as they are told."""
         self.data.qvel[self.order] = velocities
-        for hand, first in zip(self.hands, self.first, strict=True):
-            number = self.first.index(first)
+        for number, (hand, first) in enumerate(zip(self.hands, self.first, strict=True)):
             stretched = hand.driven - self.place(number)
             moving = self.data.qvel[first : first + 3]
             self.data.qfrc_applied[first : first + 3] = hand.stiffness * stretched - hand.damping * moving

@@ -28,6 +28,8 @@ LATE_S = 0.008
 JUDGED_S = 0.1
 """Time from the first touch within which directions are judged."""
 LIMIT_N = 25.0
+PALM = 5000.0
+"""Stiffness of a palm on cloth, N/m."""
 TANK_J = 1.0
 LIFTED = np.array([0.3, 0.9, 0.2, 1.1, 0.1, 0.6, 0.0])
 RETREATS = f"""name = "judged"
@@ -52,6 +54,8 @@ class Played:
     """Time since the first touch, greatest force, N."""
     angles: list[tuple[float, float, float]] = field(default_factory=list)
     """Least singular value, m/rad; angle of the commanded velocity from the inward normal, degrees; its share, m/s."""
+    links: set[str] = field(default_factory=set)
+    """Links that were told while directions were judged."""
     given: float = 0.0
     absorbed: float = 0.0
     deeds: list[str] = field(default_factory=list)
@@ -72,12 +76,15 @@ class Judged:
         assert names == [joint.name for joint in joints]
         self.limits = np.array([joint.limits for joint in joints])
 
-    def play(self, seconds: float, drive: Drive, plan: Array, *, leading: Callable[[float], str] = lambda now: "none") -> Played:
+    def play(
+        self, seconds: float, drive: Drive, plan: Array, *, leading: Callable[[float], str] = lambda now: "none"
+    ) -> Played:
         """Plays a scene from the present posture; `drive(time, robot)` drives the hands."""
         robot, played = self.robot, Played()
         motion = taxel.Motion(*self.paths)
         sent: deque[tuple[float, list[taxel.MotionTouch], list[Felt]]] = deque()
-        known: tuple[list[taxel.MotionTouch], list[Felt]] = ([], [])
+        touches: list[taxel.MotionTouch] = []
+        told: list[Felt] = []
         velocities, speed = np.zeros(robot.count), 1.0
         motion.arm(robot.posture, 1_000_000, frame_us=990_000)
         next_cycle, began, last = 0.0, None, None
@@ -89,17 +96,16 @@ class Judged:
                 felt = robot.felt()
                 sent.append((now, [self._touch(each) for each in felt], felt))
                 while sent and now - sent[0][0] >= LATE_S:
-                    _, *news = sent.popleft()
-                    known = (news[0], news[1])
+                    _, touches, told = sent.popleft()
                 us = 1_000_001 + int(now * 1e6)
                 command = motion(
-                    robot.posture, us, known[0], leading=leading(now), frame_us=us - int(LATE_S * 1e6)
+                    robot.posture, us, touches, leading=leading(now), frame_us=us - int(LATE_S * 1e6)
                 )
                 assert command.phase == "armed", command.fault
                 velocities, speed = command.velocities, command.speed or 0.0
                 played.deeds.append(command.deed)
                 if began is not None and now - began < JUDGED_S and command.deed == "retreat" and velocities.any():
-                    self._judge(played, known[1], velocities)
+                    self._judge(played, told, velocities)
             felt = robot.felt()
             if felt and began is None:
                 began = now
@@ -126,7 +132,9 @@ class Judged:
         return taxel.MotionTouch(felt.link, at, normal, felt.newtons, touch=felt.hand)
 
     def _judge(self, played: Played, felt: list[Felt], velocities: Array) -> None:
-        if len(felt) != 1:
+        # A hand that meets a second link is two touches: velocities then turn as fast as accelerations allow.
+        played.links |= {each.link for each in felt}
+        if len(felt) != 1 or len(played.links) > 1:
             return
         jacobian = self.robot.jacobian(felt[0].link, felt[0].at)
         velocity = jacobian @ velocities
@@ -145,7 +153,9 @@ class Judged:
         return body.xpos + rotation @ np.array([0, 0, along * joint.length]) + joint.radius * normal, normal
 
 
-def presses(judged: Judged, hand: int, at: Array, course: Array, newtons: float, stiffness: float, speed: float) -> Drive:
+def presses(
+    judged: Judged, hand: int, at: Array, course: Array, newtons: float, stiffness: float, speed: float
+) -> Drive:
     """Drives a hand against a place until it would press with a force, if nothing gave way."""
     start = at - course * (HAND_M + 0.003)
     robot = judged.robot
@@ -183,10 +193,8 @@ def test_random_touches_are_left_along_their_normals(kind: str, tmp_path: Path) 
         at, normal = judged.surface(str(random.choice(links)), random.uniform(0.2, 0.8), random.uniform(0, 2 * np.pi))
         aside = np.cross(normal, random.normal(size=3))
         course = -normal + np.tan(np.radians(random.uniform(0, 25))) * aside / np.linalg.norm(aside)
-        drive = presses(
-            judged, 0, at, course / np.linalg.norm(course),
-            random.uniform(2, 60), 1e3 * random.uniform(5, 50), random.uniform(0.05, 0.25),
-        )
+        newtons, stiffness, speed = random.uniform((2, 5e3, 0.05), (60, 5e4, 0.25))
+        drive = presses(judged, 0, at, course / np.linalg.norm(course), newtons, stiffness, speed)
         plan = random.uniform(-0.3, 0.3, len(joints)) if random.random() < 0.5 else np.zeros(len(joints))
         if judged.robot.felt():
             continue  # Another link is in the way.
@@ -205,11 +213,12 @@ def test_random_touches_are_left_along_their_normals(kind: str, tmp_path: Path) 
     below = float(np.mean(np.array(late) < LIMIT_N))
     print(
         f"\n{kind}: {count} touches; {len(regular)} cycles, worst {max(regular):.1f} degrees off the normal, "
-        f"99 % {np.percentile(regular, 99):.1f}; {len(singular)} near singular, least share {min(singular, default=0):.4f} m/s; "
+        f"99 % {np.percentile(regular, 99):.1f}; {len(singular)} near singular, least share "
+        f"{min(singular, default=0):.4f} m/s; "
         f"after 150 ms below {LIMIT_N:.0f} N in {100 * below:.1f} %, 99 % {np.percentile(late, 99):.1f} N; "
         f"most work on a hand {max(work):.3f} J"
     )
-    assert np.percentile(regular, 99.5) < 15.0
+    assert max(regular) < 15.0
     assert min(singular, default=1.0) > 0.0
     assert below >= 0.99
 
@@ -230,9 +239,8 @@ def test_clamped_between_two_hands_it_gives_no_work(kind: str, tmp_path: Path) -
         for hand, side in ((0, 0.0), (1, np.pi)):
             at, normal = judged.surface(link, along, about + side)
             drives.append(presses(judged, hand, at, -normal, random.uniform(8, 40), 2e4, 0.2))
-        told: list[tuple[float, float]] = []
 
-        def drive(now: float, robot: TouchedRobot, drives: list[Drive] = drives, told: list[tuple[float, float]] = told) -> None:
+        def drive(now: float, robot: TouchedRobot, drives: list[Drive] = drives) -> None:
             for each in drives:
                 each(now, robot)
 
@@ -243,9 +251,6 @@ def test_clamped_between_two_hands_it_gives_no_work(kind: str, tmp_path: Path) -
             continue
         clamped += 1
         # Both were told long ago: go on from here.
-        for hand in range(2):
-            end = np.array(judged.robot.hands[hand].driven)
-            judged.robot.hands[hand].driven = end
         held = judged.play(0.2, lambda now, robot: None, np.zeros(len(joints)))
         later = held.deeds[4:]
         assert set(later) == {"clamped"}, later
@@ -256,7 +261,7 @@ def test_clamped_between_two_hands_it_gives_no_work(kind: str, tmp_path: Path) -
 
 
 def test_it_is_led_by_hand_and_rests_when_let_go(tmp_path: Path) -> None:
-    judged = Judged(arm(), LEADS, tmp_path, 1)
+    judged = Judged(arm(), LEADS, tmp_path, 1, PALM)
     forces, rests, ways = [], [], []
     for about in (0.0, 0.8, 1.6, 4.7, 5.5):
         robot = judged.robot
@@ -274,7 +279,7 @@ def test_it_is_led_by_hand_and_rests_when_let_go(tmp_path: Path) -> None:
             # The hand follows the surface that it leads: its course is the normal there.
             felt = robot.felt()
             course = -felt[0].normal if felt else -normal
-            if now < 0.5:
+            if now < 0.35:
                 gone = start - normal * 0.003
             elif way < 0.5:
                 way += 0.2 * STEP_S
@@ -284,14 +289,15 @@ def test_it_is_led_by_hand_and_rests_when_let_go(tmp_path: Path) -> None:
             robot.hands[0].driven = gone
 
         played = judged.play(3.6, drive, np.zeros(7))
-        leading = [force for since, force in played.force if 0.8 < since < 2.9]
+        leading = [force for since, force in played.force if 1.0 < since < 2.7]
         forces.append(float(np.mean(leading)))
-        let_go = next(since for since, force in played.force if since > 2.9 and force == 0.0)
+        let_go = next(since for since, force in played.force if since > 2.75 and force == 0.0)
         begun = played.speeds[0][0]
         rests.append(max(speed for now, speed in played.speeds if now - begun > let_go + LATE_S + 0.2))
         ways.append(played.gone)
     print(
-        f"\nled: ways {min(ways):.3f} to {max(ways):.3f} m at 0.2 m/s, mean force {np.mean(forces):.2f} N, most {max(forces):.2f}; "
+        f"\nled: ways {min(ways):.3f} to {max(ways):.3f} m at 0.2 m/s, "
+        f"mean force {np.mean(forces):.2f} N, most {max(forces):.2f}; "
         f"speed 0.2 s after the hand has gone at most {1e3 * max(rests):.1f} mm/s"
     )
     assert min(ways) > 0.45 and max(forces) < 5.0 and max(rests) < 0.01
@@ -315,7 +321,10 @@ def test_a_pat_does_not_move_it_and_a_blow_does(tmp_path: Path) -> None:
     # A blow of 50 ms, understood 0.2 s after it: too late to press, and yet left.
     robot.put(0, start)
     blown = judged.play(
-        0.8, lambda now, robot: pats(0.0 if now < 0.05 else 0.3, robot), np.zeros(7), leading=lambda now: "attack" if now > 0.25 else "none"
+        0.8,
+        lambda now, robot: pats(0.0 if now < 0.05 else 0.3, robot),
+        np.zeros(7),
+        leading=lambda now: "attack" if now > 0.25 else "none",
     )
     first = next(number for number, deed in enumerate(blown.deeds) if deed == "retreat")
     assert 0.25 <= first * CYCLE_S < 0.26 + CYCLE_S and blown.gone > 0.03

@@ -22,6 +22,7 @@ mod joints;
 mod live;
 mod maps;
 mod mistakes;
+mod motion;
 mod one_bus;
 mod outputs;
 mod own_garment;
