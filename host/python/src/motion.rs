@@ -242,7 +242,7 @@ impl Motion {
 
     /// Advances to a cycle.
     #[pyo3(signature = (positions, time_us, touches=Vec::new(), *, leading="none", posture_us=None, frame_us=None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    #[allow(clippy::too_many_arguments)] // keywords in Python
     fn __call__(
         &self,
         py: Python<'_>,

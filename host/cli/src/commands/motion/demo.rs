@@ -116,7 +116,7 @@ impl Arm {
             }
             moved += before.zip(self.place(&robot, &scene.hands[0])).map_or(0.0, |(a, b)| a.distance(b));
             if cycle % LINE == 1 {
-                println!("  {at_s:.2} s  {:52}  moved {:5.1} mm", said(&command), 1e3 * moved);
+                println!("  {at_s:.2} s  {:68}  moved {:5.1} mm", said(&command), 1e3 * moved);
             }
         }
         Ok(())

@@ -14,10 +14,10 @@ const PERIOD_US: u64 = 4000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Asked {
     /// To arm it.
-    #[cfg_attr(not(feature = "ros2"), expect(dead_code, reason = "only a node is asked"))]
+    #[cfg_attr(not(feature = "ros2"), allow(dead_code, reason = "only a node is asked"))]
     Arm,
     /// To disarm it.
-    #[cfg_attr(not(feature = "ros2"), expect(dead_code, reason = "only a node is asked"))]
+    #[cfg_attr(not(feature = "ros2"), allow(dead_code, reason = "only a node is asked"))]
     Disarm,
 }
 

@@ -74,7 +74,7 @@ pub fn run(args: MotionArgs) -> Result<()> {
     let behaviour = Behaviour::read(&args.behaviour, &described)?;
     let control = MotionControl::new(described, behaviour);
     let requests = RequestLines::of(args.board.requests.as_deref())?;
-    #[cfg_attr(not(feature = "ros2"), expect(unused_mut, reason = "the node is one more"))]
+    #[cfg_attr(not(feature = "ros2"), allow(unused_mut, reason = "the node is one more"))]
     let mut faces: Vec<Box<dyn Face>> = vec![Box::new(Lines::new(&control))];
     #[cfg(feature = "ros2")]
     if args.ros2 {
