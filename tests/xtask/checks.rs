@@ -9,7 +9,7 @@ use crate::excerpt::excerpt;
 use crate::report::{Outcome, Report};
 use crate::{
     browser, features, firmware, locks, no_panic, package, paths, process, python, recordings, ros2, sizes,
-    targets,
+    targets, workflows,
 };
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -50,6 +50,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("emulator-units", emulator_units),
     ("package", package::check),
     ("locks", compare_locks),
+    ("workflows", workflows::check),
 ];
 
 /// Checks that need recordings, which only their owners have; they run on request.

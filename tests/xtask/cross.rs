@@ -22,8 +22,11 @@ const BOOTSTRAP: (&str, &str) = ("RUSTC_BOOTSTRAP", "1");
 /// takes longer than it saves. This saves 1 % of a frame's cycles and 8 % of the image. Then unrolls and
 /// inlines less than by default (300 and 250): this saves 30 KiB of the image, and the functions for which it
 /// costs cycles say `inline`.
-const FLAGS: &str =
+pub const FLAGS: &str =
     "-Cllvm-args=-unroll-runtime=false -Cllvm-args=-unroll-threshold=120 -Cllvm-args=-inline-threshold=70";
+
+/// Where cargo reads them.
+pub const FLAGS_VARIABLE: &str = "CARGO_TARGET_THUMBV6M_NONE_EABI_RUSTFLAGS";
 
 /// Oldest supported compiler version.
 const OLDEST: (u32, u32) = (1, 95);
@@ -131,6 +134,11 @@ impl Toolchain {
         }
     }
 
+    /// The compiler itself.
+    pub fn rustc(&self) -> PathBuf {
+        self.bin.join("rustc")
+    }
+
     /// Target folder; each way has its own, so that build products are not mixed.
     pub fn folder(&self) -> PathBuf {
         folder(self.way)
@@ -152,7 +160,7 @@ impl Toolchain {
             // An incremental build is cut into other units: its sizes and cycles are not those of the image.
             .env("CARGO_INCREMENTAL", "0")
             .env("CARGO_TARGET_THUMBV6M_NONE_EABI_LINKER", &self.linker)
-            .env("CARGO_TARGET_THUMBV6M_NONE_EABI_RUSTFLAGS", FLAGS)
+            .env(FLAGS_VARIABLE, FLAGS)
             .env_remove("RUSTUP_TOOLCHAIN");
         if self.described.is_some() {
             command.args(["-Zbuild-std=core", "-Zjson-target-spec"]).env(BOOTSTRAP.0, BOOTSTRAP.1);

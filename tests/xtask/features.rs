@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// All features of the firmware but `bench`.
-const ALL: [&str; 7] = ["folds", "gallery", "gesture", "intent", "raw", "reflex", "surface"];
+pub const ALL: [&str; 7] = ["folds", "gallery", "gesture", "intent", "raw", "reflex", "surface"];
 /// Name of the image with all of them, and of that without any.
 const EVERYTHING: &str = "everything";
 const ALONE: &str = "contacts alone";
@@ -37,7 +37,7 @@ fn with(mut command: Command, features: &[&str]) -> Command {
 }
 
 /// The command that builds an image with these features.
-fn image(toolchain: &Toolchain, features: &[&str]) -> Command {
+pub fn image(toolchain: &Toolchain, features: &[&str]) -> Command {
     let mut build = toolchain.cargo("build", &paths::firmware());
     build.args(["--bin", "taxel-firmware"]);
     with(build, features)

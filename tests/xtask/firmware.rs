@@ -75,13 +75,19 @@ pub fn bench_elf(toolchain: &Toolchain) -> PathBuf {
 /// Writes the UF2 beside the built ELF, and measures both.
 pub fn measure(toolchain: &Toolchain) -> Result<Image, String> {
     let elf = toolchain.folder().join(crate::cross::TARGET).join("release/taxel-firmware");
-    let file = read(&elf)?;
+    let [flash, ram] = sizes_of(&elf)?;
+    let uf2 = to_uf2(&elf)?;
+    let compiler = compiler(&elf, toolchain)?;
+    Ok(Image { elf, uf2, flash, ram, compiler })
+}
+
+/// Writes the UF2 beside a built ELF.
+pub fn to_uf2(elf: &Path) -> Result<PathBuf, String> {
+    let file = read(elf)?;
     let segments = elf::segments(&file).ok_or(format!("{} is not an ELF file", elf.display()))?;
     let uf2 = elf.with_extension("uf2");
     std::fs::write(&uf2, uf2::file(&segments)?).map_err(|error| format!("{}: {error}", uf2.display()))?;
-    let [flash, ram] = sizes(&segments);
-    let compiler = compiler(&elf, toolchain)?;
-    Ok(Image { elf, uf2, flash, ram, compiler })
+    Ok(uf2)
 }
 
 fn read(elf: &Path) -> Result<Vec<u8>, String> {

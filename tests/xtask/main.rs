@@ -31,6 +31,7 @@ mod physics;
 mod process;
 mod python;
 mod recordings;
+mod release;
 mod report;
 mod ros2;
 mod sizes;
@@ -39,6 +40,7 @@ mod targets;
 mod uf2;
 mod ways;
 mod wheels;
+mod workflows;
 mod zenoh;
 
 use std::process::ExitCode;
@@ -68,6 +70,11 @@ usage: cargo xtask COMMAND
   python [--release]    build the Python package as a wheel and test it in an environment of its own;
                         --release: as it is given away
   ros2                  test the ROS 2 node against ROS, with each distribution whose Python is there
+  release [--target TARGET...] [--out FOLDER]
+                        make what is given away, in dist/: the program for Linux on x86-64, or these systems, Python packages,
+                        firmware, message definitions, lists of dependencies with their licences, checksums
+  release --compare FOLDER FOLDER
+                        compare what was made in two folders, byte for byte
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
@@ -117,6 +124,7 @@ fn main() -> ExitCode {
         Some("mutants") => mutants::run(rest).map(|()| true),
         Some("python") => python::run(rest).map(|()| true),
         Some("ros2") => ros2::run(rest).map(|()| true),
+        Some("release") => release::run(rest).map(|()| true),
         Some("soak") => targets::soak(rest).map(|()| true),
         Some("supply") => supply::run(rest),
         Some("test") => checks::run(rest),

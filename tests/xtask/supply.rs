@@ -41,10 +41,15 @@ pub fn run(args: &[String]) -> Result<bool, String> {
         }
     }
     println!("all that was said: {}", log.display());
-    for (package, folder) in GIVEN {
-        println!("what {package} is made of: {}", listed(package, folder)?.display());
+    for (package, list) in lists()? {
+        println!("what {package} is made of: {}", list.display());
     }
     Ok(is_good)
+}
+
+/// Writes the list of each deliverable; returns its package and the list.
+pub fn lists() -> Result<Vec<(&'static str, PathBuf)>, String> {
+    GIVEN.into_iter().map(|(package, folder)| Ok((package, listed(package, folder)?))).collect()
 }
 
 impl End {

@@ -1,5 +1,5 @@
 //! What is given away of the Python package: wheels for Linux on x86-64 and on aarch64, linked by zig against
-//! the C library of 2014, and a source distribution.
+//! the C library of 2018, and a source distribution.
 
 use crate::end::End;
 use crate::{aarch64, install, interpreter, paths, process};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Targets of the wheels: that of the machine on which they are tested, and the other.
-const HERE: &str = "x86_64-unknown-linux-gnu";
-const AARCH64: &str = "aarch64-unknown-linux-gnu";
-/// What the wheels may need of a machine.
-const PLATFORM: &str = "manylinux2014";
+pub const HERE: &str = "x86_64-unknown-linux-gnu";
+pub const AARCH64: &str = "aarch64-unknown-linux-gnu";
+/// What the wheels may need of a machine: glibc 2.28, the first with the call that exchanges two names (`renameat2`).
+const PLATFORM: &str = "manylinux_2_28";
 
 /// Builds the wheel for x86-64.
 pub fn here(interpreter: &str, log: &Path) -> End<PathBuf> {
@@ -42,7 +42,7 @@ fn foreign(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String
 /// Makes a source distribution, and installs it by pip in an environment of its own; then the package as README says,
 /// whose command has all features.
 fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String> {
-    let source = maturin(tools, "sdist", &[], "source", log)?;
+    let source = maturin(tools, "sdist", &[], "source", |make| process::run_into(make, log))?;
     let own = install::new_python(interpreter, &paths::target().join("xtask/source-new"), log)?;
     let mut install = Command::new(&own);
     install.args(["-m", "pip", "install", "--quiet"]).arg(&source);
@@ -58,30 +58,46 @@ fn source(tools: &Path, interpreter: &str, log: &Path) -> Result<String, String>
     Ok(format!("{}: built and installed by pip, its first image seen; as README says, too", shown(&source)))
 }
 
-/// The environment with maturin and zig; its interpreter.
-fn tools(interpreter: &str) -> Result<PathBuf, String> {
+/// The environment with maturin, zig and cargo-zigbuild; its interpreter.
+pub fn tools(interpreter: &str) -> Result<PathBuf, String> {
     install::python_in(interpreter, &folder(), &interpreter::package().join("tests/wheels.txt"))
 }
 
-fn folder() -> PathBuf {
+/// The folder of that environment.
+pub fn folder() -> PathBuf {
     paths::target().join("xtask/wheels")
 }
 
 fn wheel(tools: &Path, target: &str, log: &Path) -> Result<PathBuf, String> {
-    process::run_into(Command::new("rustup").args(["target", "add", target]), log)?;
-    let options = ["--release", "--locked", "--zig", "--compatibility", PLATFORM, "--target"];
-    maturin(tools, "build", &[&options[..], &[target]].concat(), target, log)
+    add_target(target, log)?;
+    maturin(tools, "build", &options(target), target, |build| process::run_into(build, log))
+}
+
+/// Installs the compiler's library for a target.
+pub fn add_target(target: &str, log: &Path) -> Result<(), String> {
+    process::run_into(Command::new("rustup").args(["target", "add", target]), log)
+}
+
+/// Options of maturin for a wheel that is given away.
+pub fn options(target: &str) -> [&str; 7] {
+    ["--release", "--locked", "--zig", "--compatibility", PLATFORM, "--target", target]
 }
 
 /// Runs a command of maturin that makes one file, in a folder of its own.
-fn maturin(tools: &Path, command: &str, options: &[&str], name: &str, log: &Path) -> Result<PathBuf, String> {
+pub fn maturin(
+    tools: &Path,
+    command: &str,
+    options: &[&str],
+    name: &str,
+    run: impl FnOnce(&mut Command) -> Result<(), String>,
+) -> Result<PathBuf, String> {
     let out = paths::target().join("given").join(name);
     let _ = std::fs::remove_dir_all(&out);
     let mut maturin = Command::new(tools);
     maturin.args(["-m", "maturin", command]).args(options).arg("--out").arg(&out).arg("--manifest-path");
     // It looks for zig on the search path.
     maturin.arg(interpreter::package().join("Cargo.toml")).env("PATH", process::path_with(&folder())?);
-    process::run_into(&mut maturin, log)?;
+    run(&mut maturin)?;
     let found = std::fs::read_dir(&out).ok().and_then(|mut files| files.next()).and_then(Result::ok);
     found.map(|file| file.path()).ok_or(format!("maturin {command} has made no file"))
 }

@@ -1,0 +1,28 @@
+//! The check `workflows`: what GitHub runs is judged by programs of others, and so are the scripts of a release.
+
+use crate::end::End;
+use crate::{install, interpreter, paths, process};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Runs them, without asking the network.
+pub fn check(log: &Path) -> End {
+    let judges = judges()?;
+    let [check, release] = ["check", "release"].map(|name| format!(".github/workflows/{name}.yml"));
+    let judged: [(&str, &[&str]); 3] = [
+        ("zizmor", &["--offline", &check, &release]),
+        ("check-jsonschema", &["--builtin-schema", "vendor.github-workflows", &check, &release]),
+        ("mypy", &["--strict", "--cache-dir", "target/xtask/mypy", "tests/release"]),
+    ];
+    Ok(judged.into_iter().try_for_each(|(judge, words)| {
+        process::run_into(Command::new(judges.join(judge)).args(words).current_dir(paths::root()), log)
+    }))
+}
+
+/// The environment of the judges; the folder of its programs.
+pub fn judges() -> Result<PathBuf, String> {
+    let python = interpreter::newest().ok_or("there is no python3.11 or later")?;
+    let wanted = paths::root().join("tests/release/judges.txt");
+    let python = install::python_in(&python, &paths::target().join("xtask/judges"), &wanted)?;
+    Ok(python.with_file_name(""))
+}
