@@ -55,6 +55,22 @@ fn opened(at: c_int, path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
     meet("open", path, kind, go) as c_int
 }
 
+/// Brings a file to the disk, in pretence. A file, not a folder, that is open for reading alone is refused, as Windows
+/// does.
+fn synced(file: c_int) -> c_long {
+    // SAFETY: the system writes one `stat`, which is all numbers.
+    let (flags, is_file) = unsafe {
+        let mut known: libc::stat = std::mem::zeroed();
+        let is_file =
+            libc::fstat(file, &raw mut known) == 0 && known.st_mode & libc::S_IFMT == libc::S_IFREG;
+        (libc::fcntl(file, libc::F_GETFL), is_file)
+    };
+    if flags >= 0 && is_file && flags & libc::O_ACCMODE == libc::O_RDONLY {
+        return fail(libc::EACCES);
+    }
+    c_long::from(flags.min(0))
+}
+
 /// Defines calls on one path: name, its arguments, what they do and the system's call.
 macro_rules! on_a_path {
     ($($(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $kind:ident $at:expr, $path:ident => $call:expr;)*) => {$(
@@ -120,9 +136,9 @@ macro_rules! on_a_file {
 
 on_a_file! {
     /// Brings a file to the disk.
-    fsync(file: c_int) Moves => c_long::from(libc::fcntl(file, libc::F_GETFD).min(0));
+    fsync(file: c_int) Moves => synced(file);
     /// Brings a file's bytes to the disk.
-    fdatasync(file: c_int) Moves => c_long::from(libc::fcntl(file, libc::F_GETFD).min(0));
+    fdatasync(file: c_int) Moves => synced(file);
     /// Cuts a file.
     ftruncate(file: c_int, length: off_t) Gives => syscall(SYS_ftruncate, file, length);
     /// Cuts a file.

@@ -6,8 +6,9 @@ use std::process::{Command, Stdio};
 /// Opens an address in the system's default browser.
 pub fn open(url: &str) -> Result<()> {
     let mut command = if cfg!(target_os = "windows") {
-        let mut start = Command::new("cmd");
-        start.args(["/C", "start", ""]);
+        // Not `start` of `cmd`, for which `&` in an address ends the command.
+        let mut start = Command::new("rundll32");
+        start.arg("url.dll,FileProtocolHandler");
         start
     } else if cfg!(target_os = "macos") {
         Command::new("open")

@@ -2,7 +2,7 @@
 
 use super::Port;
 use crate::error::SourceError;
-use serialport::SerialPort;
+use serialport::{SerialPort, SerialPortInfo};
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::Duration;
 
@@ -29,13 +29,21 @@ fn fault(path: &str, baud: u32, error: &serialport::Error) -> SourceError {
     use serialport::ErrorKind::{Io, NoDevice};
     let no_board = |why: &str| SourceError::NoBoard(cannot(path, baud, why));
     match (error.kind(), error.description.as_str()) {
-        (NoDevice, _) => busy(path, baud),
+        (NoDevice, _) if !is_missing(path) => busy(path, baud),
         (Io(ErrorKind::PermissionDenied), _) => not_permitted(path, baud),
-        (Io(ErrorKind::NotFound), _) => no_board("there is no such port; `taxel ports` lists the ports"),
+        (NoDevice | Io(ErrorKind::NotFound), _) => {
+            no_board("there is no such port; `taxel ports` lists the ports")
+        }
         // The system's message about a file that is not a terminal.
         (_, "Not a typewriter" | "Inappropriate ioctl for device") => no_board("it is not a serial port"),
         (_, stated) => no_board(&stated.to_lowercase()),
     }
+}
+
+/// True on Windows, where a port that is not there is reported like one that is open elsewhere, if it is not listed.
+fn is_missing(path: &str) -> bool {
+    let is_it = |port: SerialPortInfo| port.port_name.eq_ignore_ascii_case(path);
+    cfg!(windows) && !serialport::available_ports().unwrap_or_default().into_iter().any(is_it)
 }
 
 fn cannot(path: &str, baud: u32, why: &str) -> String {

@@ -118,7 +118,7 @@ impl Begun {
     pub fn name(&mut self) -> Result<()> {
         let Some(Part(part)) = &self.part else { return Ok(()) };
         let place = || format!("{} cannot be written", self.output.name.display());
-        File::open(part).and_then(|file| file.sync_all()).with_context(place)?;
+        part::sync_file(part).with_context(place)?;
         self.output.take_name(part)?;
         self.part = None;
         Ok(())

@@ -105,7 +105,7 @@ impl Folder {
     pub fn keep(self) -> Result<()> {
         let place = || format!("{} cannot be written", self.name.display());
         for file in files(&self.part).with_context(place)? {
-            File::open(file).and_then(|file| file.sync_all()).with_context(place)?;
+            part::sync_file(&file).with_context(place)?;
         }
         self.keep_unsynced()
     }
