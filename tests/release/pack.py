@@ -21,7 +21,7 @@ NOTICES = ("LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE")
 HEAD = """What taxel's program, Python package and firmware are made of, and the licences of it.
 
 taxel itself is MIT or Apache-2.0, as you like (LICENSE-MIT, LICENSE-APACHE). The source of each crate is on
-https://crates.io under its name and version: also that of `serialport`, which is under MPL-2.0 and used unchanged.
+crates.io under its name and version: also that of `serialport`, which is under MPL-2.0 and used unchanged.
 The Rust standard library is MIT or Apache-2.0 (https://github.com/rust-lang/rust).
 """
 
@@ -86,46 +86,69 @@ def wheel(built: Path, licences: Path, out: Path) -> None:
     write_zip(out / built.name, sorted(content.items()))
 
 
-def sbom(made: Path, out: Path) -> None:
-    """A list of dependencies without the moment at which it was made, and without paths of this machine."""
-    listed = json.loads(made.read_text())
-    listed.pop("serialNumber", None)
-    listed.setdefault("metadata", {})["timestamp"] = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(TIME))
-    text = json.dumps(listed, indent=1, sort_keys=True)
-    out.write_text(text.replace(str(Path.cwd()), "") + "\n")
+class Linked:
+    """The crates that a package links, by cargo's own resolution. Without those of build scripts and tests."""
+
+    def __init__(self, manifest: Path, package: str, features: str) -> None:
+        command = ["cargo", "metadata", "--locked", "--format-version", "1", "--manifest-path", str(manifest)]
+        command += ["--features", features] if features else []
+        known = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+        packages = {found["id"]: found for found in known["packages"]}
+        nodes = {node["id"]: node["deps"] for node in known["resolve"]["nodes"]}
+        self.root: dict[str, Any] = next(found for found in packages.values() if found["name"] == package)
+        self.crates = [self.root]
+        # For each crate, those that it links.
+        self.needs: list[list[dict[str, Any]]] = []
+        for crate in self.crates:
+            kinds = ((packages[needed["pkg"]], needed["dep_kinds"]) for needed in nodes[crate["id"]])
+            needs = [needed for needed, of in kinds if any(kind["kind"] is None for kind in of)]
+            self.needs.append(needs)
+            self.crates += [needed for needed in needs if needed not in self.crates]
 
 
-def linked(manifest: Path, package: str, features: str) -> list[dict[str, Any]]:
-    """The crates of the registry that a package links, by cargo's own resolution."""
-    command = ["cargo", "metadata", "--locked", "--format-version", "1", "--manifest-path", str(manifest)]
-    command += ["--features", features] if features else []
-    known = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-    packages = {found["id"]: found for found in known["packages"]}
-    nodes = {node["id"]: node for node in known["resolve"]["nodes"]}
-    waiting = [key for key, found in packages.items() if found["name"] == package]
-    reached = set(waiting)
-    while waiting:
-        for dependency in nodes[waiting.pop()]["deps"]:
-            is_linked = any(kind["kind"] is None for kind in dependency["dep_kinds"])
-            if is_linked and dependency["pkg"] not in reached:
-                reached.add(dependency["pkg"])
-                waiting.append(dependency["pkg"])
-    return [packages[key] for key in reached if packages[key]["source"]]
+def purl(crate: dict[str, Any]) -> str:
+    return f"pkg:cargo/{crate['name']}@{crate['version']}"
 
 
-def licences(out: Path, manifest: Path, firmware: Path) -> None:
-    """Names each crate that is linked, and each text of its licences once."""
-    features = "taxel-python/full"
-    found = linked(manifest, "taxel-python", features) + linked(firmware, "taxel-firmware", "")
-    crates = {(crate["name"], crate["version"]): crate for crate in found}
+def component(crate: dict[str, Any], kind: str) -> dict[str, Any]:
+    """A crate, as CycloneDX has it. Older crates have a list of licences in place of an expression."""
+    licence = (crate["license"] or "").replace("/", " OR ")
+    described = {"type": kind, "name": crate["name"], "version": crate["version"], "purl": purl(crate)}
+    return {**described, "bom-ref": purl(crate), "licenses": [{"expression": licence}]}
+
+
+def sbom(manifest: Path, package: Path, features: Path, out: Path) -> None:
+    """Lists what a package links, in CycloneDX format."""
+    linked = Linked(manifest, str(package), str(features))
+    edges = sorted((purl(crate), sorted(map(purl, needs))) for crate, needs in zip(linked.crates, linked.needs))
+    listed = {
+        "bomFormat": "CycloneDX",
+        "specVersion": "1.6",
+        "version": 1,
+        "metadata": {
+            "timestamp": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(TIME)),
+            "component": component(linked.root, "application"),
+        },
+        "components": [component(crate, "library") for crate in sorted(linked.crates[1:], key=purl)],
+        "dependencies": [{"ref": crate, "dependsOn": needs} for crate, needs in edges],
+    }
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps(listed, indent=1) + "\n")
+
+
+def licences(out: Path, *lists: Path) -> None:
+    """Names each crate of the registry that is linked, and each text of its licences once. `lists` are a manifest, a
+    package and its features, and so on."""
+    found = [Linked(lists[at], str(lists[at + 1]), str(lists[at + 2])) for at in range(0, len(lists), 3)]
+    crates = {purl(crate): crate for linked in found for crate in linked.crates if crate["source"]}
     texts: dict[str, list[str]] = defaultdict(list)
     lines = [HEAD]
-    for (name, version), crate in sorted(crates.items()):
-        lines.append(f"{name} {version}: {crate['license']}, {crate['repository'] or 'https://crates.io/crates/' + name}")
+    for _, crate in sorted(crates.items()):
+        name = f"{crate['name']} {crate['version']}"
+        lines.append(f"{name}: {crate['license']}, {crate['repository'] or 'crates.io'}")
         for notice in sorted(Path(crate["manifest_path"]).parent.iterdir()):
             if notice.is_file() and notice.name.upper().startswith(NOTICES):
-                text = notice.read_text(errors="replace").replace("\r\n", "\n").strip()
-                texts[text].append(f"{name} {version}")
+                texts[notice.read_text(errors="replace").replace("\r\n", "\n").strip()].append(name)
     for text, names in sorted(texts.items(), key=lambda entry: entry[1]):
         lines.append(f"\n{'-' * 100}\n{', '.join(names)}:\n\n{text}")
     out.write_text("\n".join(lines) + "\n")

@@ -29,7 +29,8 @@ mod tests {
     fn pages() -> Vec<(PathBuf, String)> {
         let docs = fs::read_dir(paths::root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
         let docs = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
-        let top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|page| paths::root().join(page));
+        let top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"]
+            .map(|page| paths::root().join(page));
         docs.chain(top).map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
     }
 
@@ -112,5 +113,60 @@ mod tests {
             }
         }
         assert!(count > 40, "{count} tasks");
+    }
+
+    /// What would have somebody ask an index for this software.
+    const INDEXED: [&str; 8] = [
+        "pip install taxel",
+        "cargo install taxel",
+        "cargo install --locked taxel",
+        "cargo add taxel",
+        "cargo binstall",
+        "/project/taxel",
+        "/crates/taxel",
+        "docs.rs/taxel",
+    ];
+    /// The only section that may, until there is a tag.
+    const LATER: &str = "## Once there is a release";
+
+    /// Lines of a page that name an entry of an index which is not there.
+    fn promised(page: &str) -> Vec<&str> {
+        let now = page.split("\n## ").filter(|section| section.lines().next() != LATER.strip_prefix("## "));
+        now.flat_map(str::lines).filter(|line| INDEXED.iter().any(|words| line.contains(words))).collect()
+    }
+
+    #[test]
+    fn no_page_names_an_entry_of_an_index_that_is_not_there() {
+        let line = "pip install taxel";
+        assert_eq!(promised(&format!("# A\n{line}\n\n{LATER}\n{line}\n\n## B\n{line}\n")), [line, line]);
+        let packages = ["core", "host/python", "host/python/lerobot"].map(|folder| {
+            let page = paths::root().join(folder).join("README.md");
+            (page.clone(), fs::read_to_string(page).unwrap())
+        });
+        let pages: Vec<_> = pages().into_iter().chain(packages).collect();
+        for (path, page) in &pages {
+            assert_eq!(promised(page), [""; 0], "{}", path.display());
+        }
+        assert!(pages.iter().any(|(_, page)| page.contains(LATER)));
+    }
+
+    #[test]
+    fn the_changelog_is_short_and_has_this_version() {
+        let page = fs::read_to_string(paths::root().join("CHANGELOG.md")).unwrap();
+        let version = concat!("\n## ", env!("CARGO_PKG_VERSION"), "\n");
+        let (_, section) = page.split_once(version).expect("this version");
+        let lines = section.split("\n## ").next().unwrap().lines().count();
+        assert!(lines <= 80, "{lines} lines");
+    }
+
+    /// The rule of Linux names the device that the library looks for.
+    #[test]
+    fn the_rule_for_linux_names_the_board() {
+        let read = |path| fs::read_to_string(paths::root().join(path)).unwrap();
+        let rule = read("examples/linux/70-taxel.rules");
+        let word = |key: &str| rule.split_once(&format!("{key}}}==\"")).unwrap().1.split('"').next().unwrap();
+        let (vendor, product, name) = (word("idVendor"), word("idProduct"), word("{product"));
+        let board = format!("(0x{vendor}, 0x{product}, \"{}\")", name.trim_end_matches('*'));
+        assert!(read("host/taxel/src/source/usb.rs").contains(&board), "{board}");
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::cross::{self, Toolchain};
 use crate::{features, firmware, interpreter, paths, process, supply, wheels};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -10,7 +11,7 @@ use std::time::Instant;
 /// Version of everything.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// What the program can do: all but Zenoh, which takes the compiler minutes.
-const FEATURES: &str = "taxel-cli/foxglove,taxel-cli/ros2";
+pub const FEATURES: &str = "taxel-cli/foxglove,taxel-cli/ros2";
 /// Systems of the program; the first one is that of the checks.
 const TARGETS: [&str; 3] = [wheels::HERE, wheels::AARCH64, "x86_64-pc-windows-gnu"];
 /// Files that lie beside the program, from the repository.
@@ -52,7 +53,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
             release.wheel(target)?;
         }
     }
-    release.pack("sums", &[&release.out])
+    release.pack("sums", [&release.out])
 }
 
 /// What all parts share.
@@ -82,11 +83,12 @@ impl Release {
             tools: wheels::tools(&python)?,
             time: time.ok_or("the time is neither in SOURCE_DATE_EPOCH nor that of a commit")?,
         };
-        for (package, list) in supply::lists()? {
-            release.pack("sbom", &[&list, &release.out.join(format!("{package}-{VERSION}.cdx.json"))])?;
+        for given in &supply::GIVEN {
+            let list = release.out.join(format!("{}-{VERSION}.cdx.json", given.package)).into();
+            release.pack("sbom", given.words().into_iter().chain([list]))?;
         }
-        let manifests = [paths::root(), paths::firmware()].map(|folder| folder.join("Cargo.toml"));
-        release.pack("licences", &[&release.licences, &manifests[0], &manifests[1]])?;
+        let all = supply::GIVEN.iter().flat_map(supply::Given::words);
+        release.pack("licences", [release.licences.clone().into()].into_iter().chain(all))?;
         Ok(release)
     }
 
@@ -115,7 +117,7 @@ impl Release {
         let wheel = wheels::maturin(&self.tools, "build", &wheels::options(target), target, |build| {
             self.run(&format!("wheel for {target}"), build)
         })?;
-        self.pack("wheel", &[&wheel, &self.licences, &self.out])
+        self.pack("wheel", [&wheel, &self.licences, &self.out])
     }
 
     /// The source distribution.
@@ -153,12 +155,11 @@ impl Release {
     }
 
     fn archive(&self, name: &str, files: &[PathBuf]) -> Result<(), String> {
-        let out = self.out.join(name);
-        self.pack("archive", &[&[&out], &files.iter().collect::<Vec<_>>()[..]].concat())
+        self.pack("archive", [&self.out.join(name)].into_iter().chain(files))
     }
 
-    fn pack(&self, task: &str, paths: &[&PathBuf]) -> Result<(), String> {
-        process::run(packer(task).args(paths).env("SOURCE_DATE_EPOCH", &self.time))
+    fn pack(&self, task: &str, words: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<(), String> {
+        process::run(packer(task).args(words).env("SOURCE_DATE_EPOCH", &self.time))
     }
 
     fn copy(&self, from: &Path, name: &str) -> Result<(), String> {
@@ -168,7 +169,7 @@ impl Release {
 }
 
 /// The program that packs and compares.
-fn packer(task: &str) -> Command {
+pub fn packer(task: &str) -> Command {
     let mut packer = Command::new("python3");
     packer.arg(paths::root().join("tests/release/pack.py")).arg(task).current_dir(paths::root());
     packer

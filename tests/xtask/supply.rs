@@ -1,7 +1,8 @@
 //! `cargo xtask supply`: checks the dependencies' sources, licences and advisories, and writes a list of them
 //! for each deliverable.
 
-use crate::{install, paths, process};
+use crate::{install, paths, process, release};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -10,8 +11,22 @@ const CHECKS: [&str; 4] = ["licenses", "sources", "bans", ADVISORIES];
 const ADVISORIES: &str = "advisories";
 /// Its message if the advisories are not available.
 const NO_LIST: &str = "failed to fetch advisory database";
-/// Deliverables, and the folders of their lock files.
-const GIVEN: [(&str, &str); 3] = [("taxel-cli", "."), ("taxel-python", "."), ("taxel-firmware", "firmware")];
+/// A deliverable.
+pub struct Given {
+    /// Name of its package.
+    pub package: &'static str,
+    /// Folder of its lock file.
+    folder: &'static str,
+    /// What it is built with beside its default features.
+    features: &'static str,
+}
+
+/// All of them.
+pub const GIVEN: [Given; 3] = [
+    Given { package: "taxel-cli", folder: ".", features: release::FEATURES },
+    Given { package: "taxel-python", folder: ".", features: "taxel-python/full" },
+    Given { package: "taxel-firmware", folder: "firmware", features: "default" },
+];
 
 /// Result of a check.
 #[derive(Debug, PartialEq, Eq)]
@@ -41,15 +56,10 @@ pub fn run(args: &[String]) -> Result<bool, String> {
         }
     }
     println!("all that was said: {}", log.display());
-    for (package, list) in lists()? {
-        println!("what {package} is made of: {}", list.display());
+    for given in &GIVEN {
+        println!("what {} is made of: {}", given.package, listed(given)?.display());
     }
     Ok(is_good)
-}
-
-/// Writes the list of each deliverable; returns its package and the list.
-pub fn lists() -> Result<Vec<(&'static str, PathBuf)>, String> {
-    GIVEN.into_iter().map(|(package, folder)| Ok((package, listed(package, folder)?))).collect()
 }
 
 impl End {
@@ -83,17 +93,16 @@ fn asked(deny: &Path, manifest: &Path, check: &str, log: &Path) -> End {
 }
 
 /// Writes the list of a package's dependencies, in CycloneDX format.
-fn listed(package: &str, folder: &str) -> Result<PathBuf, String> {
-    let tool = install::cargo_tool("cargo-sbom", "0.10.0").map_err(|why| format!("not run: {why}"))?;
-    let mut command = Command::new(tool);
-    command.args(["sbom", "--output-format", "cyclone_dx_json_1_6", "--cargo-package", package]);
-    command.arg("--project-directory").arg(paths::root().join(folder));
-    let list = process::output(&mut command).ok_or(format!("`{}` failed", process::shown(&command)))?;
-    let path = paths::target().join(format!("sbom/{package}.cdx.json"));
-    let write = || {
-        std::fs::create_dir_all(path.parent().expect("it lies in a folder"))?;
-        std::fs::write(&path, list)
-    };
-    write().map_err(|error| format!("{}: {error}", path.display()))?;
+fn listed(given: &Given) -> Result<PathBuf, String> {
+    let path = paths::target().join(format!("sbom/{}.cdx.json", given.package));
+    process::run(release::packer("sbom").args(given.words()).arg(&path))?;
     Ok(path)
+}
+
+impl Given {
+    /// Its manifest, name and features.
+    pub fn words(&self) -> [OsString; 3] {
+        let manifest = paths::root().join(self.folder).join("Cargo.toml");
+        [manifest.into(), self.package.into(), self.features.into()]
+    }
 }
