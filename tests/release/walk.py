@@ -1,5 +1,5 @@
 """Walks through a program that is given away, as a user would: it starts, simulates, records, survives a kill, repairs,
-shows, exports, and refuses in sentences. `walk.py [--through RUNNER...] PROGRAM`; RUNNER is wine or an emulator.
+shows, exports, and refuses in sentences. `walk.py [RUNNER...] PROGRAM`; RUNNER is wine or an emulator.
 
 Prints what it took. The first step that does not hold ends it with an error."""
 
@@ -135,8 +135,7 @@ def check(holds: bool, why: str) -> None:
 
 
 def main(words: list[str]) -> None:
-    command = words[1:] if words[0] == "--through" else words
-    command[-1] = str(Path(command[-1]).absolute())
+    command = [*words[:-1], str(Path(words[-1]).absolute())]
     with tempfile.TemporaryDirectory() as folder:
         Walk(command, Path(folder)).all()
     print("the walk is done")

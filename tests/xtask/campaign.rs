@@ -1,7 +1,7 @@
 //! `cargo xtask campaign`: long runs, each of which prints a table.
 
 use crate::guests::{self, Guest};
-use crate::{boards, browser, paths, physics, python, ros2, targets, ways, wheels, zenoh};
+use crate::{boards, browser, given, paths, physics, python, ros2, targets, ways, wheels, zenoh};
 use std::path::{Path, PathBuf};
 
 /// Kind of a run.
@@ -41,6 +41,8 @@ enum Run {
     Peers,
     /// The image by each toolchain.
     Ways,
+    /// What is given away.
+    Release,
 }
 
 /// The runs. Tests print more if TAXEL_CAMPAIGN is set.
@@ -225,6 +227,11 @@ const RUNS: &[(&str, Run, &str)] = &[
     ),
     ("peers", Run::Peers, "the core beside imageproc: the same contacts with the same sums"),
     ("compilers", Run::Ways, "the image by each compiler: sizes, and cycles of a frame (emulated)"),
+    (
+        "release",
+        Run::Release,
+        "what is given away: the program of each system, by qemu-user and Wine, and the wheel with each CPython, from the command to a repaired recording",
+    ),
 ];
 
 /// Title of the table.
@@ -284,6 +291,7 @@ fn measured(run: Run, log: &Path) -> Result<String, String> {
         Run::Disk => targets::on_failing_disk(log, &longer)?,
         Run::Peers => targets::equal_to_peers(log),
         Run::Ways => ways::measured(log),
+        Run::Release => given::campaign(log)?,
     };
     let lines = end.map_err(|why| format!("{why}, see {}", log.display()))?;
     // Paths of written files do not belong into the table.

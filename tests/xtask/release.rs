@@ -2,7 +2,7 @@
 //! definitions, lists of what they are made of, checksums. The same commit gives the same bytes in any folder.
 
 use crate::cross::{self, Toolchain};
-use crate::{features, firmware, interpreter, paths, process, supply, wheels};
+use crate::{features, firmware, interpreter, pack, paths, process, supply, wheels};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,10 +10,10 @@ use std::time::Instant;
 
 /// Version of everything.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// What the program can do: all but Zenoh, which takes the compiler minutes.
-pub const FEATURES: &str = "taxel-cli/foxglove,taxel-cli/ros2";
 /// Systems of the program; the first one is that of the checks.
-const TARGETS: [&str; 3] = [wheels::HERE, wheels::AARCH64, "x86_64-pc-windows-gnu"];
+pub const TARGETS: [&str; 3] = [wheels::HERE, wheels::AARCH64, "x86_64-pc-windows-gnu"];
+/// Systems for which only a machine of their own builds.
+const MACOS: [&str; 2] = ["aarch64-apple-darwin", "x86_64-apple-darwin"];
 /// Files that lie beside the program, from the repository.
 const BESIDE: [&str; 5] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "examples"];
 /// Images of the firmware: the end of their name, and their features.
@@ -25,12 +25,15 @@ pub fn run(args: &[String]) -> Result<(), String> {
     let words: Vec<&str> = args.iter().map(String::as_str).collect();
     if let ["--compare", one, other] = words[..] {
         let absolute = |folder| std::path::absolute(folder).map_err(|error| format!("{folder}: {error}"));
-        return process::run(packer("compare").args([absolute(one)?, absolute(other)?]));
+        return process::run(pack::command("compare").args([absolute(one)?, absolute(other)?]));
     }
     for pair in words.chunks(2) {
         match pair {
-            ["--target", target] if TARGETS.contains(target) => targets.push(*target),
-            ["--target", ..] => return Err(format!("--target takes one of: {}", TARGETS.join(", "))),
+            ["--target", target] if [&TARGETS[..], &MACOS].concat().contains(target) => targets.push(*target),
+            ["--target", ..] => {
+                let known = [&TARGETS[..], &MACOS].concat().join(", ");
+                return Err(format!("--target takes one of: {known}"));
+            }
             ["--out", folder] => {
                 out = std::path::absolute(folder).map_err(|error| format!("{folder}: {error}"))?
             }
@@ -41,17 +44,17 @@ pub fn run(args: &[String]) -> Result<(), String> {
         targets.push(TARGETS[0]);
     }
     let release = Release::begin(out)?;
-    let messages = paths::root().join("host/ros2/taxel_msgs");
-    release.archive(&format!("taxel_msgs-{VERSION}.tar.gz"), &[messages])?;
-    release.firmware()?;
-    release.source()?;
-    for target in targets {
+    for target in &targets {
         wheels::add_target(target, &release.log)?;
         release.program(target)?;
-        // Of the other systems, the workflow makes the wheels on themselves.
-        if target.contains("linux") {
-            release.wheel(target)?;
-        }
+        release.wheel(target)?;
+    }
+    // What is the same for all systems is made on Linux.
+    if targets.iter().any(|target| TARGETS.contains(target)) {
+        let messages = paths::root().join("host/ros2/taxel_msgs");
+        release.archive(&format!("taxel_msgs-{VERSION}.tar.gz"), &[messages])?;
+        release.source()?;
+        release.firmware()?;
     }
     release.pack("sums", [&release.out])
 }
@@ -94,14 +97,20 @@ impl Release {
 
     /// The program for a system, with its licences, packed.
     fn program(&self, target: &str) -> Result<(), String> {
-        let mut build = Command::new(wheels::folder().join("bin/cargo-zigbuild"));
-        build.args(["zigbuild", "--release", "--locked", "--package", "taxel-cli", "--bin", "taxel"]);
+        let mut build = if MACOS.contains(&target) {
+            crate::cargo::cargo(&["build"], paths::root())
+        } else {
+            let mut zig = Command::new(wheels::folder().join("bin/cargo-zigbuild"));
+            zig.arg("zigbuild");
+            zig
+        };
+        build.args(["--release", "--locked", "--package", "taxel-cli", "--bin", "taxel"]);
         // Linux: against the C library of 2018.
         let glibc = if target.contains("linux") { ".2.28" } else { "" };
         build
-            .args(["--features", FEATURES, "--target", &format!("{target}{glibc}")])
+            .args(["--features", supply::FEATURES, "--target", &format!("{target}{glibc}")])
             .current_dir(paths::root());
-        self.run(target, build.env("CARGO_PROFILE_RELEASE_STRIP", "symbols"))?;
+        self.run(target, &mut build)?;
         let (program, end) =
             if target.contains("windows") { ("taxel.exe", "zip") } else { ("taxel", "tar.gz") };
         let built = paths::target().join(target).join("release").join(program);
@@ -149,6 +158,8 @@ impl Release {
         let start = Instant::now();
         build.env("CARGO_ENCODED_RUSTFLAGS", remapped("rustc".as_ref())?.join("\x1f"));
         build.env("SOURCE_DATE_EPOCH", &self.time).env("CARGO_INCREMENTAL", "0");
+        // Of programs and wheels alike, which share what is built of their dependencies.
+        build.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         process::run_into(build, &self.log).map_err(|why| format!("{why}, see {}", self.log.display()))?;
         println!("{what}: {} s", start.elapsed().as_secs());
         Ok(())
@@ -159,20 +170,13 @@ impl Release {
     }
 
     fn pack(&self, task: &str, words: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Result<(), String> {
-        process::run(packer(task).args(words).env("SOURCE_DATE_EPOCH", &self.time))
+        process::run(pack::command(task).args(words).env("SOURCE_DATE_EPOCH", &self.time))
     }
 
     fn copy(&self, from: &Path, name: &str) -> Result<(), String> {
         let copied = std::fs::copy(from, self.out.join(name));
         copied.map(|_| ()).map_err(|error| format!("{}: {error}", from.display()))
     }
-}
-
-/// The program that packs and compares.
-pub fn packer(task: &str) -> Command {
-    let mut packer = Command::new("python3");
-    packer.arg(paths::root().join("tests/release/pack.py")).arg(task).current_dir(paths::root());
-    packer
 }
 
 /// Options by which a compiler writes no path of this machine into what it makes.

@@ -1,7 +1,7 @@
 //! `cargo xtask supply`: checks the dependencies' sources, licences and advisories, and writes a list of them
 //! for each deliverable.
 
-use crate::{install, paths, process, release};
+use crate::{install, pack, paths, process};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,6 +11,9 @@ const CHECKS: [&str; 4] = ["licenses", "sources", "bans", ADVISORIES];
 const ADVISORIES: &str = "advisories";
 /// Its message if the advisories are not available.
 const NO_LIST: &str = "failed to fetch advisory database";
+/// What the program can do where it is given away: all but Zenoh, which takes the compiler minutes.
+pub const FEATURES: &str = "taxel-cli/foxglove,taxel-cli/ros2";
+
 /// A deliverable.
 pub struct Given {
     /// Name of its package.
@@ -23,7 +26,7 @@ pub struct Given {
 
 /// All of them.
 pub const GIVEN: [Given; 3] = [
-    Given { package: "taxel-cli", folder: ".", features: release::FEATURES },
+    Given { package: "taxel-cli", folder: ".", features: FEATURES },
     Given { package: "taxel-python", folder: ".", features: "taxel-python/full" },
     Given { package: "taxel-firmware", folder: "firmware", features: "default" },
 ];
@@ -95,7 +98,7 @@ fn asked(deny: &Path, manifest: &Path, check: &str, log: &Path) -> End {
 /// Writes the list of a package's dependencies, in CycloneDX format.
 fn listed(given: &Given) -> Result<PathBuf, String> {
     let path = paths::target().join(format!("sbom/{}.cdx.json", given.package));
-    process::run(release::packer("sbom").args(given.words()).arg(&path))?;
+    process::run(pack::command("sbom").args(given.words()).arg(&path))?;
     Ok(path)
 }
 

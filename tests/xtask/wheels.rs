@@ -79,8 +79,13 @@ pub fn add_target(target: &str, log: &Path) -> Result<(), String> {
 }
 
 /// Options of maturin for a wheel that is given away.
-pub fn options(target: &str) -> [&str; 7] {
-    ["--release", "--locked", "--zig", "--compatibility", PLATFORM, "--target", target]
+pub fn options(target: &str) -> Vec<&str> {
+    let linked: &[&str] = match target {
+        _ if target.contains("linux") => &["--zig", "--compatibility", PLATFORM],
+        _ if target.contains("windows") => &["--zig"],
+        _ => &[],
+    };
+    [&["--release", "--locked", "--target", target], linked].concat()
 }
 
 /// Runs a command of maturin that makes one file, in a folder of its own.

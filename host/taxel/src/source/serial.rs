@@ -107,3 +107,17 @@ impl Port for Serial {
         KEEPS
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Windows reports both alike; elsewhere this kind of error is that of a port that is open.
+    #[test]
+    fn a_port_that_is_not_there_is_not_called_busy() {
+        let error = serialport::Error::new(serialport::ErrorKind::NoDevice, "");
+        let words = if cfg!(windows) { "there is no such port" } else { "another program has it open" };
+        let told = fault("COM250", 9600, &error).to_string();
+        assert!(told.contains(words), "{told}");
+    }
+}
