@@ -61,8 +61,7 @@ fn synced(file: c_int) -> c_long {
     // SAFETY: the system writes one `stat`, which is all numbers.
     let (flags, is_file) = unsafe {
         let mut known: libc::stat = std::mem::zeroed();
-        let is_file =
-            libc::fstat(file, &raw mut known) == 0 && known.st_mode & libc::S_IFMT == libc::S_IFREG;
+        let is_file = libc::fstat(file, &raw mut known) == 0 && known.st_mode & libc::S_IFMT == libc::S_IFREG;
         (libc::fcntl(file, libc::F_GETFL), is_file)
     };
     if flags >= 0 && is_file && flags & libc::O_ACCMODE == libc::O_RDONLY {

@@ -158,6 +158,8 @@ impl Release {
         let start = Instant::now();
         build.env("CARGO_ENCODED_RUSTFLAGS", remapped("rustc".as_ref())?.join("\x1f"));
         build.env("SOURCE_DATE_EPOCH", &self.time).env("CARGO_INCREMENTAL", "0");
+        // Where zig is found.
+        build.env("PATH", process::path_with(&wheels::folder())?);
         // Of programs and wheels alike, which share what is built of their dependencies.
         build.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         process::run_into(build, &self.log).map_err(|why| format!("{why}, see {}", self.log.display()))?;

@@ -59,9 +59,11 @@ fn io(message: &str) -> String {
     let mut text = message.trim_start_matches("i/o error: ").to_string();
     while let Some(start) = text.find(" (os error ") {
         let Some(length) = text[start..].find(')') else { break };
-        text.replace_range(start..=start + length, "");
+        // Windows ends the sentence itself.
+        let end = text[..start].trim_end_matches('.').len();
+        text.replace_range(end..=start + length, "");
         // The text before the number is a sentence of the system.
-        let begin = text[..start].rfind(": ").map_or(0, |at| at + 2);
+        let begin = text[..end].rfind(": ").map_or(0, |at| at + 2);
         if let Some(lower) = text[begin..].chars().next().map(|first| first.to_lowercase().to_string()) {
             text.replace_range(begin..begin + text[begin..].chars().next().map_or(0, char::len_utf8), &lower);
         }
@@ -81,6 +83,8 @@ mod tests {
         assert_eq!(sentence(&flat), "tcp:a:1 cannot be reached: no such file or directory");
         let deep = crate::Error::from(missing).context("x.toml cannot be read");
         assert_eq!(sentence(&deep), "x.toml cannot be read: no such file or directory");
+        let windows = "x.toml cannot be read: The system cannot find the file specified. (os error 2): y";
+        assert_eq!(io(windows), "x.toml cannot be read: the system cannot find the file specified: y");
         let number = serde_json::from_str::<u8>("-3").context("age").unwrap_err();
         assert_eq!(
             sentence(&number),
