@@ -76,6 +76,7 @@ fn mistakes_are_reported_in_plain_words() {
         2,
         "'0' for '--every <N>': it must be 1",
     );
+    #[cfg(unix)]
     ends(
         &["live", "--source", "serial:/dev/null"],
         3,

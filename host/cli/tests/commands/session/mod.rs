@@ -6,5 +6,6 @@ mod memory;
 #[allow(dead_code)]
 #[path = "../../../../taxel/tests/library/session/rig.rs"]
 mod rig;
+#[cfg(unix)]
 mod soak;
 mod watched;

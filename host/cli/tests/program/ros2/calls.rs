@@ -55,6 +55,7 @@ fn an_answer_to_a_long_scene_arrives_and_is_short() {
 }
 
 /// A pipe that nobody writes is the slowest of files.
+#[cfg(unix)]
 #[test]
 fn a_scene_that_is_read_slowly_holds_up_no_contacts() {
     let pipe = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("scene-{}", std::process::id()));

@@ -43,6 +43,7 @@ fn talker(name: &str) -> RosNode {
 }
 
 /// The one that stands still is a `taxel ros2` that subscribes to a concept.
+#[cfg(unix)]
 #[test]
 fn a_subscriber_that_confirms_nothing_takes_nothing_from_others() {
     let still = Taxel::start("still", &["--source", "sim:idle", "--scene", &scene().display().to_string()]);
