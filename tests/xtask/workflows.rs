@@ -9,10 +9,11 @@ use std::process::Command;
 pub fn check(log: &Path) -> End {
     let judges = judges()?;
     let [check, release] = ["check", "release"].map(|name| format!(".github/workflows/{name}.yml"));
-    let judged: [(&str, &[&str]); 3] = [
+    let judged: [(&str, &[&str]); 4] = [
         ("zizmor", &["--offline", &check, &release]),
         ("check-jsonschema", &["--builtin-schema", "vendor.github-workflows", &check, &release]),
         ("mypy", &["--strict", "--cache-dir", "target/xtask/mypy", "tests/release"]),
+        ("python", &["-m", "unittest", "discover", "--start-directory", "tests/release"]),
     ];
     Ok(judged.into_iter().try_for_each(|(judge, words)| {
         process::run_into(Command::new(judges.join(judge)).args(words).current_dir(paths::root()), log)
