@@ -113,3 +113,22 @@ pub fn shown(file: &Path) -> String {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     format!("{name} of {:.1} MB", bytes as f64 / 1e6)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Links of a repository are texts on Windows: the package has copies of the licences.
+    #[test]
+    fn nothing_in_the_repository_is_a_link() {
+        let mut list = Command::new("git");
+        let listed = process::output(list.args(["ls-files", "--stage"]).current_dir(paths::root())).unwrap();
+        let links: Vec<&str> = listed.lines().filter(|line| line.starts_with("120000")).collect();
+        assert!(listed.lines().count() > 1000 && links.is_empty(), "{links:?}");
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            let [a, b] =
+                [paths::root(), interpreter::package()].map(|folder| std::fs::read(folder.join(licence)));
+            assert!(a.unwrap() == b.unwrap(), "{licence}");
+        }
+    }
+}
