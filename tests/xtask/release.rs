@@ -1,5 +1,5 @@
 //! `cargo xtask release`: makes what is given away, in `dist/`: programs, Python packages, firmware, message
-//! definitions, lists of what they are made of, checksums. The same commit gives the same bytes in any folder.
+//! definitions, lists of what they are made of, checksums. No path, no moment and no user of this machine goes into it.
 
 use crate::cross::{self, Toolchain};
 use crate::{features, firmware, interpreter, pack, paths, process, supply, wheels};
