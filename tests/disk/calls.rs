@@ -57,7 +57,11 @@ fn opened(at: c_int, path: *const c_char, flags: c_int, mode: mode_t) -> c_int {
 
 /// Brings a file to the disk, in pretence. A file, not a folder, that is open for reading alone is refused, as Windows
 /// does.
-fn synced(file: c_int) -> c_long {
+///
+/// # Safety
+///
+/// As the C library's.
+unsafe fn synced(file: c_int) -> c_long {
     // SAFETY: the system writes one `stat`, which is all numbers.
     let (flags, is_file) = unsafe {
         let mut known: libc::stat = std::mem::zeroed();
