@@ -5,6 +5,9 @@ use crate::{install, interpreter, paths, process};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// The oldest CPython for which all of them are there.
+const OLDEST: u32 = 11;
+
 /// Runs them, without asking the network.
 pub fn check(log: &Path) -> End {
     let judges = judges()?;
@@ -22,7 +25,9 @@ pub fn check(log: &Path) -> End {
 
 /// The environment of the judges; the folder of its programs.
 pub fn judges() -> Result<PathBuf, String> {
-    let python = interpreter::newest().ok_or("there is no python3.11 or later")?;
+    let mut newest = (OLDEST..=*interpreter::VERSIONS.end()).rev();
+    let python = newest.find_map(interpreter::interpreter);
+    let python = python.ok_or(format!("there is no python3.{OLDEST} or later"))?;
     let wanted = paths::root().join("tests/release/judges.txt");
     let python = install::python_in(&python, &paths::target().join("xtask/judges"), &wanted)?;
     Ok(python.with_file_name(""))
