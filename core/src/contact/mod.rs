@@ -7,11 +7,11 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
 //! | RAM | [`ContactState`]: 58,024 bytes |
-//! | M0+ cycles | 2 k where nothing touches, 22 k with a contact of 29 taxels, 70 k with five |
+//! | M0+ cycles | 2 k where nothing touches, 21 k with a contact of 29 taxels, 62 k with five |
 //!
 //! The RAM is that of the [capacities](crate::capacity) that ship, with what later stages keep in the table of
-//! contacts. The cycles are of the reference garment, where forty contacts of 4 to 9 taxels take 234 k, all
-//! 2,048 taxels 195 k, and a checkerboard of 1,024 runs, the most that there can be, 764 k.
+//! contacts. The cycles are of the reference garment, where forty contacts of 4 to 9 taxels take 232 k, all
+//! 2,048 taxels 190 k, and a checkerboard of 1,024 runs 223 k.
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
 //! taxel of the component, in its panel or across a seam. A component is a contact if its peak reaches the
@@ -28,15 +28,15 @@
 //! quarter of the total comes or goes at once, the centroid jumps, and the jump counts neither as
 //! displacement nor as velocity.
 //!
-//! Motion is that of the centroid. A slip begins when three steps in a row go the same way, and together are at least as fast as the slip speed
-//! and three times the contact's own jitter (`track::slip`). It lasts as long as the velocity is above the
-//! slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`].
+//! Motion is that of the centroid. A slip begins when three steps in a row go the same way, and together are
+//! at least as fast as the slip speed and three times the contact's own jitter (`track::slip`). It lasts as
+//! long as the velocity is above the slip speed. A scene without slip sets `slip_speed` to [`NO_SLIP`].
 //!
 //! The stage makes four passes: each active row as bits (`segment::threshold`), its runs summed up and joined
 //! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
-//! (`measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
+//! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
 //! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
-//! `track::tracks`), and the form of one contact is measured (`measure::form`, `measure::quartic`): it costs
+//! `track::tracks`), and the form of one contact is measured (`measure::frame_view`, `measure::quartic`): it costs
 //! as much as the rest of a contact together, and changes slowly.
 
 mod stage;

@@ -13,7 +13,6 @@ use crate::measure::quartic::Quartic;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
 use crate::segment::run::Run;
-use crate::segment::scan::scan;
 use crate::segment::seams::Joins;
 use crate::track::assign::Matching;
 use crate::track::motion::Trail;
@@ -259,7 +258,7 @@ impl Contacts {
         image: &Image,
     ) -> &'a [Component] {
         let ContactState { labeller, joins, components, feedback, .. } = state;
-        scan(labeller, layout, image, self.config.low);
+        labeller.scan(layout, image, self.config.low);
         labeller.mark_held(layout, feedback, self.config.high);
         joins.find(labeller, layout);
         components.select(&self.config, labeller, layout);

@@ -387,14 +387,14 @@ impl Component {
         let row = run.row - area.first_row;
         let squares = match run.peak {
             0..=NARROW => run.sums.squares.into(),
-            _ => squares(values_of(run, area, values)),
+            _ => squares(values_of(run, area, values), run.rebased()),
         };
         self.moments.add(&Moments::of_sums(run.left.into(), row.into(), &run.sums, squares));
         let Rect { top, bottom, left, right, .. } = &mut self.bounds;
         (*top, *bottom) = (row.min(*top), row);
         (*left, *right) = (run.left.min(*left), run.right.max(*right));
-        if run.peak == self.peak && self.peak_at.is_none() {
-            self.find_peak(run, self.bounds.panel, area, values);
+        if run.peak == self.peak && self.peak_at.is_none_or(|at| at.row == row) {
+            self.look_for_peak(run, self.bounds.panel, area, values);
         }
     }
 
@@ -406,29 +406,35 @@ impl Component {
         let moments = carried.unwrap_or(&mut self.moments);
         let &Strip { runs, area, .. } = strip;
         if runs.len() > 2 && is_small(area.columns, area.rows, self.peak) {
+            // One run per row, so that a chunk has at most FEW rows.
             runs.chunks(FEW).for_each(|runs| moments.add_few(runs, area.first_row));
         } else {
             for run in runs {
                 let row = run.row - area.first_row;
-                let squares = || squares(values_of(run, area, strip.values));
+                let squares = || squares(values_of(run, area, strip.values), run.rebased());
                 moments.add_run(run.left.into(), row.into(), &run.sums, run.peak, squares);
             }
         }
         let peak = self.peak;
-        if self.peak_at.is_none()
-            && let Some(run) = strip.runs.iter().find(|run| run.peak == peak)
-        {
-            self.find_peak(run, strip.label.panel, area, strip.values);
+        if let Some(run) = strip.runs.iter().find(|run| run.peak == peak) {
+            self.look_for_peak(run, strip.label.panel, area, strip.values);
         }
     }
 
-    /// Finds the first taxel with the peak, which is in this run.
+    /// Updates `peak_at` from a run that has the peak, to the first such taxel of the row. The runs of a
+    /// row may come in any order.
     #[inline(never)] // rarely called
-    fn find_peak(&mut self, run: &Run, panel: u8, area: &Area, values: &[u16]) {
+    fn look_for_peak(&mut self, run: &Run, panel: u8, area: &Area, values: &[u16]) {
         let row = run.row - area.first_row;
         let mut columns = (run.left..).zip(values_of(run, area, values));
-        let found = columns.find(|(_, value)| **value == self.peak);
-        self.peak_at = found.map(|(column, _)| Place { panel, row, column });
+        let mine = |column| run.holds(column);
+        let Some((column, _)) = columns.find(|(column, value)| **value == self.peak && mine(*column)) else {
+            return;
+        };
+        let first = |at: Place| at.panel == panel && at.row == row && column < at.column;
+        if self.peak_at.is_none_or(first) {
+            self.peak_at = Some(Place { panel, row, column });
+        }
     }
 }
 
@@ -438,7 +444,6 @@ mod tests {
     use super::*;
     use crate::garment::{Garment, Seam, SeamEdge, Side};
     use crate::image::rows::Rows;
-    use crate::segment::scan::scan;
     use std::vec;
     use std::vec::Vec;
 
@@ -470,7 +475,7 @@ mod tests {
             let rows = Rows::of(&layout, &values);
             let image = Image { values: &values, rows: &rows };
             let (mut labeller, mut joins) = (Labeller::<2048, 2048>::new(), Joins::new());
-            scan(&mut labeller, &layout, &image, 1);
+            labeller.scan(&layout, &image, 1);
             joins.find(&mut labeller, &layout);
             let mut components = Components::<40>::new();
             components.select(&ContactConfig { low: 1, high: 1, ..Default::default() }, &labeller, &layout);
@@ -541,7 +546,7 @@ mod tests {
                 values[20..][..area].fill(peak);
                 let rows = Rows::of(&layout, &values);
                 let mut labeller = Labeller::<64, 64>::new();
-                scan(&mut labeller, &layout, &Image { values: &values, rows: &rows }, config.low);
+                labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
                 if goes_on {
                     labeller.mark_held(&layout, &felt, config.high);
                 }
@@ -569,7 +574,7 @@ mod tests {
             values[usize::from(layout.areas()[panel].base) + 20..][..area].fill(peak);
             let rows = Rows::of(&layout, &values);
             let mut labeller = Labeller::<64, 64>::new();
-            scan(&mut labeller, &layout, &Image { values: &values, rows: &rows }, config.low);
+            labeller.scan(&layout, &Image { values: &values, rows: &rows }, config.low);
             let mut components = Components::<4>::new();
             components.select(&config, &labeller, &layout);
             let is_contact = area == 2 && peak >= 400;

@@ -1,7 +1,7 @@
 //! The contour of a contact: its length and its steepness.
 
 use super::component::Component;
-use super::sobel::Neighbourhood;
+use super::sobel::{Neighbourhood, steepness_of_rows16};
 use crate::garment::Layout;
 use crate::image::view::Image;
 use crate::segment::labeller::Labeller;
@@ -42,12 +42,15 @@ impl Contour {
     #[inline(never)] // M0+: out of line
     fn add(&mut self, taxels: u32, column: u16, around: &Neighbourhood) {
         self.length = self.length.wrapping_add(taxels.count_ones());
-        self.slope = self.slope.wrapping_add(steepness(around, taxels, column));
+        let slope = match around.rows16() {
+            Some(rows) => steepness_of_rows16(rows, taxels),
+            None => steepness(around, taxels, column),
+        };
+        self.slope = self.slope.wrapping_add(slope);
     }
 }
 
-/// Sum of the gradients' magnitudes, each divided by 8 and truncated, at taxels of the word that begins at
-/// `column`.
+/// Like [`steepness_of_rows16`], for a row of any length; `taxels` are of the word that begins at `column`.
 fn steepness(around: &Neighbourhood, mut taxels: u32, column: u16) -> u32 {
     let mut sum = 0;
     while taxels != 0 {
@@ -68,7 +71,7 @@ mod tests {
     use crate::garment::Garment;
 
     #[test]
-    fn a_row_is_as_steep_as_its_taxels() {
+    fn a_row_of_any_length_is_as_steep_as_its_taxels() {
         let layout = Layout::build(&Garment::recorded(3, 45), 135, 65535).unwrap();
         let values: [u16; 135] = core::array::from_fn(|i| (i * i * 37 % 4001) as u16);
         let area = &layout.areas()[0];

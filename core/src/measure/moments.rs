@@ -2,7 +2,8 @@
 
 use crate::format::product;
 use crate::garment::{Transform, signed};
-use crate::segment::run::{Run, WORD};
+use crate::segment::bits::WORD;
+use crate::segment::run::Run;
 use crate::segment::sums::{NARROW, RunSums, squares};
 
 /// Sums over the taxels of a contact, or of an image, with f the pressure in counts.
@@ -113,7 +114,7 @@ impl Moments {
         for values in values.chunks(WORD.into()) {
             let mut sums = RunSums::NONE;
             let peak = sums.take(values);
-            sum.add_run(x, y, &sums, peak, || squares(values));
+            sum.add_run(x, y, &sums, peak, || squares(values, u32::MAX));
             x = x.wrapping_add(WORD.into());
         }
         sum
@@ -297,7 +298,16 @@ mod tests {
             let values: [u16; 16] = core::array::from_fn(|i| least.max(i as u16 * 250));
             let mut sums = RunSums::NONE;
             let peak = sums.take(&values);
-            let run = |row| Run { taxels: 0xffff, row: 100 + row, label: 0, left: 0, right: 15, peak, sums };
+            let run = |row| Run {
+                taxels: 0xffff,
+                row: 100 + row,
+                label: 0,
+                left: 0,
+                right: 15,
+                area: 16,
+                peak,
+                sums,
+            };
             let runs: Vec<_> = (first..first + FEW as u16).map(run).collect();
             assert!(is_small(16, 32, peak) && runs.iter().all(|run| run.row < 132));
             let (mut few, mut each) = (Moments::default(), Moments::default());

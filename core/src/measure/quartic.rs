@@ -17,8 +17,8 @@ use crate::segment::run::Run;
 ///
 /// J and sum r^4 f count the width of the taxels themselves. Of a contact of more than 400 taxels in at least
 /// 24 rows, every second row is taken. A contact that crosses a seam is not measured: together with its
-/// contour it would cost more than a frame has left. Nor is one that has more than seven runs in a row, which
-/// is none of the shapes that this distinguishes.
+/// contour it would cost more than a frame has left. Nor is one that has more than seven groups of taxels in a
+/// run, which is none of the shapes that this distinguishes.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct Quartic {
     /// `m sum r^4 f / J^2`: 4/3 for a disc of even pressure, 7/5 for a square, 1 for a ring
@@ -29,8 +29,17 @@ pub struct Quartic {
     pub four: i16,
 }
 
-/// Most runs of a row.
-const RUNS_IN_ROW: u32 = 7;
+/// Most groups of taxels of a run.
+const GROUPS: u32 = 7;
+
+/// Number of groups of taxels side by side.
+fn groups(run: &Run) -> u32 {
+    if run.right - run.left < run.area {
+        return 1;
+    }
+    let taxels = run.rebased();
+    (taxels & !(taxels << 1)).count_ones()
+}
 
 /// Bits of a coordinate without its sign.
 const COORDINATE: u32 = 10;
@@ -100,7 +109,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// Sums over the taxels of a run, of a pressure times a power of x.
+/// Sums over taxels side by side, of a pressure times a power of x.
 #[derive(Default, Clone, Copy)]
 struct RowSums {
     /// sum a f, with a = x^2 / 2^8
@@ -129,6 +138,25 @@ impl RowSums {
         }
         RowSums { second, third, fourth }
     }
+
+    /// Sums over the values whose bit is set, group by group.
+    #[cold]
+    #[inline(never)]
+    fn of_groups(mut taxels: u32, values: &[u16], x: i32, view: &View<'_>) -> RowSums {
+        let mut sums = RowSums::default();
+        while taxels != 0 {
+            let first = taxels.trailing_zeros();
+            let length = (taxels >> first).trailing_ones();
+            let group = values.get(first as usize..(first + length) as usize).unwrap_or(&[]);
+            let more = RowSums::of(group, x.wrapping_add(view.step.wrapping_mul(first as i32)), view);
+            sums.second = sums.second.wrapping_add(more.second);
+            sums.third = sums.third.wrapping_add(more.third);
+            sums.fourth = sums.fourth.wrapping_add(more.fourth);
+            // The lowest group is carried out by adding its lowest bit.
+            taxels &= taxels.wrapping_add(1 << first);
+        }
+        sums
+    }
 }
 
 /// Sums over a contact, with a = x^2 / 2^8 and b = y^2 / 2^8.
@@ -156,8 +184,13 @@ impl QuarticSums {
         let (x, y) = (view.at(run.left, view.x), view.at(row, view.y));
         // One comparison: sums of 17 bits and a few cannot overflow.
         let from = usize::from(view.base + row * view.columns) + usize::from(run.left);
-        let values = view.values.get(from..from + usize::from(run.width())).unwrap_or(&[]);
-        let RowSums { second, third, fourth } = RowSums::of(values, x, view);
+        let length = usize::from(run.right - run.left) + 1;
+        let values = view.values.get(from..from + length).unwrap_or(&[]);
+        let RowSums { second, third, fourth } = if length == usize::from(run.area) {
+            RowSums::of(values, x, view)
+        } else {
+            RowSums::of_groups(run.rebased(), values, x, view)
+        };
         let b = (y.wrapping_mul(y) as u32) >> SQUARE;
         let m = run.sums.s0.wrapping_shr(view.down);
         let beyond = run.sums.s1.wrapping_sub(run.sums.s0).wrapping_shr(view.down);
@@ -201,17 +234,14 @@ impl Quartic {
         let area = frame.layout.areas().get(usize::from(component.bounds.panel));
         let Some(area) = area.filter(|_| !component.joined) else { return Quartic::default() };
         let (view, mut sums) = (View::of(component, area, frame.image.values), QuarticSums::default());
-        let (mut row, mut in_row) = (u16::MAX, 0);
         for (_, run) in component.runs(frame.labeller, frame.layout) {
             let label = frame.labeller.labels.get(usize::from(run.label));
             if label.is_none_or(|label| label.contact != index) || run.row & view.skipped != 0 {
                 continue;
             }
-            in_row = if run.row == row { in_row + 1 } else { 1 };
-            if in_row > RUNS_IN_ROW {
+            if groups(run) > GROUPS {
                 return Quartic::default();
             }
-            row = run.row;
             sums.add(run, &view);
         }
         sums.quartic(view.pixel)

@@ -1,7 +1,8 @@
 //! The labels along a side of a panel.
 
+use super::bits::WORD;
 use super::labeller::Labeller;
-use super::run::{Run, WORD, key};
+use super::run::{Run, key};
 use super::union_find::{Label, NONE};
 use crate::garment::{Area, Stretch};
 use core::ops::Range;
@@ -146,7 +147,6 @@ impl BorderColumn {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::super::scan::scan;
     use super::*;
     use crate::format::Name;
     use crate::garment::{Garment, Layout, Seam, SeamEdge, Side as Of};
@@ -181,16 +181,13 @@ mod tests {
             values.fill_with(|| u16::from(next(100) < share));
             let rows = Rows::of(&layout, &values);
             let mut labeller = Labeller::<1700, 1700>::new();
-            scan(&mut labeller, &layout, &Image { values: &values, rows: &rows }, 1);
+            labeller.scan(&layout, &Image { values: &values, rows: &rows }, 1);
             let joint = &layout.joints()[0];
             for (edge, area) in [(&joint.edge_a, &layout.areas()[0]), (&joint.edge_b, &layout.areas()[1])] {
                 let label_at = |taxel| {
                     let (x, y) = edge.at(taxel);
                     let word = key(area.first_row + y as u16, x as u16);
-                    let run = labeller
-                        .runs
-                        .iter()
-                        .find(|run| run.key() == word && run.taxels >> (x as u16 % WORD) & 1 == 1);
+                    let run = labeller.runs.iter().find(|run| run.key() == word && run.holds(x as u16));
                     run.map_or(NONE, |run| labeller.label_of(run).unwrap())
                 };
                 let mut side = SideCursor::of(&labeller, area, edge);

@@ -1,12 +1,19 @@
 //! Segmentation: the connected touched taxels of a frame.
 //!
-//! [`scan`] turns each active row into bits ([`threshold`]), and those into runs ([`run`]), which are summed
-//! up ([`sums`]) and joined to the labels above ([`union_find`]); [`labeller`] holds both. [`seams`] joins
-//! labels across panels along their [`borders`]. [`strip`] groups the runs of a label.
+//! Each active row becomes bits ([`threshold`]), whose runs ([`run`]) are summed up ([`sums`]) and joined to
+//! the labels above ([`union_find`], [`labeller`], [`scan`]): rows of sixteen columns in [`row16`] and
+//! [`groups`], rows of any length in [`rows`]. [`seams`] joins labels across panels along their [`borders`].
+//! [`near`] marks faint labels that continue a contact, and [`query`] finds runs by position.
 
+pub(crate) mod bits;
 pub(crate) mod borders;
 pub(crate) mod config;
+pub(crate) mod groups;
 pub(crate) mod labeller;
+pub(crate) mod near;
+pub(crate) mod query;
+pub(crate) mod row16;
+pub(crate) mod rows;
 pub(crate) mod run;
 pub(crate) mod scan;
 pub(crate) mod seams;

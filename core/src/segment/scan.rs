@@ -1,147 +1,51 @@
 //! Connected components: row by row, each row as bits, its 8-connected taxels joined by union-find.
 
-use super::labeller::Labeller;
-use super::run::{Run, WORD};
-use super::sums::RunSums;
-use super::threshold::touched;
-use super::union_find::{NONE, first_of, unite};
+use super::labeller::{Labeller, ScanLine};
+use super::threshold::paired_rows16;
+use super::union_find::NONE;
 use crate::garment::{Area, Layout};
-use crate::image::slices::panel_of;
+use crate::image::slices::{panel_of, row_of};
 use crate::image::view::Image;
-use core::ops::Range;
 
-/// Position of the scan in a panel, and what it has found so far.
-struct ScanLine {
-    panel: u8,
-    /// Row, counted over all panels.
-    row: u16,
-    /// Index of the first run of the row above, or of this row if the row above has none.
-    above: usize,
-    /// Taxels touched so far in the first and in the last words of the panel's rows.
-    ends: [u32; 2],
-}
-
-/// Labels the connected taxels of an image.
-pub(crate) fn scan<const RUNS: usize, const LABELS: usize>(
-    labeller: &mut Labeller<RUNS, LABELS>,
-    layout: &Layout,
-    image: &Image,
-    low: u16,
-) {
-    labeller.clear();
-    if image.rows.is_empty() {
-        return;
+impl<const RUNS: usize, const LABELS: usize> Labeller<RUNS, LABELS> {
+    /// Labels the connected taxels of an image.
+    pub fn scan(&mut self, layout: &Layout, image: &Image, low: u16) {
+        self.clear();
+        if image.rows.is_empty() {
+            return;
+        }
+        for (panel, area) in (0u8..).zip(layout.areas()) {
+            self.scan_panel(panel, area, image, low);
+        }
+        self.flatten();
     }
-    for (panel, area) in (0u8..).zip(layout.areas()) {
-        scan_panel(labeller, panel, area, image, low);
-    }
-    labeller.flatten();
-}
 
-#[inline(never)] // own frame: locals stay within short SP offsets
-fn scan_panel<const RUNS: usize, const LABELS: usize>(
-    labeller: &mut Labeller<RUNS, LABELS>,
-    panel: u8,
-    area: &Area,
-    image: &Image,
-    low: u16,
-) {
-    let start = labeller.runs.len();
-    let last = area.first_row.saturating_add(area.rows);
-    let (values, columns) = (panel_of(image.values, area), usize::from(area.columns).max(1));
-    let mut line = ScanLine { panel, row: 0, above: start, ends: [0; 2] };
-    let mut from = area.first_row;
-    while let Some(rows) = image.rows.held().run(from..last) {
-        from = rows.end;
+    #[inline(never)] // own frame: locals stay within short SP offsets
+    fn scan_panel(&mut self, panel: u8, area: &Area, image: &Image, low: u16) {
+        let start = self.runs.len();
+        let last = area.first_row.saturating_add(area.rows);
+        let rows16 = paired_rows16(panel_of(image.values, area), area.columns, low);
+        let are_rows16 = rows16.len() == usize::from(area.rows);
+        let mut line = ScanLine { panel, row: 0, above: start, reach: 0, label: NONE, ends: [0; 2] };
+        let mut from = area.first_row;
         // A gap between active rows separates labels.
-        (line.row, line.above) = (rows.start, labeller.runs.len());
-        let at = |row: u16| usize::from(row - area.first_row) * columns;
-        let taxels = values.get(at(rows.start)..).unwrap_or(&[]);
-        for row in taxels.chunks(columns).take(rows.len()) {
-            scan_row(labeller, row, low, &mut line);
-            line.row += 1;
-        }
-    }
-    labeller.mark_sides(start, panel, area, line.ends);
-}
-
-/// Appends the runs of a row, and adds their sums to their labels.
-#[inline(always)]
-fn scan_row<const RUNS: usize, const LABELS: usize>(
-    labeller: &mut Labeller<RUNS, LABELS>,
-    row: &[u16],
-    low: u16,
-    line: &mut ScanLine,
-) {
-    let here = labeller.runs.len();
-    let (mut above, mut column, mut rest) = (line.above, 0, row);
-    loop {
-        let (values, after) = rest.split_at(rest.len().min(WORD.into()));
-        let taxels = touched(values, low);
-        if taxels != 0 {
-            if column == 0 {
-                line.ends[0] |= taxels;
+        while let Some(rows) = image.rows.held().run(from..last) {
+            from = rows.end;
+            line = ScanLine { row: rows.start, above: self.runs.len(), reach: 0, label: NONE, ..line };
+            if are_rows16 {
+                let here = |row: u16| usize::from(row - area.first_row);
+                let rows16 = rows16.get(here(rows.start)..here(rows.end));
+                self.scan_rows16(rows16.unwrap_or(&[]), low, &mut line);
+                continue;
             }
-            if after.is_empty() {
-                line.ends[1] |= taxels;
+            for row in rows {
+                line.row = row;
+                self.scan_row(row_of(image.values, area, row - area.first_row), low, &mut line);
             }
-            above = scan_word(labeller, taxels, values, column, above..here, line);
         }
-        if after.is_empty() {
-            break;
+        if are_rows16 {
+            self.weigh(start);
         }
-        (rest, column) = (after, column + WORD);
+        self.mark_sides(start, area, &line);
     }
-    line.above = here;
-}
-
-/// Appends the runs of a word; `above` is the range of runs in the row above that may touch them. Returns the
-/// first of these that may touch taxels of the next word. All runs are in the order of their columns.
-#[inline(never)] // M0+: out of line
-fn scan_word<const RUNS: usize, const LABELS: usize>(
-    labeller: &mut Labeller<RUNS, LABELS>,
-    all: u32,
-    values: &[u16],
-    column: u16,
-    Range { start: mut above, end: here }: Range<usize>,
-    line: &ScanLine,
-) -> usize {
-    // The first run may continue one of the word before.
-    let before = labeller.runs.get(here..).and_then(<[Run]>::last);
-    let before = before.filter(|before| all & 1 == 1 && before.right.wrapping_add(1) == column);
-    let mut label = before.map_or(NONE, |before| before.label);
-    let mut rest = all;
-    while rest != 0 {
-        let start = rest.trailing_zeros() as u16;
-        let length = (rest >> start).trailing_ones() as u16;
-        let after = rest & rest.wrapping_add(1 << start);
-        let (left, end) = (column + start, column + start + length);
-        while above < here
-            && let Some(run) = labeller.runs.get(above)
-        {
-            let beyond = run.right + 1;
-            if beyond >= left {
-                if run.left > end {
-                    break;
-                }
-                label = match label {
-                    NONE => first_of(&mut labeller.labels, run.label),
-                    label if label == run.label => label,
-                    label => unite(&mut labeller.labels, run.label, label),
-                };
-                if beyond >= end {
-                    // It may touch the next run, too.
-                    break;
-                }
-            }
-            above += 1;
-        }
-        // Always: the word has as many values.
-        let Some(values) = values.get(start.into()..(start + length).into()) else { break };
-        let (taxels, row, right) = (rest & !after, line.row, end - 1);
-        let run = Run { taxels, row, label, left, right, peak: 0, sums: RunSums::NONE };
-        labeller.push(run, values, line.panel);
-        (label, rest) = (NONE, after);
-    }
-    above
 }

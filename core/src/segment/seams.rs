@@ -2,11 +2,13 @@
 //!
 //! Each pair of labels that neighbour taxels of a seam connect is joined once.
 
+use super::bits::{lowest_run, run_of};
 use super::borders::SideCursor;
 use super::labeller::Labeller;
 use super::union_find::{Label, NONE};
 use crate::baseline::feedback::CARRIED;
 use crate::garment::{Joint, Layout};
+use core::ops::Range;
 use heapless::Vec;
 
 /// Two labels that a seam connects, `a` on the first panel of its joint.
@@ -97,10 +99,12 @@ impl Joins {
         let row = area_a.first_row.wrapping_add_signed(top as i16);
         for (_, run) in labeller.in_rows(row, row) {
             let Some(label) = labeller.label_of(run) else { continue };
-            let columns = run.within(left as u16, right as u16);
-            if !columns.is_empty() {
-                let taxel = |column: u16| i32::from(column) - left;
-                self.step(&mut walk, label, taxel(*columns.start()), taxel(*columns.end()));
+            let at = i32::from(run.column()) - left;
+            let mut rest = run.within(left as u16, right as u16);
+            while rest != 0 {
+                let Range { start, end } = run_of(lowest_run(rest));
+                rest &= !lowest_run(rest);
+                self.step(&mut walk, label, at + start as i32, at + end as i32 - 1);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Thresholds a row to bits.
 
+use bytemuck::pod_align_to;
 #[cfg(target_pointer_width = "64")]
 use wide::u16x16;
 
@@ -37,9 +38,44 @@ fn touched_by_vectors(values: &[u16], low: u16) -> u32 {
     })
 }
 
+/// A row of sixteen taxels in memory: pairs of values.
+pub(crate) type PairedRow16 = [u32; 8];
+
+/// Returns the rows of a panel of sixteen columns; none if its values are not aligned to pairs, or if the
+/// threshold has 16 bits.
+pub(crate) fn paired_rows16(values: &[u16], columns: u16, low: u16) -> &[PairedRow16] {
+    match pod_align_to(values) {
+        ([], pairs, []) if columns == 16 && low < 1 << 15 => pairs.as_chunks().0,
+        _ => &[],
+    }
+}
+
+/// Returns the bits of the values of a row that are not below a threshold of 15 bits.
+#[inline(always)]
+pub(crate) fn touched_of_row16([a, b, c, d, e, f, g, h]: &PairedRow16, low: u16) -> u32 {
+    // Unrolled by hand: the compiler would keep a loop.
+    let low = u32::from(low) << 16 | u32::from(low);
+    let four = two(two(two(two(0, *a, low), *b, low), *c, low), *d, low);
+    let all = two(two(two(two(four, *e, low), *f, low), *g, low), *h, low);
+    all >> 16 | (all & 0xffff) >> 1
+}
+
+/// Shifts the bits of earlier pairs down by two, and sets the highest bit of each half where that value of
+/// `pair` is not below `low`. After eight pairs, the upper half holds every second bit of the row, and the
+/// lower half those between them, shifted up by one.
+#[inline(always)]
+fn two(taxels: u32, pair: u32, low: u32) -> u32 {
+    const HIGHEST: u32 = 1 << 31 | 1 << 15;
+    let pair = u32::from_le(pair);
+    // SWAR compare: bit 15 of a half stays set if its other 15 bits are not below `low`. A value that has bit
+    // 15 itself is above any threshold of 15 bits.
+    let high = ((pair | HIGHEST).wrapping_sub(low) | pair) & HIGHEST;
+    taxels >> 2 | high
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::run::WORD;
+    use super::super::bits::WORD;
     use super::*;
 
     #[test]
@@ -65,6 +101,14 @@ mod tests {
             assert_eq!(
                 (touched_by_sums(short, low), touched_by_vectors(short, low)),
                 (want(short), want(short))
+            );
+            let rows = paired_rows16(values, 16, low);
+            assert_eq!(rows.len(), if low == u16::MAX { 0 } else { 2 });
+            for (row, values) in rows.iter().zip(values.chunks(16)) {
+                assert_eq!(touched_of_row16(row, low), want(values));
+            }
+            assert!(
+                paired_rows16(&values[1..], 16, low).is_empty() && paired_rows16(values, 8, low).is_empty()
             );
         }
     }

@@ -6,7 +6,7 @@
 
 use crate::contact::PressedRuns;
 use crate::filter::points::MARGIN;
-use crate::segment::run::WORD;
+use crate::segment::bits::WORD;
 
 /// Most that taxels may press together so that their products fit in 32 bits: 65,535 * 2^15 < 2^31.
 const TOGETHER: u32 = u16::MAX as u32;
@@ -70,7 +70,11 @@ impl PressSums {
                 break;
             };
             let slots = batch.get_mut(count..).unwrap_or_default();
-            let (taxels, sum) = gather(slots, before, after, records);
+            let (taxels, sum) = if run.is_whole() {
+                gather(slots, before, after, records)
+            } else {
+                gather_apart(slots, before, after, records, run.rebased())
+            };
             if held + sum > TOGETHER || count + taxels > BATCH - WORD as usize {
                 let (gathered, last) = batch.split_at_checked(count).unwrap_or_default();
                 self.add_batch(gathered, held);
@@ -195,6 +199,29 @@ fn gather<'a>(
     (records.len(), sum)
 }
 
+/// Gathers those of some taxels whose bits are set.
+#[inline(never)] // few runs have gaps
+fn gather_apart<'a>(
+    slots: &mut [PressedTaxel<'a>],
+    before: &[u16],
+    after: &[u16],
+    records: &'a [RecordWords],
+    mut taxels: u32,
+) -> (usize, u32) {
+    let (mut slots, mut count, mut sum) = (slots.iter_mut(), 0, 0);
+    for ((before, after), record) in before.iter().zip(after).zip(records) {
+        if taxels & 1 == 1
+            && let Some(slot) = slots.next()
+        {
+            let value = pressure((*before).into(), (*after).into());
+            (count, sum) = (count + 1, sum + value);
+            *slot = (value, record);
+        }
+        taxels >>= 1;
+    }
+    (count, sum)
+}
+
 /// Pressure of a taxel, from its values before and after the filter: at least that after it.
 #[inline(always)]
 fn pressure(before: u32, after: u32) -> u32 {
@@ -247,9 +274,14 @@ mod tests {
                 after.iter().map(|_| core::array::from_fn(|_| half() << 16 | half())).collect();
             let rows = 1 + next(area.rows.into()) as u16;
             let run = |row: u16| {
+                // Whole ones, and some with gaps.
                 let (left, right) = (next(20) as u16, 20 + next(12) as u16);
-                let taxels = u32::MAX << left & u32::MAX >> (31 - right);
-                Run { taxels, row, label: 0, left, right, peak: 0, sums: RunSums::NONE }
+                let ends = 1 << left | 1 << right;
+                let between = u32::MAX << left & u32::MAX >> (31 - right);
+                let taxels =
+                    if next(2) == 0 { between } else { between & (next(1 << 24) << 8 | next(256)) | ends };
+                let area = taxels.count_ones() as u16;
+                Run { taxels, row, label: 0, left, right, area, peak: 0, sums: RunSums::NONE }
             };
             let runs: Vec<Run> = (0..rows).map(run).collect();
             let image = PressedImage { before: &before, after: &after, records: &records };

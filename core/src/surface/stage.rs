@@ -345,12 +345,13 @@ impl LinkSums {
 /// more.
 #[inline(never)] // M0+: out of line
 fn saturated(first: usize, run: &Run, level: u16, calibrated: &[u16], ceiling: impl Fn(usize) -> u16) -> u16 {
-    let mut saturated = 0;
+    let (mut saturated, mut mask) = (0, run.rebased());
     let taxels = first..first + usize::from(run.width());
     for (taxel, value) in taxels.clone().zip(calibrated.get(taxels).unwrap_or(&[])) {
-        if *value >= level && *value >= ceiling(taxel) {
+        if *value >= level && mask & 1 == 1 && *value >= ceiling(taxel) {
             saturated += 1;
         }
+        mask >>= 1;
     }
     saturated
 }

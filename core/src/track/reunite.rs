@@ -85,19 +85,24 @@ fn is_beside<const RUNS: usize, const LABELS: usize>(
 }
 
 /// True if some of their columns are at most two apart.
-const fn have_near_columns(a: &Run, b: &Run) -> bool {
-    a.left <= b.right.saturating_add(2) && b.left <= a.right.saturating_add(2)
+fn have_near_columns(a: &Run, b: &Run) -> bool {
+    let first = a.column().min(b.column());
+    let bits = |run: &Run| u64::from(run.taxels).checked_shl((run.column() - first).into());
+    let (Some(a), Some(b)) = (bits(a), bits(b)) else { return false };
+    (a | a << 1 | a << 2 | a >> 1 | a >> 2) & b != 0
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::segment::bits::WORD;
     use crate::segment::sums::RunSums;
 
     /// A run of one taxel.
     fn at(column: u16) -> Run {
-        let (row, label, peak, sums) = (0, 0, 1, RunSums::NONE);
-        Run { taxels: 1 << (column % 32), row, label, left: column, right: column, peak, sums }
+        let taxels = 1 << (column % WORD);
+        let (row, label, area, peak, sums) = (0, 0, 1, 1, RunSums::NONE);
+        Run { taxels, row, label, left: column, right: column, area, peak, sums }
     }
 
     #[test]
