@@ -28,6 +28,17 @@ impl Placed {
         self.region = region(layout, &self.contact);
     }
 
+    /// Displacement since the onset along x and y, 0.1 mm, rounded down. The pitch is taken as in [`Placed::speed`].
+    pub fn way(&self, layout: &Layout) -> [i32; 2] {
+        let pitch = layout.areas().get(usize::from(self.contact.panel)).map_or([0; 2], |area| area.pitch_um);
+        let Contact { dx, dy, .. } = self.contact;
+        let along = |way: i32, pitch: u32| {
+            let size = (wide(way.unsigned_abs(), tenths(pitch)) >> 16) as i32; // 32 and 13 bits
+            if way < 0 { -size } else { size }
+        };
+        [along(dx.0, pitch[0]), along(dy.0, pitch[1])]
+    }
+
     /// Speed over the surface, 0.1 mm/s. The pitch is truncated to 0.1 mm; it is 10 mm for panels that give
     /// none. Each axis is limited to below 2^15 taxels/s and rounded down. The larger axis plus half of the
     /// smaller: at most 11.81 % above the true speed, and 2 steps off. At most 98,304,000, at the largest

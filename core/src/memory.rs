@@ -41,9 +41,9 @@ states! {
     FoldState, "fold/mod.rs", 12896, 12928;
     TouchState, "gesture/mod.rs", 3712, 3720;
     Monitor, "health/mod.rs", 2812, 2816;
-    Evidence, "intent/evidence.rs", 224, 224;
+    Evidence, "intent/evidence.rs", 464, 464;
     Fed, "intent/fed.rs", 192, 192;
-    IntentState, "intent/stage.rs", 1144, 1152;
+    IntentState, "intent/stage.rs", 1408, 1416;
     ReactState, "react/mod.rs", 624, 664;
     Reflex<TAXELS>, "reflex/mod.rs", 8968, 9000;
     Shapes, "shape/mod.rs", 20, 40;

@@ -244,8 +244,9 @@ impl Scene {
         }
         if let Some(intent) = &mut scene.intent {
             let pressure = |input: &&mut MapInput| {
-                use Source::{Blow, Hardness, Load, Peak, Press, Rise};
-                matches!(input.source, Press | Rise | Hardness | Blow | Load | Peak)
+                use Source::{Blow, Force, Hardness, Load, Loading, Peak, Press, Pressure, Rise};
+                let linear = matches!(input.source, Press | Rise | Hardness | Blow | Load | Peak);
+                linear || matches!(input.source, Force | Pressure | Loading)
             };
             for input in intent.map.inputs.iter_mut().filter(pressure) {
                 input.low = scale(input.low.unsigned_abs()).min(i32::MAX as u32) as i32;

@@ -1,6 +1,6 @@
 //! Rhythm of a touch: the change of its total, by octaves of time.
 
-use super::log::log2;
+use crate::format::log2;
 
 /// Number of octaves: time constants of 2 to 64 frames.
 pub const BANDS: usize = 6;

@@ -1,8 +1,7 @@
 //! Statistics of one signal over the frames of a touch.
 
 use super::histogram::Histogram;
-use super::log::log2;
-use crate::format::{product, wide};
+use crate::format::{log2, product, wide};
 
 /// Lags over which change is measured, frames. A fast signal changes within short lags already.
 pub const LAGS: [u8; 6] = [1, 2, 4, 8, 16, 32];

@@ -2,8 +2,7 @@
 
 use super::cells::{CELLS, Cells};
 use super::histogram::Histogram;
-use super::log::log2;
-use crate::format::{product, wide};
+use crate::format::{log2, product, wide};
 
 /// Number of features of a grid.
 pub const GRID: usize = 4 * RANKED;

@@ -29,7 +29,6 @@ mod gestures;
 mod grid;
 mod histogram;
 mod history;
-mod log;
 mod model;
 mod model_error;
 mod motion;

@@ -2,8 +2,7 @@
 //! correlation of neighbouring cells' changes, and by the share of the changes that remains in the total.
 
 use super::cells::{CELLS, Cells, SIDE};
-use super::log::log2;
-use crate::format::wide;
+use crate::format::{log2, wide};
 
 /// Number of features of motion.
 pub const MOTION: usize = 4;

@@ -1,7 +1,7 @@
 //! Reduction of a frame to eight signals.
 
 use super::cells::{Cells, SIDE};
-use super::log::log2;
+use crate::format::log2;
 
 /// Number of signals of a frame.
 pub const SIGNALS: usize = 8;

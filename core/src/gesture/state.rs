@@ -5,9 +5,9 @@ use super::cells::{CELLS, Cells};
 use super::course::{COURSE, Course};
 use super::grid::{GRID, Grid};
 use super::history::History;
-use super::log::log2;
 use super::motion::{MOTION, Motion};
 use super::signal::{SIGNALS, signals};
+use crate::format::log2;
 
 /// Number of features of a touch.
 pub const FEATURES: usize = SIGNALS * COURSE + GRID + MOTION + BANDS + 1;

@@ -38,6 +38,14 @@ impl<const N: usize, const E: usize> Map<N, E> {
                 Source::Beats => measured(|t| t.beats),
                 Source::Still => measured(|t| t.still_ms),
                 Source::Own => measured(|t| t.own.into()),
+                Source::Force => measured(|t| t.load),
+                Source::Pressure => measured(|t| t.pressure),
+                Source::Loading => measured(|t| t.blow),
+                Source::Rising => measured(|t| t.rising_us),
+                Source::Extent => measured(|t| t.cover_mm2),
+                Source::Gives => measured(|t| t.gives),
+                Source::Stroked => measured(|t| t.stroked),
+                Source::Embraced => measured(|t| t.embraced_ms),
                 Source::Host(slot) => Some(host.get(usize::from(slot)).map_or(0, |v| v.0)),
             };
             if let (Some(out), Some(value)) = (state.get_mut(usize::from(input.concept)), value) {

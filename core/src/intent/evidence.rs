@@ -6,17 +6,21 @@
 //! | output | the measures of [`Evidence`] |
 //! | saturation | at the ends of their types |
 //! | latency | none |
-//! | RAM | [`Evidence`]: 224 bytes |
+//! | RAM | [`Evidence`]: 464 bytes |
 //!
 //! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) since
 //! the latest earlier frame that is at least [`WINDOW_US`] older; if frames are further apart, since the
 //! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
 //! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
 //!
+//! The **rising time** is the growth of the load since it last rested, [`FOOT_US`] before or earlier, over the
+//! steepest rise: that of a blow is short, however much it presses on what was there.
+//!
 //! A touch **still comes** while its load, at the rate of that time, would double within 55 ms: what it will
 //! be cannot be known yet.
 
 use super::felt::Felt;
+use super::warmth::Warmth;
 use crate::format::{Inverse, Micros, wide};
 use core::num::NonZeroU32;
 
@@ -26,6 +30,10 @@ pub const WINDOW_US: u64 = 9_000;
 /// Time within which a load that still comes would double at its present rate, us. Pokes and pushes grow
 /// faster until they are harder than a kind touch; what leans, holds or strokes grows more slowly.
 const COMING_US: u32 = 55_000;
+/// Time before which the load had rested when a rise began, us: a blow is over by then.
+const FOOT_US: u64 = 60_000;
+/// Time after the last rise from which a touch has settled, us.
+const SETTLED_US: u64 = 200_000;
 /// Shortest time between two beats of a hand, us.
 const FASTEST_BEAT_US: u64 = 120_000;
 /// Time without a beat after which the rhythm is over, us.
@@ -104,7 +112,12 @@ pub struct Evidence {
     blow: RecentPeak,
     load: RecentPeak,
     peak: RecentPeak,
+    pressure: RecentPeak,
+    /// Loads of some time ago, and the greatest recent growth since then, counts.
+    feet: [(Micros, u32); 2],
+    growth: RecentPeak,
     cover_mm2: u32,
+    pub(super) warmth: Warmth,
     beats: Beats,
     /// Load when it began to be still, counts; and time of that.
     rest: u32,
@@ -120,14 +133,18 @@ impl Evidence {
     pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
         self.rise = self.rise_of(felt, now);
         if !counts {
-            (self.blow, self.load, self.peak) = Default::default();
+            (self.blow, self.load, self.peak, self.pressure, self.growth) = Default::default();
+            self.warmth.begin(now);
             (self.beats, self.cover_mm2, self.rest, self.still_ms) = (Beats::default(), 0, 0, 0);
         }
+        let growth = self.growth_of(felt.load, now);
         // A touch that has ended keeps its values as long as it counts.
         if felt.load > 0 {
             self.blow.take(self.rise, now, memory_us);
             self.load.take(felt.load, now, memory_us);
             self.peak.take(felt.peak.into(), now, memory_us);
+            self.pressure.take(felt.pressure, now, memory_us);
+            self.growth.take(growth, now, memory_us);
         }
         self.cover_mm2 = self.cover_mm2.max(felt.cover_mm2);
         if felt.load > 0 || counts {
@@ -165,6 +182,16 @@ impl Evidence {
         rise
     }
 
+    /// Returns the growth of the load since it rested.
+    fn growth_of(&mut self, load: u32, now: Micros) -> u32 {
+        let [older, newer] = self.feet;
+        let foot = if now.since(newer.0) >= FOOT_US { newer } else { older };
+        if now.since(newer.0) >= FOOT_US / 2 {
+            self.feet = [newer, (now, load)];
+        }
+        load.saturating_sub(foot.1)
+    }
+
     /// Updates the time of being still: a load is still as long as no more than a tenth is added. Removal of
     /// a part does not end it.
     fn rests(&mut self, load: u32, now: Micros) {
@@ -183,6 +210,24 @@ impl Evidence {
     /// Steepest recent rise, counts/ms.
     pub fn blow(&self) -> u32 {
         self.blow.value
+    }
+
+    /// Greatest recent mean pressure of a contact, counts per cm2.
+    pub fn pressure(&self) -> u32 {
+        self.pressure.value
+    }
+
+    /// Time in which the load grew at its steepest recent rise, us; the largest number if it did not rise.
+    pub fn rising_us(&self) -> u32 {
+        match NonZeroU32::new(self.blow.value) {
+            Some(rise) => Inverse::of(rise.get()).quotient(wide(self.growth.value, 1_000)),
+            None => u32::MAX,
+        }
+    }
+
+    /// True if the touch has not come nearer for some time, and can be known.
+    pub(super) fn has_settled(&self, now: Micros) -> bool {
+        now.since(self.since) >= SETTLED_US
     }
 
     /// Greatest recent total pressure, counts.

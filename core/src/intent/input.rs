@@ -4,11 +4,14 @@
 //! to the nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source
 //! that describes one gives 0, which is not the ramp's value for a measurement of 0.
 //!
+//! Some sources have ramps over the logarithm of their value ([`Source::is_logarithmic`]): each doubling counts the
+//! same, so that a sum of such inputs is a bound on a product of powers.
+//!
 //! The inputs of one concept add up. A ramp from 0 to 1 and a later one from 0 to -1 are together a
 //! trapezoid, and a triangle if the second begins where the first ends: fuzzy memberships need no other form.
 
 use super::error::MapError;
-use crate::format::{Name, wide};
+use crate::format::{Name, log2, wide};
 use core::num::NonZeroU32;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +30,7 @@ pub struct Touch {
     /// Speed of the contact over the surface, in 0.1 mm/s.
     pub speed: u32,
     /// Steepest rise of the force since the onset, in counts/ms. The stage computes this field and those
-    /// below, up to `still_ms`.
+    /// below, up to `embraced_ms`.
     pub rise: u32,
     /// Steepest recent rise, in counts/ms: a blow is forgotten while the object that hit is still there.
     pub blow: u32,
@@ -43,8 +46,20 @@ pub struct Touch {
     pub beats: u32,
     /// Time since force was last added, in ms.
     pub still_ms: u32,
+    /// Greatest recent mean pressure of a contact, counts per cm2.
+    pub pressure: u32,
+    /// Time in which the force came at its steepest recent rise, us; the largest number if it did not rise.
+    pub rising_us: u32,
+    /// Number of times the force gave way soon after it came: pats, beats of a handshake, kneading.
+    pub gives: u32,
+    /// Way that the touch has stroked, 0.1 mm.
+    pub stroked: u32,
+    /// Time for which it has held from two sides, ms.
+    pub embraced_ms: u32,
     /// True if it began while the robot itself moved; the caller sets it.
     pub own: bool,
+    /// Displacement since the onset, 0.1 mm.
+    pub way: [i32; 2],
     /// Total pressure now, in counts.
     pub force: u32,
     /// Number of taxels touched now.
@@ -92,6 +107,30 @@ pub enum Source {
     Still,
     /// [`Touch::own`]: 1 if it began while the robot itself moved, else 0.
     Own,
+    /// [`Touch::load`], counts, by its logarithm.
+    Force,
+    /// [`Touch::pressure`], counts per cm2, by its logarithm.
+    Pressure,
+    /// [`Touch::blow`], counts/ms, by its logarithm.
+    Loading,
+    /// [`Touch::rising_us`], us, by its logarithm.
+    Rising,
+    /// [`Touch::cover_mm2`], mm2, by its logarithm.
+    Extent,
+    /// [`Touch::gives`].
+    Gives,
+    /// [`Touch::stroked`], 0.1 mm.
+    Stroked,
+    /// [`Touch::embraced_ms`], ms.
+    Embraced,
+}
+
+impl Source {
+    /// True if its ramps are straight lines over the logarithm of its value.
+    pub const fn is_logarithmic(self) -> bool {
+        use Source::{Extent, Force, Loading, Pressure, Rising};
+        matches!(self, Force | Pressure | Loading | Rising | Extent)
+    }
 }
 
 /// One input of a map. The ramp may fall (`at_high` below `at_low`).
@@ -102,7 +141,7 @@ pub struct MapInput {
     pub concept: u8,
     /// Source of the value.
     pub source: Source,
-    /// Start of the ramp, in the unit of the source.
+    /// Start of the ramp, in the unit of the source. Ramps over a logarithm keep their ends to 3 in 1,000.
     pub low: i32,
     /// End of the ramp, above `low`.
     pub high: i32,
@@ -144,18 +183,25 @@ impl RampEncoder {
             Ok(twice.checked_div(2 * step).unwrap_or(0) as i32)
         };
         let (at_low, at_high) = (value(input.at_low)?, value(input.at_high)?);
+        let scaled = |limit| Self::scaled(input.source, limit);
         Ok(RampEncoder {
             concept: input.concept,
             source: input.source,
-            low: input.low,
-            high: input.high,
+            low: scaled(input.low),
+            high: scaled(input.high),
             at_low,
             at_high,
         })
     }
 
+    /// A value in the unit in which the ramps of this source are straight.
+    fn scaled(source: Source, value: i32) -> i32 {
+        if source.is_logarithmic() { log2(value.max(0).unsigned_abs().into()).into() } else { value }
+    }
+
     /// Value of the ramp at `value`. Never panics.
     pub(super) fn ramp(&self, value: i32) -> i32 {
+        let value = Self::scaled(self.source, value);
         // Most values are at an end of their ramp and need no division.
         if value <= self.low {
             return self.at_low;

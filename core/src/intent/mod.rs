@@ -2,7 +2,7 @@
 //!
 //! [`config`] is the configuration of a map, [`map`] the checked map, [`transfer`] the transfer functions,
 //! [`infer`] the inference, [`input`] the encoding of a touch, [`felt`] sums over the whole garment,
-//! [`evidence`] measures over the frames, [`fed`] the host's values, [`stage`] the decision with its
+//! [`evidence`] measures over the frames, `warmth` those of what is well meant, [`fed`] the host's values, [`stage`] the decision with its
 //! debounce, [`why`] the explanation, [`mod@tactile`] the map that ships.
 
 mod build;
@@ -19,6 +19,7 @@ pub mod map;
 pub mod stage;
 pub mod tactile;
 pub mod transfer;
+mod warmth;
 pub mod why;
 
 pub use config::{CONCEPTS, EDGES, Edge, IntentConfig, MapConfig, Rule, Threshold};

@@ -7,7 +7,7 @@
 //! | output | [`Meaning`], if there is a new one |
 //! | saturation | that of [`Map::encode`] and [`Map::infer`] |
 //! | latency | `onset_ms` from the first inference in favour of an intention |
-//! | RAM | [`IntentState`] of 64 concepts: 1,144 bytes |
+//! | RAM | [`IntentState`] of 64 concepts: 1,408 bytes |
 //! | M0+ cycles | about 300 without a change of inputs; else one inference |
 
 use super::config::{CONCEPTS, IntentConfig};
@@ -110,8 +110,9 @@ pub struct Intent<const N: usize = CONCEPTS> {
     hold_us: u64,
     period_us: u64,
     steps: u16,
-    /// True if an input is [`Source::Hardness`].
+    /// True if an input is [`Source::Hardness`], and if one is [`Source::Embraced`].
     feels: bool,
+    embraces: bool,
 }
 
 impl<const N: usize> Intent<N> {
@@ -127,6 +128,7 @@ impl<const N: usize> Intent<N> {
             period_us: 0,
             steps: 0,
             feels: false,
+            embraces: false,
         }
     }
 
@@ -159,13 +161,19 @@ impl<const N: usize> Intent<N> {
         self.hold_us = 1000 * u64::from(config.hold_ms);
         self.period_us = 1000 * u64::from(config.period_ms);
         self.steps = config.steps;
-        self.feels = config.map.inputs.iter().any(|input| input.source == Source::Hardness);
+        let takes = |source| config.map.inputs.iter().any(|input| input.source == source);
+        (self.feels, self.embraces) = (takes(Source::Hardness), takes(Source::Embraced));
         Ok(())
     }
 
     /// True if an input is [`Source::Hardness`]; otherwise [`Touch::cell_mm2`] is not read.
     pub const fn feels(&self) -> bool {
         self.feels
+    }
+
+    /// True if an input is [`Source::Embraced`]; otherwise [`Felt::parts`] is not read.
+    pub const fn embraces(&self) -> bool {
+        self.embraces
     }
 
     /// The map.
@@ -190,6 +198,13 @@ impl<const N: usize> Intent<N> {
         let counts = state.touch.is_some() || !touches.is_empty();
         state.evidence.take(felt, counts, now, self.hold_us);
         let edge = self.select(state, touches, now);
+        if state.touch.is_some() {
+            let strongest = touches.iter().reduce(|best, t| if t.press > best.press { t } else { best });
+            state.evidence.warmth.take(strongest, felt, now);
+            if matches!(state.leading, Leading::Threat | Leading::Attack) {
+                state.evidence.warmth.forget();
+            }
+        }
         self.weigh(state, now);
         let inferred = self.refresh(state, host, edge, now);
         let changed = self.debounce(state, now);
@@ -250,6 +265,10 @@ impl<const N: usize> Intent<N> {
             (touch.blow, touch.load, touch.peak) = (evidence.blow(), evidence.load(), evidence.peak());
             touch.cover_mm2 = evidence.cover_mm2();
             (touch.beats, touch.still_ms) = (evidence.beats(), evidence.still_ms());
+            (touch.pressure, touch.rising_us) = (evidence.pressure(), evidence.rising_us());
+            let warmth = &evidence.warmth;
+            (touch.gives, touch.stroked, touch.embraced_ms) =
+                (warmth.gives, warmth.stroked, warmth.embraced_ms());
         }
     }
 
@@ -281,31 +300,42 @@ impl<const N: usize> Intent<N> {
     }
 
     /// Announces the intention that has led for `onset_ms`; true if it is new. Kindness waits until the touch
-    /// no longer comes: a push and a poke begin as lightly as a hand that is laid on.
+    /// has settled: a push and a poke begin as lightly as a hand that is laid on. An attack waits while the
+    /// touch still comes: what presses heavily begins as steeply as a blow, and rises for longer.
     fn debounce(&self, state: &mut IntentState<N>, now: Micros) -> bool {
         let candidate = self.candidate(state);
-        let early = candidate == Leading::Kindness && state.leading != candidate && state.evidence.comes;
+        let evidence = &state.evidence;
+        let unsettled = evidence.comes || !evidence.has_settled(now);
+        let early = candidate == Leading::Kindness && state.leading != candidate && unsettled;
         if candidate != state.candidate || early {
             (state.candidate, state.since) = (candidate, now);
         }
-        let lasted = now.since(state.since) >= self.onset_us;
-        let changed = lasted && candidate != state.leading;
+        // What has hit and is still there hit, and does not threaten only because the blow is over.
+        let after_blow = state.leading == Leading::Attack && candidate == Leading::Threat;
+        let onset_us = if after_blow { self.hold_us } else { self.onset_us };
+        let lasted = now.since(state.since) >= onset_us;
+        let comes = candidate == Leading::Attack && evidence.comes;
+        let changed = lasted && !comes && candidate != state.leading;
         if changed {
             state.leading = candidate;
         }
         changed
     }
 
-    /// Returns the intention that reaches the level and leads by the margin. For the announced one, level and
-    /// margin are lower by one margin (hysteresis), so that a value at the limit does not flicker.
+    /// Returns the intention that reaches the level and leads by the margin. An attack need not lead a threat, which
+    /// it also is, and a threat leads where no attack does. For the announced one, level and margin are lower by one
+    /// margin (hysteresis), so that a value at the limit does not flicker.
     fn candidate(&self, state: &IntentState<N>) -> Leading {
         let value = |at: &Option<usize>| at.and_then(|at| state.inference.state.get(at).copied());
-        for (at, leading) in self.intentions.iter().zip(Leading::INTENTIONS) {
+        // The gravest first.
+        for (at, leading) in self.intentions.iter().zip(Leading::INTENTIONS).rev() {
             let Some(own) = value(at) else { continue };
             let others = self
                 .intentions
                 .iter()
-                .filter(|other| *other != at)
+                .zip(Leading::INTENTIONS)
+                .filter(|(_, other)| (*other == Leading::Kindness) != (leading == Leading::Kindness))
+                .map(|(other, _)| other)
                 .filter_map(value)
                 .max()
                 .unwrap_or(i32::MIN);

@@ -58,7 +58,10 @@ impl Pipeline {
             let folds = condition.folds();
             let own = folds.posture.moves(now) && !folds.is_followed();
             let touch = strongest(sure()).map(|placed| Touch { own, ..self.touch(layout, placed) });
-            let felt = self.felt(layout, sure(), condition.drifts_fast());
+            let mut felt = self.felt(layout, sure(), condition.drifts_fast());
+            if stage.embraces() {
+                add_parts(&mut felt, contact, layout);
+            }
             stage.process(intent, touch.as_slice(), &felt, &state.fed.values(now), now)
         });
         probe.begin(Stage::React);
@@ -109,6 +112,7 @@ impl Pipeline {
             speed: placed.speed(layout),
             force: placed.contact.total,
             area: placed.contact.area,
+            way: placed.way(layout),
             cell_mm2: self.cell_mm2(layout, placed),
             ..Touch::default()
         }
@@ -140,6 +144,19 @@ impl Pipeline {
         let area = layout.areas().get(usize::from(placed.contact.panel));
         area.map_or(0, |area| area.cell_mm2)
     }
+}
+
+/// Adds the pressure of each region: a contact may lie on several.
+#[inline(never)] // M0+: own registers
+fn add_parts<const RUNS: usize, const PARTS: usize>(
+    felt: &mut Felt,
+    contact: &ContactState<CONTACTS, RUNS, PARTS, Placed>,
+    layout: &Layout,
+) {
+    contact.each_pressed(layout, |pressed| {
+        let Some(part) = felt.parts.get_mut(usize::from(pressed.area.region)) else { return };
+        *part = pressed.runs.iter().fold(*part, |sum, run| sum.saturating_add(run.sums.s0));
+    });
 }
 
 /// The contact of the largest press, which the intent stage would choose itself.

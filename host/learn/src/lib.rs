@@ -6,11 +6,13 @@
 //! | module | trains and judges |
 //! |---|---|
 //! | [`shapes`] | bases of objects, from images of single touches |
+//! | [`meaning`] | the cognitive map of a touch, on scripts of touches by several hands |
 //! | [`touches`] | models of gestures and intention, from frames of touches over time |
 #![forbid(unsafe_code)]
 
 pub mod commands;
 pub mod linear;
+pub mod meaning;
 pub mod shapes;
 pub mod stratified;
 pub mod touches;

@@ -119,12 +119,12 @@ mod tests {
         let mut bytes = [0; 4096];
         let length = postcard::to_slice(&Scene::shipped(), &mut bytes).unwrap().len();
         let concepts = bytes.windows(8).position(|it| it == b"\x07tactile").unwrap() + 8;
-        assert_eq!(bytes[concepts], 20);
+        assert_eq!(bytes[concepts], 22);
         bytes[concepts] = 65;
         assert_eq!(refused(&bytes[..length]), "scene: 65 intent.map.concepts, and there is room for 64");
-        bytes[concepts] = 20;
-        let edges = bytes.windows(4).position(|it| it == b"\x03own").unwrap() + 4 + 1;
-        assert_eq!(bytes[edges], 36);
+        bytes[concepts] = 22;
+        let edges = bytes.windows(5).position(|it| it == b"\x04grip").unwrap() + 5 + 1;
+        assert_eq!(bytes[edges], 41);
         bytes.copy_within(edges + 1..length, edges + 2);
         [bytes[edges], bytes[edges + 1]] = [0x81, 0x02];
         assert_eq!(refused(&bytes[..length + 1]), "scene: 257 intent.map.edges, and there is room for 256");

@@ -87,12 +87,12 @@ fn one_step_is_within_its_bound() {
 fn the_shipped_map_settles_within_its_bound() {
     let stated = bound("activation of the shipped map", "the_shipped_map_settles_within_its_bound");
     let config = tactile();
-    let map = Map::<20>::build(&config).unwrap();
+    let map = Map::<22>::build(&config).unwrap();
     let caused = |concept: usize| config.edges.iter().any(|edge| usize::from(edge.to) == concept);
     let mut noise = Noise(10);
     let (mut count, mut worst) = (0, 0f64);
     for _ in 0..20_000 {
-        let mut start = [0i32; 20];
+        let mut start = [0i32; 22];
         for (_, value) in start.iter_mut().enumerate().filter(|(concept, _)| !caused(*concept)) {
             let ends = [-32_768, -32_767, 0, 1, 32_767, 32_768];
             let any = noise.below(65_537) as i32 - 32_768;
@@ -104,7 +104,7 @@ fn the_shipped_map_settles_within_its_bound() {
         let mut exact = start.map(|v| f64::from(v) / 32768.0);
         for _ in 0..6 {
             let before = exact;
-            for concept in (0..20usize).filter(|concept| caused(*concept)) {
+            for concept in (0..22usize).filter(|concept| caused(*concept)) {
                 let causes = config.edges.iter().filter(|edge| usize::from(edge.to) == concept);
                 let sum: f64 =
                     causes.map(|edge| f64::from(edge.weight) / 100.0 * before[usize::from(edge.from)]).sum();
@@ -143,21 +143,13 @@ fn states_outside_their_range_are_clamped() {
 /// Measures beyond the ramps, and slots that are not there.
 #[test]
 fn measures_outside_their_ramp_are_held_at_its_ends() {
-    let map = Map::<20>::build(&tactile()).unwrap();
+    let map = Map::<22>::build(&tactile()).unwrap();
     let of = |press, friendliness| {
-        let touch = Touch {
-            press,
-            breadth: press,
-            friendliness,
-            duration_ms: press,
-            speed: press,
-            rise: press,
-            ..Touch::default()
-        };
+        let touch = Touch { load: press, pressure: press, friendliness, blow: press, ..Touch::default() };
         let state = map.encode(Some(&touch), &[]);
         [state[0], state[1], state[2], state[3]]
     };
-    assert_eq!(of(0, i8::MIN), [-32768, 0, -32768, 0]);
+    assert_eq!(of(0, i8::MIN), [0, -32768, -32768, 32768]);
     assert_eq!(of(u32::MAX, i8::MAX), [32768, 32768, 32768, -32768]);
     let mut config: MapConfig =
         MapConfig { name: name("fed"), decimals: 1, lambda: 1000, ..MapConfig::default() };

@@ -152,7 +152,7 @@ pub fn read(folder: &Path) -> Files {
     files
 }
 
-const TOUCHES: &str = "blow,location,label\n0.9,0.1,attack\n0.1,0.9,none\n0.8,0,attack\n0,0,none\n";
+const TOUCHES: &str = "time,location,label\n-0.9,0.1,attack\n-0.01,0.9,none\n-0.8,0,attack\n0,0,none\n";
 const BOX: &str = "duration_s = 2\ngarment = \"block-4x16\"\n[[touch]]\npanel = \"mat\"\nshape = \"box\"\n\
     force_n = 8\nat = [7, 1.5]\nsize_mm = [20, 20]\nstart_s = 0.2\nrise_s = 0.1\nhold_s = 0.55\nfall_s = 0.05\n\
     repeat = 2\nperiod_s = 0.9\n";

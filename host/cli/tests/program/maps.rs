@@ -98,10 +98,10 @@ fn maps_are_made_of_maps() {
     let combined = json(&["fcm", "combine", "tactile", "tactile", "--force", "-o", &ours, "--json"]);
     assert_eq!(
         (combined["map"].as_str(), combined["edges"].as_array().map(Vec::len)),
-        (Some("ours"), Some(36))
+        (Some("ours"), Some(41))
     );
     let merged = json(&["fcm", "merge", &ours, "shape", "--force", "-o", &both, "--json"]);
-    assert_eq!(merged["concepts"].as_array().map(Vec::len), Some(26));
+    assert_eq!(merged["concepts"].as_array().map(Vec::len), Some(28));
     assert!(merged["conflicts"][0].as_str().is_some_and(|said| said.contains(" of shape")), "{merged}");
     let checked = json(&["fcm", "check", &both, "--json"]);
     assert_eq!((checked["faults"].as_array().map(Vec::len), checked["cycles"].as_u64()), (Some(0), Some(0)));
@@ -110,11 +110,11 @@ fn maps_are_made_of_maps() {
         "why",
         &both,
         "--input",
-        "blow=0.9",
+        "time=-0.9",
         "--input",
-        "shape=0.9",
+        "shape=0.1",
         "--set",
-        "blow=-0.9",
+        "time=0.9",
         "--json",
     ]);
     let units = |list: &str| {
@@ -127,7 +127,7 @@ fn maps_are_made_of_maps() {
     let attack = |value: &Value| value["activations"]["attack"].as_f64().unwrap();
     assert!(attack(&why) > 0.9 && attack(&why["what_if"]) < 0.5, "{why}");
     let touches =
-        file("blows.csv", b"blow,location,label\n0.9,0.1,attack\n0.1,0.9,none\n0.8,0,attack\n0,0,none\n");
+        file("blows.csv", b"time,location,label\n-0.9,0.1,attack\n-0.01,0.9,none\n-0.8,0,attack\n0,0,none\n");
     let learned = json(&[
         "fcm",
         "learn",

@@ -2,6 +2,7 @@
 
 mod gestures;
 mod intent;
+mod meaning;
 mod recipe;
 mod shapes_eval;
 mod shapes_train;
@@ -18,7 +19,8 @@ const EXAMPLES: &str = "Examples:
   cargo learn gestures train --frames train.npz --labels train.csv -o my.model
   cargo learn gestures eval --model my.model --frames test.npz --labels test.csv
   cargo learn gestures eval --frames train.npz --labels train.csv --cross participant --json
-  cargo learn intent eval --frames frames.npz --labels labels.csv --cross day --json";
+  cargo learn intent eval --frames frames.npz --labels labels.csv --cross day --json
+  cargo learn meaning eval touches/care touches/work --all";
 
 /// Train and judge models that fit the board, on recorded data sets
 #[derive(Debug, Parser)]
@@ -39,6 +41,9 @@ enum ModelCommand {
     /// Kindness, threat and attack
     #[command(subcommand)]
     Intent(intent::IntentCommand),
+    /// The cognitive map, on scripts of touches by several hands
+    #[command(subcommand)]
+    Meaning(meaning::MeaningCommand),
 }
 
 #[derive(Debug, Subcommand)]
@@ -57,6 +62,7 @@ impl Cli {
             ModelCommand::Shapes(ShapesCommand::Eval(args)) => shapes_eval::run(&args),
             ModelCommand::Gestures(command) => gestures::run(command),
             ModelCommand::Intent(command) => intent::run(command),
+            ModelCommand::Meaning(command) => meaning::run(command),
         }
     }
 }

@@ -90,9 +90,10 @@ mod tests {
         let (layers, roles): (Vec<_>, Vec<_>) = of_config(&intent.map).into_iter().unzip();
         let wanted =
             [[Role::Felt; 4].as_slice(), &[Role::Meaning; 3], &[Role::Feeling; 3], &[Role::Felt; 10]];
-        assert_eq!(roles, wanted.concat());
+        assert_eq!(roles[..20], wanted.concat());
         assert_eq!(layers[..10], [0, 0, 0, 0, 3, 2, 1, 4, 4, 5]);
-        assert_eq!(layers[10..], [0; 10], "what is measured beside");
+        assert_eq!(layers[10..20], [0; 10], "what is measured beside");
+        assert_eq!(layers[20..], [1, 1], "sting and grip, of which threat follows");
     }
 
     #[test]

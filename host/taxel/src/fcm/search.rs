@@ -13,6 +13,7 @@ use super::touches::{Labelled, NONE, Touches};
 use super::weight::Weight;
 use crate::error::Result;
 use crate::text::progress::{Progress, Unit};
+use taxel_core::intent::Leading;
 
 /// Required lead.
 const MARGIN: f64 = 0.2;
@@ -58,7 +59,14 @@ pub fn judge<'a>(
             Some(concept) => map.value(run.state[concept]),
             None => LEVEL,
         };
-        let scores: Vec<f64> = (0..classes.len()).map(score).collect();
+        let mut scores: Vec<f64> = (0..classes.len()).map(score).collect();
+        // What hits may also threaten; then the attack is announced.
+        let at = |of: Leading| classes.iter().position(|class| class == of.as_str());
+        if let (Some(attack), Some(threat)) = (at(Leading::Attack), at(Leading::Threat))
+            && scores[attack] >= LEVEL
+        {
+            scores[threat] = scores[threat].min(LEVEL);
+        }
         let best = (0..scores.len()).rev().max_by(|a, b| scores[*a].total_cmp(&scores[*b])).unwrap_or(0);
         let other = (0..scores.len()).filter(|class| *class != touch.class).map(|class| scores[class]);
         judged.loss += (MARGIN + other.fold(f64::MIN, f64::max) - scores[touch.class]).max(0.0);

@@ -61,7 +61,7 @@ fn explain_run(
 ) -> Result<Explained> {
     let concept = match of {
         Some(name) => file.index(name, "--of")?,
-        None => strongest(file, &run.state)
+        None => strongest(file, &run.state, map.map.one())
             .ok_or_else(|| error!(MapFileError::Unanswerable, "no concept of the map has a cause"))?,
     };
     let name = &file.concept[concept].name;
@@ -88,13 +88,19 @@ fn start(file: &MapFile, map: &BoardMap, inputs: &[(String, Decimal)]) -> Result
     Ok(map.state(numbered))
 }
 
-/// The strongest intention, else the strongest concept with causes; of equal ones the first.
-fn strongest(file: &MapFile, state: &MapState) -> Option<usize> {
+/// An attack if there is one, which may also threaten; else the strongest intention, else the strongest concept with
+/// causes; of equal ones the first.
+fn strongest(file: &MapFile, state: &MapState, one: i32) -> Option<usize> {
     let is_intention = |name: &str| Leading::INTENTIONS.iter().any(|leading| leading.as_str() == name);
     let driven: Vec<usize> =
         (0..file.concept.len()).filter(|at| file.is_driven(&file.concept[*at].name)).collect();
     let intentions: Vec<usize> =
         driven.iter().copied().filter(|at| is_intention(&file.concept[*at].name)).collect();
+    let is_attack =
+        |at: &&usize| file.concept[**at].name == Leading::Attack.as_str() && 2 * state[**at] >= one;
+    if let Some(attack) = intentions.iter().find(is_attack) {
+        return Some(*attack);
+    }
     let among = if intentions.is_empty() { driven } else { intentions };
     among.into_iter().rev().max_by_key(|at| state[*at])
 }

@@ -5,6 +5,8 @@ pub mod family;
 mod flicker;
 mod garments;
 mod judge;
+mod monotone;
+mod objects;
 mod same;
 pub mod scripted;
 pub mod strangers;
@@ -143,6 +145,8 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
         friendliness: 40,
         duration_ms,
         speed,
+        // A stroke goes on at 50 mm/s.
+        way: [(speed.min(1) * duration_ms / 2) as i32, 0],
         // The stage computes the rest.
         ..Touch::default()
     };
@@ -170,14 +174,13 @@ fn a_slap_then_stroking_is_an_attack_and_then_kindness_without_flicker() {
         latest = [latest[0].max(slap - 100), latest[1].max(stroke - 460)];
     }
     println!("attack at most {} ms after its onset, kindness {} ms", latest[0], latest[1]);
-    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and a stroke is recognised after
-    // some time.
-    assert!(latest[0] <= 40 && latest[1] <= 700, "{latest:?}");
+    // The onset delay is 30 ms; the slap counts for 600 ms after its end, and then a stroke shows itself by its way.
+    assert!(latest[0] <= 40 && latest[1] <= 1_300, "{latest:?}");
 }
 
 /// A bending arm folds its own garment, without a touch.
 #[test]
-fn an_arm_that_bends_means_nothing_where_its_posture_is_sent() {
+fn an_arm_that_bends_means_nothing() {
     let script = scripts::load("elbow").expect("built in");
     let garment = scripts::garment(&script).expect("it is a preset");
     let layout = Layout::build(&garment, TAXELS, 4095).expect("it is checked");
@@ -208,7 +211,7 @@ fn an_arm_that_bends_means_nothing_where_its_posture_is_sent() {
         led
     };
     assert_eq!(led(true), BTreeSet::from(["none"]));
-    assert!(led(false).len() > 1, "without its posture it may be a hand");
+    assert_eq!(led(false), BTreeSet::from(["none"]), "a fold is no hand, even if its posture is not sent");
 }
 
 /// Forty families of touches against a person's judgement. `TAXEL_CAMPAIGN=1`: five of each instead of one.

@@ -14,7 +14,7 @@ fn every_concept_and_edge_is_drawn() {
     assert_eq!(plain.matches("style=dashed").count(), negative);
     assert_eq!(plain.matches("fillcolor=\"#ffffff\"").count(), map.concept.len(), "none is active");
     // The strongest edge is the widest.
-    let strongest = plain.lines().find(|line| line.starts_with("\"sharp\" -> \"kindness\" [label=\"-1\""));
+    let strongest = plain.lines().find(|line| line.starts_with("\"own\" -> \"kindness\" [label=\"-1\""));
     assert!(strongest.is_some_and(|line| line.ends_with("penwidth=5.0]")), "{plain}");
     let mut live = vec![0.0; map.concept.len()];
     (live[0], live[4]) = (1.0, -1.0);

@@ -62,7 +62,7 @@ fn hertz(newton: f64, kpa: f64) -> [f64; 2] {
 }
 
 #[test]
-fn soft_is_kind_and_hard_is_a_threat() {
+fn soft_is_no_threat_and_hard_is_one() {
     let soft = pressed(Shape::Ball, |newton| hertz(newton, 20.0));
     let rubber = pressed(Shape::Ball, |newton| hertz(newton, 200.0));
     let hard = pressed(Shape::Plate, |_| [20.0, 20.0]);
@@ -71,7 +71,7 @@ fn soft_is_kind_and_hard_is_a_threat() {
         [&soft, &rubber, &hard].map(|it| Hardness::of(it.0)),
         [Hardness::Soft, Hardness::Firm, Hardness::Hard]
     );
-    assert_eq!((soft.1.as_str(), hard.1.as_str()), ("kindness", "threat"));
+    assert_eq!((soft.1.as_str(), hard.1.as_str()), ("none", "threat"));
     assert_eq!((soft.2[0], hard.2[0]), (-1.0, 1.0));
     // On the ramp between its ends.
     let wanted = (f64::from(rubber.0) - 1_000.0) / 1_500.0 - 1.0;

@@ -169,18 +169,18 @@ fn a_bad_map_is_refused_in_one_sentence_and_changes_nothing() {
     for (bytes, why) in [
         (
             changed(|it| it.map.edges[3].weight = 101),
-            "scene: intent.map: W[time][kindness] = 1.01 is outside [-1, 1]",
+            "scene: intent.map: W[press][grip] = 1.01 is outside [-1, 1]",
         ),
         (changed(|it| it.map.lambda = 0), "scene: intent.map: lambda = 0 makes every concept constant"),
         (changed(|it| it.map.decimals = 5), "scene: intent.map: decimals = 5 is outside 0 ..= 4"),
         (changed(|it| it.map.concepts.clear()), "scene: intent.map: the map has no concept"),
         (
-            changed(|it| it.map.edges[0].to = 20),
-            "scene: intent.map: edge 0 names concept 20, and there are 20",
+            changed(|it| it.map.edges[0].to = 22),
+            "scene: intent.map: edge 0 names concept 22, and there are 22",
         ),
         (
             changed(|it| it.map.inputs[0].concept = 200),
-            "scene: intent.map: input 0 names concept 200, and there are 20",
+            "scene: intent.map: input 0 names concept 200, and there are 22",
         ),
         (changed(|it| it.map.concepts[1] = name("press")), "scene: intent.map: concept press is named twice"),
         (changed(|it| it.steps = 0), "scene: intent.map: steps = 0: an inference needs at least one"),

@@ -28,20 +28,20 @@ fn adds_up(file: &MapFile, explained: &Explained) {
 }
 
 #[test]
-fn a_lash_is_an_attack_because_it_is_sudden_and_narrow() {
+fn a_lash_is_an_attack_because_it_is_sudden_and_pointed() {
     let file = load::map("tactile").unwrap();
-    let measured = [("blow", "0.3"), ("edge", "0.1"), ("sharp", "0.1"), ("slow", "-0.05"), ("press", "0.8")];
+    let measured = [("time", "-0.3"), ("shape", "0.1"), ("gradual", "0.05"), ("press", "0.8")];
     let explained = explain(&file, &inputs(&measured), None).unwrap();
     adds_up(&file, &explained);
     let names = |at: usize| file.concept[at].name.as_str();
     assert_eq!(names(explained.why.concept.into()), "attack");
     let paths = &explained.shares.paths;
-    assert_eq!(paths[0].concepts.iter().map(|at| names(*at)).collect::<Vec<_>>(), ["blow"]);
+    assert_eq!(paths[0].concepts.iter().map(|at| names(*at)).collect::<Vec<_>>(), ["time"]);
     assert!(explained.shares.rest.is_empty(), "{:?}", explained.shares.rest);
     let words = text(&file, &explained, None, 2);
     assert!(
         words.starts_with("attack is 0.8")
-            && words.contains("blow -> attack")
+            && words.contains("time -> attack")
             && words.contains("other paths"),
         "{words}"
     );
@@ -56,8 +56,8 @@ fn a_lash_is_an_attack_because_it_is_sudden_and_narrow() {
     let way = |wanted: &[&str]| {
         anger.shares.paths.iter().find(|p| p.concepts.iter().map(|at| names(*at)).eq(wanted.iter().copied()))
     };
-    assert!(way(&["blow", "attack"]).unwrap().share > 0);
-    assert!(way(&["slow", "attack"]).unwrap().share < 0);
+    assert!(way(&["time", "attack"]).unwrap().share > 0);
+    assert!(way(&["gradual", "attack"]).unwrap().share < 0);
 }
 
 #[test]
@@ -96,15 +96,15 @@ fn all_maps_and_settings_add_up() {
 #[test]
 fn what_if_holds_a_concept_against_its_causes() {
     let file = load::map("tactile").unwrap();
-    let start = |blow: &str| inputs(&[("press", "-0.5"), ("shape", "1"), ("blow", blow)]);
+    let start = |time: &str| inputs(&[("warmth", "1"), ("shape", "0.2"), ("time", time)]);
     let at = |name: &str| file.find(name).unwrap();
-    let before = explain(&file, &start("0.8"), None).unwrap().run.state;
-    let calm = what_if(&file, &start("0.8"), &inputs(&[("attack", "0")])).unwrap().state;
+    let before = explain(&file, &start("-0.8"), None).unwrap().run.state;
+    let calm = what_if(&file, &start("-0.8"), &inputs(&[("attack", "0"), ("sting", "0")])).unwrap().state;
     assert_eq!(calm[at("attack")], 0);
     assert!(calm[at("kindness")] > before[at("kindness")]);
     assert!(calm[at("anger")] < before[at("anger")] && calm[at("happiness")] > before[at("happiness")]);
-    let gentle = what_if(&file, &start("0.8"), &inputs(&[("blow", "-1")])).unwrap().state;
-    assert_eq!(gentle, explain(&file, &start("-1"), None).unwrap().run.state);
+    let gentle = what_if(&file, &start("-0.8"), &inputs(&[("time", "1")])).unwrap().state;
+    assert_eq!(gentle, explain(&file, &start("1"), None).unwrap().run.state);
 }
 
 #[test]
