@@ -9,7 +9,7 @@
 //! follow meanings: if a threat or an attack leads, happiness and politeness are 0.
 //!
 //! What is harder, faster or more pointed is never judged milder: every edge from such a measure to threat and
-//! attack raises them, and context (warmth, a broad surface, a slow rise, a usual place) takes from a sum that
+//! attack raises them, and context (goodwill, a broad surface, a slow rise, a usual place) takes from a sum that
 //! grows with the load.
 
 use super::config::{Edge, MapConfig, Rule};
@@ -38,7 +38,7 @@ const CONCEPTS: [&str; 22] = [
     "slow",
     "lasting",
     "broad",
-    "warmth",
+    "goodwill",
     "notice",
     "own",
     "harm",
@@ -62,7 +62,7 @@ const GRADUAL: u8 = 10;
 const SLOW: u8 = 11;
 const LASTING: u8 = 12;
 const BROAD: u8 = 13;
-const WARMTH: u8 = 14;
+const GOODWILL: u8 = 14;
 const NOTICE: u8 = 15;
 const OWN: u8 = 16;
 const HARM: u8 = 17;
@@ -80,7 +80,7 @@ const EDGES: [(u8, u8, i16); 41] = [
     (SLOW, GRIP, 100),
     (LASTING, GRIP, 100),
     (BROAD, GRIP, -100),
-    (WARMTH, GRIP, -100),
+    (GOODWILL, GRIP, -100),
     (OBJECT, GRIP, -100),
     (OWN, GRIP, -50),
     (TIME, ATTACK, -100),
@@ -93,7 +93,7 @@ const EDGES: [(u8, u8, i16); 41] = [
     (HARM, THREAT, 50),
     (LOCATION, THREAT, -5),
     (OWN, THREAT, -30),
-    (WARMTH, KINDNESS, 100),
+    (GOODWILL, KINDNESS, 100),
     (PRESS, KINDNESS, -60),
     (LOCATION, KINDNESS, 5),
     (NOTICE, KINDNESS, 100),
@@ -129,10 +129,10 @@ const INPUTS: [(u8, Source, [i32; 2], [i16; 2]); 20] = [
     (LASTING, Source::Duration, [250, 400], [-100, 0]),
     (LASTING, Source::Age, [450, 550], [-100, 0]),
     (BROAD, Source::Extent, [15000, 33300], [0, 100]),
-    (WARMTH, Source::Gives, [0, 1], [0, 100]),
-    (WARMTH, Source::Stroked, [0, 200], [0, 100]),
-    (WARMTH, Source::Embraced, [100, 250], [0, 100]),
-    (WARMTH, Source::Cover, [120, 200], [-100, 0]),
+    (GOODWILL, Source::Gives, [0, 1], [0, 100]),
+    (GOODWILL, Source::Stroked, [0, 200], [0, 100]),
+    (GOODWILL, Source::Embraced, [100, 250], [0, 100]),
+    (GOODWILL, Source::Cover, [120, 200], [-100, 0]),
     (NOTICE, Source::Load, [400, 600], [-100, 0]),
     (OWN, Source::Own, [0, 1], [0, 100]),
     (HARM, Source::Force, [148000, 296000], [0, 100]),

@@ -309,13 +309,13 @@ mod tests {
     #[test]
     fn why_adds_up_and_names_what_warmth_causes() {
         let map = fcm::load::map("tactile").unwrap();
-        let inputs = [("press", 0.1), ("shape", -0.5), ("warmth", 1.0)];
+        let inputs = [("press", 0.1), ("shape", -0.5), ("goodwill", 1.0)];
         let inputs = inputs.map(|(name, value)| (name.to_string(), Decimal::from_f64(value).unwrap()));
         let run = fcm::why::explain(&map, &inputs, None).unwrap();
         let activations: Vec<f64> =
             run.run.state[..map.concept.len()].iter().map(|x| run.map.value(*x)).collect();
         let line = why(&map, None, &activations).unwrap();
-        assert_eq!((line.concept.as_str(), line.inputs[0].0.as_str()), ("kindness", "warmth"));
+        assert_eq!((line.concept.as_str(), line.inputs[0].0.as_str()), ("kindness", "goodwill"));
         let rest: f64 = line.rest.iter().map(|(_, share)| share).sum();
         let paths: f64 = line.paths.iter().map(|path| path.share).sum();
         assert!((paths + rest - line.sum).abs() < 1e-9 && line.activation > 0.9, "{line:?}");

@@ -72,3 +72,21 @@ pub fn counts(rows: &[Row], author: usize) -> [[usize; 2]; 2] {
     }
     counts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The scripts of the repository's own author.
+    #[test]
+    fn touches_of_our_own_hand_mean_what_the_rules_say() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("touches/own");
+        let author = Author::read(&folder).unwrap();
+        let rows = table(std::slice::from_ref(&author), None, None).unwrap();
+        let wrong: Vec<String> = rows.iter().filter(|row| !row.is_right()).map(Row::line).collect();
+        wrong.iter().for_each(|line| println!("{line}"));
+        assert!(20 * wrong.len() <= rows.len(), "{} of {}", wrong.len(), rows.len());
+        assert_eq!(counts(&rows, 0)[0][1], author.scripts.len());
+        assert!(Author::read(&folder.join("none")).is_err());
+    }
+}

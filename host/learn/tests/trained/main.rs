@@ -10,6 +10,7 @@ use data::find as data;
 use docs::{root, says};
 use serde_json::Value;
 use std::process::Command;
+use taxel_learn::meaning::{Author, counts, table};
 use taxel_learn::touches::{self, gestures, intent};
 
 fn share(report: &Value, pointer: &str) -> f64 {
@@ -32,6 +33,23 @@ fn gestures_of_people_who_were_kept_apart() {
     assert!(share(&report, "/accuracy") > 0.80);
     assert!(share(&report, "/accuracy") > share(&report, "/beside/knn"));
     assert!(share(&report, "/accuracy") > share(&report, "/beside/map"));
+}
+
+/// Scripts by two other authors, who wrote their rules before anything ran.
+#[test]
+fn touches_of_other_hands_mean_what_their_authors_say() {
+    let authors = ["touches/care", "touches/work"].map(|folder| Author::read(&data(folder)).unwrap());
+    let rows = table(&authors, None, None).unwrap();
+    rows.iter().filter(|row| !row.is_right()).for_each(|row| println!("{}", row.line()));
+    let [mut sure, mut other] = [[0; 2]; 2];
+    for at in 0..authors.len() {
+        let [of_sure, of_other] = counts(&rows, at);
+        (0..2).for_each(|part| {
+            (sure[part], other[part]) = (sure[part] + of_sure[part], other[part] + of_other[part])
+        });
+    }
+    println!("{} of {} where people are sure, {} of {} others", sure[0], sure[1], other[0], other[1]);
+    assert!(100 * sure[0] >= 95 * sure[1] && 100 * other[0] >= 75 * other[1]);
 }
 
 #[test]

@@ -11,7 +11,7 @@ fn labelled(map: &MapFile) -> String {
     let board = BoardMap::build(map).unwrap();
     let of = |name: &str| map.find(name).unwrap();
     let intentions = ["kindness", "threat", "attack"];
-    let columns = ["press", "shape", "warmth", "time"];
+    let columns = ["press", "shape", "goodwill", "time"];
     let mut text = format!("{},label\n", columns.join(","));
     let mut random = 12345u64;
     while text.lines().count() < 91 {

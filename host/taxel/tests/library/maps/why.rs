@@ -96,7 +96,7 @@ fn all_maps_and_settings_add_up() {
 #[test]
 fn what_if_holds_a_concept_against_its_causes() {
     let file = load::map("tactile").unwrap();
-    let start = |time: &str| inputs(&[("warmth", "1"), ("shape", "0.2"), ("time", time)]);
+    let start = |time: &str| inputs(&[("goodwill", "1"), ("shape", "0.2"), ("time", time)]);
     let at = |name: &str| file.find(name).unwrap();
     let before = explain(&file, &start("-0.8"), None).unwrap().run.state;
     let calm = what_if(&file, &start("-0.8"), &inputs(&[("attack", "0"), ("sting", "0")])).unwrap().state;
