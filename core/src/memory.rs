@@ -41,9 +41,9 @@ states! {
     FoldState, "fold/mod.rs", 12896, 12928;
     TouchState, "gesture/mod.rs", 3712, 3720;
     Monitor, "health/mod.rs", 2812, 2816;
-    Evidence, "intent/evidence.rs", 464, 464;
+    Evidence, "intent/evidence.rs", 448, 448;
     Fed, "intent/fed.rs", 192, 192;
-    IntentState, "intent/stage.rs", 1408, 1416;
+    IntentState, "intent/stage.rs", 1392, 1400;
     ReactState, "react/mod.rs", 624, 664;
     Reflex<TAXELS>, "reflex/mod.rs", 8968, 9000;
     Shapes, "shape/mod.rs", 20, 40;

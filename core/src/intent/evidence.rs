@@ -6,7 +6,7 @@
 //! | output | the measures of [`Evidence`] |
 //! | saturation | at the ends of their types |
 //! | latency | none |
-//! | RAM | [`Evidence`]: 464 bytes |
+//! | RAM | [`Evidence`]: 448 bytes |
 //!
 //! All times are those of the frames. **Rise** is the increase of certain pressure ([`Felt::certain`]) since
 //! the latest earlier frame that is at least [`WINDOW_US`] older; if frames are further apart, since the
@@ -113,9 +113,9 @@ pub struct Evidence {
     load: RecentPeak,
     peak: RecentPeak,
     pressure: RecentPeak,
-    /// Loads of some time ago, and the greatest recent growth since then, counts.
+    /// Loads of some time ago, and the growth since then of the steepest recent rise, counts.
     feet: [(Micros, u32); 2],
-    growth: RecentPeak,
+    growth: u32,
     cover_mm2: u32,
     pub(super) warmth: Warmth,
     beats: Beats,
@@ -133,7 +133,8 @@ impl Evidence {
     pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
         self.rise = self.rise_of(felt, now);
         if !counts {
-            (self.blow, self.load, self.peak, self.pressure, self.growth) = Default::default();
+            (self.blow, self.load, self.peak, self.pressure) = Default::default();
+            self.growth = 0;
             self.warmth.begin(now);
             (self.beats, self.cover_mm2, self.rest, self.still_ms) = (Beats::default(), 0, 0, 0);
         }
@@ -144,7 +145,11 @@ impl Evidence {
             self.load.take(felt.load, now, memory_us);
             self.peak.take(felt.peak.into(), now, memory_us);
             self.pressure.take(felt.pressure, now, memory_us);
-            self.growth.take(growth, now, memory_us);
+            if self.blow.at == now {
+                self.growth = growth;
+            } else if now.since(self.blow.at) <= 2 * FOOT_US {
+                self.growth = self.growth.max(growth);
+            }
         }
         self.cover_mm2 = self.cover_mm2.max(felt.cover_mm2);
         if felt.load > 0 || counts {
@@ -186,7 +191,7 @@ impl Evidence {
     fn growth_of(&mut self, load: u32, now: Micros) -> u32 {
         let [older, newer] = self.feet;
         let foot = if now.since(newer.0) >= FOOT_US { newer } else { older };
-        if now.since(newer.0) >= FOOT_US / 2 {
+        if now.since(newer.0) >= FOOT_US {
             self.feet = [newer, (now, load)];
         }
         load.saturating_sub(foot.1)
@@ -220,7 +225,7 @@ impl Evidence {
     /// Time in which the load grew at its steepest recent rise, us; the largest number if it did not rise.
     pub fn rising_us(&self) -> u32 {
         match NonZeroU32::new(self.blow.value) {
-            Some(rise) => Inverse::of(rise.get()).quotient(wide(self.growth.value, 1_000)),
+            Some(rise) => Inverse::of(rise.get()).quotient(wide(self.growth, 1_000)),
             None => u32::MAX,
         }
     }
@@ -322,6 +327,21 @@ mod tests {
                 assert!(!comes(period_us, fold_ms, 240), "{fold_ms} ms at {period_us} us, at rest");
             }
         }
+    }
+
+    #[test]
+    fn a_rise_takes_as_long_however_long_the_force_stays() {
+        // 60 N in 0.2 s, and 1 N more at once 0.3 s later, which is the steepest rise of the last 0.6 s in the end.
+        let mut evidence = Evidence::default();
+        let mut least = u32::MAX;
+        for ms in (0..1_600u64).step_by(5) {
+            let total = 300 * ms.min(200) as u32 + if ms >= 500 { 1_000 } else { 0 };
+            evidence.take(&felt(total, 60), true, Micros(1_000 * ms), MEMORY_US);
+            if (100..1_000).contains(&ms) {
+                least = least.min(evidence.rising_us());
+            }
+        }
+        assert!(least >= 50_000, "{least} us");
     }
 
     #[test]

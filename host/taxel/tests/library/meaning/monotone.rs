@@ -58,17 +58,20 @@ pub fn said(script: &Script, garment: &Garment) -> (Vec<Leading>, bool) {
     (said, full)
 }
 
-fn word(touch: &Touch, garment: &Garment) -> Word {
+/// The gravest word, and whether a taxel was full.
+fn word(touch: &Touch, garment: &Garment) -> (Word, bool) {
     let mut script =
         scripts::parse(&format!("duration_s = {}", touch.end_s() + 0.8), "pair.toml").expect("it is short");
     (script.idle.noise_counts, script.idle.spread_counts) = (0.0, 0.0);
     script.touches = vec![touch.clone()];
-    match said(&script, garment) {
-        (said, _) if said.contains(&Leading::Attack) => Word::Attack,
-        (said, _) if said.contains(&Leading::Threat) => Word::Threat,
-        (_, true) => Word::Unclear,
+    let (said, full) = said(&script, garment);
+    let word = match said {
+        said if said.contains(&Leading::Attack) => Word::Attack,
+        said if said.contains(&Leading::Threat) => Word::Threat,
+        _ if full => Word::Unclear,
         _ => Word::Mild,
-    }
+    };
+    (word, full)
 }
 
 fn log_between(rng: &mut Rng, low: f64, high: f64) -> f64 {
@@ -109,14 +112,21 @@ fn what_is_harder_faster_or_more_pointed_is_never_milder() {
         let less = touch(&mut rng);
         let (how, more) = match seed % 3 {
             0 => ("harder", Touch { force_n: FACTOR * less.force_n, ..less.clone() }),
-            1 => ("faster", Touch { rise_s: less.rise_s / FACTOR, ..less.clone() }),
+            1 => {
+                // It lasts as long as the other.
+                let rise_s = less.rise_s / FACTOR;
+                let hold_s = less.hold_s + less.rise_s - rise_s;
+                ("faster", Touch { rise_s, hold_s, ..less.clone() })
+            }
             _ => {
                 let size = Size::Both(less.size().map(|mm| mm / FACTOR.sqrt()));
                 ("more pointed", Touch { size_mm: Some(size), ..less.clone() })
             }
         };
-        let words = [&less, &more].map(|touch| word(touch, &garment));
-        let milder = words[1] < words[0] && words[1] != Word::Unclear;
+        let [(of_less, _), (of_more, full)] = [&less, &more].map(|touch| word(touch, &garment));
+        let words = [of_less, of_more];
+        // Of a full taxel only the least is known, and `unclear` says so beside the word.
+        let milder = of_more < of_less && !full;
         (words, milder.then(|| format!("  {seed}, {how}: {words:?}: {less:?}")))
     };
     let work = || {
