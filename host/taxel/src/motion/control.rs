@@ -4,12 +4,12 @@ use super::clamp::is_clamped;
 use super::command::{MotionCause, MotionCommand, MotionDeed, MotionPhase};
 use super::config::TouchAction;
 use super::file::Behaviour;
-use super::guard::{self, MotionFault, Seen};
+use super::guard::{self, MotionFault, SeenCycle};
 use super::input::{MotionInput, MotionTouch};
-use super::known::{self, Chosen, KnownTouch};
+use super::known::{self, Chosen, RecentTouch};
 use super::limits::allowed_change;
 use super::solve::{Bound, Goal, NEXT_LEVEL, solve};
-use super::spot::Spot;
+use super::spot::TouchedSpot;
 use super::state::{MotionState, Retreat};
 use super::yielding::{self, LeadingForce};
 use crate::body::robot::{Poses, Robot};
@@ -23,7 +23,7 @@ pub struct MotionControl {
 }
 
 /// What an armed cycle has to do.
-struct Plan {
+struct CyclePlan {
     deed: MotionDeed,
     /// Velocities that points should have; none: the robot stands still, at once.
     goals: Option<Vec<Goal>>,
@@ -58,7 +58,7 @@ impl MotionControl {
         if let Some(fault) = guard::fault(&self.behaviour.config.faults, joints, None, input) {
             return Err(fault);
         }
-        let (counts, seen) = (state.counts, Some(Seen::of(input)));
+        let (counts, seen) = (state.counts, Some(SeenCycle::of(input)));
         *state = MotionState { counts, seen, phase: MotionPhase::Armed, ..self.start() };
         Ok(())
     }
@@ -66,7 +66,7 @@ impl MotionControl {
     /// Advances to a cycle. Whatever the input is, the command is 0 unless it is armed and without a fault.
     pub fn step(&self, state: &mut MotionState, input: &MotionInput<'_>) -> MotionCommand {
         let moves = state.velocities.iter().any(|velocity| *velocity != 0.0);
-        let before = state.seen.replace(Seen::of(input));
+        let before = state.seen.replace(SeenCycle::of(input));
         if state.phase == MotionPhase::Armed {
             let (faults, joints) = (&self.behaviour.config.faults, self.robot.free().len());
             if let Some(fault) =
@@ -80,8 +80,9 @@ impl MotionControl {
         let seconds = input.now_us.saturating_sub(before.now_us) as f64 * 1e-6;
         let poses = self.robot.poses(posture.positions);
         known::take(&mut state.known, input);
-        let spot = |touch: &MotionTouch| Spot::of(&self.robot, &poses, touch.link, touch.at, touch.normal);
-        let spots: Vec<(&MotionTouch, Spot)> =
+        let spot =
+            |touch: &MotionTouch| TouchedSpot::of(&self.robot, &poses, touch.link, touch.at, touch.normal);
+        let spots: Vec<(&MotionTouch, TouchedSpot)> =
             input.touches.iter().filter_map(|touch| Some((touch, spot(touch)?))).collect();
         let chosen: Vec<Option<Chosen>> =
             state.known.iter().map(|it| it.chosen(&self.behaviour.config, input.leading)).collect();
@@ -135,19 +136,19 @@ impl MotionControl {
         state: &mut MotionState,
         now_us: u64,
         poses: &Poses,
-        (chosen, spots): (&[Option<Chosen>], &[(&MotionTouch, Spot)]),
+        (chosen, spots): (&[Option<Chosen>], &[(&MotionTouch, TouchedSpot)]),
         seconds: f64,
-    ) -> Plan {
+    ) -> CyclePlan {
         let config = &self.behaviour.config;
         let after = |s: f64| now_us.saturating_add((s * 1e6) as u64);
         if is_clamped(spots, &config.clamp) {
             state.clamped_us = after(config.clamp.seconds);
         }
         if now_us < state.clamped_us {
-            return Plan { deed: MotionDeed::Clamped, goals: None, speed: 0.0 };
+            return CyclePlan { deed: MotionDeed::Clamped, goals: None, speed: 0.0 };
         }
         if chosen.iter().flatten().any(|chosen| chosen.action == TouchAction::Stop) {
-            return Plan { deed: MotionDeed::Stop, goals: None, speed: 0.0 };
+            return CyclePlan { deed: MotionDeed::Stop, goals: None, speed: 0.0 };
         }
         let mut forces = Vec::new();
         for (it, chosen) in state.known.iter().zip(chosen) {
@@ -176,14 +177,14 @@ impl MotionControl {
 
         let retreats = state.retreats.iter().filter(|retreat| now_us <= retreat.until_us);
         let away = retreats.filter_map(|Retreat { link, at, normal, .. }| {
-            let spot = Spot::of(&self.robot, poses, *link, *at, *normal)?;
+            let spot = TouchedSpot::of(&self.robot, poses, *link, *at, *normal)?;
             Some(Goal { velocity: -spot.normal * config.retreat.speed, columns: spot.columns, weight: 1.0 })
         });
         let mut goals: Vec<Goal> = away.collect();
         let is_retreat = !goals.is_empty();
         let weight = if is_retreat { NEXT_LEVEL } else { 1.0 };
         let led = state.led.iter().filter_map(|it| {
-            let spot = Spot::of(&self.robot, poses, it.link, it.at, it.velocity)?;
+            let spot = TouchedSpot::of(&self.robot, poses, it.link, it.at, it.velocity)?;
             Some(Goal { velocity: it.velocity, columns: spot.columns, weight })
         });
         goals.extend(led);
@@ -195,7 +196,7 @@ impl MotionControl {
                 (MotionDeed::Slow, factors.fold(1.0, f64::min))
             }
         };
-        Plan { deed, goals: Some(goals), speed }
+        CyclePlan { deed, goals: Some(goals), speed }
     }
 
     /// Velocities that fulfil the goals within the limits of the joints.
@@ -226,7 +227,7 @@ impl MotionControl {
         &self,
         state: &mut MotionState,
         poses: &Poses,
-        spots: &[(&MotionTouch, Spot)],
+        spots: &[(&MotionTouch, TouchedSpot)],
         seconds: f64,
     ) -> f64 {
         let pairs = self.behaviour.apart.iter();
@@ -239,7 +240,7 @@ impl MotionControl {
     }
 
     /// Sets the speed of the robot's own motion: down at once, up after a while and slowly. Returns what is done.
-    fn pace(&self, state: &mut MotionState, plan: &Plan, now_us: u64, seconds: f64) -> MotionDeed {
+    fn pace(&self, state: &mut MotionState, plan: &CyclePlan, now_us: u64, seconds: f64) -> MotionDeed {
         let resume = &self.behaviour.config.resume;
         if plan.speed <= state.speed {
             (state.speed, state.slowed_us) = (plan.speed, now_us);
@@ -256,8 +257,8 @@ impl MotionControl {
 }
 
 /// Begins a retreat from a touch, or goes on with it. A touch that has ended begins one, and does not prolong it.
-fn begin_retreat(retreats: &mut Vec<Retreat>, it: &KnownTouch, until_us: u64) {
-    let KnownTouch { touch, is_present, .. } = it;
+fn begin_retreat(retreats: &mut Vec<Retreat>, it: &RecentTouch, until_us: u64) {
+    let RecentTouch { touch, is_present, .. } = it;
     let MotionTouch { link, at, normal, .. } = *touch;
     match retreats.iter_mut().find(|retreat| retreat.touch == touch.touch) {
         Some(retreat) if *is_present => *retreat = Retreat { link, at, normal, until_us, ..*retreat },
@@ -266,7 +267,7 @@ fn begin_retreat(retreats: &mut Vec<Retreat>, it: &KnownTouch, until_us: u64) {
     }
 }
 
-fn cause(it: &KnownTouch, Chosen { action, row, .. }: Chosen) -> Option<MotionCause> {
+fn cause(it: &RecentTouch, Chosen { action, row, .. }: Chosen) -> Option<MotionCause> {
     let newtons = if it.is_present { it.touch.newtons } else { it.most };
     let place = it.touch.place.clone();
     (action != TouchAction::Ignore).then_some(MotionCause {

@@ -57,18 +57,18 @@ impl MotionFault {
 
 /// What the last cycle has seen.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct SeenCycle {
     /// Time of the cycle, us.
     pub now_us: u64,
     posture_us: u64,
     boards: Vec<MotionBoard>,
 }
 
-impl Seen {
+impl SeenCycle {
     /// What a cycle has seen.
-    pub fn of(input: &MotionInput<'_>) -> Seen {
+    pub fn of(input: &MotionInput<'_>) -> SeenCycle {
         let posture_us = input.posture.map_or(0, |posture| posture.at_us);
-        Seen { now_us: input.now_us, posture_us, boards: input.boards.to_vec() }
+        SeenCycle { now_us: input.now_us, posture_us, boards: input.boards.to_vec() }
     }
 }
 
@@ -77,7 +77,7 @@ impl Seen {
 pub(super) fn fault(
     config: &FaultConfig,
     joints: usize,
-    before: Option<(&Seen, bool)>,
+    before: Option<(&SeenCycle, bool)>,
     input: &MotionInput<'_>,
 ) -> Option<MotionFault> {
     let now_us = input.now_us;

@@ -14,7 +14,7 @@ const MOST: usize = 1024;
 
 /// A touch, and what is known of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct KnownTouch {
+pub(super) struct RecentTouch {
     /// As it was reported last.
     pub touch: MotionTouch,
     /// Time of its onset, us.
@@ -38,7 +38,7 @@ pub(super) struct Chosen {
 }
 
 /// Takes the touches of a cycle; what has ended long ago is forgotten.
-pub(super) fn take(known: &mut Vec<KnownTouch>, input: &MotionInput<'_>) {
+pub(super) fn take(known: &mut Vec<RecentTouch>, input: &MotionInput<'_>) {
     let now_us = input.now_us;
     known.iter_mut().for_each(|it| it.is_present = false);
     for touch in input.touches {
@@ -51,7 +51,7 @@ pub(super) fn take(known: &mut Vec<KnownTouch>, input: &MotionInput<'_>) {
                 it.most = it.most.max(touch.newtons);
                 (it.touch, it.seen_us, it.is_present) = (touch.clone(), now_us, true);
             }
-            None if has_room => known.push(KnownTouch {
+            None if has_room => known.push(RecentTouch {
                 touch: touch.clone(),
                 since_us: now_us,
                 seen_us: now_us,
@@ -64,7 +64,7 @@ pub(super) fn take(known: &mut Vec<KnownTouch>, input: &MotionInput<'_>) {
     known.retain(|it| now_us.saturating_sub(it.seen_us) < HELD_US);
 }
 
-impl KnownTouch {
+impl RecentTouch {
     /// What the robot does about it; none if nothing fits. A touch that has ended counts only for what it meant.
     pub fn chosen(&self, config: &BehaviourConfig, leading: Leading) -> Option<Chosen> {
         let newtons = if self.is_present { self.touch.newtons } else { self.most };

@@ -5,7 +5,7 @@ use crate::body::robot::{Poses, Robot};
 
 /// A place of a link, and how the joints move it.
 #[derive(Debug, Clone)]
-pub(super) struct Spot {
+pub(super) struct TouchedSpot {
     /// Place in the base, m.
     pub at: DVec3,
     /// Direction away from the robot in the base.
@@ -14,13 +14,13 @@ pub(super) struct Spot {
     pub columns: Vec<DVec3>,
 }
 
-impl Spot {
+impl TouchedSpot {
     /// A place and a direction of a link, in its frame; none without such a link.
-    pub fn of(robot: &Robot, poses: &Poses, link: usize, at: DVec3, normal: DVec3) -> Option<Spot> {
+    pub fn of(robot: &Robot, poses: &Poses, link: usize, at: DVec3, normal: DVec3) -> Option<TouchedSpot> {
         let pose = poses.of(link, 0)?;
         let at = pose.point(at);
         let columns = robot.jacobian(poses, link, at);
-        Some(Spot { at, normal: pose.direction(normal), columns })
+        Some(TouchedSpot { at, normal: pose.direction(normal), columns })
     }
 
     /// Its velocity in the base, m/s.

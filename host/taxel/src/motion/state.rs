@@ -1,8 +1,8 @@
 //! What motion remembers from one cycle to the next.
 
 use super::command::MotionPhase;
-use super::guard::{MotionFault, Seen};
-use super::known::KnownTouch;
+use super::guard::{MotionFault, SeenCycle};
+use super::known::RecentTouch;
 use super::tank::Tank;
 use super::yielding::Led;
 use crate::body::DVec3;
@@ -14,8 +14,8 @@ pub struct MotionState {
     pub(super) fault: Option<MotionFault>,
     pub(super) counts: [u64; MotionFault::ALL.len()],
     /// What the last cycle has seen.
-    pub(super) seen: Option<Seen>,
-    pub(super) known: Vec<KnownTouch>,
+    pub(super) seen: Option<SeenCycle>,
+    pub(super) known: Vec<RecentTouch>,
     pub(super) retreats: Vec<Retreat>,
     pub(super) led: Vec<Led>,
     /// The last command.

@@ -22,41 +22,41 @@ const STIFFNESS: f64 = 2000.0;
 const HEIGHT: f64 = -0.18;
 
 /// A hand: on which side of the forearm it presses, and how deep into it at a time of the scene, m, if it stood still.
-struct Hand {
+struct DemoHand {
     side: DVec3,
     depth: fn(f64) -> f64,
 }
 
 /// A scene: what is done, for how long, and by which hands.
-struct Scene {
+struct DemoScene {
     name: &'static str,
     seconds: f64,
-    hands: &'static [Hand],
+    hands: &'static [DemoHand],
 }
 
-const SCENES: [Scene; 4] = [
-    Scene {
+const SCENES: [DemoScene; 4] = [
+    DemoScene {
         name: "pat: short and light; the robot's own motion slows down, and no joint moves",
         seconds: 1.0,
-        hands: &[Hand { side: DVec3::X, depth: |at| if at % 0.3 < 0.12 { 0.003 } else { -1.0 } }],
+        hands: &[DemoHand { side: DVec3::X, depth: |at| if at % 0.3 < 0.12 { 0.003 } else { -1.0 } }],
     },
-    Scene {
+    DemoScene {
         name: "push: hard and held; the forearm gives way along the normal, for as long as it is pressed",
         seconds: 1.0,
-        hands: &[Hand { side: DVec3::X, depth: |at| if at < 0.6 { 0.02 } else { -1.0 } }],
+        hands: &[DemoHand { side: DVec3::X, depth: |at| if at < 0.6 { 0.02 } else { -1.0 } }],
     },
-    Scene {
+    DemoScene {
         name: "clamp: from both sides; it stands still, and says so",
         seconds: 0.8,
         hands: &[
-            Hand { side: DVec3::X, depth: |at| if at < 0.5 { 0.01 } else { -1.0 } },
-            Hand { side: DVec3::NEG_X, depth: |at| if at < 0.5 { 0.008 } else { -1.0 } },
+            DemoHand { side: DVec3::X, depth: |at| if at < 0.5 { 0.01 } else { -1.0 } },
+            DemoHand { side: DVec3::NEG_X, depth: |at| if at < 0.5 { 0.008 } else { -1.0 } },
         ],
     },
-    Scene {
+    DemoScene {
         name: "lead: a hand that stays leads the arm, and leaves it at rest",
         seconds: 2.0,
-        hands: &[Hand {
+        hands: &[DemoHand {
             side: DVec3::X,
             depth: |at| if at < 1.5 { 0.001 + 0.1 * (at - 0.3).max(0.0) } else { -1.0 },
         }],
@@ -64,7 +64,7 @@ const SCENES: [Scene; 4] = [
 ];
 
 /// The arm.
-struct Arm {
+struct DemoArm {
     control: MotionControl,
     state: MotionState,
     positions: Vec<f64>,
@@ -84,7 +84,7 @@ pub fn run() -> Result<()> {
     for scene in &SCENES {
         let state = control.start();
         let (control, positions) = (control.clone(), positions.clone());
-        let mut arm = Arm { control, state, positions, forearm, now_us: CYCLE_US };
+        let mut arm = DemoArm { control, state, positions, forearm, now_us: CYCLE_US };
         println!("\n{}", scene.name);
         arm.play(scene)?;
     }
@@ -92,8 +92,8 @@ pub fn run() -> Result<()> {
     Ok(())
 }
 
-impl Arm {
-    fn play(&mut self, scene: &Scene) -> Result<()> {
+impl DemoArm {
+    fn play(&mut self, scene: &DemoScene) -> Result<()> {
         let begun_us = self.now_us;
         let robot = self.control.robot().clone();
         let armed = with(self.now_us, &self.positions, &[], |input| self.control.arm(&mut self.state, input));
@@ -123,13 +123,20 @@ impl Arm {
     }
 
     /// Where a hand touches, in the base.
-    fn place(&self, robot: &Robot, hand: &Hand) -> Option<DVec3> {
+    fn place(&self, robot: &Robot, hand: &DemoHand) -> Option<DVec3> {
         let pose = robot.poses(&self.positions).of(self.forearm, 0)?;
         Some(pose.point(0.03 * hand.side + DVec3::Z * HEIGHT))
     }
 
     /// The touch of a hand at a time of the scene: how deep the place has been pressed, less how far it has gone.
-    fn touch(&self, robot: &Robot, number: u64, hand: &Hand, start: DVec3, at_s: f64) -> Option<MotionTouch> {
+    fn touch(
+        &self,
+        robot: &Robot,
+        number: u64,
+        hand: &DemoHand,
+        start: DVec3,
+        at_s: f64,
+    ) -> Option<MotionTouch> {
         let pose = robot.poses(&self.positions).of(self.forearm, 0)?;
         let gone = (start - self.place(robot, hand)?).dot(pose.direction(hand.side));
         let newtons = STIFFNESS * ((hand.depth)(at_s) - gone);

@@ -36,7 +36,7 @@ pub trait Face {
 }
 
 /// A robot whose boards are followed.
-pub struct Follower {
+pub struct MotionFollower {
     control: MotionControl,
     state: MotionState,
     feed: MotionFeed,
@@ -47,20 +47,20 @@ pub struct Follower {
     cycled_us: u64,
 }
 
-impl Follower {
+impl MotionFollower {
     /// Nothing is followed yet.
     pub fn new(
         robot: &ReadRobot,
         control: MotionControl,
         arms: bool,
         faces: Vec<Box<dyn Face>>,
-    ) -> Result<Follower> {
+    ) -> Result<MotionFollower> {
         let (state, feed) = (control.start(), MotionFeed::new(&control, robot.boards.len()));
-        Ok(Follower { mind: RobotMind::new(robot)?, control, state, feed, faces, arms, cycled_us: 0 })
+        Ok(MotionFollower { mind: RobotMind::new(robot)?, control, state, feed, faces, arms, cycled_us: 0 })
     }
 
     fn cycle(&mut self, now_us: u64) -> Result<()> {
-        let Follower { control, state, feed, faces, arms, .. } = self;
+        let MotionFollower { control, state, feed, faces, arms, .. } = self;
         for face in faces.iter_mut() {
             let answers = face.turn(feed, now_us).into_iter().map(|asked| match asked {
                 Asked::Arm => feed.cycle(now_us, |input| control.arm(state, input)),
@@ -80,7 +80,7 @@ impl Follower {
     }
 }
 
-impl RobotObserver<MotionNews> for Follower {
+impl RobotObserver<MotionNews> for MotionFollower {
     const LOOK: Duration = Duration::from_millis(5);
 
     fn mind(&mut self) -> Option<&mut RobotMind> {

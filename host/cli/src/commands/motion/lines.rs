@@ -12,20 +12,20 @@ const QUIET_US: u64 = 1_000_000;
 
 /// Prints what is commanded: each command that moves the robot or slows it down, what has changed, and a line each
 /// second.
-pub struct Lines {
+pub struct MotionLines {
     robot: Arc<Robot>,
     last: Option<(MotionCommand, u64)>,
     out: BufWriter<Stdout>,
 }
 
-impl Lines {
+impl MotionLines {
     /// Nothing is printed yet.
-    pub fn new(control: &MotionControl) -> Lines {
-        Lines { robot: control.robot().clone(), last: None, out: BufWriter::new(stdout()) }
+    pub fn new(control: &MotionControl) -> MotionLines {
+        MotionLines { robot: control.robot().clone(), last: None, out: BufWriter::new(stdout()) }
     }
 }
 
-impl Face for Lines {
+impl Face for MotionLines {
     fn command(&mut self, command: &MotionCommand, _feed: &MotionFeed, now_us: u64) -> Result<()> {
         let is_same = |last: &(MotionCommand, u64)| {
             let (before, at_us) = last;

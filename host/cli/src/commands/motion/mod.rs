@@ -13,8 +13,8 @@ use crate::fault::Fault;
 use crate::watch::{BoardArgs, RequestLines, run_limit, stop, time, watch_robot};
 use anyhow::{Context, Result};
 use clap::Args;
-use follow::{Face, Follower};
-use lines::Lines;
+use follow::{Face, MotionFollower};
+use lines::MotionLines;
 use taxel::mind::MindReader;
 use taxel::motion::{Behaviour, MotionControl, MotionNews};
 use taxel::robot::{RobotStream, WhenFull};
@@ -75,12 +75,12 @@ pub fn run(args: MotionArgs) -> Result<()> {
     let control = MotionControl::new(described, behaviour);
     let requests = RequestLines::of(args.board.requests.as_deref())?;
     #[cfg_attr(not(feature = "ros2"), allow(unused_mut, reason = "the node is one more"))]
-    let mut faces: Vec<Box<dyn Face>> = vec![Box::new(Lines::new(&control))];
+    let mut faces: Vec<Box<dyn Face>> = vec![Box::new(MotionLines::new(&control))];
     #[cfg(feature = "ros2")]
     if args.ros2 {
         faces.push(Box::new(node(&args, &control)?));
     }
-    let mut follower = Follower::new(&robot, control, args.arm, faces)?;
+    let mut follower = MotionFollower::new(&robot, control, args.arm, faces)?;
     let options = args.board.at_real_time(args.seconds);
     let plans = robot.plans(&options, &run_limit(None, args.seconds));
     stop::catch()?;
