@@ -50,9 +50,12 @@ fn judged(map: &Map, touch: &Touch) -> ([f64; 3], u16) {
     (Leading::INTENTIONS.map(|i| map.q15(run.state[map.find(i.as_str()).unwrap()]).to_f64()), run.steps)
 }
 
+/// A touch of newtons, mm, ms, a friendliness and a rise.
+type Make = fn(f64, f64, u32, i8, u32) -> Touch;
+
 /// The least lead of `intention` over those on the other side of kindness, and its least activation, over a grid of touches.
 fn worst(
-    (intention, touch): (usize, fn(f64, f64, u32, i8, u32) -> Touch),
+    (intention, touch): (usize, Make),
     newtons: &[f64],
     widths: &[f64],
     times: &[u32],
@@ -88,7 +91,7 @@ fn typical_touches_have_their_meaning() {
     for (label, intention, newtons, widths, times, rises) in [
         (
             "pat",
-            (0, pat as fn(f64, f64, u32, i8, u32) -> Touch),
+            (0, pat as Make),
             &[2.0, 5.0, 10.0, 15.0][..],
             &[54.0, 60.0, 90.0][..],
             &[100, 200, 400][..],
