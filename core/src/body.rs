@@ -28,7 +28,8 @@ impl Placed {
         self.region = region(layout, &self.contact);
     }
 
-    /// Displacement since the onset along x and y, 0.1 mm, rounded down. The pitch is taken as in [`Placed::speed`].
+    /// Displacement since the onset along x and y, 0.1 mm, rounded down. The pitch is taken as in
+    /// [`Placed::speed`].
     pub fn way(&self, layout: &Layout) -> [i32; 2] {
         let pitch = layout.areas().get(usize::from(self.contact.panel)).map_or([0; 2], |area| area.pitch_um);
         let Contact { dx, dy, .. } = self.contact;

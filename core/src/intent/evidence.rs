@@ -331,7 +331,8 @@ mod tests {
 
     #[test]
     fn a_rise_takes_as_long_however_long_the_force_stays() {
-        // 60 N in 0.2 s, and 1 N more at once 0.3 s later, which is the steepest rise of the last 0.6 s in the end.
+        // 60 N in 0.2 s, and 1 N more at once 0.3 s later, which is the steepest rise of the last 0.6 s in the
+        // end.
         let mut evidence = Evidence::default();
         let mut least = u32::MAX;
         for ms in (0..1_600u64).step_by(5) {

@@ -40,7 +40,8 @@ impl Felt {
         }
     }
 
-    /// Pressure on the second side: that of the second greatest contact or, if it is more, of the second region.
+    /// Pressure on the second side: that of the second greatest contact or, if it is more, of the second
+    /// region.
     pub(super) fn second(&self) -> u32 {
         let [_, region] = self.parts.iter().fold([0; 2], |two, part| two_greatest(two, *part));
         region.max(self.greatest[1])

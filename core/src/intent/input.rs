@@ -4,8 +4,8 @@
 //! to the nearest unit of the state, halves upwards, and is exact at both ends. Without a touch every source
 //! that describes one gives 0, which is not the ramp's value for a measurement of 0.
 //!
-//! Some sources have ramps over the logarithm of their value ([`Source::is_logarithmic`]): each doubling counts the
-//! same, so that a sum of such inputs is a bound on a product of powers.
+//! Some sources have ramps over the logarithm of their value ([`Source::is_logarithmic`]): each doubling counts
+//! the same, so that a sum of such inputs is a bound on a product of powers.
 //!
 //! The inputs of one concept add up. A ramp from 0 to 1 and a later one from 0 to -1 are together a
 //! trapezoid, and a triangle if the second begins where the first ends: fuzzy memberships need no other form.

@@ -2,8 +2,8 @@
 //!
 //! [`config`] is the configuration of a map, [`map`] the checked map, [`transfer`] the transfer functions,
 //! [`infer`] the inference, [`input`] the encoding of a touch, [`felt`] sums over the whole garment,
-//! [`evidence`] measures over the frames, `warmth` those of what is well meant, [`fed`] the host's values, [`stage`] the decision with its
-//! debounce, [`why`] the explanation, [`mod@tactile`] the map that ships.
+//! [`evidence`] measures over the frames, `warmth` those of what is well meant, [`fed`] the host's values,
+//! [`stage`] the decision with its debounce, [`why`] the explanation, [`mod@tactile`] the map that ships.
 
 mod build;
 pub mod config;

@@ -322,9 +322,9 @@ impl<const N: usize> Intent<N> {
         changed
     }
 
-    /// Returns the intention that reaches the level and leads by the margin. An attack need not lead a threat, which
-    /// it also is, and a threat leads where no attack does. For the announced one, level and margin are lower by one
-    /// margin (hysteresis), so that a value at the limit does not flicker.
+    /// Returns the intention that reaches the level and leads by the margin. An attack need not lead a threat,
+    /// which it also is, and a threat leads where no attack does. For the announced one, level and margin are
+    /// lower by one margin (hysteresis), so that a value at the limit does not flicker.
     fn candidate(&self, state: &IntentState<N>) -> Leading {
         let value = |at: &Option<usize>| at.and_then(|at| state.inference.state.get(at).copied());
         // The gravest first.

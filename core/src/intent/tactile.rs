@@ -9,8 +9,8 @@
 //! follow meanings: if a threat or an attack leads, happiness and politeness are 0.
 //!
 //! What is harder, faster or more pointed is never judged milder: every edge from such a measure to threat and
-//! attack raises them, and context (goodwill, a broad surface, a slow rise, a usual place) takes from a sum that
-//! grows with the load.
+//! attack raises them, and context (goodwill, a broad surface, a slow rise, a usual place) takes from a sum
+//! that grows with the load.
 
 use super::config::{Edge, MapConfig, Rule};
 use super::input::{MapInput, Source};

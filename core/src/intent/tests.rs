@@ -53,7 +53,8 @@ fn judged(map: &Map, touch: &Touch) -> ([f64; 3], u16) {
 /// A touch of newtons, mm, ms, a friendliness and a rise.
 type Make = fn(f64, f64, u32, i8, u32) -> Touch;
 
-/// The least lead of `intention` over those on the other side of kindness, and its least activation, over a grid of touches.
+/// The least lead of `intention` over those on the other side of kindness, and its least activation, over a
+/// grid of touches.
 fn worst(
     (intention, touch): (usize, Make),
     newtons: &[f64],

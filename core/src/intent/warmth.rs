@@ -8,10 +8,11 @@
 //! | latency | none |
 //! | RAM | `Warmth`: part of that of [`Evidence`](super::Evidence) |
 //!
-//! A force **gives way** if it falls by a sixth of its height soon after it came, as a pat and a tap do, or if it
-//! comes again after that, as in a shaken hand and in kneading. What lies does neither, and who grips lets go. It **strokes** if a contact moves at the speed of a caress while its force
-//! stays; the way counts from 20 mm on, so that the unrest of a still contact does not. It **embraces** while
-//! breast and arms hold it, from two sides.
+//! A force **gives way** if it falls by a sixth of its height soon after it came, as a pat and a tap do, or if
+//! it comes again after that, as in a shaken hand and in kneading. What lies does neither, and who grips lets
+//! go. It **strokes** if a contact moves at the speed of a caress while its force stays; the way counts from 20
+//! mm on, so that the unrest of a still contact does not. It **embraces** while breast and arms hold it, from
+//! two sides.
 //!
 //! What has threatened or attacked must show it anew: [`Warmth::forget`].
 
