@@ -43,7 +43,7 @@ states! {
     Monitor, "health/mod.rs", 2812, 2816;
     Evidence, "intent/evidence.rs", 448, 448;
     Fed, "intent/fed.rs", 192, 192;
-    IntentState, "intent/stage.rs", 1392, 1400;
+    IntentState, "intent/stage.rs", 1400, 1400;
     ReactState, "react/mod.rs", 624, 664;
     Reflex<TAXELS>, "reflex/mod.rs", 8968, 9000;
     Shapes, "shape/mod.rs", 20, 40;

@@ -36,7 +36,7 @@
 //! to the labels above (`segment::scan`); joins across seams (`segment::seams`); the choice of contacts
 //! (`segment::near`, `measure::component`); and the moments of the chosen ones only. [`Contacts::segment`]
 //! ends here. Then the components are matched to the contacts of the last frame (`track::assign`,
-//! `track::tracks`), and the form of one contact is measured (`measure::frame_view`, `measure::quartic`): it costs
+//! `track::tracks`), and the form of one contact is measured (`measure::form`, `measure::quartic`): it costs
 //! as much as the rest of a contact together, and changes slowly.
 
 mod stage;

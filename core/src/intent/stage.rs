@@ -7,7 +7,7 @@
 //! | output | [`Meaning`], if there is a new one |
 //! | saturation | that of [`Map::encode`] and [`Map::infer`] |
 //! | latency | `onset_ms` from the first inference in favour of an intention |
-//! | RAM | [`IntentState`] of 64 concepts: 1,392 bytes |
+//! | RAM | [`IntentState`] of 64 concepts: 1,400 bytes |
 //! | M0+ cycles | about 300 without a change of inputs; else one inference |
 
 use super::config::{CONCEPTS, IntentConfig};

