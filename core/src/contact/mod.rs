@@ -7,11 +7,11 @@
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
 //! | RAM | [`ContactState`]: 58,024 bytes |
-//! | M0+ cycles | 2 k where nothing touches, 21 k with a contact of 29 taxels, 62 k with five |
+//! | M0+ cycles | 2 k where nothing touches, 21 k with a contact of 29 taxels, 61 k with five |
 //!
 //! The RAM is that of the [capacities](crate::capacity) that ship, with what later stages keep in the table of
-//! contacts. The cycles are of the reference garment, where forty contacts of 4 to 9 taxels take 232 k, all
-//! 2,048 taxels 190 k, and a checkerboard of 1,024 runs 223 k.
+//! contacts. The cycles are of the reference garment, where forty contacts of 4 to 9 taxels take 226 k, all
+//! 2,048 taxels 149 k, and a checkerboard of 1,024 runs 220 k.
 //!
 //! A taxel belongs to a component if it reaches the low threshold and touches (corners included) another
 //! taxel of the component, in its panel or across a seam. A component is a contact if its peak reaches the

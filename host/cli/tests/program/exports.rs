@@ -45,7 +45,7 @@ fn grey(path: &Path) -> Vec<u16> {
 fn columns_of_the_intent_have_names() {
     let (_, path) = exported("named.npz", false, "npz", &[]);
     let names = arrays::texts(&path, "concepts").unwrap().expect("an array of names");
-    assert_eq!((names.len(), names.contains(&"kindness".to_string())), (20, true));
+    assert_eq!((names.len(), names.contains(&"kindness".to_string())), (22, true));
     assert_eq!(arrays::read(&path, Some("back")).unwrap().columns, 16);
 }
 

@@ -72,7 +72,7 @@ fn a_pat_is_kindness_and_a_lash_an_attack() {
             assert_eq!(line["frame"], index + 1);
             assert_eq!((line["lost"].as_u64(), line["thinned"].as_u64()), (Some(0), Some(0)));
             assert_eq!(line["decoded"], true);
-            assert_eq!(line["intent"]["concepts"].as_object().unwrap().len(), 20);
+            assert_eq!(line["intent"]["concepts"].as_object().unwrap().len(), 22);
         }
         assert_eq!(leading(&lines), [meant, "none"], "{scene}");
         assert!(of_type(&lines, "refused").next().is_none());
@@ -275,15 +275,15 @@ fn text(buffer: &Buffer) -> Vec<String> {
 
 #[test]
 fn the_picture_shows_maps_contacts_and_intention() {
-    let pictures = drawn("sim:pat", 60, &[(128, 40), (80, 40), (80, 24), (30, 8), (1, 1), (300, 100)]);
+    let pictures = drawn("sim:pat", 110, &[(128, 40), (80, 40), (80, 24), (30, 8), (1, 1), (300, 100)]);
     let wide = text(&pictures[0]).join("\n");
     for part in [
         "taxel  sim:pat  SIMULATED  garment reference (2048 taxels)  scene shipped  taxel-sim",
-        "195.3 frames/s  frame 60  0.30 s  lost 0  thinned 0  refused 0",
+        "195.3 frames/s  frame 110  0.56 s  lost 0  thinned 0  refused 0",
         "chest",
         "right arm",
         " id region     shape        force area  axis    mm/s",
-        "  1 back ",
+        "  2 back ",
         "7.9 N ",
         "A touch on the back, 8 N:  kindness    now, simulated newtons",
         "what it means",

@@ -192,7 +192,7 @@ fn each_example_runs() {
         ("recording", &[file], ": image 20, at most "),
         ("robot", &[], "right: Attack\n"),
         ("virtual_board", &[], "150000 us: 1 contacts\n"),
-        ("map", &["press=0.8", "time=-0.9"], "press -> kindness\n"),
+        ("map", &["press=0.8", "time=-0.9"], "time -> attack\n"),
     ];
     for (name, words, received) in rows {
         let output = Command::new(example(name)).args(words).output().unwrap();

@@ -150,7 +150,7 @@ fn a_page_is_sent_the_garment_and_the_very_images_of_the_board() {
     let hello = line(&mut page, "hello", |_| true);
     assert_eq!((&hello["label"], &hello["counts_per_newton"]), (&"sim:pat".into(), &1000.0.into()));
     assert_eq!(hello["panels"][1]["region"], "back");
-    assert_eq!(hello["map"]["concepts"].as_array().unwrap().len(), 20);
+    assert_eq!(hello["map"]["concepts"].as_array().unwrap().len(), 22);
     let expected = images("sim:pat", 200);
     let (mut last, mut seen, mut times) = (0, 0, Vec::new());
     let mut replaced = 0;
