@@ -328,7 +328,7 @@ impl<const N: usize> Intent<N> {
     fn candidate(&self, state: &IntentState<N>) -> Leading {
         let value = |at: &Option<usize>| at.and_then(|at| state.inference.state.get(at).copied());
         // The gravest first.
-        for (at, leading) in self.intentions.iter().zip(Leading::INTENTIONS).rev() {
+        for (at, leading) in self.intentions.iter().rev().zip(Leading::INTENTIONS.into_iter().rev()) {
             let Some(own) = value(at) else { continue };
             let others = self
                 .intentions

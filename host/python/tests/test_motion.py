@@ -42,7 +42,9 @@ def test_faults_stop_it_and_are_counted() -> None:
     with pytest.raises(taxel.Error, match="not armed: stale_posture"):
         motion.arm(POSTURE, 100_000, posture_us=40_000)
     motion.arm(POSTURE, 100_000)
-    assert motion(POSTURE, 105_000, [PRESS], frame_us=80_000).fault == "late_frame"
+    assert motion(POSTURE, 105_000, [PRESS], frame_us=80_000).fault == "time_jumps"
+    motion.arm(POSTURE, 110_000)
+    assert motion(POSTURE, 135_000, [PRESS], frame_us=110_000).fault == "late_frame"
 
 
 def test_positions_may_be_an_array_in_the_order_of_the_joints() -> None:
