@@ -76,3 +76,9 @@ def test_all_is_documented() -> None:
     plain = [node.name for node in defined if not node.name.startswith("_") and not ast.get_docstring(node)]
     assert plain == []
     assert (Path(taxel.__file__).parent / "py.typed").exists()
+
+
+def test_warnings_go_to_the_logging_of_python(caplog: pytest.LogCaptureFixture) -> None:
+    next(iter(taxel.open("sim:press", garment="block-4x16")))
+    (warning,) = [record for record in caplog.records if record.name == "taxel"]
+    assert "the garment block-4x16 has no panel chest" in warning.getMessage()
