@@ -4,7 +4,7 @@ mod completions;
 mod groups;
 
 use crate::commands::{board::*, body, garment::*, maps, motion, process, recordings::*, shapes, views::*};
-use crate::steps;
+use crate::stderr_log;
 use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
@@ -113,7 +113,7 @@ impl Cli {
 
     /// Runs what was asked for.
     pub fn run(self) -> Result<()> {
-        steps::print(self.verbose);
+        stderr_log::begin(self.verbose);
         match self.command {
             None => live::run_bare(),
             Some(Command::Look(command)) => command.run(),

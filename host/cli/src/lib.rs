@@ -8,7 +8,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`fault`] | who is to blame for an error, and the exit status |
-//! | `steps` | what the library logs, on standard error |
+//! | `stderr_log` | what the library logs, on standard error |
 //! | [`palette`] | colours and scale of pressure, for all that shows it |
 //! | [`watch`] | a followed board: options, loop, sentences about events |
 //! | [`terminal`] | views in the terminal |
@@ -30,7 +30,7 @@ mod stderr;
 
 pub mod fault;
 
-mod steps;
+mod stderr_log;
 
 pub mod palette;
 
