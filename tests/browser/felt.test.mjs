@@ -36,9 +36,9 @@ test("concepts are folded in groups, and an intention has its colour", async () 
     ["Feelings", false, 0],
   ]);
   await browser.value(`document.querySelectorAll("#concepts summary")[1].click()`);
-  await browser.until(`document.querySelectorAll("#concepts li").length === 3`);
+  await browser.until(`document.querySelectorAll("#concepts li").length === 5`);
   const names = `[...document.querySelectorAll("#concepts li")].map((item) => item.firstChild.textContent)`;
-  assert.deepEqual(await browser.value(names), ["kindness", "threat", "attack"]);
+  assert.deepEqual(await browser.value(names), ["kindness", "threat", "attack", "sting", "grip"]);
   const fill = `getComputedStyle(document.querySelector("#concepts li b")).backgroundColor`;
   assert.equal(await browser.value(fill), "rgb(0, 158, 115)");
 });
@@ -53,9 +53,9 @@ test("why adds up, also of a moment that is past, and closes again", async () =>
   assert.equal(sum[0], "sum");
   const parts = rows.slice(0, -1).reduce((all, [, share]) => all + share, 0);
   assert.ok(Math.abs(parts - sum[1]) < 0.005 * rows.length, JSON.stringify(rows));
-  assert.ok(rows.some(([name, share]) => name === "shape" && share > 0), JSON.stringify(rows));
+  assert.ok(rows.some(([name, share]) => name === "goodwill" && share > 0), JSON.stringify(rows));
   const paths = await browser.value(`[...document.querySelectorAll("#reasons-paths li")].map((item) => item.textContent)`);
-  assert.ok(paths.some((path) => path.endsWith("shape → kindness")), paths.join("; "));
+  assert.ok(paths.some((path) => path.endsWith("goodwill → kindness")), paths.join("; "));
   assert.deepEqual(await violations(browser), []);
   // An intention's name asks the same.
   await browser.value(`[...document.querySelectorAll("#concepts li button")].find((one) => one.textContent === "attack").click()`);
