@@ -131,17 +131,16 @@ test("several fingers are several touches, and do not scroll the page", async ()
   await rest(browser);
 });
 
-test("both arms are an embrace, and no attack", async () => {
+test("both arms around it are no attack", async () => {
   const { browser } = both;
   await browser.until("taxel.store.latest.head.frame.intent.leading === 'none'");
   await choose(browser, "forearm");
   const places = await Promise.all([0, BACK].map((panel) => onPanel(browser, panel, [7.5, 14])));
   for (const count of [1, 2]) await browser.fingers("touchStart", places.slice(0, count));
   // Whoever holds on presses harder and harder, up to 300 N, which is no embrace any more.
-  const { concepts } = await browser
-    .until("taxel.store.latest.head.frame.intent.concepts.goodwill > 0.9")
-    .then(() => browser.value("taxel.store.latest.head.frame.intent"));
-  assert.ok(concepts.threat < 0.1 && concepts.attack < 0.1, JSON.stringify(concepts));
+  await felt(browser, `touches.reduce((sum, { total }) => sum + total, 0) > ${30 * NEWTON}`);
+  const { concepts } = await browser.value("taxel.store.latest.head.frame.intent");
+  assert.ok(concepts.attack < 0.1, JSON.stringify(concepts));
   await browser.fingers("touchEnd", []);
   await rest(browser);
   await choose(browser, "fingertip");

@@ -13,7 +13,7 @@
 //! frame before. It is the greatest rise of a region, and at most that of the whole garment: a contact that
 //! crosses a border moves its pressure from one region to another, and the garment's pressure does not rise.
 //!
-//! The **rising time** is the growth of the load since it last rested, [`FOOT_US`] before or earlier, over the
+//! The **rising time** is the growth of the load since it last rested, `FOOT_US` before or earlier, over the
 //! steepest rise: that of a blow is short, however much it presses on what was there.
 //!
 //! A touch **still comes** while its load, at the rate of that time, would double within 55 ms: what it will
@@ -131,6 +131,11 @@ impl Evidence {
     /// Takes a frame. `counts` is true while a touch counts; otherwise the measures of the last one are
     /// forgotten. `memory_us` is the time for which a touch counts after its end.
     pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
+        if !self.begun {
+            // How what touches in the first frame came was not seen.
+            self.warmth.begin(now);
+            self.warmth.forget();
+        }
         self.rise = self.rise_of(felt, now);
         if !counts {
             (self.blow, self.load, self.peak, self.pressure) = Default::default();
@@ -327,6 +332,20 @@ mod tests {
                 assert!(!comes(period_us, fold_ms, 240), "{fold_ms} ms at {period_us} us, at rest");
             }
         }
+    }
+
+    /// As after a change of the scene while somebody holds the robot.
+    #[test]
+    fn what_was_there_from_the_first_frame_on_has_embraced_nobody_yet() {
+        let mut evidence = Evidence::default();
+        let mut held = Felt::default();
+        held.add(0, 40_000, 300, 400, 100, 40);
+        held.parts[..2].copy_from_slice(&[32_000, 8_000]);
+        for ms in [60_000, 60_005] {
+            evidence.take(&held, true, Micros(1_000 * ms), MEMORY_US);
+            evidence.warmth.take(None, &held, Micros(1_000 * ms));
+        }
+        assert_eq!(evidence.warmth.embraced_ms(), 5);
     }
 
     #[test]
