@@ -13,7 +13,7 @@ const RULES: &str = "rules.json";
 
 /// A script and its rule.
 #[derive(Debug, Clone)]
-pub struct Judged {
+pub struct JudgedScript {
     /// The script.
     pub script: Script,
     /// What a person says of it.
@@ -26,7 +26,7 @@ pub struct Author {
     /// Name of the folder.
     pub name: String,
     /// The scripts.
-    pub scripts: Vec<Judged>,
+    pub scripts: Vec<JudgedScript>,
 }
 
 impl Author {
@@ -40,7 +40,7 @@ impl Author {
         let read = |(file, rule): (String, Rule)| {
             ensure!((0.0..=1.0).contains(&rule.sure), "{}: {file}: sure is {}", place.display(), rule.sure);
             let script = scripts::load(&folder.join(&file).display().to_string())?;
-            Ok(Judged { script, rule })
+            Ok(JudgedScript { script, rule })
         };
         let scripts = rules.into_iter().map(read).collect::<Result<_>>()?;
         let name = folder.file_name().unwrap_or(folder.as_os_str()).display().to_string();

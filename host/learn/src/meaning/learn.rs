@@ -31,7 +31,7 @@ const MOVES: [i64; 4] = [10, 5, 2, 1];
 const LEARNED: [&str; 4] = ["sting", "grip", "threat", "attack"];
 
 /// A script that was played: the inputs of its inferences, and its rule.
-pub struct Example {
+pub struct PlayedScript {
     /// Index of the author.
     pub author: usize,
     states: Vec<MapState>,
@@ -41,7 +41,7 @@ pub struct Example {
 }
 
 /// Plays all scripts as they are, and as many variants of each.
-pub fn examples(authors: &[Author], file: &MapFile, variants: u64) -> Result<Vec<Example>> {
+pub fn examples(authors: &[Author], file: &MapFile, variants: u64) -> Result<Vec<PlayedScript>> {
     let mut played: Vec<(usize, &Rule, Script)> = Vec::new();
     for (author, judged) in
         authors.iter().enumerate().flat_map(|(at, author)| author.scripts.iter().map(move |it| (at, it)))
@@ -58,7 +58,7 @@ pub fn examples(authors: &[Author], file: &MapFile, variants: u64) -> Result<Vec
         .collect())
 }
 
-fn example(author: usize, rule: &Rule, heard: &Heard, file: &MapFile) -> Example {
+fn example(author: usize, rule: &Rule, heard: &Heard, file: &MapFile) -> PlayedScript {
     let measured: Vec<usize> =
         (0..file.concept.len()).filter(|at| !file.is_driven(&file.concept[*at].name)).collect();
     let state = |activations: &Vec<taxel_core::format::Q15>| {
@@ -70,7 +70,7 @@ fn example(author: usize, rule: &Rule, heard: &Heard, file: &MapFile) -> Example
         rule.nothing || rule.never.contains(word) || !rule.only.is_empty() && !rule.only.contains(word)
     };
     let hostile = [Leading::Threat, Leading::Attack];
-    Example {
+    PlayedScript {
         author,
         states: heard.activations.iter().map(|(_, activations)| state(activations)).collect(),
         must: rule.must.iter().copied().filter(|word| hostile.contains(word)).collect(),
@@ -80,8 +80,8 @@ fn example(author: usize, rule: &Rule, heard: &Heard, file: &MapFile) -> Example
 }
 
 /// Searches for weights on the examples of all authors but one, or of all.
-pub fn learn(file: &MapFile, examples: &[Example], left_out: Option<usize>) -> Result<MapFile> {
-    let taken: Vec<&Example> = examples.iter().filter(|it| Some(it.author) != left_out).collect();
+pub fn learn(file: &MapFile, examples: &[PlayedScript], left_out: Option<usize>) -> Result<MapFile> {
+    let taken: Vec<&PlayedScript> = examples.iter().filter(|it| Some(it.author) != left_out).collect();
     let expert: Vec<i64> =
         file.edge.iter().map(|edge| (100.0 * edge.weight.value()).round() as i64).collect();
     let is_free = |at: &usize| LEARNED.contains(&file.edge[*at].to.as_str()) && !file.edge[*at].fixed;
@@ -116,12 +116,12 @@ pub fn learn(file: &MapFile, examples: &[Example], left_out: Option<usize>) -> R
 }
 
 /// Mean loss of a map.
-fn loss(file: &MapFile, examples: &[&Example]) -> Result<f64> {
+fn loss(file: &MapFile, examples: &[&PlayedScript]) -> Result<f64> {
     let map = BoardMap::build(file)?;
     let find =
         |word: Leading| file.find(word.as_str()).with_context(|| format!("the map lacks {}", word.as_str()));
     let concepts = [find(Leading::Threat)?, find(Leading::Attack)?];
-    let of_one = |example: &&Example| {
+    let of_one = |example: &&PlayedScript| {
         let activations = example.states.iter().map(|state| {
             let run = map.infer(state);
             concepts.map(|at| map.value(run.state[at]))
@@ -170,7 +170,7 @@ mod tests {
             super::example(0, &rule, &heard, &spoilt)
         };
         let examples = [example("lash", &[Leading::Attack], &[]), example("pat", &[], &[Leading::Attack])];
-        let all: Vec<&Example> = examples.iter().collect();
+        let all: Vec<&PlayedScript> = examples.iter().collect();
         let learned = learn(&spoilt, &examples, None).unwrap();
         let [before, after] = [&spoilt, &learned].map(|map| loss(map, &all).unwrap());
         assert!(before > 0.1 && after < 0.01, "{before} {after}");

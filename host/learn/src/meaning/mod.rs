@@ -9,9 +9,9 @@ mod rule;
 mod table;
 mod varied;
 
-pub use author::{Author, Judged};
+pub use author::{Author, JudgedScript};
 pub use heard::{Heard, hear, hear_all};
-pub use learn::{Example, examples, learn};
+pub use learn::{PlayedScript, examples, learn};
 pub use rule::{Rule, Wrong};
 pub use table::{Row, counts, table};
 pub use varied::varied;

@@ -34,7 +34,7 @@ pub fn table(authors: &[Author], map: Option<&Path>, variant: Option<u64>) -> Re
         || authors.iter().enumerate().flat_map(|(at, author)| author.scripts.iter().map(move |it| (at, it)));
     let change = |script: &Script| variant.map_or_else(|| script.clone(), |seed| varied(script, seed));
     let scripts: Vec<Script> = judged().map(|(_, it)| change(&it.script)).collect();
-    let row = |((author, it), heard): ((usize, &super::Judged), Heard)| Row {
+    let row = |((author, it), heard): ((usize, &super::JudgedScript), Heard)| Row {
         author,
         script: it.script.name.clone(),
         sure: it.rule.sure,
