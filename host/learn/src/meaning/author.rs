@@ -16,7 +16,7 @@ const RULES: &str = "rules.json";
 pub struct JudgedScript {
     /// The script.
     pub script: Script,
-    /// What a person says of it.
+    /// Rule of a person for it.
     pub rule: Rule,
 }
 

@@ -1,4 +1,4 @@
-//! What a simulated board says while a script is played to it.
+//! Words of a simulated board while a script is played to it.
 
 use anyhow::{Context, Result};
 use std::path::Path;
@@ -11,7 +11,7 @@ use taxel::source::{SourceOptions, simulated};
 use taxel_core::format::Q15;
 use taxel_core::intent::Leading;
 
-/// What the board said.
+/// Words of the board.
 #[derive(Debug, Default, Clone)]
 pub struct Heard {
     /// Announcements: the board's time, us, and the word.

@@ -1,4 +1,4 @@
-//! What a person says of a touch, as a rule for what may be announced.
+//! Judgement of a touch by a person, as a rule for what may be announced.
 
 use serde::Deserialize;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! What the robot is commanded at a cycle, and why.
+//! Commands to the robot at a cycle, and their causes.
 
 use super::config::TouchAction;
 use super::guard::MotionFault;
@@ -10,13 +10,13 @@ use std::sync::Arc;
 pub enum MotionPhase {
     /// Nobody has armed it: it says nothing.
     Disarmed,
-    /// It commands.
+    /// Commands are given.
     Armed,
     /// A fault has stopped it: the robot stands still until it is armed again.
     Stopped,
 }
 
-/// What is done, above single touches.
+/// Deed of a cycle, above single touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MotionDeed {
     /// Nothing is commanded.
@@ -25,15 +25,15 @@ pub enum MotionDeed {
     Stop,
     /// Two touches oppose each other: the robot stands still.
     Clamped,
-    /// It moves away from what presses.
+    /// The robot moves away from what presses.
     Retreat,
-    /// It is led by hand.
+    /// The robot is led by hand.
     Yield,
     /// Its own motion is slowed down.
     Slow,
     /// Its own motion returns to full speed.
     Resume,
-    /// It moves by itself, at full speed.
+    /// The robot moves by itself, at full speed.
     Free,
 }
 
@@ -69,11 +69,11 @@ impl MotionDeed {
 pub struct MotionCause {
     /// Number of the touch.
     pub touch: u64,
-    /// Where on the body it lies.
+    /// Its place on the body.
     pub place: Arc<BodyPlace>,
     /// Its force, N; the greatest so far of a touch that has ended.
     pub newtons: f64,
-    /// What is done about it.
+    /// The action about it.
     pub action: TouchAction,
     /// Number of the row of `when` that says so, from 0; none: a limit of force is near.
     pub row: Option<usize>,
@@ -84,7 +84,7 @@ pub struct MotionCause {
 pub struct MotionCommand {
     /// Whether it is one.
     pub phase: MotionPhase,
-    /// What is done.
+    /// The deed.
     pub deed: MotionDeed,
     /// The fault that has stopped it.
     pub fault: Option<MotionFault>,

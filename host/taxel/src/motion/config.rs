@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use taxel_core::intent::Leading;
 
-/// What a robot does when it is touched: `behaviour.toml`.
+/// Behaviour of a robot when it is touched: `behaviour.toml`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BehaviourConfig {
@@ -193,7 +193,7 @@ pub struct ForceLimitConfig {
     pub part: Vec<String>,
     /// Greatest force, N.
     pub newtons: f64,
-    /// Where it comes from: `doi:` and a number, or the name of a document.
+    /// Its source: `doi:` and a number, or the name of a document.
     pub source: String,
 }
 
@@ -211,14 +211,14 @@ pub struct WhenConfig {
     /// Force from which on it counts, N.
     #[serde(default)]
     pub newtons: f64,
-    /// What the robot does.
+    /// The action.
     #[serde(rename = "do")]
     pub action: TouchAction,
     /// Factor on the speed of the robot's own motion, 0 to 1: of `slow` alone.
     pub factor: Option<f64>,
 }
 
-/// What a robot does about a touch, in the order of priority.
+/// Action of a robot about a touch, in the order of priority.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TouchAction {

@@ -22,7 +22,7 @@ pub struct MotionControl {
     behaviour: Behaviour,
 }
 
-/// What an armed cycle has to do.
+/// Task of an armed cycle.
 struct CyclePlan {
     deed: MotionDeed,
     /// Velocities that points should have; none: the robot stands still, at once.

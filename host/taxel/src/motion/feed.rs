@@ -1,4 +1,4 @@
-//! What boards, joints and mind say, as the input of a cycle.
+//! Input of a cycle, from what boards, joints and mind say.
 
 use super::control::MotionControl;
 use super::input::{MotionBoard, MotionInput, MotionPosture, MotionTouch};
@@ -15,19 +15,19 @@ const LONGEST_US: u64 = 100_000;
 /// Share of a new time in the period.
 const NEW: f64 = 1.0 / 16.0;
 
-/// What an event of a board says, in the board's thread.
+/// Content of an event of a board, in the board's thread.
 #[derive(Debug, Clone)]
 pub struct MotionNews {
-    /// What it says of touches.
+    /// Its touches.
     pub sense: BoardSense,
-    /// It is of a scan.
+    /// True if it is of a scan.
     pub is_scan: bool,
     /// Newtons of the board's pressure are known.
     pub is_calibrated: bool,
 }
 
 impl MotionNews {
-    /// What an event says; none if it says nothing of touches.
+    /// Content of an event; none if it says nothing of touches.
     pub fn of(reader: &mut MindReader, client: &Client, event: &Event) -> Option<MotionNews> {
         let sense = reader.sense(client, event)?;
         let is_scan = matches!(sense, BoardSense::Contacts(_) | BoardSense::Alive);

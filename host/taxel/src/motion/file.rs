@@ -18,7 +18,7 @@ const LEADS_AFTER_S: f64 = 0.3;
 /// A behaviour, checked against a robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Behaviour {
-    /// What its author has written.
+    /// The text that its author has written.
     pub config: BehaviourConfig,
     /// Limits of the joints, in the order of [`Robot::free`].
     pub joints: Vec<JointLimit>,

@@ -55,7 +55,7 @@ impl MotionFault {
     }
 }
 
-/// What the last cycle has seen.
+/// Observations of the last cycle.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct SeenCycle {
     /// Time of the cycle, us.
@@ -65,7 +65,7 @@ pub(super) struct SeenCycle {
 }
 
 impl SeenCycle {
-    /// What a cycle has seen.
+    /// Observations of a cycle.
     pub fn of(input: &MotionInput<'_>) -> SeenCycle {
         let posture_us = input.posture.map_or(0, |posture| posture.at_us);
         SeenCycle { now_us: input.now_us, posture_us, boards: input.boards.to_vec() }

@@ -1,4 +1,4 @@
-//! What the robot knows at a cycle.
+//! Knowledge of the robot at a cycle.
 
 use crate::body::DVec3;
 use crate::mind::{BodyPlace, Mover};
@@ -10,7 +10,7 @@ use taxel_core::intent::Leading;
 pub struct MotionTouch {
     /// Number from onset to release, among all contacts of the robot.
     pub touch: u64,
-    /// Where on the body it lies, by name.
+    /// Its place on the body, by name.
     pub place: Arc<BodyPlace>,
     /// Number of its link among [`Robot::links`](crate::body::robot::Robot::links).
     pub link: usize,

@@ -23,7 +23,7 @@ pub(super) struct RecentTouch {
     pub seen_us: u64,
     /// Greatest force, N.
     pub most: f64,
-    /// It is pressed now.
+    /// True if it is pressed now.
     pub is_present: bool,
 }
 
@@ -65,7 +65,7 @@ pub(super) fn take(known: &mut Vec<RecentTouch>, input: &MotionInput<'_>) {
 }
 
 impl RecentTouch {
-    /// What the robot does about it; none if nothing fits. A touch that has ended counts only for what it meant.
+    /// Action of the robot about it; none if nothing fits. A touch that has ended counts only for what it meant.
     pub fn chosen(&self, config: &BehaviourConfig, leading: Leading) -> Option<Chosen> {
         let newtons = if self.is_present { self.touch.newtons } else { self.most };
         let of = |part: &[String]| self.touch.place.is_of(part);

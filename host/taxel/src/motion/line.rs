@@ -34,7 +34,7 @@ impl MotionCommand {
         })
     }
 
-    /// The same in words: `retreat; left_forearm 41.0 N`.
+    /// Summary in words: `retreat; left_forearm 41.0 N`.
     pub fn text(&self) -> String {
         let why = self.fault.map(|fault| fault.as_str().replace('_', " "));
         let causes = self.causes.iter().map(|cause| format!("{} {:.1} N", cause.place.link, cause.newtons));

@@ -1,4 +1,4 @@
-//! What motion remembers from one cycle to the next.
+//! Memory of motion from one cycle to the next.
 
 use super::command::MotionPhase;
 use super::guard::{MotionFault, SeenCycle};
@@ -7,13 +7,13 @@ use super::tank::Tank;
 use super::yielding::Led;
 use crate::body::DVec3;
 
-/// What [`MotionControl`](super::MotionControl) remembers. It begins disarmed.
+/// Memory of [`MotionControl`](super::MotionControl). Begins disarmed.
 #[derive(Debug, Clone)]
 pub struct MotionState {
     pub(super) phase: MotionPhase,
     pub(super) fault: Option<MotionFault>,
     pub(super) counts: [u64; MotionFault::ALL.len()],
-    /// What the last cycle has seen.
+    /// Observations of the last cycle.
     pub(super) seen: Option<SeenCycle>,
     pub(super) known: Vec<RecentTouch>,
     pub(super) retreats: Vec<Retreat>,

@@ -1,4 +1,4 @@
-//! What a robot is commanded, as messages that controllers take.
+//! Commands to a robot, as messages that controllers take.
 
 use super::cdr::Cdr;
 

@@ -122,7 +122,7 @@ impl DemoArm {
         Ok(())
     }
 
-    /// Where a hand touches, in the base.
+    /// Place in the base at which a hand touches.
     fn place(&self, robot: &Robot, hand: &DemoHand) -> Option<DVec3> {
         let pose = robot.poses(&self.positions).of(self.forearm, 0)?;
         Some(pose.point(0.03 * hand.side + DVec3::Z * HEIGHT))
@@ -164,7 +164,7 @@ fn with<T>(
     act(&MotionInput { now_us, posture, boards: &boards, touches, leading: Leading::None })
 }
 
-/// What is done, and how fast the fastest joint goes.
+/// Deed of a command, and speed of the fastest joint.
 fn said(command: &MotionCommand) -> String {
     let fastest = command.velocities.iter().fold(0.0, |most: f64, velocity| most.max(velocity.abs()));
     let fastest = if fastest > 0.0 { format!(", {fastest:.2} rad/s") } else { String::new() };

@@ -10,7 +10,7 @@ use taxel::robot::ReadRobot;
 /// Shortest time between two cycles, us: several boards scan at times of their own.
 const PERIOD_US: u64 = 4000;
 
-/// What is asked of a robot's motion.
+/// Request to a robot's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Asked {
     /// To arm it.
@@ -21,7 +21,7 @@ pub enum Asked {
     Disarm,
 }
 
-/// Whoever gives the commands to somebody.
+/// Receiver of the commands.
 pub trait Face {
     /// Takes positions of joints. Returns what is asked.
     fn turn(&mut self, _feed: &mut MotionFeed, _now_us: u64) -> Vec<Asked> {
@@ -42,7 +42,7 @@ pub struct MotionFollower {
     feed: MotionFeed,
     mind: RobotMind,
     faces: Vec<Box<dyn Face>>,
-    /// It is to be armed as soon as that can be.
+    /// True if it is to be armed as soon as that can be.
     arms: bool,
     cycled_us: u64,
 }
