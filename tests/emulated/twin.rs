@@ -250,6 +250,11 @@ pub fn followed(
         }
         _ => {
             requests.iter().for_each(|request| board.obey(request));
+            // Nothing touches in this frame. Without it the twin would not know whether the board saw the first
+            // touch come.
+            while heard.times.is_empty() {
+                heard.take(&board.receive().report());
+            }
             None
         }
     };

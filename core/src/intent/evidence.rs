@@ -133,13 +133,15 @@ impl Evidence {
     pub(super) fn take(&mut self, felt: &Felt, counts: bool, now: Micros, memory_us: u64) {
         if !self.begun {
             // How what touches in the first frame came was not seen.
+            self.feet = [(now, felt.load); 2];
             self.warmth.begin(now);
             self.warmth.forget();
         }
         self.rise = self.rise_of(felt, now);
         if !counts {
             (self.blow, self.load, self.peak, self.pressure) = Default::default();
-            self.growth = 0;
+            // Nothing is left of the time before: the same touch means the same whenever it comes.
+            (self.growth, self.feet) = (0, [(now, felt.load); 2]);
             self.warmth.begin(now);
             (self.beats, self.cover_mm2, self.rest, self.still_ms) = (Beats::default(), 0, 0, 0);
         }
@@ -362,6 +364,22 @@ mod tests {
             }
         }
         assert!(least >= 50_000, "{least} us");
+    }
+
+    #[test]
+    fn a_touch_rises_alike_whenever_it_comes() {
+        let rising = |idle_us: u64| {
+            let mut evidence = Evidence::default();
+            let frames = (0..idle_us).step_by(5_000).chain([idle_us]).map(|now| (now, 0));
+            // 60 N in 90 ms.
+            let touch = (1..=40u64).map(|n| (idle_us + 5_000 * n, 3_333 * n.min(18) as u32));
+            for (now, total) in frames.chain(touch) {
+                evidence.take(&felt(total, 60), total > 0, Micros(now), MEMORY_US);
+            }
+            evidence.rising_us()
+        };
+        let first = rising(0);
+        assert!((1..40).all(|n| rising(7_000 * n) == first), "{first} us");
     }
 
     #[test]
