@@ -54,5 +54,7 @@ fn recorded_people() {
     let course = Course { tables: &[], requests: &requests, codes: &codes, dwell: DWELL };
     let counts = same(&mut board, &course, &kinds);
     board.end();
-    assert!(["Contacts", "Symbols", "Intent", "Frame", "Gesture"].iter().all(|kind| counts.contains_key(kind)));
+    assert!(
+        ["Contacts", "Symbols", "Intent", "Frame", "Gesture"].iter().all(|kind| counts.contains_key(kind))
+    );
 }
