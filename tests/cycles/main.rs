@@ -16,7 +16,7 @@ use taxel_bench::stages::table::Table;
 use taxel_bench::stages::twin::{StepResult, Twin};
 
 /// The tables as they were last written.
-const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench");
+const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/evidence/bench");
 
 /// The variable that lists the folders of recordings.
 const DATA: &str = "TAXEL_DATA";

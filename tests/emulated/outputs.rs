@@ -190,7 +190,7 @@ fn pins_and_messages_agree_whatever_is_asked_and_whatever_fails() {
                     let mut other = scene.clone();
                     other.symbol.span_ms[0] += random.u32(..9);
                     board.ask(&Request::SetScene(&postcard::to_allocvec(&other).unwrap()));
-                    // Over a UART, more than 1,000 bytes at once could be lost (docs/wire.md).
+                    // Over a UART, more than 1,000 bytes at once could be lost (docs/reference/wire.md).
                     when_answered(&mut board, &scene, &mut reported);
                 }
                 4 => board.ask(&Request::Stream { raw_hz: random.u32(..5) as u16, budget_hz: 1 }),

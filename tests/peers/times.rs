@@ -19,7 +19,7 @@ const ROUNDS: usize = 201;
 const REPEATED: u32 = 25;
 
 /// The table as it was last written.
-const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/bench/peers.txt");
+const WRITTEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/evidence/bench/peers.txt");
 
 fn main() {
     let asked = |option: &str| std::env::args().any(|arg| arg == option);

@@ -30,6 +30,6 @@ fn chart() -> PathBuf {
 
 /// Puts the chart beside the table.
 pub fn keep_chart() -> Result<(), String> {
-    let kept = paths::root().join("docs/bench/boards.svg");
+    let kept = paths::root().join("docs/evidence/bench/boards.svg");
     std::fs::copy(chart(), &kept).map(drop).map_err(|error| format!("{}: {error}", kept.display()))
 }

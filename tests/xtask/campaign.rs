@@ -315,5 +315,5 @@ fn note(what: &str, lines: &str) -> std::io::Result<()> {
 }
 
 fn written() -> PathBuf {
-    paths::root().join("docs/bench/campaign.txt")
+    paths::root().join("docs/evidence/bench/campaign.txt")
 }

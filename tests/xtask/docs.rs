@@ -27,11 +27,10 @@ mod tests {
 
     /// The pages of the repository that people read, with their text.
     fn pages() -> Vec<(PathBuf, String)> {
-        let docs = fs::read_dir(paths::root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
-        let docs = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
         let top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"]
             .map(|page| paths::root().join(page));
-        docs.chain(top).map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
+        let all = paths::pages_of_docs().into_iter().chain(top);
+        all.map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
     }
 
     /// Lines of a page outside its blocks of code.
@@ -82,14 +81,29 @@ mod tests {
     fn the_book_holds_every_page() {
         let summary = fs::read_to_string(paths::root().join("docs/SUMMARY.md")).unwrap();
         let listed = links(&summary);
-        let is_page =
-            |path: &PathBuf| path.parent().unwrap().ends_with("docs") && !path.ends_with("SUMMARY.md");
-        let pages: Vec<PathBuf> = pages().into_iter().map(|(path, _)| path).filter(is_page).collect();
+        let docs = paths::root().join("docs");
+        let mut pages = paths::pages_of_docs();
+        pages.retain(|path| !path.ends_with("SUMMARY.md"));
         for page in &pages {
-            let name = page.file_name().unwrap().to_str().unwrap();
+            let name = page.strip_prefix(&docs).unwrap().to_str().unwrap();
             assert_eq!(listed.iter().filter(|link| **link == name).count(), 1, "{name} in docs/SUMMARY.md");
         }
         assert_eq!(pages.len(), listed.len());
+    }
+
+    /// What one reads from begin to end; a reference is looked up.
+    #[test]
+    fn no_page_to_read_is_long() {
+        const MOST: usize = 1_800;
+        for path in paths::pages_of_docs() {
+            let page = fs::read_to_string(&path).unwrap();
+            let words: usize = prose(&page).map(|line| line.split_whitespace().count()).sum();
+            assert!(
+                words <= MOST || path.parent().unwrap().ends_with("reference"),
+                "{}: {words}",
+                path.display()
+            );
+        }
     }
 
     /// The words behind each `cargo xtask`, in code or in prose.

@@ -51,24 +51,24 @@ const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   firmware [--write]    build the firmware: an ELF for debug probes, a UF2 to drop on the board's drive;
-                        --write: also write its sizes, and those of images that leave features out, to docs/bench/sizes.txt
+                        --write: also write its sizes, and those of images that leave features out, to docs/evidence/bench/sizes.txt
   core-thumb            compile the core for the microcontroller
   emulator [ARGS]       build the firmware and run it in the emulator; ARGS go to tests/emulator/emulator.mjs
   cycles [--json|--write]
-                        cost and error of the chain on the emulated board; --write updates docs/bench
+                        cost and error of the chain on the emulated board; --write updates docs/evidence/bench
   bench [TABLE]         cost and error on this machine: stages, acquisition, amplifier, nmi, record, mind or boards; `bench --help` has more
   recorded [--all]      run the recorded frames of pmatdata and smart_garment, or of every folder, through the pipeline
   peers [--json|--write]
                         compare the core with imageproc, and with OpenCV if Python has it: microseconds per panel
   campaign [--only NAME] [--write]
-                        long runs on the emulated and the simulated board; --write: also write their output to docs/bench/campaign.txt
+                        long runs on the emulated and the simulated board; --write: also write their output to docs/evidence/bench/campaign.txt
   fuzz [--minutes N] [TARGET...]
                         run each fuzz target, or these, for 10 minutes or N, with AddressSanitizer; needs a nightly compiler
   mutants [--count N] [--seed S] [--write]
                         mutation tests: change the core and the store at N places (200), chosen by a seed, one at a time
-                        --write: also write the result to docs/bench/mutants.txt
+                        --write: also write the result to docs/evidence/bench/mutants.txt
   mutants --missed [--write]
-                        test again only what docs/bench/mutants.txt lists as missed and does not explain as equivalent
+                        test again only what docs/evidence/bench/mutants.txt lists as missed and does not explain as equivalent
   python [--release]    build the Python package as a wheel and test it in an environment of its own;
                         --release: as it is given away
   ros2                  test the ROS 2 node against ROS, with each distribution whose Python is there

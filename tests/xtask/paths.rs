@@ -59,6 +59,19 @@ pub fn log(name: &str) -> Result<PathBuf, String> {
     Ok(log)
 }
 
+/// The pages of `docs`, by kind.
+#[cfg(test)]
+pub fn pages_of_docs() -> Vec<PathBuf> {
+    let listed = |folder: &Path| -> Vec<PathBuf> {
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect()
+    };
+    let docs = listed(&root().join("docs"));
+    let (kinds, top): (Vec<_>, Vec<_>) = docs.into_iter().partition(|path| path.is_dir());
+    let mut pages: Vec<PathBuf> = kinds.iter().flat_map(|kind| listed(kind)).chain(top).collect();
+    pages.retain(|path| path.extension().is_some_and(|end| end == "md"));
+    pages
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,10 +91,8 @@ mod tests {
 
     #[test]
     fn the_files_that_the_docs_name_exist() {
-        let docs = fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
-        let pages = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
-        let pages: Vec<_> =
-            pages.chain(["README.md", "CONTRIBUTING.md"].map(|page| root().join(page))).collect();
+        let top = ["README.md", "CONTRIBUTING.md"].map(|page| root().join(page));
+        let pages: Vec<PathBuf> = pages_of_docs().into_iter().chain(top).collect();
         let mut count = 0;
         for page in &pages {
             for word in named(&fs::read_to_string(page).unwrap()) {

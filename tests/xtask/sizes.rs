@@ -1,4 +1,4 @@
-//! Table of the use of flash and RAM, `docs/bench/sizes.txt`, and its comparison with an image.
+//! Table of the use of flash and RAM, `docs/evidence/bench/sizes.txt`, and its comparison with an image.
 
 use crate::elf::{self, Symbol};
 use crate::firmware::Image;
@@ -29,7 +29,7 @@ const SYMBOL: &str = "symbol";
 
 /// Path of the table.
 fn file() -> PathBuf {
-    paths::root().join("docs/bench/sizes.txt")
+    paths::root().join("docs/evidence/bench/sizes.txt")
 }
 
 /// Writes the table of an image, and that of images that leave features out.

@@ -1,4 +1,4 @@
-"""Frames of the wire, as docs/wire.md describes them."""
+"""Frames of the wire, as docs/reference/wire.md describes them."""
 
 import zlib
 from dataclasses import dataclass

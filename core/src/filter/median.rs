@@ -8,7 +8,7 @@ use core::ops::Range;
 ///
 /// Each column of three is sorted once and used three times. The median of nine is the median of the largest
 /// low, the median middle and the smallest high one (Smith 1996): 170 cycles per taxel on a Cortex-M0+ if all
-/// are pressed, see `docs/bench/cycles.txt`.
+/// are pressed, see `docs/evidence/bench/cycles.txt`.
 pub(crate) fn median(values: &[u16], out: &mut [u16], area: &Area, grain: u32, marks: &mut Rows) {
     let columns = usize::from(area.columns);
     mark(area, grain, marks, |row, groups| {

@@ -8,7 +8,7 @@
 //! | saturation | an expectation ends at 255 of the table's units, a correction at 127 |
 //! | latency | 20 ms: all taxels that fold are renewed in turn in this time |
 //! | RAM | [`PostureState`]: 96 bytes; [`FoldState`]: 12,896 bytes |
-//! | M0+ cycles | row `folds` of `docs/bench/cycles.txt` |
+//! | M0+ cycles | row `folds` of `docs/evidence/bench/cycles.txt` |
 //!
 //! The table has a *fold* for each joint, or pair of joints, that folds the garment: its taxels, and for each
 //! of them what it feels at some angles, the knots. Between knots the expectation is linear. A sleeve follows

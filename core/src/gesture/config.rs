@@ -7,7 +7,8 @@ use crate::format::Invalid;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// A model that comes with the program; `docs/models.md` has the model cards. Variants are only appended.
+/// A model that comes with the program; `docs/evidence/models.md` has the model cards. Variants are only
+/// appended.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ShippedModel {

@@ -1,7 +1,7 @@
 //! The map that ships: measures of a touch cause kindness, threat and attack; these cause happiness, anger
 //! and politeness. The source prints ten concepts and the matrix with all entries zero. The other concepts and
 //! the weights, in steps of 0.01, are ours: the signs and zeros are chosen, the sizes of the boundaries learned
-//! from scripts of several hands (docs/meaning.md).
+//! from scripts of several hands (docs/concepts/meaning.md).
 //!
 //! Inputs have no causes, and the edges have no cycle: the map settles within six steps for any input.
 //! Without a touch every input is exactly 0, and so is every other concept. A concept that does not hold is

@@ -7,7 +7,7 @@
 //! | output | codes by taxel number; rows of the scene's reactions that begin |
 //! | latency | the rest of the sub-field: 640 us at most on the reference garment |
 //! | RAM | [`Reflex`](crate::acquire::Reflex) of 2,048 taxels: 8,968 bytes |
-//! | Cortex-M0+ | `docs/reflex.md` |
+//! | Cortex-M0+ | `docs/concepts/reflex.md` |
 //!
 //! Contacts, shapes and meanings need whole frames. A pin that has to move within a millisecond cannot wait
 //! for one: a reaction whose cause is [`Cause::Reflex`](crate::react::Cause::Reflex) begins when one taxel of

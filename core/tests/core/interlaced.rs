@@ -173,7 +173,7 @@ fn seen(time: &[f64], at: (f64, f64), speed: f64) -> (f64, f64) {
     (first / mass, second / mass - (first / mass).powi(2))
 }
 
-/// The skew between neighbours, as docs/reflex.md has it:
+/// The skew between neighbours, as docs/concepts/reflex.md has it:
 /// `cargo test -p taxel-core --test core -- skew --nocapture`.
 #[test]
 fn skew_of_a_moving_touch() {

@@ -229,7 +229,7 @@ fn false_reflexes(agree: Agree, apart: bool, frames: usize) -> usize {
     began
 }
 
-/// The figures of docs/reflex.md, with `TAXEL_CAMPAIGN=1`; else of fewer frames.
+/// The figures of docs/concepts/reflex.md, with `TAXEL_CAMPAIGN=1`; else of fewer frames.
 /// `cargo test -p taxel-core --test core -- reflex::impulses --nocapture`
 #[test]
 fn impulses() {

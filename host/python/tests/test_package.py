@@ -16,7 +16,7 @@ import taxel
 from conftest import program
 
 ROOT = Path(__file__).parents[3]
-DOCS = ROOT / "docs/python.md"
+DOCS = [ROOT / "docs/guides" / page for page in ("python.md", "python-boards.md")]
 READMES = [ROOT / "README.md", ROOT / "host/python/README.md"]
 MODULES = [taxel, taxel.fcm, sys.modules["taxel._recording"]]
 
@@ -27,19 +27,20 @@ def test_examples_run(module: object) -> None:
     assert found.attempted > 0 and found.failed == 0
 
 
-@pytest.mark.skipif(not DOCS.exists(), reason="outside of the repository")
-def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.skipif(not DOCS[0].exists(), reason="outside of the repository")
+@pytest.mark.parametrize("page", DOCS, ids=lambda page: str(page.name))
+def test_the_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     program("record", "--source", "sim:pat", "--for", "4s", "-o", "pat.mcap")
     # What stands between the code blocks is no output.
-    lines = DOCS.read_text(encoding="utf-8").splitlines()
+    lines = page.read_text(encoding="utf-8").splitlines()
     text = "\n".join("" if line.startswith("```") else line for line in lines)
-    page = doctest.DocTestParser().get_doctest(text, {}, DOCS.name, str(DOCS), 0)
-    found = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(page)
+    examples = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
+    found = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(examples)
     assert found.attempted > 10 and found.failed == 0
 
 
-@pytest.mark.skipif(not DOCS.exists(), reason="outside of the repository")
+@pytest.mark.skipif(not DOCS[0].exists(), reason="outside of the repository")
 @pytest.mark.parametrize("readme", READMES, ids=lambda readme: str(readme.parent.name))
 def test_the_readme_runs(readme: Path, capsys: pytest.CaptureFixture[str]) -> None:
     blocks = re.findall(r"```python\n(.*?)```", readme.read_text(encoding="utf-8"), re.DOTALL)

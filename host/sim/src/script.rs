@@ -1,4 +1,4 @@
-//! A script of touches as written by its author: one small TOML file (docs/touches.md).
+//! A script of touches as written by its author: one small TOML file (docs/guides/touches.md).
 //!
 //! Times are seconds since the board started, forces newtons; lengths end in `_mm`, or are in taxels of the
 //! panel if they have no unit (`at`, `velocity`). A panel's point (0, 0) is the centre of its first taxel.

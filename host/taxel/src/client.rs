@@ -50,7 +50,8 @@ pub use known::leads;
 pub use requests::{request_name, scene_bytes};
 pub use retained_state::RetainedState;
 pub use scene_change::SceneChange;
-pub use stamps::{NS, Stamp, Stamps, time_of};
+pub(crate) use stamps::NS;
+pub use stamps::{Stamp, Stamps, time_of};
 
 use crate::client::growths::Growths;
 use crate::files::calibrate::{ForceScale, Newtons};

@@ -22,5 +22,6 @@ pub use frames::{Replay, ReplayState};
 pub use host_times::{HostTimed, HostTimes};
 pub use meaning::MeaningOfTouch;
 pub use messages::{line, message};
-pub use pressing::{computed as computed_pressing, line as pressing, pose_error};
+pub(crate) use pressing::pose_error;
+pub use pressing::{computed as computed_pressing, line as pressing};
 pub use printer::MessagePrinter;

@@ -1,11 +1,11 @@
-//! The tables and charts in docs/bench equal the program's output. TAXEL_BLESS=1 updates them.
+//! The tables and charts in docs/evidence/bench equal the program's output. TAXEL_BLESS=1 updates them.
 
 use std::path::Path;
 use taxel_bench::{Report, acquisition, amplifier, nmi};
 
 /// Compares a table and its chart with the files, or writes them.
 fn check(name: &str, report: &Report) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/bench");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/evidence/bench");
     for (ending, want) in [("txt", report.text.clone()), ("svg", report.chart.svg())] {
         let file = folder.join(name).with_extension(ending);
         if std::env::var_os("TAXEL_BLESS").is_some() {

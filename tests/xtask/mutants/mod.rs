@@ -122,7 +122,7 @@ fn shares(count: usize) -> [usize; PARTS.len()] {
 }
 
 fn written() -> PathBuf {
-    paths::root().join("docs/bench/mutants.txt")
+    paths::root().join("docs/evidence/bench/mutants.txt")
 }
 
 /// Fisher-Yates shuffle with splitmix64.

@@ -1,4 +1,4 @@
-//! The table of results, `docs/bench/mutants.txt`, and the explanations that are kept in it.
+//! The table of results, `docs/evidence/bench/mutants.txt`, and the explanations that are kept in it.
 
 use super::parts::{PARTS, Part};
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! The largest errors that the documentation names (docs/bounds.md), against exact rationals and 60 digits,
+//! The largest errors that the documentation names (docs/evidence/bounds.md), against exact rationals and 60 digits,
 //! over exhaustive and random sweeps; and what functions do outside the interval that they are for.
 
 mod axes;

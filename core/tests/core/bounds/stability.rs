@@ -173,8 +173,8 @@ fn usual_arithmetic_fails_where_the_core_is_exact() {
     }
     println!("{}", lines.join("\n"));
     assert!(
-        include_str!("../../../../docs/bounds.md").contains(&lines.join("\n")),
-        "docs/bounds.md has another table"
+        include_str!("../../../../docs/evidence/bounds.md").contains(&lines.join("\n")),
+        "docs/evidence/bounds.md has another table"
     );
     for [_, _, core] in &records {
         assert_eq!((core.overflows, core.negative, core.invented), (0, 0, 0));

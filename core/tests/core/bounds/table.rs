@@ -1,6 +1,6 @@
-//! The table of bounds in `docs/bounds.md`: what it says is what the tests assert.
+//! The table of bounds in `docs/evidence/bounds.md`: what it says is what the tests assert.
 
-const TABLE: &str = include_str!("../../../../docs/bounds.md");
+const TABLE: &str = include_str!("../../../../docs/evidence/bounds.md");
 
 /// Largest error of a quantity.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,9 @@ fn rows() -> impl Iterator<Item = Vec<&'static str>> {
 fn number(cell: &str) -> f64 {
     let term = |term: &str| match term.trim().strip_prefix("2^") {
         Some(power) => 2f64.powi(power.parse().expect("a whole power of two")),
-        None => term.trim().parse().unwrap_or_else(|_| panic!("docs/bounds.md: {term} is no number")),
+        None => {
+            term.trim().parse().unwrap_or_else(|_| panic!("docs/evidence/bounds.md: {term} is no number"))
+        }
     };
     cell.split('+').map(term).sum()
 }

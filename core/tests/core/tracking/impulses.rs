@@ -93,7 +93,7 @@ fn expected(part: f64) -> f64 {
     (2048.0 + 7624.0) * part * part
 }
 
-/// The table of `docs/bounds.md`. Some contacts have several causes, so that fewer begin than to first order.
+/// The table of `docs/evidence/bounds.md`. Some contacts have several causes, so that fewer begin than to first order.
 #[test]
 fn independent_impulses_begin_as_many_contacts_as_is_reported() {
     let (part, frames) = (0.01, 4_000u32);
@@ -109,7 +109,7 @@ fn independent_impulses_begin_as_many_contacts_as_is_reported() {
     let (expected, measured) = (expected(part), f64::from(begun) / f64::from(frames));
     let line = format!("{:6} % {frames:10} {expected:14.6} {measured:12.6}", 100.0 * part);
     println!("impulses     frames   contacts begun a frame: expected, measured\n{line}");
-    let reported = include_str!("../../../../docs/bounds.md");
-    assert!(reported.contains(&line), "docs/bounds.md does not hold this line");
+    let reported = include_str!("../../../../docs/evidence/bounds.md");
+    assert!(reported.contains(&line), "docs/evidence/bounds.md does not hold this line");
     assert!((0.8..1.0).contains(&(measured / expected)));
 }

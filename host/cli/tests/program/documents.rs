@@ -156,7 +156,7 @@ fn no_page_installs_a_package_that_no_index_has() {
 
 #[test]
 fn the_sketch_of_the_page_is_the_one_that_is_loaded() {
-    let page = read("docs/your-own-sensor.md");
+    let page = read("docs/guides/your-own-sensor.md");
     let shown =
         page.split("   ```cpp\n").nth(1).and_then(|rest| rest.split("   ```").next()).expect("a sketch");
     let shown: String =

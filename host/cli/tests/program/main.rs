@@ -36,6 +36,8 @@ mod pressed;
 mod random;
 mod record_view;
 mod recordings;
+#[cfg(all(feature = "full", not(feature = "zenoh")))]
+mod reference_pages;
 mod repair;
 mod robot;
 mod robot_cost;

@@ -29,7 +29,7 @@ pub fn folder(name: &str, robot: &str) -> PathBuf {
 
 /// The blocks of the document in this language.
 fn blocks(language: &str) -> Vec<String> {
-    let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
+    let document = std::fs::read_to_string(root().join("docs/guides/robot.md")).unwrap();
     let begin = format!("```{language}\n");
     let blocks = document.split(&begin).skip(1).map(|rest| rest.split("```").next().unwrap().to_string());
     blocks.collect()
@@ -60,7 +60,7 @@ fn the_commands_of_the_document_run() {
 
 #[test]
 fn the_document_names_every_key_and_state() {
-    let document = std::fs::read_to_string(root().join("docs/robot.md")).unwrap();
+    let document = std::fs::read_to_string(root().join("docs/guides/robot.md")).unwrap();
     let keys = "name urdf maps boards boards.name boards.source boards.garment boards.scene boards.tare \
                 boards.body boards.link";
     let states = "absent met lost back other dropped over failed";

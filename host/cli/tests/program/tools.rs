@@ -207,7 +207,7 @@ fn bytes(hex: &str) -> Vec<u8> {
 
 #[test]
 fn the_bytes_of_the_wire_document_are_golden_and_decode() {
-    let document = std::fs::read_to_string(root().join("docs/wire.md")).unwrap();
+    let document = std::fs::read_to_string(root().join("docs/reference/wire.md")).unwrap();
     let golden = std::fs::read_to_string(root().join("core/tests/core/golden/wire.txt")).unwrap();
     let shown = document
         .lines()
@@ -243,7 +243,7 @@ fn the_bytes_of_the_wire_document_are_golden_and_decode() {
 
 #[test]
 fn the_commands_of_the_troubleshooting_table_exist() {
-    let document = std::fs::read_to_string(root().join("docs/troubleshooting.md")).unwrap();
+    let document = std::fs::read_to_string(root().join("docs/guides/troubleshooting.md")).unwrap();
     let help = said(&["--help"]);
     let commands = document.split('`').skip(1).step_by(2).filter_map(|code| code.strip_prefix("taxel "));
     let mut count = 0;
@@ -256,7 +256,7 @@ fn the_commands_of_the_troubleshooting_table_exist() {
 
 #[test]
 fn the_tests_that_hold_the_promises_exist() {
-    let document = std::fs::read_to_string(root().join("docs/promises.md")).unwrap();
+    let document = std::fs::read_to_string(root().join("docs/concepts/promises.md")).unwrap();
     let mut count = 0;
     for row in document.lines().filter(|line| line.starts_with("| ")) {
         let codes: Vec<&str> = row.split('`').skip(1).step_by(2).collect();

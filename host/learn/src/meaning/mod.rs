@@ -1,6 +1,6 @@
 //! Scripts of touches by several hands, each with what a person would say of them, and the map judged by them.
 //!
-//! A folder is an author: scripts of touches (`docs/touches.md`) and `rules.json`, which has a [`Rule`] for each.
+//! A folder is an author: scripts of touches (`docs/guides/touches.md`) and `rules.json`, which has a [`Rule`] for each.
 
 mod author;
 mod heard;

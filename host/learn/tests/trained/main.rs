@@ -65,7 +65,7 @@ fn intentions_on_days_that_were_kept_apart() {
     assert!(share(&report, "/accuracy") > 0.75 && share(&report, "/recall/attack") > 0.75);
 }
 
-/// Decisions after 3 frames need the early expert, and touches of the same day in training: docs/models.md.
+/// Decisions after 3 frames need the early expert, and touches of the same day in training: docs/evidence/intent-model.md.
 #[test]
 fn early_intentions_with_and_without_touches_of_the_same_day() {
     let files = touches::Files {
@@ -126,7 +126,7 @@ fn objects_that_were_kept_apart() {
 fn the_base_of_objects_is_what_its_recipe_gives() {
     let trained = shapes(&[&["train", "--output", "-"], &RECIPE[..]].concat());
     let shipped = std::fs::read(root().join("host/taxel/bases/objects.json")).unwrap();
-    assert!(trained == shipped, "train it anew: docs/shapes.md");
+    assert!(trained == shipped, "train it anew: docs/evidence/shapes.md");
 }
 
 /// The confidence is within 5 % on average, over a thousand decisions and more, and the docs have its table.

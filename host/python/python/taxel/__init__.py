@@ -8,7 +8,7 @@
 
 ``taxel.open`` iterates over the events of a board, ``taxel.VirtualBoard`` is the board itself, ``taxel.Source`` an
 array that a program reads, ``taxel.read`` reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
-docs/python.md of the project.
+docs/guides/python.md of the project.
 """
 
 from __future__ import annotations

@@ -339,7 +339,7 @@ class Motion:
     """From touch to motion: called with a posture and touches at each cycle, it returns velocities of the joints.
 
     ``robot`` is a URDF file, a robot's file that names one, or ``reference``; ``behaviour`` a file or ``people``
-    (docs/motion.md of the project). It begins disarmed, and commands nothing until ``arm``. It is no safety function.
+    (docs/guides/motion.md of the project). It begins disarmed, and commands nothing until ``arm``. It is no safety function.
 
     Positions are in rad or m, by name or in the order of ``joints``; joints that are left out rest. Times are
     microseconds of one clock: of the cycle, of the posture and of the newest scan (those of the cycle if left out).

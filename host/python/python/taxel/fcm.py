@@ -50,7 +50,7 @@ def build(
 
     A weight is a number from -1 to 1 of at most four decimals, or a term such as ``"strong -"``. ``inputs``
     and ``settings`` are keys of a map's TOML file (``rule``, ``transfer``, ``threshold``; ``lambda`` as
-    ``**{"lambda": 2}``), see docs/maps.md of the project.
+    ``**{"lambda": 2}``), see docs/guides/maps.md of the project.
     """
     named = [{"name": one} if isinstance(one, str) else dict(one) for one in concepts]
     drawn = [{"from": cause, "to": effect, "weight": weight} for cause, effect, weight in edges]

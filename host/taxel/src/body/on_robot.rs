@@ -177,7 +177,7 @@ impl RobotSurface {
     /// The most, in metres, by which any taxel is elsewhere in a frame, at the time of an estimate, than a
     /// board says whose links were sent in the posture `sent`. A board's table has the cloth as it lies with
     /// the joints at 0: the way that it slides counts, too.
-    pub fn sent_displacement(&self, sent: &[f64], estimate: &Estimate, frame: usize) -> f64 {
+    pub(crate) fn sent_displacement(&self, sent: &[f64], estimate: &Estimate, frame: usize) -> f64 {
         let errors: Vec<f64> = (0..estimate.posture.len())
             .map(|free| {
                 let off = sent.get(free).map_or(f64::INFINITY, |sent| (sent - estimate.posture[free]).abs());

@@ -14,7 +14,7 @@ impl Surface {
     /// Frame of a panel, and the index of its link: the panel as if it were flat, in the plane that touches it at its
     /// middle. The origin is the panel's first taxel, x runs along the columns, y along the rows, and z into the
     /// robot, as of a camera that looks at it. None without a patch, and for a panel of a single taxel.
-    pub fn panel_frame(&self, layout: &Layout, panel: u8) -> Option<(usize, Pose)> {
+    pub(crate) fn panel_frame(&self, layout: &Layout, panel: u8) -> Option<(usize, Pose)> {
         let area = layout.areas().get(usize::from(panel))?;
         let link = self.panel(area).into_iter().flatten().flatten().next()?.link;
         // Where the middle has no taxel, the plane of those that there are.

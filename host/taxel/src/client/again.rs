@@ -59,7 +59,7 @@ impl Again {
     }
 
     /// True while requests are to be sent or answers are awaited.
-    pub fn is_under_way(&self) -> bool {
+    pub(crate) fn is_under_way(&self) -> bool {
         self.waits.is_some() || !self.left.is_empty()
     }
 

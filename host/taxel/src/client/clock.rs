@@ -17,10 +17,10 @@ use taxel_core::format::Micros;
 
 /// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm; a host that
 /// follows a time server slews its clock by 500 ppm at most.
-pub const RATE_LIMIT: f64 = 500e-6;
+pub(crate) const RATE_LIMIT: f64 = 500e-6;
 /// Fastest change of that difference, per second: 0.1 ppm/s, that of a cheap crystal that warms by 6 degrees
 /// in a minute.
-pub const WANDER: f64 = 0.1e-6;
+pub(crate) const WANDER: f64 = 0.1e-6;
 /// Time between two bounds kept for the rate, us.
 const SPACING: f64 = 4e6;
 /// Number of bounds kept: two minutes of them. With older ones, wander costs more than the longer time gains.

@@ -14,7 +14,7 @@ pub(super) enum HeldRequest {
 
 impl HeldRequest {
     /// True for a piece of a table.
-    pub fn is_piece(&self) -> bool {
+    pub(crate) fn is_piece(&self) -> bool {
         matches!(self, HeldRequest::Frame(_, Some(sets)) if sets.is_piece())
     }
 }

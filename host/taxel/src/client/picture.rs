@@ -46,7 +46,7 @@ impl Picture {
     }
 
     /// True if a key frame is to be requested now.
-    pub fn wants_key(&self) -> bool {
+    pub(crate) fn wants_key(&self) -> bool {
         self.missed % PATIENCE == 1
     }
 

@@ -160,7 +160,7 @@ impl Client {
     }
 
     /// True while a table of the surface is on its way to the board: it knows no links for poses yet.
-    pub fn is_storing_table(&self) -> bool {
+    pub(crate) fn is_storing_table(&self) -> bool {
         self.held.iter().any(HeldRequest::is_piece) || self.life.wanted.awaits_piece()
     }
 
@@ -174,7 +174,7 @@ impl Client {
     }
 
     /// Numbers of the requests that the board has not been sent yet.
-    pub fn queued_numbers(&self) -> Vec<u8> {
+    pub(crate) fn queued_numbers(&self) -> Vec<u8> {
         let queued = self.queued();
         let number = |frame: &[u8]| open(&mut frame.to_vec()).ok()?.first().copied();
         let changes = self.held.iter().filter(|held| matches!(held, HeldRequest::Change(_)));

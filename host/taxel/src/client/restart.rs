@@ -52,7 +52,7 @@ impl Client {
     }
 
     /// Repeats `Start` at once, if the board was asked to stream.
-    pub fn ask_to_start(&mut self) {
+    pub(crate) fn ask_to_start(&mut self) {
         let mut room = [0; frame_bound(8)];
         if self.streaming
             && let Ok(frame) = encode(&Request::Start, &mut room)
@@ -72,7 +72,7 @@ impl Client {
     }
 
     /// True if the board restored last has probably kept running, and only its link was lost.
-    pub fn has_lived_on(&self) -> bool {
+    pub(crate) fn has_lived_on(&self) -> bool {
         self.life.lived_on
     }
 
@@ -82,12 +82,12 @@ impl Client {
     }
 
     /// True if a request has been unanswered for so long that the board cannot have received it.
-    pub fn is_overdue(&self, patience: Duration) -> bool {
+    pub(crate) fn is_overdue(&self, patience: Duration) -> bool {
         !self.is_restoring() && self.life.wanted.is_overdue(patience)
     }
 
     /// Restores all settings, as after a restart of the board.
-    pub fn set_again(&mut self) {
+    pub(crate) fn set_again(&mut self) {
         (self.life.reopened, self.life.lived_on) = (false, false);
         if self.streaming {
             let settings = self.life.wanted.all();

@@ -37,7 +37,7 @@ pub struct RetainedState {
 
 impl RetainedState {
     /// Handles a frame of the wire; what is no message changes nothing.
-    pub fn take_frame(&mut self, frame: &[u8]) {
+    pub(crate) fn take_frame(&mut self, frame: &[u8]) {
         let mut bytes = frame.strip_suffix(&[0]).unwrap_or(frame).to_vec();
         let read = wire::open(&mut bytes).and_then(wire::decode::<(u32, Report<'_>)>);
         if let Ok((seq, report)) = read {

@@ -6,7 +6,7 @@ use serde_json::Value;
 use taxel_core::format::Micros;
 
 /// Nanoseconds per microsecond.
-pub const NS: u64 = 1000;
+pub(crate) const NS: u64 = 1000;
 
 /// Times of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Stamp {
     }
 
     /// The board's time, ns; saturates.
-    pub fn board_ns(&self) -> u64 {
+    pub(crate) fn board_ns(&self) -> u64 {
         self.board_us.saturating_mul(NS)
     }
 
@@ -88,7 +88,7 @@ impl Stamps {
     }
 
     /// Stamp of a time of the board, us, which may be before that of the last message.
-    pub fn of_time(&self, client: &Client, board_us: u64) -> Stamp {
+    pub(crate) fn of_time(&self, client: &Client, board_us: u64) -> Stamp {
         if let Some(time) = client.host_time(Micros(board_us)) {
             return Stamp { board_us, host_us: time.us, uncertainty_us: Some(time.uncertainty_us) };
         }

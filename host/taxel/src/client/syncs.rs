@@ -64,7 +64,7 @@ impl Syncs {
     }
 
     /// True if an answer is expected at any moment.
-    pub fn awaits_answer(&self) -> bool {
+    pub(crate) fn awaits_answer(&self) -> bool {
         let asked = self.open.back().zip(self.now);
         asked.is_some_and(|((_, asked), now)| now.saturating_sub(*asked) < SOON)
     }

@@ -28,7 +28,7 @@ impl Client {
 
     /// True while the board is about to answer such a request: bytes that are read late then make the host's time
     /// of the board less certain.
-    pub fn awaits_time(&self) -> bool {
+    pub(crate) fn awaits_time(&self) -> bool {
         self.syncs.awaits_answer()
     }
 

@@ -86,12 +86,12 @@ impl Wanted {
     }
 
     /// True if another request may be sent: what follows a piece of a table waits for its answer.
-    pub fn takes_more(&self) -> bool {
+    pub(crate) fn takes_more(&self) -> bool {
         self.asked.len() < WINDOW && !self.awaits_piece()
     }
 
     /// True if a piece of a table is not answered yet.
-    pub fn awaits_piece(&self) -> bool {
+    pub(crate) fn awaits_piece(&self) -> bool {
         self.asked.iter().any(|(key, ..)| *key == Key::Table)
     }
 
@@ -108,7 +108,7 @@ impl Wanted {
     }
 
     /// The scene requested last, unless the board has answered that.
-    pub fn asked_scene(&self) -> Option<Scene> {
+    pub(crate) fn asked_scene(&self) -> Option<Scene> {
         let (_, setting, _) = self.asked.iter().rfind(|(key, ..)| *key == Key::Scene)?;
         decode(&setting.body).ok()
     }
@@ -150,7 +150,7 @@ impl Wanted {
     }
 
     /// True if a request has waited this long for its answer. A tare takes its time.
-    pub fn is_overdue(&self, patience: Duration) -> bool {
+    pub(crate) fn is_overdue(&self, patience: Duration) -> bool {
         self.asked.iter().any(|(key, _, since)| *key != Key::Tare && since.elapsed() > patience)
     }
 
@@ -217,7 +217,7 @@ impl Sets {
     }
 
     /// True for a garment.
-    pub fn is_garment(&self) -> bool {
+    pub(crate) fn is_garment(&self) -> bool {
         self.0 == Key::Garment
     }
 
@@ -227,7 +227,7 @@ impl Sets {
     }
 
     /// True for a piece of a table.
-    pub fn is_piece(&self) -> bool {
+    pub(crate) fn is_piece(&self) -> bool {
         self.0 == Key::Table
     }
 }

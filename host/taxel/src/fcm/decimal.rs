@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Most decimals: products of two such numbers, and sums of thousands, fit into 128 bits.
-pub const MOST_DECIMALS: u32 = 17;
+pub(crate) const MOST_DECIMALS: u32 = 17;
 
 /// The number `digits` * 10^-`decimals`, without trailing zeros.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]

@@ -13,7 +13,7 @@ use taxel_core::intent::{Edge, Map, MapConfig, Outcome, Rule, Threshold, Transfe
 /// Most concepts for which the core's arithmetic is run on the host.
 pub const Q15_CONCEPTS: usize = 128;
 /// Every pair of them may have an edge.
-pub const Q15_EDGES: usize = Q15_CONCEPTS * Q15_CONCEPTS;
+pub(crate) const Q15_EDGES: usize = Q15_CONCEPTS * Q15_CONCEPTS;
 
 /// A map and its initial state, as read from a file: all numbers decimal, in -1 ..= 1.
 #[derive(Debug, Default, Clone, PartialEq)]

@@ -146,7 +146,7 @@ impl MapFile {
     }
 
     /// Returns what it hears of a robot, by the slots of its configuration.
-    pub fn robot_inputs(&self) -> Vec<RobotInput> {
+    pub(crate) fn robot_inputs(&self) -> Vec<RobotInput> {
         self.input.iter().filter_map(InputFile::of_robot).collect()
     }
 

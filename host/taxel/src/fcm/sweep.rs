@@ -7,7 +7,7 @@ use crate::error::Result;
 use taxel_core::intent::Outcome;
 
 /// Most initial states of a sweep.
-pub const STARTS: usize = 4096;
+pub(crate) const STARTS: usize = 4096;
 /// Levels of an input, in quarters; fewer of them if there are many inputs.
 const LEVELS: [&[i128]; 3] = [&[-4, -3, -2, -1, 0, 1, 2, 3, 4], &[-4, 0, 2, 4], &[-4, 4]];
 

@@ -40,7 +40,7 @@ pub struct Triangle {
 
 impl Triangle {
     /// Set of a term with its sign; none if there is no such term. `none` has no sign, all others need one.
-    pub fn of_term(text: &str) -> Option<Triangle> {
+    pub(crate) fn of_term(text: &str) -> Option<Triangle> {
         let text = text.trim();
         let (word, sign) = match text.strip_suffix('+').or_else(|| text.strip_suffix('-')) {
             Some(word) => (word.trim_end(), if text.ends_with('-') { -1.0 } else { 1.0 }),
@@ -84,7 +84,7 @@ impl Triangle {
 }
 
 /// Weight of a term.
-pub fn weight_of(term: &str) -> Option<Decimal> {
+pub(crate) fn weight_of(term: &str) -> Option<Decimal> {
     Triangle::of_term(term).map(|set| hundredths(set.centroid()))
 }
 

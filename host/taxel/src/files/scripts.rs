@@ -43,7 +43,7 @@ pub fn garment(script: &Script) -> Result<Garment> {
 }
 
 /// A garment's name, or its path in a form that holds in every folder.
-pub fn lasting_path(garment: &str) -> Result<String> {
+pub(crate) fn lasting_path(garment: &str) -> Result<String> {
     match Path::new(garment).extension() {
         Some(_) => Ok(absolute(garment)?.display().to_string()),
         None => Ok(garment.into()),

@@ -139,7 +139,7 @@ fn newtons(force: [i32; 3], scale: Option<f64>) -> Option<[f64; 3]> {
 
 /// The most by which a place in the base is off, m, because joints are not known exactly and move on; none if
 /// nobody knows.
-pub fn pose_error(report: &PressingReport) -> Option<f64> {
+pub(crate) fn pose_error(report: &PressingReport) -> Option<f64> {
     report.posed?;
     report.pose_errors.iter().map(|(_, um)| f64::from(*um) * 1e-6).reduce(f64::max)
 }

@@ -36,7 +36,7 @@ impl BodyPlace {
 }
 
 /// The parts that inputs name, each once.
-pub fn parts_of(inputs: &[RobotInput]) -> Vec<PartWords> {
+pub(crate) fn parts_of(inputs: &[RobotInput]) -> Vec<PartWords> {
     let mut parts: Vec<PartWords> = Vec::new();
     for input in inputs {
         let named: &[&PartWords] = match &input.source {

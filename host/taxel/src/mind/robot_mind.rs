@@ -119,7 +119,7 @@ impl RobotMind {
     }
 
     /// Returns the meaning of what it senses now, inferred anew; what leads and holds is that of the last inference.
-    pub fn meaning_now(&self) -> RobotMeaning {
+    pub(crate) fn meaning_now(&self) -> RobotMeaning {
         let heard = self.hear();
         let map = self.stage.map();
         let run = map.infer(&map.encode(None, &values(&heard)), STEPS);

@@ -135,7 +135,7 @@ impl Senses {
     }
 
     /// The garment of a board, once it has begun.
-    pub fn placement(&self, board: usize) -> Option<&BoardPlacement> {
+    pub(crate) fn placement(&self, board: usize) -> Option<&BoardPlacement> {
         self.boards.get(board)?.placement.as_ref()
     }
 

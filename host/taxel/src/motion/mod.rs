@@ -1,7 +1,7 @@
 //! From touch to motion: velocities of a robot's joints, and the speed of its own motion, from what touches it.
 //!
 //! Pure functions of robot, posture, contacts, meaning and time. Nothing here waits, reads a clock, or does I/O. It is
-//! no safety function: `docs/motion.md`.
+//! no safety function: `docs/guides/motion.md`.
 //!
 //! | file | holds |
 //! |---|---|

@@ -13,14 +13,14 @@ impl Tank {
     }
 
     /// Energy that is left, J.
-    pub fn left_j(&self) -> f64 {
+    pub(crate) fn left_j(&self) -> f64 {
         self.left_j
     }
 
     /// Share, 0 to 1, of velocities with these powers, W, that it can pay for so many seconds; takes that. A power is
     /// that of a contact's force along its motion: above 0 it pushes what touches. What is absorbed from what pushes
     /// fills the tank again, `full_j` at most; it does not pay in the same cycle.
-    pub fn pay(&mut self, powers: &[f64], seconds: f64, full_j: f64) -> f64 {
+    pub(crate) fn pay(&mut self, powers: &[f64], seconds: f64, full_j: f64) -> f64 {
         let given: f64 = powers.iter().map(|power| power.max(0.0)).sum::<f64>() * seconds;
         let absorbed: f64 = powers.iter().map(|power| (-power).max(0.0)).sum::<f64>() * seconds;
         let share = if given > self.left_j { self.left_j / given } else { 1.0 };

@@ -28,7 +28,7 @@ pub(crate) use config::said;
 #[cfg(feature = "zenoh")]
 pub use config::{NetworkEnd, open};
 pub use cut::FrameCutter;
-pub use order::{HASTE, PATIENCE, PieceOrder};
+pub use order::{PATIENCE, PieceOrder};
 pub use piece::WirePiece;
 pub use place::BoardPlace;
 pub use request::{AskedFrame, LONGEST_ASK, too_long, words};

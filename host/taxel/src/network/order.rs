@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 /// Longest wait of contacts for images that they have overtaken, while all images come.
 pub const PATIENCE: Duration = Duration::from_millis(50);
 /// Their longest wait while images are lost.
-pub const HASTE: Duration = Duration::from_millis(2);
+pub(crate) const HASTE: Duration = Duration::from_millis(2);
 /// Images in a row after which they all come again.
 const IN_A_ROW: u32 = 200;
 /// Most bytes that wait on each way: what the fastest board says in a second, of the largest frames.

@@ -32,12 +32,12 @@ impl Counters {
     }
 
     /// Board time since the current file began, us, at an event of this time.
-    pub fn passed_until(&mut self, stamp: Stamp) -> u64 {
+    pub(crate) fn passed_until(&mut self, stamp: Stamp) -> u64 {
         self.passed.until(stamp.board_us)
     }
 
     /// Begins another file.
-    pub fn next_file(&mut self) {
+    pub(crate) fn next_file(&mut self) {
         self.earlier_us = self.board_us();
         (self.passed, self.passed_us) = (Passed::default(), 0);
         self.earlier_frames = self.frames;
@@ -50,7 +50,7 @@ impl Counters {
     }
 
     /// Images of the current file.
-    pub fn file_frames(&self) -> u64 {
+    pub(crate) fn file_frames(&self) -> u64 {
         self.frames - self.earlier_frames
     }
 

@@ -38,7 +38,7 @@ pub fn append(client: &Client, event: &Event, stamp: Stamp, out: &mut Vec<u8>) -
 }
 
 /// Appends a message with the host's time.
-pub fn append_line(line: impl Serialize, stamp: Stamp, out: &mut Vec<u8>) -> Result<()> {
+pub(crate) fn append_line(line: impl Serialize, stamp: Stamp, out: &mut Vec<u8>) -> Result<()> {
     Ok(serde_json::to_writer(out, &HostTimed { line, times: times(stamp) })?)
 }
 

@@ -15,7 +15,7 @@ pub fn numbered(path: &Path, number: u32) -> PathBuf {
 }
 
 /// Error if numbered files of this name exist, which a recording in several files would run into.
-pub fn are_free(path: &Path) -> Result<()> {
+pub(crate) fn are_free(path: &Path) -> Result<()> {
     let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let begins = format!("{}-", part(path.file_stem()));
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));

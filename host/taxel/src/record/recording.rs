@@ -49,7 +49,7 @@ impl Recording {
     }
 
     /// Returns when to continue in another file.
-    pub fn rotates(&self) -> Option<Rotate> {
+    pub(crate) fn rotates(&self) -> Option<Rotate> {
         self.files.rotates()
     }
 

@@ -90,7 +90,7 @@ impl RecordingFiles {
     }
 
     /// Returns when to continue in another file.
-    pub fn rotates(&self) -> Option<Rotate> {
+    pub(crate) fn rotates(&self) -> Option<Rotate> {
         self.plan.rotate
     }
 
@@ -100,13 +100,13 @@ impl RecordingFiles {
     }
 
     /// True if the file of this number is complete.
-    pub fn has_ended(&self, number: u32) -> bool {
+    pub(crate) fn has_ended(&self, number: u32) -> bool {
         self.lock().open.iter().all(|open| open.number != number)
     }
 
     /// True if the board is to leave its file because others have. Boards that run in real time go together; simulations
     /// and recordings keep to their own time, as far as that leaves few files open.
-    pub fn is_behind(&self, board: &RecordedBoard) -> bool {
+    pub(crate) fn is_behind(&self, board: &RecordedBoard) -> bool {
         let state = self.lock();
         match board.is_real_time || state.open.len() >= MOST {
             true => state.number != board.file,

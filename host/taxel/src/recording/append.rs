@@ -19,7 +19,7 @@ where
 }
 
 /// Appends a record whose body is `fields` and what `data` appends.
-pub fn append_with<F>(
+pub(crate) fn append_with<F>(
     out: &mut Vec<u8>,
     op: u8,
     fields: &F,
@@ -50,7 +50,7 @@ where
 }
 
 /// Returns the bytes behind their length (u32).
-pub fn sized(data: &[u8]) -> Vec<u8> {
+pub(crate) fn sized(data: &[u8]) -> Vec<u8> {
     let mut out = (data.len() as u32).to_le_bytes().to_vec();
     out.extend_from_slice(data);
     out

@@ -16,7 +16,7 @@ pub fn of_board(board: Option<&str>, topic: &str) -> String {
 }
 
 /// The name of an attachment, or of metadata, of the only board of a recording or of this board of a robot.
-pub fn attachment_of(board: Option<&str>, name: &str) -> String {
+pub(crate) fn attachment_of(board: Option<&str>, name: &str) -> String {
     board.map_or_else(|| name.to_string(), |board| format!("{board}/{name}"))
 }
 

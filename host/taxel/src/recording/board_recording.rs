@@ -90,7 +90,7 @@ impl BoardRecording {
 
 /// True if this can be the name of a board of a robot: letters, digits, `_` and `-`. A dot makes it a part of
 /// a file's name.
-pub fn is_board(name: &str) -> bool {
+pub(crate) fn is_board(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|sign| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-'))
 }
 

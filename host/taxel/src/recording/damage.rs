@@ -96,7 +96,7 @@ pub fn is_known(number: u8) -> bool {
 }
 
 /// True if an unknown record is a chunk with a damaged number. No record has the number 0.
-pub fn is_chunk_at(path: &Path, head: &Head) -> Result<bool> {
+pub(crate) fn is_chunk_at(path: &Path, head: &Head) -> Result<bool> {
     Ok(head.op == 0 || chunk_indexes(path)?.iter().any(|place| place.chunk_start_offset == head.offset))
 }
 

@@ -71,7 +71,7 @@ impl Messages {
 
     /// Opens a file for some topics. Chunks without them, by the file's index, are neither read nor looked at for
     /// damage.
-    pub fn of_topics(path: &Path, topics: &[String]) -> Result<Messages> {
+    pub(crate) fn of_topics(path: &Path, topics: &[String]) -> Result<Messages> {
         let mut messages = Messages { only: topics.to_vec(), ..Messages::open(path)? };
         if let Some(summary) = summary(path)? {
             messages.channels = summary.channels;
@@ -81,7 +81,7 @@ impl Messages {
     }
 
     /// Keeps the first attachment of this name that is passed.
-    pub fn wanting(self, name: &str) -> Messages {
+    pub(crate) fn wanting(self, name: &str) -> Messages {
         Messages { wanted: Some(name.into()), ..self }
     }
 

@@ -68,8 +68,10 @@ mod written;
 #[cfg(test)]
 mod tests;
 
-pub use board_names::{WIRE, attachment_of, boards, of_board};
-pub use board_recording::{BoardRecording, is_board};
+pub(crate) use board_names::attachment_of;
+pub use board_names::{WIRE, boards, of_board};
+pub use board_recording::BoardRecording;
+pub(crate) use board_recording::is_board;
 pub use chunk::FullChunk;
 pub use clips::{ChunkPlace, ClipMessage, Clips};
 pub use contents::{ChannelInfo, Contents, Stretch};

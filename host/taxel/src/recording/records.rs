@@ -102,7 +102,7 @@ impl Records {
     }
 
     /// Opens a file at the record with this offset.
-    pub fn open_at(path: &Path, offset: u64) -> Result<Records> {
+    pub(crate) fn open_at(path: &Path, offset: u64) -> Result<Records> {
         let mut records = Records::open(path)?;
         records.go_to(offset).with_context(|| format!("{} cannot be read", path.display()))?;
         Ok(records)
@@ -121,7 +121,7 @@ impl Records {
 
     /// Head of the next record, to be followed by [`Records::body`] or [`Records::go_to`]. None if the rest
     /// is not a complete record; then the position is unchanged.
-    pub fn next_head(&mut self) -> Result<Option<Head>> {
+    pub(crate) fn next_head(&mut self) -> Result<Option<Head>> {
         let mut bytes = [0; HEAD];
         if self.length.saturating_sub(self.offset) < HEAD as u64 {
             return Ok(None);
@@ -158,7 +158,7 @@ impl Records {
     }
 
     /// Next record of at most `longest` bytes; none if it is longer, or the rest is not a complete record.
-    pub fn next_short(&mut self, longest: u64) -> Result<Option<RawRecord<'_>>> {
+    pub(crate) fn next_short(&mut self, longest: u64) -> Result<Option<RawRecord<'_>>> {
         match self.next_head()? {
             Some(head) if head.length <= longest => self.body(head).map(Some),
             _ => Ok(None),

@@ -67,7 +67,7 @@ impl RandomAccess {
     }
 
     /// True if only the magic is left at this offset.
-    pub fn is_tail(&mut self, at: u64) -> io::Result<bool> {
+    pub(crate) fn is_tail(&mut self, at: u64) -> io::Result<bool> {
         Ok(at + TAIL == self.length && self.read(at, TAIL)? == MAGIC)
     }
 }

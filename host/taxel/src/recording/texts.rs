@@ -45,7 +45,7 @@ pub const LONGEST: usize = 1 << 24;
 const AROUND_FILE: usize = 12;
 
 /// True if all texts and lists of a record end within it.
-pub fn texts_fit(number: u8, body: &[u8]) -> bool {
+pub(crate) fn texts_fit(number: u8, body: &[u8]) -> bool {
     behind_texts(number, body).is_some()
 }
 
@@ -74,7 +74,7 @@ fn text<'a>(body: &mut &'a [u8]) -> Option<&'a [u8]> {
 }
 
 /// Parses a record.
-pub fn parse_record(number: u8, body: &[u8]) -> McapResult<Record<'_>> {
+pub(crate) fn parse_record(number: u8, body: &[u8]) -> McapResult<Record<'_>> {
     let rest = behind_texts(number, body).ok_or(McapError::UnexpectedEof)?;
     if number == op::ATTACHMENT && rest.len() < AROUND_FILE {
         return Err(McapError::UnexpectedEof);

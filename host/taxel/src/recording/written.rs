@@ -36,7 +36,7 @@ impl Written {
     }
 
     /// Next chunk; none at the end.
-    pub fn next_chunk(&mut self, store: &mut impl Store) -> Result<Option<Closed>> {
+    pub(crate) fn next_chunk(&mut self, store: &mut impl Store) -> Result<Option<Closed>> {
         while let Some(head) = self.head(store)? {
             self.offset = head.end();
             if head.op != op::CHUNK {

@@ -66,7 +66,7 @@ impl Cdr {
     }
 
     /// Numbers, one after another.
-    pub fn f64s(self, values: impl IntoIterator<Item = f64>) -> Cdr {
+    pub(crate) fn f64s(self, values: impl IntoIterator<Item = f64>) -> Cdr {
         values.into_iter().fold(self, Cdr::f64)
     }
 

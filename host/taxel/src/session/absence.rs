@@ -36,7 +36,7 @@ impl Absence {
     }
 
     /// Tries to open the source if an attempt is due; else waits briefly.
-    pub fn try_open(&mut self, open: &mut Return) -> Option<Source> {
+    pub(crate) fn try_open(&mut self, open: &mut Return) -> Option<Source> {
         if Instant::now() < self.next {
             thread::sleep(LOOK);
             return None;

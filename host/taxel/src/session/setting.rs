@@ -99,7 +99,7 @@ pub fn set_poses<'a>(
 
 /// Queues poses of links of the board's body at the board's time `at`, by name, in the frame in which
 /// contacts are to be reported, and how they move: the board carries them on.
-pub fn move_poses<'a>(
+pub(crate) fn move_poses<'a>(
     client: &mut Client,
     at: Micros,
     poses: impl IntoIterator<Item = (&'a str, (body::Pose, LinkMotion))>,
@@ -124,7 +124,7 @@ fn send_poses<'a>(
 }
 
 /// Checks what of a scene does not depend on the board.
-pub fn check_scene(file: &SceneFile) -> Result<()> {
+pub(crate) fn check_scene(file: &SceneFile) -> Result<()> {
     let layout = Layout::build(&Garment::reference(), usize::from(u16::MAX), 4095)?;
     // Regions are left to the board, which may have another garment.
     let mut elsewhere = file.scene.clone();

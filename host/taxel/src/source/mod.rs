@@ -206,7 +206,7 @@ fn opened(spec: &SourceSpec, options: &SourceOptions) -> Result<Source> {
         SourceSpec::Zenoh { .. } => {
             fail!(
                 UsageError::Unknown,
-                "source {spec}: this program was built without Zenoh (feature `zenoh`); docs/zenoh.md says how it is built in"
+                "source {spec}: this program was built without Zenoh (feature `zenoh`); docs/guides/zenoh.md says how it is built in"
             )
         }
         SourceSpec::Robot { file, .. } => {

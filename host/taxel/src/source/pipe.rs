@@ -99,7 +99,7 @@ impl BoardEnd {
 
     /// Notes a request to the board that does not come from the host, which learns of it with what the board
     /// says next.
-    pub fn note_request(&self, request: &[u8]) {
+    pub(crate) fn note_request(&self, request: &[u8]) {
         let mut queues = self.0.lock();
         if !queues.host_gone {
             let after = queues.queued;
@@ -108,7 +108,7 @@ impl BoardEnd {
     }
 
     /// Reads up to the end of a request. Returns the number of bytes.
-    pub fn read_request(&self, buffer: &mut [u8]) -> usize {
+    pub(crate) fn read_request(&self, buffer: &mut [u8]) -> usize {
         let mut queues = self.0.lock();
         let mut count = 0;
         while let Some(slot) = buffer.get_mut(count)

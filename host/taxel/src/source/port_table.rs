@@ -43,7 +43,7 @@ struct ListedPort {
 
 impl PortTable {
     /// The file that TAXEL_PORTS names; none if it is not set.
-    pub fn of_environment() -> Option<PortTable> {
+    pub(crate) fn of_environment() -> Option<PortTable> {
         std::env::var_os("TAXEL_PORTS").map(|path| PortTable(path.into()))
     }
 

@@ -56,7 +56,7 @@ pub fn busy(path: &str, baud: u32) -> SourceError {
 }
 
 /// The error of a port that this user may not open, with the command that permits it.
-pub fn not_permitted(path: &str, baud: u32) -> SourceError {
+pub(crate) fn not_permitted(path: &str, baud: u32) -> SourceError {
     let why = match cfg!(target_os = "linux") {
         true => format!(
             "this user may not: `sudo usermod -aG {} $USER` permits it, then log in again",

@@ -72,7 +72,7 @@ impl SteppedBoard {
     }
 
     /// Passes requests, and does what waits. Error if the time is before the last one.
-    pub fn attend(&mut self, requests: &[u8], time: Micros, sent: &mut WireSink<'_>) -> Result<()> {
+    pub(crate) fn attend(&mut self, requests: &[u8], time: Micros, sent: &mut WireSink<'_>) -> Result<()> {
         require!(
             self.last.is_none_or(|last| last <= time),
             UsageError::Argument,

@@ -12,7 +12,7 @@ const PATIENCE: Duration = Duration::from_millis(10);
 const KEEPS: Duration = Duration::from_millis(100);
 /// Time limits for the first connection, and for a reconnection.
 pub const CONNECT: Duration = Duration::from_secs(5);
-pub const RETURN: Duration = Duration::from_secs(1);
+pub(crate) const RETURN: Duration = Duration::from_secs(1);
 
 /// An open connection.
 pub struct Tcp(TcpStream);

@@ -61,7 +61,7 @@ pub fn listed() -> Vec<(String, PortKind, String)> {
 }
 
 /// USB description of a port; none if it is not on USB.
-pub fn usb_of(port: &SerialPortInfo) -> Option<&UsbPortInfo> {
+pub(crate) fn usb_of(port: &SerialPortInfo) -> Option<&UsbPortInfo> {
     match &port.port_type {
         SerialPortType::UsbPort(usb) => Some(usb),
         _ => None,
@@ -69,7 +69,7 @@ pub fn usb_of(port: &SerialPortInfo) -> Option<&UsbPortInfo> {
 }
 
 /// Serial number on USB.
-pub fn serial_of(port: &SerialPortInfo) -> Option<&str> {
+pub(crate) fn serial_of(port: &SerialPortInfo) -> Option<&str> {
     usb_of(port)?.serial_number.as_deref()
 }
 
@@ -102,14 +102,14 @@ fn back<'a>(lost: &SerialPortInfo, ports: &'a [SerialPortInfo]) -> Option<&'a Se
 
 /// Description of the port of this name. A name that leads to the port (`/dev/serial/by-id/...`) is not listed, and
 /// needs no search when the port comes back.
-pub fn named_port(path: &str, ports: &SerialPorts) -> SerialPortInfo {
+pub(crate) fn named_port(path: &str, ports: &SerialPorts) -> SerialPortInfo {
     let listed = ports.list().into_iter().find(|port| port.port_name == path);
     listed.unwrap_or_else(|| SerialPortInfo { port_name: path.into(), port_type: SerialPortType::Unknown })
 }
 
 /// Finds the port of an unplugged device: the port with the same USB description under any name, or the port with the
 /// same name if ports have no description.
-pub fn found_again(lost: &SerialPortInfo, ports: &SerialPorts) -> Result<SerialPortInfo, SourceError> {
+pub(crate) fn found_again(lost: &SerialPortInfo, ports: &SerialPorts) -> Result<SerialPortInfo, SourceError> {
     Ok(match usb_of(lost) {
         Some(_) => back(lost, &ports.list())
             .cloned()

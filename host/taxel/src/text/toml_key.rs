@@ -16,7 +16,7 @@ pub fn error(file: &str, text: &str, path: &str, error: impl Display) -> Setting
 }
 
 /// Line of a key in a text, or of the part of its path that the text has.
-pub fn line_in(text: &str, path: &str) -> Option<usize> {
+pub(crate) fn line_in(text: &str, path: &str) -> Option<usize> {
     let steps: Vec<Step<'_>> = steps(path).collect();
     line_of(text, &steps)
 }

@@ -33,13 +33,13 @@ fn what_ships_knows_its_own_prototypes() {
 
 #[test]
 fn the_cards_are_in_the_docs() {
-    let docs = include_str!("../../../../docs/shapes.md");
+    let docs = include_str!("../../../../docs/evidence/shapes.md");
     for (name, base) in shipped_names().zip(shipped()) {
         let (confusion, names) = (base.card.confusion.clone(), base.names());
         let confusion = Confusion { counts: confusion, ..Confusion::new(&names, &names) };
         let table: String = confusion.table().lines().map(|line| format!("  {line}\n")).collect();
         let card = format!("\n`{name}`:\n\n```text\n{table}```\n");
-        assert!(docs.contains(&card), "docs/shapes.md does not hold:{card}");
+        assert!(docs.contains(&card), "docs/evidence/shapes.md does not hold:{card}");
         let accuracy = format!("{:.1} %", 100.0 * base.card.accuracy);
         let row = docs.lines().find(|line| line.starts_with(&format!("| `{name}` |"))).unwrap();
         assert!(row.contains(&accuracy), "{row}: {accuracy}");

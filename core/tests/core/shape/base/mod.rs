@@ -1,7 +1,7 @@
 //! Learns the built-in base of shapes from three generators, and judges each generator by a base that was
 //! learned without it: all of them with `TAXEL_CAMPAIGN=1`, else the one that differs most from the others.
 //! `cargo test -p taxel-core --test core shape::base -- --nocapture` prints the tables of
-//! `core/src/shape/base.rs` and the figures of `docs/shapes.md`.
+//! `core/src/shape/base.rs` and the figures of `docs/evidence/shapes.md`.
 
 mod examples;
 mod glvq;

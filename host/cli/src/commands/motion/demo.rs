@@ -88,7 +88,7 @@ pub fn run() -> Result<()> {
         println!("\n{}", scene.name);
         arm.play(scene)?;
     }
-    println!("\nThe behaviour is `people`; docs/motion.md says how to write your own.");
+    println!("\nThe behaviour is `people`; docs/guides/motion.md says how to write your own.");
     Ok(())
 }
 

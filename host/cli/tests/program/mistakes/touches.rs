@@ -95,7 +95,7 @@ fn the_schema_has_the_keys_of_a_script_and_no_others() {
 /// The document explains each key of the schema.
 #[test]
 fn the_document_names_every_key() {
-    let document = include_str!("../../../../../docs/touches.md");
+    let document = include_str!("../../../../../docs/guides/touches.md");
     for key in keys::of(FileKind::Touches.schema()) {
         let key = key.rsplit('/').next().unwrap();
         assert!(document.contains(&format!("`{key}`")) || document.contains(&format!("[{key}]")), "{key}");

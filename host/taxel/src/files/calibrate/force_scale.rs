@@ -34,7 +34,7 @@ impl ForceScale {
     }
 
     /// Counts per newton of the source, whatever the calibration says.
-    pub fn source_counts_per_newton(&self) -> Option<f32> {
+    pub(crate) fn source_counts_per_newton(&self) -> Option<f32> {
         self.counts_per_newton
     }
 

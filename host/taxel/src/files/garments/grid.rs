@@ -57,7 +57,7 @@ impl GridFile {
 }
 
 /// Path of a key of the garment in a file with a grid.
-pub fn key_in(path: &str) -> String {
+pub(crate) fn key_in(path: &str) -> String {
     path.strip_prefix("panels[0]").map_or(path.into(), |rest| format!("grid{rest}"))
 }
 

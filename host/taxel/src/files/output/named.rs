@@ -24,7 +24,7 @@ pub struct Named {
 
 impl Named {
     /// Error if it is an input; it may have become one since the first check.
-    pub fn is_no_input(&self) -> Result<()> {
+    pub(crate) fn is_no_input(&self) -> Result<()> {
         let Place::File(path, _) = &self.place else { return Ok(()) };
         let Some(same) = self.inputs.iter().find(|input| is_same(path, input)) else { return Ok(()) };
         let name = self.name.display();
@@ -38,7 +38,7 @@ impl Named {
     }
 
     /// Renames a temporary file to the output's name.
-    pub fn take_name(&self, part: &Path) -> Result<()> {
+    pub(crate) fn take_name(&self, part: &Path) -> Result<()> {
         let Place::File(path, existed) = &self.place else { return Ok(()) };
         let place = || format!("{} cannot be written", self.name.display());
         self.is_no_input()?;

@@ -90,12 +90,12 @@ pub fn is_one(name: &Path) -> bool {
 }
 
 /// Flushes the content of a file to the disk. Windows does that only through a handle that may write.
-pub fn sync_file(path: &Path) -> io::Result<()> {
+pub(crate) fn sync_file(path: &Path) -> io::Result<()> {
     File::options().write(true).open(path)?.sync_all()
 }
 
 /// Flushes the names in a folder to the disk, if the system supports it.
-pub fn sync_folder(folder: &Path) -> io::Result<()> {
+pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(not(unix)) {
         return Ok(());
     }

@@ -89,7 +89,7 @@ impl Walk {
     }
 
     /// Next record, or bytes that are not a record; none at the end.
-    pub fn next_step(&mut self) -> Result<Option<WalkStep>> {
+    pub(crate) fn next_step(&mut self) -> Result<Option<WalkStep>> {
         self.step().with_context(|| format!("{} cannot be read", self.path.display()))
     }
 

@@ -107,7 +107,7 @@ impl ArrayDecoder {
     }
 
     /// Takes a datagram, which begins with a whole line; one with a frame in a line may lack the end of the line.
-    pub fn datagram(&mut self, bytes: &[u8], arrival_us: u64, found: &mut FrameSink<'_>) {
+    pub(crate) fn datagram(&mut self, bytes: &[u8], arrival_us: u64, found: &mut FrameSink<'_>) {
         let mut lacks_end = false;
         if let Cutter::Rows(rows) = &mut self.cutter {
             lacks_end = rows.begin() && !bytes.ends_with(b"\n");

@@ -120,7 +120,7 @@ pub struct TimePlace {
 
 impl BytesForm {
     /// Bytes of this number of values.
-    pub fn value_bytes(&self, values: usize) -> usize {
+    pub(crate) fn value_bytes(&self, values: usize) -> usize {
         values * self.value.bits() / 8
     }
 

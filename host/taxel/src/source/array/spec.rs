@@ -45,7 +45,7 @@ impl ArraySpec {
     }
 
     /// True if its format is a file.
-    pub fn is_described_by_file(&self) -> bool {
+    pub(crate) fn is_described_by_file(&self) -> bool {
         !formats::NAMES.contains(&self.format.as_str())
     }
 

@@ -44,7 +44,7 @@ impl SensorTime {
     }
 
     /// Returns the time without wraps. A small step back is none.
-    pub fn unwrapped(&mut self, time_us: u64) -> u64 {
+    pub(crate) fn unwrapped(&mut self, time_us: u64) -> u64 {
         if let Some(period) = self.period_us
             && self.last_us > time_us
             && self.last_us - time_us > period / 2

@@ -27,7 +27,7 @@ impl TimedBytes {
     }
 
     /// Drops the first bytes.
-    pub fn consume(&mut self, count: usize) {
+    pub(crate) fn consume(&mut self, count: usize) {
         self.bytes.drain(..count.min(self.bytes.len()));
         self.arrivals.retain_mut(|(end, _)| {
             let stays = *end > count;

@@ -13,7 +13,8 @@ mod toml;
 
 pub use super::words::json::json;
 pub use super::words::meant::{meant, unknown};
-pub use super::words::place::{Step, line_of};
+pub use super::words::place::Step;
+pub(crate) use super::words::place::line_of;
 pub use super::words::printable::{printable, printable_json};
 pub use super::words::serde::plain;
 pub use super::words::toml::toml;

@@ -20,7 +20,7 @@ pub(super) fn line(text: &str, at: usize) -> usize {
 
 /// Line, from 1, of the value at the end of the steps, or of the last step that exists; none if the text is
 /// not TOML.
-pub fn line_of(text: &str, steps: &[Step<'_>]) -> Option<usize> {
+pub(crate) fn line_of(text: &str, steps: &[Step<'_>]) -> Option<usize> {
     let table = DeTable::parse(text).ok()?;
     let mut start = 0;
     let mut value: Option<&Spanned<DeValue<'_>>> = None;

@@ -21,7 +21,7 @@ fn word(garment: Garment, (shape, force_n): (&str, f64), rate: f64, rise_s: f64)
     }
 }
 
-/// A chart of docs/bounds.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and
+/// A chart of docs/evidence/drift.md, for a palm; what rises within ten seconds at up to 3 counts/s is felt, and
 /// unsure contacts are reported.
 fn chart(garment: &Garment, force_n: f64) {
     println!("drift, counts/s  a palm of {force_n} N on {} rises in {RISES:?} s", garment.name);

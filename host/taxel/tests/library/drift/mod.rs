@@ -1,4 +1,4 @@
-//! Drift is tracked and touches are kept: the limits of docs/bounds.md, on various garments and at all rates.
+//! Drift is tracked and touches are kept: the limits of docs/evidence/drift.md, on various garments and at all rates.
 
 mod chart;
 mod held;

@@ -51,7 +51,7 @@ impl Tally {
     /// Checks the required figures.
     pub fn judge(&self) {
         assert!(self.accuracy() >= 0.98, "{} are right", self.accuracy());
-        // A slap of 25 N that follows through is as mild as a clap of a friend (docs/meaning.md).
+        // A slap of 25 N that follows through is as mild as a clap of a friend (docs/concepts/meaning.md).
         assert!(self.recall() >= 0.98, "{} of the attacks are found", self.recall());
         assert_eq!(self.untouched, 0, "attacks called while nobody touched");
     }

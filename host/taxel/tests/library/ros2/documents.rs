@@ -42,7 +42,7 @@ fn words(qos: RosQos) -> String {
 
 #[test]
 fn the_documentation_has_every_topic_service_and_parameter() {
-    let page = text("docs/ros2.md");
+    let page = text("docs/reference/ros2.md");
     let mut rows = Vec::new();
     for topic in PUBLISHED.into_iter().chain(TAKEN) {
         let (package, message) = topic.message;

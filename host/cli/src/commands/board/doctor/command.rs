@@ -56,10 +56,9 @@ impl DoctorArgs {
 pub fn run(args: &DoctorArgs) -> Result<()> {
     let spec = args.source();
     let options = SourceOptions { seconds: Some(args.seconds), ..SourceOptions::default() };
-    let source = BoardArgs::of(spec.clone())
-        .read()?
-        .open_any(&options)
-        .context("no link (`taxel ports` lists what is plugged in; docs/troubleshooting.md says more)")?;
+    let source = BoardArgs::of(spec.clone()).read()?.open_any(&options).context(
+        "no link (`taxel ports` lists what is plugged in; docs/guides/troubleshooting.md says more)",
+    )?;
     let label = source.label.clone();
     let Examined { found, heard, .. } = examine(spec, source, args.seconds, Buses::default());
     let worst = worst(&found);

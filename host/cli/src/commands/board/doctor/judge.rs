@@ -52,7 +52,7 @@ pub fn judge(facts: &Facts, version: &str, today: &str) -> Vec<Finding> {
     found.extend(facts.clock_us.map(clock));
     found.push(calibration(&facts.calibration, today));
     found.extend(self_test(facts));
-    let reported = |text: &String| Finding::weak("board", text.clone(), "see docs/troubleshooting.md");
+    let reported = |text: &String| Finding::weak("board", text.clone(), "see docs/guides/troubleshooting.md");
     found.extend(facts.logged.iter().map(reported));
     found
 }

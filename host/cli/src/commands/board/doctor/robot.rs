@@ -70,7 +70,7 @@ fn diagnosed(board: &RobotBoard, seconds: f64, buses: Buses) -> (Vec<Finding>, O
     let source = match board.open(&options) {
         Ok(source) => source,
         Err(error) => {
-            let cure = "`taxel ports` lists what is plugged in; docs/troubleshooting.md says more";
+            let cure = "`taxel ports` lists what is plugged in; docs/guides/troubleshooting.md says more";
             return (vec![Finding::bad("link", words::sentence(&error), cure)], None);
         }
     };
