@@ -6,7 +6,7 @@ use clap::{Arg, Command, CommandFactory};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use taxel::files::schemas::{GARMENT, SCENE, TOUCHES};
+use taxel::files::schemas::{GARMENT, ROBOT, SCENE, TOUCHES};
 use taxel::json::{lines::JsonLine, schema};
 use taxel_cli::cli::Cli;
 
@@ -121,6 +121,12 @@ fn the_pages_of_files_are_fresh() {
             "A script of touches",
             "[Scripts of touches](../guides/touches.md) says what they are for.",
             TOUCHES,
+        ),
+        (
+            "robot.md",
+            "A robot's file",
+            "[A robot of several boards](../guides/robot.md) says what it is for.",
+            ROBOT,
         ),
     ] {
         let schema: Value = serde_json::from_str(text).unwrap();

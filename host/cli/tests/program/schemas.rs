@@ -112,3 +112,17 @@ fn the_schema_of_touches_takes_what_ships_and_nothing_wrong() {
         assert!(why.starts_with(place), "{to}: {why}");
     }
 }
+
+#[test]
+fn the_schema_of_robots_takes_the_robot_of_the_guide_and_nothing_wrong() {
+    let schema: Value = serde_json::from_str(&said(&["config", "schema", "robot"])).unwrap();
+    let two = super::robot::two();
+    assert_eq!(wrong(&toml_value(&two), &schema), None);
+    for (from, to, place) in
+        [("tare = 32", "tare = \"32\"", "/boards/1/tare"), ("link =", "limb =", "/boards/1")]
+    {
+        assert!(two.contains(from), "{from}");
+        let why = wrong(&toml_value(&two.replacen(from, to, 1)), &schema).unwrap();
+        assert!(why.starts_with(place), "{to}: {why}");
+    }
+}

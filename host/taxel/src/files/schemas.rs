@@ -6,3 +6,5 @@ pub const GARMENT: &str = include_str!("../../schemas/garment.json");
 pub const SCENE: &str = include_str!("../../schemas/scene.json");
 /// Schema of a script of touches.
 pub const TOUCHES: &str = include_str!("../../schemas/touches.json");
+/// Schema of a robot's file.
+pub const ROBOT: &str = include_str!("../../schemas/robot.json");

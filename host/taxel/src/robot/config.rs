@@ -13,6 +13,7 @@ use taxel_core::intent::Feed;
 
 /// A robot: `robot.toml`. Paths are relative to the folder of the file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RobotConfig {
     /// Name of the robot.
@@ -23,6 +24,7 @@ pub struct RobotConfig {
     pub poses: Option<f64>,
     /// Bounds on the joints' motion, for the error of places in the base, as for `--motion`.
     #[serde(default, deserialize_with = "parsed")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     pub motion: Option<Motion>,
     /// Meaning of touches to it: maps of a robot, TOML files or shipped ones, which are united; `robot` and `probe`
     /// if left out.
@@ -35,6 +37,7 @@ pub struct RobotConfig {
 /// follow a board, and the keywords of Python.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 // clap would go on with the heading in the struct that has these options: the second form is called behind them.
 #[cfg_attr(feature = "clap", command(next_help_heading = "Set", next_help_heading(None::<&'static str>)))]
 #[serde(deny_unknown_fields)]
@@ -47,6 +50,7 @@ pub struct BoardConfig {
     /// [default: auto, the board that is plugged in]
     #[cfg_attr(feature = "clap", arg(long, value_name = "SOURCE", help_heading = "Connect"))]
     #[serde(default, deserialize_with = "source")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     pub source: Option<SourceSpec>,
     /// Garment to send to the board, real or simulated: a preset or a TOML file. In a robot's file the garment by
     /// which a real board is recognised
@@ -60,6 +64,7 @@ pub struct BoardConfig {
     pub calibration: Option<PathBuf>,
     /// Take the mean of the first N frames, at most 4096, as the baseline [default: that of a simulated scene, else 0]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=4096)))]
+    #[cfg_attr(feature = "schema", schemars(range(max = 4096)))]
     pub tare: Option<u16>,
     /// Timing reports of the board per second; 65535: one for each frame [default: 1]
     #[cfg_attr(feature = "clap", arg(long, value_name = "HZ"))]
@@ -81,11 +86,13 @@ pub struct BoardConfig {
     /// Number of contacts per frame, in turn, whose form (outline, azimuth, breadth, shape) is computed: 1 to 254, or
     /// all; also requests the ages of the forms. The board keeps this until it restarts [default: 1]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<serde_json::Value>"))]
     pub forms: Option<FormsInFrame>,
     /// Set a concept: value, -1 to 1; its age; the age from which the value expires [default: never]; the value that
     /// replaces it then [default: 0]
     #[cfg_attr(feature = "clap", arg(long, value_name = "NAME=VALUE[,AGE_MS[,TIMEOUT_MS[,DEFAULT]]]", value_parser = feed))]
     #[serde(default, deserialize_with = "feeds")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub feed: Vec<Feed>,
     /// Base of shapes to send to the board: a file, or the name of a shipped base
     #[cfg_attr(feature = "clap", arg(long, value_name = "BASE"))]

@@ -6,6 +6,7 @@ use taxel_core::gesture::ShippedModel;
 /// A model of gestures in the board's firmware.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum GestureModel {
     /// constant, notouch, pat, rub, scratch, stroke, tickle

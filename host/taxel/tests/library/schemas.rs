@@ -2,11 +2,14 @@
 //! TAXEL_BLESS=1 updates the files.
 
 use super::validator::wrong;
+use schemars::generate::SchemaSettings;
 use serde_json::Value;
 use std::path::Path;
+use taxel::files::schemas::ROBOT;
 use taxel::json::lines::JsonLine;
 use taxel::json::schema;
 use taxel::record::{TOPICS, derived};
+use taxel::robot::RobotConfig;
 
 #[test]
 fn schemas_are_derived_from_the_structs() {
@@ -20,6 +23,39 @@ fn schemas_are_derived_from_the_structs() {
         let have = std::fs::read_to_string(&file).expect("it is checked in");
         assert!(have == want, "{} is not what TAXEL_BLESS=1 writes", file.display());
     }
+}
+
+#[test]
+fn the_schema_of_robots_is_derived_from_the_struct() {
+    let settings = SchemaSettings::draft07().with(|settings| settings.inline_subschemas = true);
+    let mut schema = settings.into_generator().into_root_schema_for::<RobotConfig>().to_value();
+    schema["title"] = "A robot of taxel: its boards, and what they are asked".into();
+    // TOML has no null: a key may be left out.
+    let board = schema["properties"]["boards"]["items"]["properties"].take();
+    let [mut robot, mut board] = [schema["properties"].take(), board];
+    for field in
+        [&mut robot, &mut board].into_iter().flat_map(|fields| fields.as_object_mut().unwrap().values_mut())
+    {
+        let field = field.as_object_mut().unwrap();
+        field.shift_remove("format");
+        field.shift_remove("default");
+        if let Some(Value::Array(kinds)) = field.get("type") {
+            let kind = kinds.iter().find(|kind| *kind != "null").cloned();
+            field["type"] = kind.unwrap();
+        }
+        if let Some(Value::Array(kinds)) = field.shift_remove("anyOf") {
+            let kind = kinds.into_iter().find(|kind| kind["type"] != "null").unwrap();
+            field.extend(kind.as_object().unwrap().clone());
+        }
+    }
+    robot["boards"]["items"]["properties"] = board;
+    schema["properties"] = robot;
+    let want = format!("{}\n", serde_json::to_string_pretty(&schema).unwrap());
+    if std::env::var_os("TAXEL_BLESS").is_some() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/robot.json");
+        std::fs::write(file, &want).expect("it can be written");
+    }
+    assert!(ROBOT == want, "schemas/robot.json is not what TAXEL_BLESS=1 writes");
 }
 
 /// Foxglove's reader wants a known type of every field.

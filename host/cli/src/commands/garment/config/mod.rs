@@ -25,6 +25,8 @@ pub enum FileKind {
     Scene,
     /// touches of a simulated garment: place, time, force
     Touches,
+    /// boards of a robot, and what they are asked
+    Robot,
 }
 
 impl FileKind {
@@ -34,6 +36,7 @@ impl FileKind {
             FileKind::Garment => schemas::GARMENT,
             FileKind::Scene => schemas::SCENE,
             FileKind::Touches => schemas::TOUCHES,
+            FileKind::Robot => schemas::ROBOT,
         }
     }
 
@@ -43,6 +46,7 @@ impl FileKind {
             FileKind::Garment => "taxel-garment.schema.json",
             FileKind::Scene => "taxel-scene.schema.json",
             FileKind::Touches => "taxel-touches.schema.json",
+            FileKind::Robot => "taxel-robot.schema.json",
         }
     }
 }
