@@ -7,8 +7,8 @@
 (32, 16)
 
 ``taxel.open`` iterates over the events of a board, ``taxel.VirtualBoard`` is the board itself, ``taxel.Source`` an
-array that a program reads, ``taxel.read`` reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it understands with. Documentation:
-docs/guides/python.md of the project.
+array that a program reads, ``taxel.read`` reads recordings, ``taxel.features`` and ``taxel.fcm`` are what it
+understands with. Documentation: docs/guides/python.md of the project.
 """
 
 from __future__ import annotations
@@ -78,6 +78,10 @@ __all__ = [
     "read",
     *_events.__all__,
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
 
 
 class Board(_taxel.Board, Requests):
