@@ -66,12 +66,12 @@ fn by(mover: &str) -> PyResult<Mover> {
     }
 }
 
-/// What a robot is commanded at a cycle.
+/// Command of a robot at a cycle.
 #[pyclass(frozen, get_all, module = "taxel")]
 pub struct MotionCommand {
     /// `disarmed`, `armed` or `stopped`.
     phase: &'static str,
-    /// What is done.
+    /// Name of the deed.
     deed: &'static str,
     /// The fault that has stopped it; None if none has.
     fault: Option<&'static str>,
@@ -108,7 +108,7 @@ enum Positions {
     Listed(Vec<f64>),
 }
 
-/// What is known at a cycle.
+/// Posture, contacts and meaning at a cycle.
 struct Cycle {
     now_us: u64,
     posture_us: u64,

@@ -6,6 +6,7 @@ pub mod check;
 pub mod combine;
 pub mod config;
 pub mod decimal;
+pub mod descent;
 pub mod draw;
 pub mod engine;
 pub mod json;

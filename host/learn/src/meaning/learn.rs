@@ -3,9 +3,8 @@
 //! A script is played once with the expert's map, and the measured inputs of every inference are kept. A map is then
 //! judged on these alone. A word counts as said while two inferences in a row activate it. The loss of a script is
 //! the shortfall of a word that must be said, and the excess of every word that must not, in activation beyond a
-//! margin about the level of an announcement, times how sure people are. A weight is moved by 0.1, then 0.05, 0.02
-//! and 0.01 wherever that lowers the mean loss (plus the cost of leaving the expert's weights) until no move helps. No
-//! weight changes its sign or becomes 0, and no edge is added. What kindness needs is not learned.
+//! margin about the level of an announcement, times how sure people are; [`Descent`] lowers the mean loss. What kindness
+//! needs is not learned.
 
 use super::author::Author;
 use super::heard::{Heard, hear_all};
@@ -13,9 +12,9 @@ use super::rule::Rule;
 use super::varied::varied;
 use anyhow::{Context, Result};
 use taxel::fcm::board::{BoardMap, MapState};
+use taxel::fcm::descent::Descent;
 use taxel::fcm::engine::Q15_CONCEPTS;
 use taxel::fcm::map::MapFile;
-use taxel::fcm::weight::Weight;
 use taxel::sim::Script;
 use taxel_core::intent::Leading;
 
@@ -23,10 +22,8 @@ use taxel_core::intent::Leading;
 const LEVEL: f64 = 0.5;
 /// Activation beyond the level that is asked for.
 const MARGIN: f64 = 0.2;
-/// Loss per unit of movement over all weights, so that useless moves are not made.
-const PULL: f64 = 0.01;
-/// Moves, in hundredths.
-const MOVES: [i64; 4] = [10, 5, 2, 1];
+/// The search.
+const DESCENT: Descent = Descent { moves: &[10, 5, 2, 1], pull: 0.01 };
 /// Effects whose causes are learned.
 const LEARNED: [&str; 4] = ["sting", "grip", "threat", "attack"];
 
@@ -82,37 +79,8 @@ fn example(author: usize, rule: &Rule, heard: &Heard, file: &MapFile) -> PlayedS
 /// Searches for weights on the examples of all authors but one, or of all.
 pub fn learn(file: &MapFile, examples: &[PlayedScript], left_out: Option<usize>) -> Result<MapFile> {
     let taken: Vec<&PlayedScript> = examples.iter().filter(|it| Some(it.author) != left_out).collect();
-    let expert: Vec<i64> =
-        file.edge.iter().map(|edge| (100.0 * edge.weight.value()).round() as i64).collect();
-    let is_free = |at: &usize| LEARNED.contains(&file.edge[*at].to.as_str()) && !file.edge[*at].fixed;
-    let free: Vec<usize> = (0..expert.len()).filter(is_free).collect();
-    let cost = |weights: &[i64]| -> Result<f64> {
-        let moved: i64 = weights.iter().zip(&expert).map(|(now, before)| (now - before).abs()).sum();
-        Ok(loss(&with(file, weights), &taken)? + PULL * moved as f64 / 100.0)
-    };
-    let mut now = expert.clone();
-    let mut least = cost(&now)?;
-    for size in MOVES {
-        loop {
-            let before = least;
-            for at in &free {
-                let sign = expert[*at].signum();
-                for moved in [now[*at] + size, now[*at] - size] {
-                    let kept = std::mem::replace(&mut now[*at], sign * (sign * moved).clamp(1, 100));
-                    let loss = if now[*at] == kept { least } else { cost(&now)? };
-                    if loss < least {
-                        least = loss;
-                        break;
-                    }
-                    now[*at] = kept;
-                }
-            }
-            if least >= before {
-                break;
-            }
-        }
-    }
-    Ok(with(file, &now))
+    let is_learned = |at: usize| LEARNED.contains(&file.edge[at].to.as_str());
+    DESCENT.run(file, is_learned, |map| loss(map, &taken))
 }
 
 /// Mean loss of a map.
@@ -138,21 +106,11 @@ fn loss(file: &MapFile, examples: &[&PlayedScript]) -> Result<f64> {
     Ok(examples.iter().map(of_one).sum::<f64>() / examples.len().max(1) as f64)
 }
 
-/// The map with weights in hundredths; unchanged ones keep their notation.
-fn with(file: &MapFile, weights: &[i64]) -> MapFile {
-    let mut map = file.clone();
-    for (edge, weight) in map.edge.iter_mut().zip(weights) {
-        if (100.0 * edge.weight.value()).round() as i64 != *weight {
-            edge.weight = Weight::Number(*weight as f64 / 100.0);
-        }
-    }
-    map
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use taxel::fcm::load;
+    use taxel::fcm::weight::Weight;
 
     #[test]
     fn a_spoilt_boundary_is_learned_again_and_signs_stay() {

@@ -8,7 +8,7 @@ use taxel_core::intent::Leading;
 #[derive(Debug, Default, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Rule {
-    /// What a person says.
+    /// Word of a person.
     pub say: String,
     /// Words of which one is said at least once.
     pub must: Vec<Leading>,

@@ -20,9 +20,9 @@ pub struct Row {
     pub script: String,
     /// How sure a person is.
     pub sure: f64,
-    /// What a person says.
+    /// Word of a person.
     pub say: String,
-    /// What the board said.
+    /// Words of the board.
     pub heard: Heard,
     /// Parts of the rule that do not hold.
     pub wrong: Vec<Wrong>,

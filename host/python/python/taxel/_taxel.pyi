@@ -308,14 +308,14 @@ class MotionTouch:
 
 @final
 class MotionCommand:
-    """What a robot is commanded at a cycle, and why."""
+    """Command of a robot at a cycle, and its causes."""
 
     @property
     def phase(self) -> str:
         """``disarmed``, ``armed``, or ``stopped`` by a fault until it is armed again."""
     @property
     def deed(self) -> str:
-        """What is done: ``nothing``, ``stop``, ``clamped``, ``retreat``, ``yield``, ``slow``, ``resume``, ``free``."""
+        """Name of the deed: ``nothing``, ``stop``, ``clamped``, ``retreat``, ``yield``, ``slow``, ``resume``, ``free``."""
     @property
     def fault(self) -> str | None:
         """The fault that has stopped it, such as ``stale_posture``; None if none has."""

@@ -1,16 +1,13 @@
 //! Searches for weights by which a map classifies labelled touches, one weight at a time.
 //!
 //! The loss of a touch is the shortfall of its own intention from a lead of `MARGIN` over the strongest other
-//! class; `none` counts as a class whose activation is the level from which an intention may lead. A weight
-//! is moved by 0.2, then 0.1, 0.05, 0.02 and 0.01 wherever that lowers the mean loss (plus the cost of
-//! leaving the expert's weights), in the order of the map, until no move helps. No weight changes its sign or
-//! becomes 0, no edge is added, and `fixed` weights stay. The arithmetic is that of the board, so the result
-//! is the same everywhere.
+//! class; `none` counts as a class whose activation is the level from which an intention may lead. The arithmetic
+//! is that of the board, so the result of the [`Descent`] is the same everywhere.
 
 use super::board::BoardMap;
+use super::descent::Descent;
 use super::map::MapFile;
 use super::touches::{Labelled, NONE, Touches};
-use super::weight::Weight;
 use crate::error::Result;
 use crate::text::progress::{Progress, Unit};
 use taxel_core::intent::Leading;
@@ -19,12 +16,8 @@ use taxel_core::intent::Leading;
 const MARGIN: f64 = 0.2;
 /// Activation from which an intention may lead, as in a scene.
 const LEVEL: f64 = 0.5;
-/// Loss per unit of movement over all weights, so that useless moves are not made.
-const PULL: f64 = 0.001;
-/// Moves, in hundredths.
-const MOVES: [i64; 5] = [20, 10, 5, 2, 1];
-/// Most rounds over all weights with one size of move.
-const ROUNDS: usize = 20;
+/// The search.
+const DESCENT: Descent = Descent { moves: &[20, 10, 5, 2, 1], pull: 0.001 };
 
 /// Judgement of touches by a map.
 #[derive(Debug, Clone)]
@@ -81,50 +74,15 @@ pub fn judge<'a>(
 pub fn search(file: &MapFile, touches: &Touches, is_taken: impl Fn(usize) -> bool) -> Result<MapFile> {
     let taken: Vec<&Labelled> =
         touches.touches.iter().enumerate().filter(|(at, _)| is_taken(*at)).map(|(_, touch)| touch).collect();
-    let hundredths = |value: f64| (value * 100.0).round() as i64;
-    let expert: Vec<i64> = file.edge.iter().map(|edge| hundredths(edge.weight.value())).collect();
-    let free: Vec<usize> = (0..expert.len()).filter(|at| !file.edge[*at].fixed && expert[*at] != 0).collect();
-    let mut now = expert.clone();
-    let cost = |weights: &[i64]| -> Result<f64> {
-        let moved: i64 = weights.iter().zip(&expert).map(|(w, e)| (w - e).abs()).sum();
-        let judged = judge(&with(file, weights, &expert), &touches.classes, taken.iter().copied())?;
-        Ok(judged.loss + PULL * moved as f64 / 100.0)
-    };
     let mut progress = Progress::of("learning", Unit::Steps("weights tried"), None);
     let mut tried = 0;
-    let mut least = cost(&now)?;
-    for size in MOVES {
-        for _ in 0..ROUNDS {
-            let before = least;
-            for at in &free {
-                tried += 1;
-                progress.at(tried);
-                let sign = expert[*at].signum();
-                for moved in [now[*at] + size, now[*at] - size] {
-                    let kept = std::mem::replace(&mut now[*at], sign * (sign * moved).clamp(1, 100));
-                    let loss = if now[*at] == kept { least } else { cost(&now)? };
-                    if loss < least {
-                        least = loss;
-                        break;
-                    }
-                    now[*at] = kept;
-                }
-            }
-            if least >= before {
-                break;
-            }
-        }
-    }
-    Ok(with(file, &now, &expert))
-}
-
-/// The map with weights in hundredths; unchanged ones keep their notation.
-fn with(file: &MapFile, weights: &[i64], expert: &[i64]) -> MapFile {
-    let mut map = file.clone();
-    for ((edge, weight), before) in map.edge.iter_mut().zip(weights).zip(expert) {
-        if weight != before {
-            edge.weight = Weight::Number(*weight as f64 / 100.0);
-        }
-    }
-    map
+    DESCENT.run(
+        file,
+        |_| true,
+        |map| {
+            progress.at(tried);
+            tried += 1;
+            Ok(judge(map, &touches.classes, taken.iter().copied())?.loss)
+        },
+    )
 }

@@ -119,7 +119,7 @@ pub const SPEED_SCALING: RosTopic = topic("~/speed_scaling", "control_msgs", "Sp
 pub const VELOCITIES: RosTopic = topic("~/velocities", "std_msgs", "Float64MultiArray", CONTROL);
 /// Force and moment of all touches in the base, for compliance controllers.
 pub const TOUCH_WRENCH: RosTopic = topic("~/wrench", "geometry_msgs", "WrenchStamped", CONTROL);
-/// What is commanded and why, as a line of JSON.
+/// Command and its causes, a line of JSON.
 pub const MOTION: RosTopic = topic("~/motion", "std_msgs", "String", EVERY);
 
 /// Topics that the node of `taxel motion` publishes.

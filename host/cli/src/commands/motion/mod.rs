@@ -35,7 +35,7 @@ pub struct MotionArgs {
     /// The robot: its file, whose boards have a body and whose `urdf` describes it.
     #[command(flatten)]
     pub board: BoardArgs,
-    /// What it does when it is touched: a TOML file, or `people`
+    /// Behaviour when the robot is touched: a TOML file, or `people`
     #[arg(long, value_name = "FILE", default_value = "people")]
     pub behaviour: String,
     /// Show what it does: a simulated arm is patted, pushed, clamped and led. Nothing else is read
