@@ -21,8 +21,13 @@ fn read(path: &str) -> String {
 
 /// Pages that people read, each with its text.
 fn pages() -> Vec<(String, String)> {
-    let docs = fs::read_dir(root().join("docs")).unwrap();
-    let docs = docs.map(|entry| format!("docs/{}", entry.unwrap().file_name().display()));
+    let listed = |folder: &str| -> Vec<String> {
+        let entries = fs::read_dir(root().join(folder)).unwrap();
+        entries.map(|entry| format!("{folder}/{}", entry.unwrap().file_name().display())).collect()
+    };
+    let (kinds, docs): (Vec<_>, Vec<_>) =
+        listed("docs").into_iter().partition(|path| root().join(path).is_dir());
+    let docs = kinds.iter().flat_map(|kind| listed(kind)).chain(docs).collect::<Vec<_>>().into_iter();
     let others =
         ["", "host/python/", "host/python/lerobot/", "tests/physics/"].map(|at| format!("{at}README.md"));
     let top = ["CHANGELOG.md", "CONTRIBUTING.md"].map(String::from);

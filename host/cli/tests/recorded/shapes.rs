@@ -48,5 +48,5 @@ fn the_reference_set() {
             row.push_str(&format!(" {percent:.1} |"));
         }
     }
-    rows_of_docs.iter().for_each(|row| says("shapes.md", row));
+    rows_of_docs.iter().for_each(|row| says("evidence/shapes.md", row));
 }

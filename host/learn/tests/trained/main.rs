@@ -22,13 +22,13 @@ fn gestures_of_people_who_were_kept_apart() {
     let files = touches::Files { frames: data("haart/train.npz"), labels: Some(data("haart/train.csv")) };
     let report = gestures::across_people(&files).unwrap().json();
     println!("gestures by participant: {report}");
-    is_in_docs("models.md", &report);
+    is_in_docs("evidence/models.md", &report);
     // Decisions after 0.2 s and 0.5 s, and of the whole.
     for (step, least) in [(1, 0.55), (2, 0.68), (6, 0.82)] {
         let reached = share(&report, &format!("/over_time/{step}/accuracy"));
         assert!(reached >= least, "{reached} of {least}");
     }
-    is_sure_as_it_says(&report);
+    is_sure_as_it_says("evidence/models.md", &report);
     // Above the 78.6 % of 800 trees, and above the methods for comparison.
     assert!(share(&report, "/accuracy") > 0.80);
     assert!(share(&report, "/accuracy") > share(&report, "/beside/knn"));
@@ -60,8 +60,8 @@ fn intentions_on_days_that_were_kept_apart() {
     };
     let report = intent::across_days(&files).unwrap().json();
     println!("intentions by day: {report}");
-    is_in_docs("models.md", &report);
-    is_sure_as_it_says(&report);
+    is_in_docs("evidence/intent-model.md", &report);
+    is_sure_as_it_says("evidence/intent-model.md", &report);
     assert!(share(&report, "/accuracy") > 0.75 && share(&report, "/recall/attack") > 0.75);
 }
 
@@ -89,7 +89,7 @@ fn early_intentions_with_and_without_touches_of_the_same_day() {
         (shipped[0], alone[0], row)
     });
     for ((shipped, alone, row), least) in rows.iter().zip([0.65, 0.5]) {
-        says("models.md", row);
+        says("evidence/intent-model.md", row);
         assert!(*shipped >= least && *shipped > alone + 0.05, "{row}");
     }
 }
@@ -113,7 +113,7 @@ fn objects_that_were_kept_apart() {
     let eval = |classes: &str, recipe: &[&str]| {
         let command = [&["eval", "--cross", "5", "--json", "--classes", classes], recipe].concat();
         let report: Value = serde_json::from_slice(&shapes(&command)).unwrap();
-        says("shapes.md", &format!("{:.1}", 100.0 * share(&report, "/accuracy")));
+        says("evidence/shapes.md", &format!("{:.1}", 100.0 * share(&report, "/accuracy")));
         share(&report, "/accuracy")
     };
     let (objects, groups) = (eval("all", &RECIPE), eval("groups", &[]));
@@ -130,17 +130,14 @@ fn the_base_of_objects_is_what_its_recipe_gives() {
 }
 
 /// The confidence is within 5 % on average, over a thousand decisions and more, and the docs have its table.
-fn is_sure_as_it_says(report: &Value) {
+fn is_sure_as_it_says(file: &str, report: &Value) {
     let (count, error) =
         (share(report, "/reliability/predictions"), share(report, "/reliability/expected_error"));
     assert!(count >= 1000.0 && error <= 0.05, "{error} over {count}");
-    says("models.md", &format!("expected calibration error {error:.3} over {count}"));
+    says(file, &format!("expected calibration error {error:.3} over {count}"));
     for bin in report["reliability"]["bins"].as_array().unwrap() {
         let percent = |key: &str| format!("{:.0} %", 100.0 * bin[key].as_f64().unwrap());
-        says(
-            "models.md",
-            &format!("| {} | {} | {} |", bin["predictions"], percent("confidence"), percent("right")),
-        );
+        says(file, &format!("| {} | {} | {} |", bin["predictions"], percent("confidence"), percent("right")));
     }
 }
 

@@ -33,7 +33,10 @@ fn what_ships_knows_its_own_prototypes() {
 
 #[test]
 fn the_cards_are_in_the_docs() {
-    let docs = include_str!("../../../../docs/evidence/shapes.md");
+    let docs = concat!(
+        include_str!("../../../../docs/guides/shapes.md"),
+        include_str!("../../../../docs/evidence/shapes.md")
+    );
     for (name, base) in shipped_names().zip(shipped()) {
         let (confusion, names) = (base.card.confusion.clone(), base.names());
         let confusion = Confusion { counts: confusion, ..Confusion::new(&names, &names) };
