@@ -24,6 +24,7 @@ mod maps;
 mod mistakes;
 mod motion;
 mod one_bus;
+mod original;
 mod outputs;
 mod own_garment;
 #[cfg(feature = "schema")]

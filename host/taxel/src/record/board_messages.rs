@@ -7,6 +7,7 @@ use crate::client::{Client, Event, ImageNews, Stamp};
 use crate::error::Result;
 use crate::recording::{Filler, FullChunk};
 use crate::session::JointPositions;
+use crate::source::array::OriginalBytes;
 use serde::Serialize;
 use taxel_core::fold::{JointAngle, Posture};
 use taxel_core::format::Name;
@@ -90,6 +91,11 @@ impl BoardMessages {
         Ok(())
     }
 
+    /// Adds the bytes of an array.
+    pub fn original(&mut self, original: &OriginalBytes, stamp: Stamp) -> Result<()> {
+        self.add_bytes(RecordTopic::Original, stamp, &original.message())
+    }
+
     /// Adds positions of joints; the stamp is that of their reading.
     pub fn joints(&mut self, joints: &JointPositions, stamp: Stamp) -> Result<()> {
         let positions = joints.positions.iter().map(|(name, at)| (name.as_str(), *at)).collect();
@@ -136,7 +142,7 @@ impl BoardMessages {
         let Some(channel) = self.topics.channel(topic) else { return Ok(()) };
         let [wire, json, images] = &mut self.fillers;
         let filler = match topic {
-            RecordTopic::Image => images,
+            RecordTopic::Image | RecordTopic::Original => images,
             // Gaps are between frames of the wire.
             RecordTopic::Wire | RecordTopic::Requests | RecordTopic::Json("lost" | "back") => wire,
             RecordTopic::Json(_) => json,

@@ -6,6 +6,7 @@ use crate::client::{Client, Event, Stamp};
 use crate::error::Result;
 use crate::session::{JointPositions, Observer};
 use crate::source::Source;
+use crate::source::array::OriginalBytes;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -44,6 +45,11 @@ impl Observer for BoardRecorder {
     fn sent(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<()> {
         let mut board = self.recording.lock(self.board);
         self.recording.guard(board.part.put(|messages| messages.requests(client, bytes, stamp)))
+    }
+
+    fn original(&mut self, _: &Client, bytes: &OriginalBytes, stamp: Stamp) -> Result<()> {
+        let mut board = self.recording.lock(self.board);
+        self.recording.guard(board.part.put(|messages| messages.original(bytes, stamp)))
     }
 
     fn joints(&mut self, _: &Client, joints: &JointPositions, stamp: Stamp) -> Result<()> {

@@ -7,6 +7,7 @@
 //! |---|---|---|
 //! | `/taxel/wire` | `taxel-wire` | each frame of the wire as it came: COBS of postcard and CRC-32, then 0x00 |
 //! | `/taxel/requests` | `taxel-wire` | what the host asked, the same way |
+//! | `/taxel/original` | `taxel-original` | the bytes of an array of others, as they came |
 //! | `/taxel/image` | `protobuf` | foxglove.RawImage, mono16: the pressure of every taxel, counts; the panels side by side |
 //! | `/taxel/hello`, `frames`, `contacts`, `symbols`, `intent`, `reactions`, `health`, `health_map`, `budget`, `temperature`, `gestures`, `self_test`, `posture`, `log`, `pressing`, `joints`, `poses` | `json` | the lines of `taxel live --json`, with a schema; contacts without what follows from other keys, frames without what other topics hold |
 //! | in `NAME.ros2.mcap`, with `--ros2`: `/tactile/PANEL/image`, `points`, `wrench`, `/tactile/links/LINK/wrench`, `/tf_static`, `/diagnostics` | `cdr` | sensor_msgs Image and PointCloud2, geometry_msgs WrenchStamped, diagnostic_msgs DiagnosticArray |

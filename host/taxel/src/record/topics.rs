@@ -5,6 +5,7 @@ use super::schemas::JSON;
 use crate::client::Event;
 use crate::error::Result;
 use crate::recording::{Format, Store, WIRE, Writer, of_board};
+use crate::source::array::ORIGINAL;
 use serde_json::Value;
 
 /// Frames of the wire to the board.
@@ -13,6 +14,8 @@ pub const REQUESTS: &str = "/taxel/requests";
 pub const IMAGE: &str = "/taxel/image";
 /// Encoding of the wire, described in `taxel_core::wire`.
 const WIRE_ENCODING: &str = "taxel-wire";
+/// Encoding of an array's bytes: see [`OriginalBytes::message`](crate::source::array::OriginalBytes::message).
+const ORIGINAL_ENCODING: &str = "taxel-original";
 
 /// Topic of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +24,8 @@ pub enum RecordTopic {
     Wire,
     /// Frames of the wire to the board.
     Requests,
+    /// Bytes of an array.
+    Original,
     /// Images.
     Image,
     /// The JSON topic of this name.
@@ -33,6 +38,7 @@ pub struct Topics {
     /// Channel of [`WIRE`].
     pub wire: u16,
     requests: u16,
+    original: u16,
     image: u16,
     json: Vec<(&'static str, u16)>,
 }
@@ -43,6 +49,8 @@ impl Topics {
         let plain = Format { encoding: WIRE_ENCODING, schema: "", schema_encoding: "", text: b"" };
         let (wire, requests) = (of_board(board, WIRE), of_board(board, REQUESTS));
         let (wire, requests) = (writer.channel(&wire, &plain)?, writer.channel(&requests, &plain)?);
+        let bytes = Format { encoding: ORIGINAL_ENCODING, ..plain };
+        let original = writer.channel(&of_board(board, ORIGINAL), &bytes)?;
         let raw =
             Format { encoding: PROTOBUF, schema: RAW_IMAGE, schema_encoding: PROTOBUF, text: &schema() };
         let image = writer.channel(&of_board(board, IMAGE), &raw)?;
@@ -60,7 +68,7 @@ impl Topics {
             let topic = of_board(board, &format!("/taxel/{name}"));
             json.push((name, writer.channel(&topic, &format)?));
         }
-        Ok(Topics { wire, requests, image, json })
+        Ok(Topics { wire, requests, original, image, json })
     }
 
     /// The channel of a message.
@@ -68,6 +76,7 @@ impl Topics {
         match topic {
             RecordTopic::Wire => Some(self.wire),
             RecordTopic::Requests => Some(self.requests),
+            RecordTopic::Original => Some(self.original),
             RecordTopic::Image => Some(self.image),
             RecordTopic::Json(name) => self.json.iter().find(|(known, _)| *known == name).map(|(_, id)| *id),
         }

@@ -113,7 +113,7 @@ impl Messages {
 
     /// Next message as its header, its topic (empty if that is not declared) and its data; none at the end. Error if
     /// the disk cannot be read.
-    pub(super) fn next_with_topic(&mut self) -> Result<Option<(MessageHeader, &str, &[u8])>> {
+    pub(crate) fn next_with_topic(&mut self) -> Result<Option<(MessageHeader, &str, &[u8])>> {
         let found = self.find().with_context(|| format!("{} cannot be read", self.path.display()))?;
         Ok(found.map(|(header, data)| {
             (header, self.topic(header.channel_id).unwrap_or_default(), &self.plain[data])

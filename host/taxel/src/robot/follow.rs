@@ -201,6 +201,10 @@ impl Follower<'_> {
             asks.try_iter().try_for_each(|ask| ask(session))?;
             self.pose(session)?;
             let turn = session.turn(&mut |client, bytes| self.sent(client, bytes))?;
+            for original in session.original() {
+                let stamp = self.stamps.now(session.client());
+                self.observer.original(session.client(), original, stamp)?;
+            }
             while !self.is_done
                 && let Some(event) = session.next_event()
             {

@@ -53,6 +53,7 @@ pub use posing::{JointPositions, POSES, POSES_HZ, Posing};
 use crate::client::clock::SteadyTime;
 use crate::client::{Client, Event, Identity, Restored, request_name};
 use crate::error::{Error, Result, SourceError, UsageError};
+use crate::source::array::OriginalBytes;
 use crate::source::{self, Source, SourceOptions, SourceSpec, Stranger};
 use absence::Absence;
 use gather::Gather;
@@ -80,6 +81,8 @@ pub struct Session {
     client: Client,
     time: SteadyTime,
     buffer: Vec<u8>,
+    /// Bytes of an array, of the last turn.
+    original: Vec<OriginalBytes>,
     taken: usize,
     outgoing: Outgoing,
     /// Time at which bytes were last received, and at which a `Hello` was last requested.
@@ -157,6 +160,7 @@ impl Session {
             client,
             time,
             buffer: Vec::new(),
+            original: Vec::new(),
             taken: 0,
             outgoing: Outgoing::default(),
             heard: now,
@@ -292,6 +296,7 @@ impl Session {
         sent(&self.client, &requests)?;
         self.outgoing.add(&requests);
         let exchanged = self.exchange();
+        self.original = self.source.port.original();
         self.source.port.gap().into_iter().for_each(|mark| mark.apply(&mut self.client));
         if let Some(news) = self.source.port.news() {
             let text = format!("{}: {news}", self.source.label);
@@ -309,6 +314,11 @@ impl Session {
             Ok(false) => self.lose(std::io::Error::other("the connection was closed").into()),
             Err(error) => self.lose(error),
         }
+    }
+
+    /// Bytes of the array in which the stream was perceived, of the last turn.
+    pub fn original(&self) -> &[OriginalBytes] {
+        &self.original
     }
 
     /// Bytes of the last turn.

@@ -4,6 +4,7 @@ use super::posing::{JointPositions, Posing};
 use crate::client::{Client, Event, Stamp};
 use crate::error::Result;
 use crate::source::Source;
+use crate::source::array::OriginalBytes;
 use std::ops::DerefMut;
 
 /// Receives the stream of one board, in the thread that follows it: shows it, records it, passes it on. An error ends
@@ -21,6 +22,11 @@ pub trait Observer {
 
     /// Handles bytes that are about to be sent to the board.
     fn sent(&mut self, _client: &Client, _bytes: &[u8], _stamp: Stamp) -> Result<()> {
+        Ok(())
+    }
+
+    /// Handles the bytes of an array in which the stream was perceived.
+    fn original(&mut self, _client: &Client, _bytes: &OriginalBytes, _stamp: Stamp) -> Result<()> {
         Ok(())
     }
 
@@ -68,6 +74,10 @@ impl<O: DerefMut<Target: Observer>> Observer for Vec<O> {
 
     fn sent(&mut self, client: &Client, bytes: &[u8], stamp: Stamp) -> Result<()> {
         self.iter_mut().try_for_each(|one| one.sent(client, bytes, stamp))
+    }
+
+    fn original(&mut self, client: &Client, bytes: &OriginalBytes, stamp: Stamp) -> Result<()> {
+        self.iter_mut().try_for_each(|one| one.original(client, bytes, stamp))
     }
 
     fn pose(&mut self, client: &Client, posing: &mut Posing) -> Result<()> {

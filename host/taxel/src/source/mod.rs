@@ -72,6 +72,10 @@ pub trait Port: Send {
     fn news(&mut self) -> Option<String> {
         None
     }
+    /// Returns the bytes of an array in which the stream was perceived, since the last call.
+    fn original(&mut self) -> Vec<array::OriginalBytes> {
+        Vec::new()
+    }
     /// A remark to print at the end.
     fn remark(&self) -> Option<String> {
         None

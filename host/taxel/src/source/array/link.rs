@@ -20,7 +20,7 @@ pub enum ArrayLink {
     Listen(u16),
     /// A port of this machine that the device sends datagrams to.
     Udp(u16),
-    /// A file of the bytes.
+    /// A file of the bytes, or a recording (`.mcap`, `.mcap#BOARD`) of what was perceived in them.
     File(PathBuf),
     /// The standard input.
     Stdin,

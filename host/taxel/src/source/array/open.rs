@@ -5,12 +5,14 @@ use super::super::shared::Shared;
 use super::super::stepped_board::SteppedBoard;
 use super::super::tcp;
 use super::super::usb;
-use super::super::{Port, Source, SourceOptions};
+use super::super::{Source, SourceOptions};
 use super::datagrams::Datagrams;
 use super::description::ArrayDescription;
+use super::input::ArrayInput;
 use super::link::ArrayLink;
 use super::listener::Listener;
 use super::noise::NoiseMeter;
+use super::original::RecordedBytes;
 use super::perceiver::Perceiver;
 use super::piped::Piped;
 use super::report::ArrayPort;
@@ -18,6 +20,7 @@ use super::sensor;
 use super::spec::ArraySpec;
 use crate::error::{Result, UsageError};
 use crate::files::{garments, input};
+use crate::recording::BoardRecording;
 use serialport::SerialPortInfo;
 use std::path::Path;
 use std::sync::Arc;
@@ -50,7 +53,9 @@ fn opened(
     let garment = garment(spec, &description, options)?;
     let rate = rate(spec)?;
     let mut serial = None;
-    let port: Box<dyn Port> = match &spec.link {
+    let has_datagrams = matches!(spec.link, ArrayLink::Udp(_));
+    let link = |port| ArrayInput::Link { port, has_datagrams };
+    let input = match &spec.link {
         ArrayLink::Serial { path, baud } => {
             let baud = baud.unwrap_or(description.link.baud);
             let info = match lost {
@@ -59,13 +64,16 @@ fn opened(
             };
             let port = options.ports.open(&info.port_name, baud)?;
             serial = Some(info);
-            port
+            link(port)
         }
-        ArrayLink::Tcp(address) => Box::new(tcp::Tcp::open(address, longest)?),
-        ArrayLink::Listen(port) => Box::new(Listener::open(*port)?),
-        ArrayLink::Udp(port) => Box::new(Datagrams::open(*port)?),
-        ArrayLink::File(path) => Box::new(Piped::new(input::open(path)?)?),
-        ArrayLink::Stdin => Box::new(Piped::new(std::io::stdin())?),
+        ArrayLink::Tcp(address) => link(Box::new(tcp::Tcp::open(address, longest)?)),
+        ArrayLink::Listen(port) => link(Box::new(Listener::open(*port)?)),
+        ArrayLink::Udp(port) => link(Box::new(Datagrams::open(*port)?)),
+        ArrayLink::File(path) => match recording(path) {
+            Some(recording) => ArrayInput::Recorded(RecordedBytes::open(&recording)?),
+            None => link(Box::new(Piped::new(input::open(path)?)?)),
+        },
+        ArrayLink::Stdin => link(Box::new(Piped::new(std::io::stdin())?)),
     };
     // A board has this name for as long as it may be asked for it.
     let name = short(spec);
@@ -73,15 +81,16 @@ fn opened(
         Box::leak(format!("taxel-host {} {name}", env!("CARGO_PKG_VERSION")).into_boxed_str());
     let mut board = SteppedBoard::new(garment, Scene::shipped(), firmware)?;
     board.tare(TARE, Micros(0))?;
-    let (host, link) = pipe();
+    let (host, end) = pipe();
     let report = Arc::new(Shared::default());
     let perceiver = Perceiver {
         board,
-        port,
-        link,
+        input,
+        link: end,
         report: Arc::clone(&report),
-        has_datagrams: matches!(spec.link, ArrayLink::Udp(_)),
-        rate: matches!(spec.link, ArrayLink::File(_)).then_some(rate),
+        // A recording has the times of arrival, unless a rate is given.
+        rate: matches!(&spec.link, ArrayLink::File(path) if recording(path).is_none() || spec.key("rate").is_some())
+            .then_some(rate),
         is_paced: matches!(spec.link, ArrayLink::File(_)) && options.realtime,
         description: description.clone(),
         limits: Vec::new(),
@@ -99,6 +108,13 @@ fn opened(
         }
     };
     Ok(Source { tare: TARE, has_asked_garment: options.garment.is_some(), ..source })
+}
+
+/// The recording that a file is, by its name; none if it holds an array's bytes alone.
+fn recording(path: &Path) -> Option<BoardRecording> {
+    let recording = BoardRecording::from(path);
+    let is_mcap = recording.path.extension().is_some_and(|end| end.eq_ignore_ascii_case("mcap"));
+    is_mcap.then_some(recording)
 }
 
 /// The garment: one panel of the description's size, unless the user names another one of as many taxels.

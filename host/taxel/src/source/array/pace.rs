@@ -11,6 +11,8 @@ const SILENCE_US: u64 = 1_000_000;
 #[derive(Debug)]
 pub struct Pace {
     origin: Instant,
+    /// Time of the last arrival in a recording, us.
+    recorded_us: Option<u64>,
     /// Time of a frame, us, if only their number says it: the frames of a file.
     period_us: Option<f64>,
     count: u64,
@@ -26,12 +28,25 @@ impl Pace {
     /// A clock that starts now. With a rate, frames per second, time is the number of frames.
     pub fn start(rate: Option<f64>) -> Pace {
         let period_us = rate.map(|rate| 1e6 / rate);
-        Pace { origin: Instant::now(), period_us, count: 0, offset_us: None, last: Micros(0), heard_us: 0 }
+        Pace {
+            origin: Instant::now(),
+            recorded_us: None,
+            period_us,
+            count: 0,
+            offset_us: None,
+            last: Micros(0),
+            heard_us: 0,
+        }
     }
 
-    /// Time since the start, us.
+    /// Time since the start, us: in a recording, that of what was heard last.
     pub fn now_us(&self) -> u64 {
-        self.origin.elapsed().as_micros() as u64
+        self.recorded_us.unwrap_or_else(|| self.origin.elapsed().as_micros() as u64)
+    }
+
+    /// Notes when bytes of a recording came.
+    pub fn hear(&mut self, arrival_us: u64) {
+        self.recorded_us = Some(arrival_us);
     }
 
     /// Time of a frame: by the sensor's clock if it has one, else that of its arrival.

@@ -1,6 +1,5 @@
 //! The thread that reads an array and steps the very board with its frames.
 
-use super::super::Port;
 use super::super::pipe::BoardEnd;
 use super::super::shared::Shared;
 use super::super::stepped_board::SteppedBoard;
@@ -8,6 +7,7 @@ use super::codes::CodeMap;
 use super::decoder::ArrayDecoder;
 use super::description::ArrayDescription;
 use super::frame::ArrayFrame;
+use super::input::ArrayInput;
 use super::noise::{ArrayNoise, NoiseMeter};
 use super::pace::Pace;
 use super::polling::Polling;
@@ -22,8 +22,6 @@ use taxel_core::run::Link;
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 
-/// Bytes that are read at once: a datagram.
-const READ: usize = 64 << 10;
 /// Longest time to send a request to the array.
 const SEND: Duration = Duration::from_secs(1);
 /// Time between two looks at requests while frames come.
@@ -32,12 +30,10 @@ const ATTEND_US: u64 = 100_000;
 /// An array, its decoder and its board.
 pub struct Perceiver {
     pub description: ArrayDescription,
-    pub port: Box<dyn Port>,
+    pub input: ArrayInput,
     pub board: SteppedBoard,
     pub link: BoardEnd,
     pub report: Arc<Shared<ArrayReport>>,
-    /// Each read is one datagram.
-    pub has_datagrams: bool,
     /// Frames per second of a file.
     pub rate: Option<f64>,
     /// Frames of a file are paced to real time.
@@ -61,7 +57,7 @@ impl Perceiver {
     fn follow(&mut self) -> Result<()> {
         let (mut decoder, mut map) = (ArrayDecoder::new(&self.description), CodeMap::new(&self.description));
         let (mut pace, mut polling) = (Pace::start(self.rate), Polling::new(&self.description));
-        let (mut buffer, mut frames) = (vec![0; READ], Vec::new());
+        let mut frames = Vec::new();
         if let Some(text) = self.description.link.send.clone() {
             self.write(text.as_bytes())?;
         }
@@ -70,25 +66,28 @@ impl Perceiver {
             if let Some(text) = polling.due() {
                 self.write(text.as_bytes())?;
             }
-            let read = self.port.read(&mut buffer)?;
-            let now = pace.now_us();
+            let read = self.input.read(&mut pace)?;
+            let now = read.as_ref().map_or_else(|| pace.now_us(), |read| read.arrival_us);
+            let count = read.as_ref().map(|read| read.bytes.len());
             let take = &mut |frame: ArrayFrame| frames.push(frame);
             match read {
                 None => {
                     decoder.quiet(take);
                 }
-                Some(0) => {
+                Some(original) if original.bytes.is_empty() => {
                     if polling.is_quiet() {
                         decoder.quiet(take);
                     }
                 }
-                Some(count) => {
+                Some(original) => {
                     polling.heard();
-                    self.report.lock().bytes += count as u64;
-                    match self.has_datagrams {
-                        true => decoder.datagram(&buffer[..count], now, take),
-                        false => decoder.push(&buffer[..count], now, take),
+                    match original.is_datagram {
+                        true => decoder.datagram(&original.bytes, now, take),
+                        false => decoder.push(&original.bytes, now, take),
                     }
+                    let mut report = self.report.lock();
+                    report.bytes += original.bytes.len() as u64;
+                    report.original.push(original);
                 }
             }
             let lost = decoder.loss();
@@ -102,10 +101,10 @@ impl Perceiver {
             for _ in before.dropped..lost.dropped {
                 self.board.fail(pace.between(), &mut |bytes| pass(link, bytes))?;
             }
-            if read.is_none() {
+            if count.is_none() {
                 return Ok(());
             }
-            if read == Some(0) || now > attended + ATTEND_US {
+            if count == Some(0) || now > attended + ATTEND_US {
                 attended = now;
                 let (requests, time) = (self.requests(), pace.between());
                 let link = &self.link;
@@ -174,7 +173,7 @@ impl Perceiver {
     fn write(&mut self, mut bytes: &[u8]) -> io::Result<()> {
         let began = Instant::now();
         while !bytes.is_empty() && began.elapsed() < SEND {
-            bytes = &bytes[self.port.write(bytes)?..];
+            bytes = &bytes[self.input.write(bytes)?..];
         }
         Ok(())
     }

@@ -4,6 +4,7 @@ use super::super::Port;
 use super::super::pipe::HostEnd;
 use super::super::shared::Shared;
 use super::frame::ArrayLoss;
+use super::original::{OriginalBytes, OriginalQueue};
 use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -26,15 +27,21 @@ pub struct ArrayReport {
     pub limits: Option<String>,
     /// Reason why a frame cannot be perceived, or why the link has ended.
     pub fault: Option<String>,
+    /// What came, for whoever records it.
+    pub original: OriginalQueue,
 }
 
 impl ArrayReport {
     /// Losses in words; none without any.
     fn lost(&self) -> Option<String> {
         let ArrayLoss { dropped, missed } = self.loss;
-        let frames = self.frames;
-        (dropped + missed > 0)
-            .then(|| format!("{frames} frames came whole, {dropped} damaged, and {missed} did not come"))
+        let (frames, unkept) = (self.frames, self.original.dropped);
+        let frames = (dropped + missed > 0)
+            .then(|| format!("{frames} frames came whole, {dropped} damaged, and {missed} did not come"));
+        let unkept = (unkept > 0)
+            .then(|| format!("{unkept} of its bytes were not kept, because the disk is too slow"));
+        let both: Vec<String> = [frames, unkept].into_iter().flatten().collect();
+        (!both.is_empty()).then(|| both.join("; "))
     }
 }
 
@@ -96,6 +103,10 @@ impl Port for ArrayPort {
             return report.lost();
         }
         None
+    }
+
+    fn original(&mut self) -> Vec<OriginalBytes> {
+        self.report.lock().original.take()
     }
 
     fn remark(&self) -> Option<String> {
