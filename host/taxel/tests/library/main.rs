@@ -12,6 +12,7 @@ mod errors;
 mod faults;
 mod fcm;
 mod folds;
+mod forces;
 mod hand;
 mod health;
 mod landed;
