@@ -3,6 +3,7 @@
 use super::footprint::Footprint;
 use super::touch::Touch;
 use super::trace::Knot;
+use libm::cos;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -167,7 +168,7 @@ impl Scripted {
 /// Interpolates by half a cosine.
 fn eased(from: f64, to: f64, at_ns: u64, length_ns: u64) -> f64 {
     let part = if length_ns > 0 { at_ns as f64 / length_ns as f64 } else { 1.0 };
-    from + (to - from) * (0.5 - 0.5 * (PI * part).cos())
+    from + (to - from) * (0.5 - 0.5 * cos(PI * part))
 }
 
 #[cfg(test)]

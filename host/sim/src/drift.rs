@@ -8,6 +8,7 @@
 
 use super::signal::{FULL_SCALE, World};
 use fastrand::Rng;
+use libm::hypot;
 use taxel_core::garment::Layout;
 
 /// Time within which a rate rises from 0, because causes of drift take time, s.
@@ -64,7 +65,7 @@ impl Patch {
     /// Share of the rate at a column and a row.
     fn share(&self, column: f64, row: f64) -> f64 {
         let beyond = |at: f64, first: f64, size: f64| (first - at).max(at - first - size + 1.0).max(0.0);
-        let beyond = beyond(column, self.at[0], self.size[0]).hypot(beyond(row, self.at[1], self.size[1]));
+        let beyond = hypot(beyond(column, self.at[0], self.size[0]), beyond(row, self.at[1], self.size[1]));
         if beyond < self.edge { 1.0 - beyond / self.edge } else { f64::from(beyond == 0.0) }
     }
 }

@@ -4,6 +4,7 @@
 //! so the shares of all taxels add up to 1 wherever the footprint is, without normalisation per frame.
 
 use super::touch::Shape;
+use libm::{hypot, sin, sincos};
 use std::f64::consts::PI;
 
 /// Steps of the footprint's grid per taxel.
@@ -29,7 +30,7 @@ impl Footprint {
         let step = [pitch_mm[0] / STEPS as f64, pitch_mm[1] / STEPS as f64];
         let [nx, ny] = nodes(shape, half, angle_deg, step);
         let (columns, rows) = (2 * nx + 1, 2 * ny + 1);
-        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let (sin, cos) = sincos(angle_deg.to_radians());
         let mut dense = vec![0.0f64; columns * rows];
         for (index, value) in dense.iter_mut().enumerate() {
             let x = ((index % columns) as f64 - nx as f64) * step[0];
@@ -118,7 +119,7 @@ const fn edge_mm(shape: Shape) -> f64 {
 
 /// Half the width and height of the bounding box of the turned footprint, mm.
 pub(super) fn reach_mm(shape: Shape, half: [f64; 2], angle_deg: f64) -> [f64; 2] {
-    let (sin, cos) = angle_deg.to_radians().sin_cos();
+    let (sin, cos) = sincos(angle_deg.to_radians());
     let [length, width] = half.map(|h| h + edge_mm(shape) / 2.0);
     [(length * cos).abs() + (width * sin).abs(), (length * sin).abs() + (width * cos).abs()]
 }
@@ -126,10 +127,11 @@ pub(super) fn reach_mm(shape: Shape, half: [f64; 2], angle_deg: f64) -> [f64; 2]
 /// Pressure at `u` along and `v` across the footprint (mm from its centre), in no particular unit.
 fn pressure(shape: Shape, half: [f64; 2], u: f64, v: f64) -> f64 {
     let [length, width] = half;
+    let square = |part: f64| part * part;
     let dome = |r2: f64| (1.0 - r2).max(0.0).sqrt();
     match shape {
-        Shape::Finger | Shape::Ball => dome((u / length).powi(2) + (v / width).powi(2)),
-        Shape::Forearm | Shape::Ridge => dome((v / width).powi(2)) * soft(u.abs() - length, edge_mm(shape)),
+        Shape::Finger | Shape::Ball => dome(square(u / length) + square(v / width)),
+        Shape::Forearm | Shape::Ridge => dome(square(v / width)) * soft(u.abs() - length, edge_mm(shape)),
         Shape::Strap | Shape::Box => soft(outside(half, 0.0, u, v), edge_mm(shape)),
         Shape::Plate => inside(u, length) * inside(v, width),
         Shape::Palm => soft(outside(half, 0.4 * length.min(width), u, v), edge_mm(shape)),
@@ -145,12 +147,12 @@ fn inside(at: f64, half: f64) -> f64 {
 /// Distance outside a rectangle with rounded corners, negative inside, mm.
 fn outside(half: [f64; 2], corner: f64, u: f64, v: f64) -> f64 {
     let (a, b) = (u.abs() - half[0] + corner, v.abs() - half[1] + corner);
-    a.max(0.0).hypot(b.max(0.0)) + a.max(b).min(0.0) - corner
+    hypot(a.max(0.0), b.max(0.0)) + a.max(b).min(0.0) - corner
 }
 
 /// 1 well inside, 0 well outside, half a cosine across an edge of this width.
 fn soft(outside: f64, width: f64) -> f64 {
-    0.5 - 0.5 * (PI * (outside / width).clamp(-0.5, 0.5)).sin()
+    0.5 - 0.5 * sin(PI * (outside / width).clamp(-0.5, 0.5))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 
 use super::touch::Touch;
 use super::trace::Trace;
+use libm::cos;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use taxel_core::selftest::PinFault;
@@ -207,7 +208,7 @@ pub struct Joint {
 impl Joint {
     /// Angle at a time (s), degrees.
     pub fn angle_deg(&self, t_s: f64) -> f64 {
-        let bend = |part: f64| 0.5 - 0.5 * (std::f64::consts::PI * part.clamp(0.0, 1.0)).cos();
+        let bend = |part: f64| 0.5 - 0.5 * cos(std::f64::consts::PI * part.clamp(0.0, 1.0));
         let up = if self.rise_s > 0.0 {
             (t_s - self.start_s) / self.rise_s
         } else {

@@ -9,6 +9,7 @@ use super::script::Script;
 use super::sneak::Sneak;
 use super::wiring::{Line, mates, uneven};
 use fastrand::Rng;
+use libm::hypot;
 use taxel_core::garment::{Garment, Layout};
 
 /// Signal of one newton on one taxel, counts; linear up to full scale. The force limits of the intention map
@@ -76,7 +77,7 @@ impl World {
         let place = || format!("in script {}", script.name);
         script.check().map_err(|error| error.inside(place()))?;
         let crosstalk = script.wiring.crosstalk as f32;
-        let rms = script.idle.noise_counts.hypot(script.converter.noise_counts);
+        let rms = hypot(script.idle.noise_counts, script.converter.noise_counts);
         let mut world = World {
             taxels: taxels(script, &layout),
             pressure: Pressure::build(script, &layout)?,

@@ -2,6 +2,7 @@
 //! unequal code widths of a converter.
 
 use super::decode::Decoder;
+use libm::exp;
 use taxel_core::garment::Garment;
 
 /// Line to one converter input: a capacitance charged through the taxel at the present address.
@@ -33,7 +34,7 @@ impl Line {
 
 /// Exponential approach.
 fn approach(from: f32, to: f32, since_ns: u64, tau_ns: f64) -> f32 {
-    to + (from - to) * (-(since_ns as f64) / tau_ns).exp() as f32
+    to + (from - to) * exp(-(since_ns as f64) / tau_ns) as f32
 }
 
 /// Returns for each taxel the other taxels on its wired row and column within the block.
